@@ -17,7 +17,7 @@ def test_rotorpy_flies_a_campaign(tmp_path):
     command = f"{shlex.quote(sys.executable)} {shlex.quote(str(EXECUTOR))}"
     out = tmp_path / "campaign"
     sets = ["generate.search.cases=2", "execute.repeat=1", "task.length=4", "task.end_m=[9, 7, 6]", "execute.timeout_s=240",
-            "spec.deviation.max_m=10"]
+            "spec.deviation.max_m=10", "execute.baseline=0"]
     arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", command, "--out", str(out), "--json"]
     for one in sets:
         arguments += ["--set", one]

@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod calibrate;
 mod commands;
 mod compare;
 mod experiment;
@@ -22,6 +23,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairpin_formats::template::KINDS;
 
+pub(crate) use calibrate::Calibrate;
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
@@ -79,6 +81,8 @@ pub(crate) enum Command {
     Replay(Replay),
     /// Choose K of a campaign's cases for stress, diversity or coverage: a campaign folder of its own
     Select(Select),
+    /// Propose limits for [spec]: those that 5 % of random feasible cases break
+    Calibrate(Calibrate),
     /// Tell why nothing (or little) is feasible, and the smallest change that helps
     Explain(Explain),
     /// Reduce a violating case to the shortest feasible one that still violates
@@ -129,6 +133,7 @@ impl Command {
             Self::Shrink(a) => a.json,
             Self::Select(a) => a.json,
             Self::Explain(a) => a.json,
+            Self::Calibrate(a) => a.json,
             Self::Bench(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,

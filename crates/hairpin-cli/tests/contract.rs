@@ -1,10 +1,13 @@
 //! What other programs count on: where files are written, one JSON document on stdout and nothing else, and that what
 //! is not known is said to be unknown.
 
+mod commands;
+
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use commands::without_baseline;
 use serde_json::{Value, json};
 
 const SMALL: [&str; 6] = ["stress", "demo-quadrotor", "--set", "generate.search.cases=2", "--set", "execute.repeat=1"];
@@ -13,7 +16,7 @@ const MINIMAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/execu
 /// Exit code, stdout, stderr.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    command.current_dir(folder).args(arguments).env("XDG_STATE_HOME", folder.join(".state"));
+    command.current_dir(folder).args(without_baseline(arguments)).env("XDG_STATE_HOME", folder.join(".state"));
     let output = command.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
@@ -186,4 +189,28 @@ fn a_share_has_an_interval_where_it_estimates_something() {
     assert!((draws["low"].as_f64().unwrap() - 0.025_f64.powf(1.0 / 8.0)).abs() < 1e-9, "{draws}");
     // A report is made of what the folder holds, and says the same.
     assert_eq!(json(place.path(), &["report", "b"]).0["verdict"], object["verdict"]);
+}
+
+#[test]
+fn a_flight_is_judged_from_the_path_that_its_controller_follows() {
+    let place = tempfile::tempdir().unwrap();
+    let largest = |controller: &str, from: &str| {
+        let out = format!("{controller}-{from}");
+        let controller = format!("execute.controller={controller}");
+        let from = format!("spec.deviation.from={from}");
+        let sets = ["--set", &controller, "--set", &from, "--out", &out];
+        let (object, _) = json(place.path(), &[&SMALL[..], &sets].concat());
+        let told = object["worst"]["max_deviation_m"].as_f64().unwrap();
+        // The report measures from the same path.
+        assert_eq!(json(place.path(), &["report", &out]).0["verdict"], object["verdict"]);
+        told
+    };
+    // A minimum-snap curve swings out of the legs by metres; its controller stays near it.
+    let [leg, path] = ["leg", "path"].map(|from| largest("minimum-snap", from));
+    assert!(leg > 3.0 && path < 0.5 * leg, "{leg} {path}");
+    let page = text(&place.path().join("minimum-snap-path/report.html"));
+    assert!(page.contains("the distance from the curve that the controller makes of the waypoints"));
+    // Others follow the plan, or the legs.
+    assert!(largest("geometric", "path") < 0.2 && largest("geometric", "leg") > 3.0);
+    assert!(largest("stable-waypoint", "leg") < largest("stable-waypoint", "path"));
 }

@@ -9,7 +9,7 @@ use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 use std::process::Command;
 
-use commands::{SMALL, assert_same, copy, json, refused, run};
+use commands::{SMALL, assert_same, copy, json, refused, run, without_baseline};
 
 #[test]
 fn a_folder_that_cannot_be_written_is_wrong_input() {
@@ -26,7 +26,10 @@ fn a_folder_that_cannot_be_written_is_wrong_input() {
 fn cramped(folder: &Path, blocks: usize, arguments: &[&str]) -> (Option<i32>, String) {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
     let mut shell = Command::new("sh");
-    shell.current_dir(folder).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_hairpin")]).args(arguments);
+    shell
+        .current_dir(folder)
+        .args(["-c", &script, "sh", env!("CARGO_BIN_EXE_hairpin")])
+        .args(without_baseline(arguments));
     let output = shell.output().unwrap();
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use commands::{SMALL, assert_same, json, refused, run};
+use commands::{SMALL, assert_same, json, refused, run, without_baseline};
 use hairpin::math::random::case_seed;
 
 /// More than anything here takes, even on a busy machine.
@@ -27,7 +27,13 @@ fn wait_until(what: &str, mut holds: impl FnMut() -> bool) {
 fn begin(folder: &Path, arguments: &[&str]) -> Child {
     let mut at_terminal = Command::new("env");
     at_terminal.arg("--default-signal=INT").arg(env!("CARGO_BIN_EXE_hairpin"));
-    at_terminal.current_dir(folder).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    at_terminal
+        .current_dir(folder)
+        .args(without_baseline(arguments))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
 }
 
 fn ctrl_c(child: &Child) {
@@ -83,7 +89,7 @@ fn threads_change_nothing() {
 #[test]
 fn a_kill_at_any_moment_costs_nothing_but_time() {
     let folder = tempfile::tempdir().unwrap();
-    let long = [&SMALL[..], &["--set", "execute.repeat=10"]].concat();
+    let long = [&SMALL[..], &["--set", "execute.repeat=10", "--set", "execute.baseline=2"]].concat();
     run(folder.path(), &[&long[..], &["--out", "calm"]].concat());
     let (calm, hit) = (folder.path().join("calm"), folder.path().join("killed"));
     let all = files_in(&calm);
@@ -278,7 +284,10 @@ fn what_it_was_started_to_ignore_it_ignores() {
         let mut shell = Command::new("sh");
         let script = format!("trap '' {signal}; exec \"$@\"");
         shell.current_dir(folder.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_hairpin")]);
-        shell.args([&SMALL[..], &["--out", signal]].concat()).stdout(Stdio::null()).stderr(Stdio::piped());
+        shell
+            .args(without_baseline(&[&SMALL[..], &["--out", signal]].concat()))
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped());
         let child = shell.spawn().unwrap();
         let begun = folder.path().join(signal);
         wait_until("the first file", || files_in(&begun) > 0);

@@ -40,7 +40,7 @@ fn nothing_feasible_is_an_answer_with_its_reason() {
     let setup = setup_for("paper-stable", &sets).expect("a sound scenario");
     let mut cases = 0;
     let tally = generate(&setup, &Known::default(), &Stop::never(), &mut |new, _| cases += new.len());
-    let verdict = hairpin::campaign::verdict(&setup, &[], &[], &tally);
+    let verdict = hairpin::campaign::verdict(&setup, &[], (&[], None), &tally);
     assert_eq!((cases, tally.proven_empty, verdict.exit_code), (0, 3, 3));
     assert!(
         verdict.sentence.starts_with("NOTHING FEASIBLE (proof, published): no chain of 2 waypoints"),

@@ -2,6 +2,8 @@
 //! terminal, ends the process or keeps a global of its own: what stops a job and who sees how far it is comes in as a
 //! [`Watch`].
 
+mod baseline;
+pub mod calibrate;
 pub mod certificate;
 pub mod compare;
 pub mod consent;

@@ -12,6 +12,7 @@ use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 use crate::Problem;
+use crate::baseline::read_baseline;
 use crate::judge::with_moves;
 use crate::work::{Work, open_to_read};
 
@@ -38,7 +39,8 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
     if results.len() < cases.len() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
     }
-    let verdict = campaign::verdict(&work.setup, &cases, &results, &tally);
+    let baseline = read_baseline(&work)?;
+    let verdict = campaign::verdict(&work.setup, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
     write_report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
@@ -56,6 +58,9 @@ pub(crate) fn write_report(
     let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
+    }
+    if let Some(baseline) = read_baseline(work)? {
+        assumptions.push(baseline.said());
     }
     let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
         .map_err(Problem::input)?;

@@ -5,6 +5,7 @@ use std::path::Path;
 use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 
+use crate::baseline::fly_baseline;
 use crate::execute::fly_missing;
 use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
@@ -53,7 +54,8 @@ pub fn stress_begun(
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
     let (cases, tally) = find_cases(&work, deadline, watch)?;
-    fly_missing(&work, &cases, watch)?;
+    let flown = fly_missing(&work, &cases, watch)?;
+    fly_baseline(&work, &tally, flown, watch)?;
     let judgement = judge_cases(&work, &cases, &tally, &replayed)?;
     let verdict = with_saved(&judgement.verdict, &replayed);
     write_report(&work, &cases, &tally, &verdict, (&judgement.moves, judgement.regression.as_ref()))?;

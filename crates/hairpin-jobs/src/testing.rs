@@ -1,6 +1,6 @@
 //! Small campaigns for the tests of jobs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
@@ -17,9 +17,35 @@ pub(crate) fn small(place: &TempDir) -> CampaignSettings {
     CampaignSettings {
         scenario: "demo-quadrotor".into(),
         out: Some(place.path().join("out")),
-        sets: vec![set("generate.search.cases", "2"), set("execute.repeat", "1")],
+        sets: vec![set("generate.search.cases", "2"), set("execute.repeat", "1"), set("execute.baseline", "0")],
         ..CampaignSettings::default()
     }
+}
+
+/// Small graphs of hull legs, flown from waypoint to waypoint, in a file of `place`.
+pub(crate) fn small_hull(place: &Path) -> String {
+    let text = r#"
+hairpin = 1
+robot = "flightgoggles"
+seed = 3
+[world]
+size_m = [20, 20, 20]
+[task]
+start_m = [2, 2, 5]
+end_m = [14, 14, 12]
+length = 5
+[generate]
+reach = "hull"
+timing = { step_s = 1.0 }
+search = { method = "beam", waypoints = 80, cases = 3 }
+[execute]
+controller = "stable-waypoint"
+[spec]
+deviation = { max_m = 0.5, from = "nearest-leg" }
+"#;
+    let file = place.join("hull.toml");
+    std::fs::write(&file, text).unwrap();
+    file.to_string_lossy().into_owned()
 }
 
 /// They are found.

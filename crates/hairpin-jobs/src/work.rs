@@ -276,8 +276,8 @@ fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
     }
 }
 
-/// Tells whoever waits for `cases` cases that they are too few for the share of violations that `scenario` allows, where
-/// they are drawn at random: of any others the count decides.
+/// Tells whoever waits for `cases` cases that they are too few for the share of violations that `scenario` allows,
+/// where they are drawn at random: of any others the count decides.
 pub(crate) fn tell_share(scenario: &Scenario, (cases, chosen): (u64, Chosen), watch: &dyn Watch) {
     let head = scenario.head();
     let Some(share) = head.violation_share.filter(|_| chosen == Chosen::AtRandom) else { return };

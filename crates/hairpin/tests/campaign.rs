@@ -174,7 +174,7 @@ fn nothing_feasible_is_told_with_its_proof() {
     let setup = setup("flightgoggles", 2, asked("hull", "beam", 2));
     let (cases, tally) = run(&setup, &Known::default());
     assert!(cases.is_empty() && tally.proven_empty == tally.graphs && tally.graphs > 0, "{tally:?}");
-    let verdict = verdict(&setup, &[], &[], &tally);
+    let verdict = verdict(&setup, &[], (&[], None), &tally);
     assert_eq!(verdict.exit_code, 3);
     assert!(verdict.sentence.starts_with("NOTHING FEASIBLE (proof, hull)"), "{}", verdict.sentence);
 }

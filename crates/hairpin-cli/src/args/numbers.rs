@@ -68,6 +68,11 @@ pub(super) fn share(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|share| (0.01..=1.0).contains(share)).ok_or_else(|| "must be from 0.01 to 1".into())
 }
 
+/// Share of cases.
+pub(super) fn small_share(text: &str) -> Result<f64, String> {
+    finite(text).ok().filter(|share| (0.001..=0.5).contains(share)).ok_or_else(|| "must be from 0.001 to 0.5".into())
+}
+
 pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     finite(text).ok().filter(|number| *number >= 0.0).ok_or_else(|| "must be a finite number >= 0".into())
 }

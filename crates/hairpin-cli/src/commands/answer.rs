@@ -1,7 +1,7 @@
 //! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
-use hairpin::campaign::{Case, CaseResult, Status, Tally};
+use hairpin::campaign::{Baseline, Case, CaseResult, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
@@ -134,6 +134,8 @@ impl Answer<'_> {
                 "attitude_unknown": self.judgement.attitude_unknown,
             },
             "share": self.share(),
+            "baseline": self.judgement.baseline.as_ref().map(baseline),
+            "stress_percent": self.judgement.baseline.as_ref().and_then(|it| it.stress_percent(&self.judgement.results)),
             "frame": self.header(),
             "worst": worst_first(&self.judgement.results).first().map(|result| {
                 let mut object = worst(result);
@@ -147,6 +149,14 @@ impl Answer<'_> {
             "paths": paths,
         })
     }
+}
+
+/// What random feasible cases came to.
+pub(super) fn baseline(found: &Baseline) -> Value {
+    json!({
+        "cases": found.cases, "executions": found.executions, "metric": found.stress.column(), "mean": found.mean,
+        "interval": found.interval, "median": found.median, "max": found.max, "worst": found.worst,
+    })
 }
 
 /// A saved case and what it comes to now.

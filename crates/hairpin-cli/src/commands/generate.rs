@@ -18,7 +18,7 @@ pub(crate) fn run(asked: &Generate, watch: &dyn Watch) -> Result<u8, Problem> {
     let Generated { work, cases, tally } = generate(&settings::campaign(arguments, None)?, watch)?;
     let asked = work.setup.scenario.search().cases;
     let outcome = if cases.is_empty() && !tally.stopped {
-        campaign::verdict(&work.setup, &cases, &[], &tally)
+        campaign::verdict(&work.setup, &cases, (&[], None), &tally)
     } else {
         let word = cases.first().map_or("none", |case| case.evidence.word());
         Verdict {

@@ -6,8 +6,8 @@ use std::io;
 use hairpin::campaign::learn::NAME;
 
 use super::{
-    ARCS, BEST_SO_FAR, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List, MOVES,
-    OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
+    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
+    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -25,7 +25,8 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
         let [coverage, table] = COVERAGE;
-        self.remove(&[RUNS, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"], &["executions", "reruns"])
+        let made = [RUNS, BY_CHANCE, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
+        self.remove(&made, &["executions", "reruns"])
     }
 
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
@@ -37,6 +38,7 @@ impl CampaignFolder {
         let names = [
             RESULTS,
             RUNS,
+            BY_CHANCE,
             INFLUENCE,
             MOVES,
             OPTIMUM,
@@ -50,6 +52,19 @@ impl CampaignFolder {
             "report.html",
         ];
         self.remove(&names, &["trajectories", "profiles", "programs", "executions", "reruns"])
+    }
+
+    /// Removes the cases by chance: they were measured otherwise than the campaign's now are.
+    ///
+    /// # Errors
+    /// The file cannot be removed.
+    pub fn forget_baseline(&self) -> Result<(), FolderError> {
+        let ours = List::read(&self.path)?.unwrap_or_default();
+        let path = self.file(BY_CHANCE);
+        match if ours.names(BY_CHANCE) { fs::remove_file(&path) } else { Ok(()) } {
+            Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
+            _ => Ok(()),
+        }
     }
 
     /// Removes a model of legs: another campaign's is none of this one's.

@@ -8,7 +8,7 @@ use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::kind::Axis;
 use hairpin::campaign::{Case, CaseResult, Influence};
 
-use super::{COVERAGE, CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
+use super::{BY_CHANCE, COVERAGE, CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
 use crate::atomic::{self, WriteError};
 use crate::parquet::results::{self, Row};
 
@@ -35,6 +35,26 @@ impl CampaignFolder {
     /// The file is missing or broken.
     pub fn read_results(&self) -> Result<Vec<CaseResult>, FolderError> {
         Ok(self.read_rows()?.into_iter().filter_map(|row| row.result).collect())
+    }
+
+    /// Writes `baseline.parquet`: random feasible cases, what their runs measured, and nothing of the spec.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_baseline(&self, cases: &[Case], measured: &[CaseResult]) -> Result<(), FolderError> {
+        Ok(results::write(&self.file(BY_CHANCE), cases, measured)?)
+    }
+
+    /// Reads what they measured; `None` where there is no such file.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_baseline(&self) -> Result<Option<Vec<CaseResult>>, FolderError> {
+        let path = self.file(BY_CHANCE);
+        if !path.exists() {
+            return Ok(None);
+        }
+        Ok(Some(results::read(&path)?.into_iter().filter_map(|row| row.result).collect()))
     }
 
     /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.tsv`, a row per

@@ -14,6 +14,7 @@
 //! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
+//! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
 //! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
@@ -59,7 +60,7 @@ pub use graph::graph_decimals;
 pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
-pub use names::{ARCS, BASELINE, BEST_SO_FAR, GRAPH, MOVES, OPTIMUM, REASONS};
+pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
 use names::{COVERAGE, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
 pub(crate) use names::{SCENARIO, is_written_to};
 
@@ -199,7 +200,7 @@ impl CampaignFolder {
         if curves.is_empty() {
             return Ok(());
         }
-        let mut table = format!("graph\texecutions\t{}\n", column_of(stress));
+        let mut table = format!("graph\texecutions\t{}\n", stress.column());
         for Curve { graph, executions, rises } in curves {
             let end = rises.last().filter(|(at, _)| at < executions).map(|(_, most)| (*executions, *most));
             for (at, most) in rises.iter().copied().chain(end) {
@@ -213,18 +214,6 @@ impl CampaignFolder {
     pub fn has_tally(&self) -> bool {
         self.file(GENERATION).is_file()
     }
-}
-
-/// The stress with its unit, as columns are named.
-fn column_of(stress: Stress) -> String {
-    let unit = match stress.unit() {
-        "" => "",
-        "°" => "_deg",
-        "m/s²" => "_m_s2",
-        "s" => "_s",
-        _ => "_m",
-    };
-    stress.word().replace('-', "_") + unit
 }
 
 fn is_campaign(path: &Path) -> bool {

@@ -18,6 +18,8 @@ pub const ARCS: &str = "arcs.csv";
 pub const MOVES: &str = "moves.json";
 /// The same of earlier releases, which this campaign is held against.
 pub const BASELINE: &str = "baseline.json";
+/// Random feasible cases that were run alike.
+pub const BY_CHANCE: &str = "baseline.parquet";
 /// How the largest stress of a search that executes rose.
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
@@ -41,6 +43,7 @@ pub(super) const OURS: &[&str] = &[
     REASONS,
     ARCS,
     MOVES,
+    BY_CHANCE,
     BEST_SO_FAR,
     COVERAGE[0],
     COVERAGE[1],

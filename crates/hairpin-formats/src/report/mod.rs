@@ -17,7 +17,7 @@ mod worst;
 use std::path::Path;
 
 use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
-use hairpin::campaign::{CaseNumber, Setup, Tally};
+use hairpin::campaign::{Baseline, CaseNumber, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
 
@@ -71,6 +71,7 @@ pub fn from_folder(
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
         in_full.push(shown(setup, case, result, planned, run.as_ref()).map_err(flight)?);
     }
+    let (baseline, scenario) = (folder.read_baseline()?, &setup.scenario);
     let pieces = Pieces {
         setup,
         cases: &cases,
@@ -82,6 +83,8 @@ pub fn from_folder(
         frame: Header::of(setup, &results).lines(),
         influences: folder.read_influences()?,
         coverage: folder.read_coverage()?,
+        baseline: baseline
+            .and_then(|measured| Baseline::of(scenario.search().stress, scenario.executor().repeat, &measured)),
     };
     Ok(report::assemble(pieces))
 }

@@ -34,7 +34,7 @@ pub use guest::kept_in;
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub(crate) use write::MADE_BY;
-pub use write::{MadeBy, WriteError, read_made_by, to_toml};
+pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;

@@ -47,3 +47,9 @@ pub fn read_made_by(text: &str) -> Option<MadeBy> {
 pub fn to_toml(scenario: &Scenario, made_by: Option<&MadeBy>) -> Result<String, WriteError> {
     toml::to_string(&Resolved { scenario, made_by }).map_err(|error| WriteError(error.to_string()))
 }
+
+/// `key = value`, tables inline: what stands on one line of a scenario file.
+pub fn on_a_line(key: &str, value: &serde_json::Value) -> String {
+    let value = toml::Value::try_from(value).map_or_else(|_| value.to_string(), |value| value.to_string());
+    format!("{key} = {value}")
+}

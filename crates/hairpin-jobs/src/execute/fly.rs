@@ -192,7 +192,12 @@ fn fly_with(
     tracing::info!("{} missions by {workers} workers", flown.into_inner());
 }
 
-fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::trajectory::Flight, Failed>) -> Run {
+pub(super) fn as_run(
+    setup: &Setup,
+    case: &Case,
+    number: usize,
+    result: Result<hairpin::trajectory::Flight, Failed>,
+) -> Run {
     Run {
         case: case.number,
         run: number,
@@ -202,7 +207,7 @@ fn as_run(setup: &Setup, case: &Case, number: usize, result: Result<hairpin::tra
 }
 
 /// The user's program, where one flies.
-fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
+pub(super) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     let execute = setup.scenario.executor();
     let Some(text) = execute.command else { return Ok(None) };
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
@@ -259,6 +264,6 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
 }
 
 /// How many programs of the user's run side by side.
-fn workers(setup: &Setup) -> usize {
+pub(super) fn workers(setup: &Setup) -> usize {
     setup.scenario.executor().workers.map_or_else(rayon::current_num_threads, |n| n as usize)
 }

@@ -1,5 +1,6 @@
 //! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
+mod by_case;
 mod fly;
 mod recorded;
 
@@ -11,12 +12,14 @@ use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::waypoints;
 
+use crate::baseline::fly_baseline;
 use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
+pub(crate) use by_case::fly_by_case;
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
 
@@ -76,7 +79,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    let tally = if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
+    let tally =
+        if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
     let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.
@@ -100,6 +104,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         work.folder.forget_runs()?;
     }
     let flown = fly_missing(&work, &cases, watch)?;
+    let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
+    fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, missions, replayed })
 }

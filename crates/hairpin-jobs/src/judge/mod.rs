@@ -9,7 +9,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
-    self, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Status, Tally, vary,
+    self, Baseline, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
@@ -19,10 +19,12 @@ use hairpin_formats::repro::Repro;
 use rayon::prelude::*;
 
 use crate::Problem;
+use crate::baseline::read_baseline;
+use crate::differences::differences;
 use crate::execute::attitude_unknown;
 use crate::saved::Replayed;
 use crate::sets::Set;
-use crate::work::{Work, keep_changes, open_to_change};
+use crate::work::{Work, keep_changes, open_to_change, open_to_read};
 use suite::suite;
 
 /// Violating cases that get a `repro/CASE.json`, the worst ones.
@@ -43,6 +45,8 @@ pub struct Judgement {
     pub moves: Moves,
     /// Of arms with a baseline.
     pub regression: Option<Regression>,
+    /// What random feasible cases came to.
+    pub baseline: Option<Baseline>,
 }
 
 /// A campaign that is judged.
@@ -55,6 +59,8 @@ pub struct Judged {
     pub tally: Tally,
     /// What judging came to.
     pub judgement: Judgement,
+    /// What its user has to know beside that, in sentences.
+    pub told: Vec<String>,
 }
 
 /// Judges the executed campaign in `folder`, with other values for the keys of `spec` in `sets`.
@@ -65,11 +71,30 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
     let work = open_to_change(folder, sets, &["spec"], None)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
+    let mut told = Vec::new();
     if !sets.is_empty() {
+        if work.folder.read_baseline()?.is_some() && measures_otherwise(&work.setup, &open_to_read(folder)?.setup) {
+            work.folder.forget_baseline()?;
+            told.push(format!(
+                "the random feasible cases of {} were measured from another reference, and are removed: hairpin execute flies them anew",
+                folder.display()
+            ));
+        }
         keep_changes(&work)?;
     }
     let judgement = judge_cases(&work, &cases, &tally, &[])?;
-    Ok(Judged { work, cases, tally, judgement })
+    Ok(Judged { work, cases, tally, judgement, told })
+}
+
+/// Whether deviations are measured from another reference in `now` than `before`: what was measured of flights that are
+/// not kept does not stand beside such.
+fn measures_otherwise(now: &Setup, before: &Setup) -> bool {
+    let reference = |setup: &Setup| {
+        let terms = setup.scenario.head().terms;
+        (terms.from, terms.corner)
+    };
+    let changed = differences(&before.scenario, &now.scenario);
+    reference(now) != reference(before) || changed.iter().any(|key| key.ends_with(".from"))
 }
 
 /// A case that is judged.
@@ -104,7 +129,8 @@ pub(crate) fn judge_cases(
     }
     let influences = campaign::influences(&work.setup.scenario, &deviations);
     let moves = work.setup.own::<ArmSetup>().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
-    let verdict = campaign::verdict(&work.setup, cases, &results, tally);
+    let baseline = read_baseline(work)?;
+    let verdict = campaign::verdict(&work.setup, cases, (&results, baseline.as_ref()), tally);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
     work.folder.write_results(cases, &results)?;
     if work.setup.has_programs() {
@@ -115,7 +141,7 @@ pub(crate) fn judge_cases(
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
-    Ok(Judgement { results, verdict, influences, attitude_unknown, moves, regression })
+    Ok(Judgement { results, verdict, influences, attitude_unknown, moves, regression, baseline })
 }
 
 fn judge_case(

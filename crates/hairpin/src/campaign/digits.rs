@@ -19,6 +19,12 @@ pub fn three_digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// `value` with its sign and its first three digits.
+pub fn signed_digits(value: f64) -> String {
+    let sign = if value < 0.0 { "-" } else { "" };
+    sign.to_owned() + &three_digits(value.abs())
+}
+
 /// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
 pub fn percent(share: Option<f64>) -> String {
     match share {
@@ -38,6 +44,19 @@ pub(super) fn percent_digits(share: f64) -> String {
     format!("{percent:.decimals$}")
 }
 
+/// `1000000` as `1 000 000`, which can be read.
+pub(super) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,6 +69,10 @@ mod tests {
         assert_eq!(number(Some(123.44)), "123.4");
         assert_eq!(number(Some(1234.4)), "1234");
         assert_eq!(number(None), "–");
+        assert_eq!(
+            (grouped(4000), grouped(999), grouped(1_000_000)),
+            ("4 000".into(), "999".into(), "1 000 000".into())
+        );
         assert_eq!(percent(Some(0.31)), "31 %");
         assert_eq!(percent(Some(0.015)), "1.5 %");
     }

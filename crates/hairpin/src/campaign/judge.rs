@@ -216,11 +216,11 @@ fn judge_run(
     }))
 }
 
-/// The planned motion that deviations are measured from.
+/// The motion that deviations from the path are measured from.
 fn reference(setup: &Setup, case: &Case) -> Option<Track> {
     match setup.kind().programs() {
         Some(programs) => programs.reference(case),
-        None => setup.kind().planned(case).ok(),
+        None => setup.kind().followed(case).ok(),
     }
 }
 

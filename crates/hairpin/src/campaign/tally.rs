@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn cases_are_at_random_that_were_drawn_one_by_one() {
-        let of = |method, per_graph, tally: &Tally| tally.chosen(&SearchSection { method, per_graph, ..Default::default() });
+        let of =
+            |method, per_graph, tally: &Tally| tally.chosen(&SearchSection { method, per_graph, ..Default::default() });
         let tally = Tally::default();
         assert_eq!(of(SearchMethod::Uniform, 1, &tally), Chosen::AtRandom);
         assert_eq!(of(SearchMethod::Uniform, 5, &tally), Chosen::InGroups);

@@ -1,16 +1,24 @@
 //! From results to the one sentence.
 
 use super::case::gap_word;
+use super::chance::Baseline;
+use super::digits::grouped;
 use super::judge::Gravity;
 use super::scenario::Asked;
 use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally};
-use crate::judgement::{self, Claim, Judged, Measures, Verdict, Violation, Worst};
+use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
 
 /// Confidence of intervals where the spec names none.
 const CONFIDENCE: f64 = 0.95;
 
-/// The verdict on a campaign: on its results, or that nothing was feasible.
-pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Tally) -> Verdict {
+/// The verdict on a campaign: on its results, beside the cases by chance that were run alike if there are any; or that
+/// nothing was feasible.
+pub fn verdict(
+    setup: &Setup,
+    cases: &[Case],
+    (results, baseline): (&[CaseResult], Option<&Baseline>),
+    tally: &Tally,
+) -> Verdict {
     let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
         return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally, None) };
@@ -35,6 +43,8 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     let doubt = results.iter().find(|result| result.status == Status::Inconclusive);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
+    let beside =
+        baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
     judgement::verdict(&Judged {
         how: &how,
         runs: setup.scenario.executor().repeat as usize,
@@ -47,6 +57,7 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         trouble: &trouble,
         doubt: doubt.as_deref().unwrap_or_default(),
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
+        beside: beside.as_ref().map(|(of, by_chance)| Beside { of, by_chance }),
         share_limit: setup.scenario.violation_share(),
         confidence,
         chosen: tally.chosen(&setup.scenario.search()),
@@ -56,6 +67,12 @@ pub fn verdict(setup: &Setup, cases: &[Case], results: &[CaseResult], tally: &Ta
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
+}
+
+/// Runs of all cases, and the executions of a search that executes.
+fn flown(setup: &Setup, results: &[CaseResult], tally: &Tally) -> u64 {
+    let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+    searched + results.len() as u64 * setup.scenario.executor().repeat
 }
 
 /// `violations run again 10 times each: 5 of 7 violate every time, least often 0117, 3/10 [6.7, 65.2] %`.

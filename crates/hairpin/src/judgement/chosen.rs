@@ -125,8 +125,7 @@ fn share_words(share: Share, (failed, of): (usize, usize), confidence: f64, what
     if failed == 0 {
         return format!("no violation in {of} {what}: share at most {} % (3/N, 95 %)", percent(rule_of_three(of)));
     }
-    let confidence =
-        if confidence == 0.95 { String::new() } else { format!(" at {} %", trimmed(100.0 * confidence)) };
+    let confidence = if confidence == 0.95 { String::new() } else { format!(" at {} %", trimmed(100.0 * confidence)) };
     let (value, low, high) = (percent(share.value), percent(share.low), percent(share.high));
     format!("share {value} % [{low}, {high}]{confidence}")
 }

@@ -24,6 +24,7 @@ pub mod measure;
 pub mod measures;
 pub mod moves;
 pub mod paired;
+mod quantile;
 pub mod settings;
 pub mod spec;
 pub mod statistics;
@@ -37,8 +38,11 @@ pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
+pub use quantile::{Quantile, exceeded_by};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
-pub use statistics::{Share, Statistics, cases_needed, rank_correlation, rule_of_three, share, skewness};
+pub use statistics::{
+    Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
+};
 pub use stress::Stress;
-pub use verdict::{Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};
+pub use verdict::{Beside, Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};

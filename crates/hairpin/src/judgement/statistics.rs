@@ -191,6 +191,25 @@ pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
     if x > 0.0 { (freedom * (1.0 / x - 1.0)).max(0.0).sqrt() } else { f64::INFINITY }
 }
 
+/// The 95 % interval of the mean of what `values` are a sample of, by Student's t: x̄ ± t s/√n with
+/// s² = Σ (x − x̄)²/(n − 1).
+///
+/// Exact for normal values; of a few dozen with a long tail to one side it covers a little less. `None` for fewer than
+/// two values, or one that is not finite.
+///
+/// ```
+/// use hairpin::judgement::mean_interval;
+///
+/// let [low, high] = mean_interval(&[4.0, 6.0]).expect("two values");
+/// assert!((low - (5.0 - 12.7062)).abs() < 1e-3 && (high - (5.0 + 12.7062)).abs() < 1e-3);
+/// ```
+pub fn mean_interval(values: &[f64]) -> Option<[f64; 2]> {
+    let Statistics { mean, std, .. } = Statistics::of(values)?;
+    let freedom = values.len().checked_sub(1).filter(|freedom| *freedom > 0)?;
+    let half = student_quantile(freedom, SIGMA_95) * std / (freedom as f64).sqrt();
+    Some([mean - half, mean + half])
+}
+
 /// The x with I_x(a, b) = `probability`, by bisection to the last bit: the library's own quantile (AS 109) starts
 /// from a guess clamped to 0.0001, too large for one case in a hundred thousand.
 fn beta_quantile(a: f64, b: f64, probability: f64) -> f64 {
@@ -206,7 +225,7 @@ fn beta_quantile(a: f64, b: f64, probability: f64) -> f64 {
 
 /// The regularised incomplete beta function I_x(a, b), 0 < x < 1, by its continued fraction 8.17.22 of NIST's Digital
 /// Library of Mathematical Functions, evaluated from the front (Lentz: Applied Optics 15, 1976).
-fn beta_share(a: f64, b: f64, x: f64) -> f64 {
+pub(super) fn beta_share(a: f64, b: f64, x: f64) -> f64 {
     // Beyond the mean the fraction of the complement converges faster.
     if x > (a + 1.0) / (a + b + 2.0) {
         return 1.0 - beta_share(b, a, 1.0 - x);
@@ -231,6 +250,8 @@ fn beta_share(a: f64, b: f64, x: f64) -> f64 {
     front / fraction
 }
 
+/// Standard deviations around the mean of a normal distribution that hold 95 %.
+const SIGMA_95: f64 = 1.959_963_984_540_054;
 /// Terms of the fraction; about the root of the larger argument are needed, 10 000 for a hundred million cases.
 const MOST_TERMS: u32 = 100_000;
 /// Beyond these nobody counts cases.
@@ -249,6 +270,15 @@ mod tests {
         }
         assert!((student_quantile(4, 3.0) - 6.6201).abs() < 1e-3);
         assert_eq!(student_quantile(4, 0.0), 0.0);
+    }
+
+    #[test]
+    fn means_have_students_interval() {
+        // scipy.stats.t.interval(0.95, 4, loc=3, scale=sqrt(2.5/5)) = (1.036757, 4.963243)
+        let [low, high] = mean_interval(&[1.0, 2.0, 3.0, 4.0, 5.0]).unwrap();
+        assert!((low - 1.036_757).abs() < 1e-6 && (high - 4.963_243).abs() < 1e-6, "{low} {high}");
+        assert_eq!(mean_interval(&[2.0, 2.0, 2.0]), Some([2.0, 2.0]));
+        assert!(mean_interval(&[1.0]).is_none() && mean_interval(&[1.0, f64::NAN]).is_none());
     }
 
     #[test]

@@ -95,6 +95,28 @@ impl Stress {
         }
     }
 
+    /// Whether what was measured has its sign turned in it: of these less is worse.
+    pub fn is_turned(self, measures: &Measures) -> bool {
+        match self {
+            Stress::Clearance => true,
+            Stress::Tilt => measures.min_tip_over_margin.is_some(),
+            _ => false,
+        }
+    }
+
+    /// With its unit, as columns are named: `max_deviation_m`.
+    pub fn column(self) -> String {
+        let unit = match self.unit() {
+            "" => "",
+            "°" => "_deg",
+            "m/s²" => "_m_s2",
+            "s" => "_s",
+            "rad²/s³" => "_rad2_s3",
+            _ => "_m",
+        };
+        self.word().replace('-', "_") + unit
+    }
+
     /// Of one leg of a run; `None` where it was not measured.
     pub fn of_leg(self, leg: &LegMeasures) -> Option<f64> {
         match self {
@@ -144,6 +166,8 @@ mod tests {
             assert_eq!(Stress::from_word(stress.word()), Some(stress));
         }
         assert_eq!(Stress::from_word("deviation"), None);
+        let columns = [Stress::MaxDeviation, Stress::Tilt, Stress::Saturation, Stress::JointEffort].map(Stress::column);
+        assert_eq!(columns, ["max_deviation_m", "tilt_deg", "saturation", "joint_effort_rad2_s3"]);
         assert_eq!(Stress::MaxDeviation.worst_leg(&measures), Some(1), "the first of equals");
         assert_eq!(Stress::Tilt.of(&measures), Some(-27.0));
         assert_eq!(Stress::Tilt.worst_leg(&measures), Some(1));

@@ -50,6 +50,15 @@ pub struct Worst<'a> {
     pub saturation: Option<f64>,
 }
 
+/// Cases that nobody chose, for the worst to stand beside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Beside<'a> {
+    /// What the worst is the worst of: `4 000 flown`.
+    pub of: &'a str,
+    /// What the others came to: `random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20`.
+    pub by_chance: &'a str,
+}
+
 /// What a campaign came to.
 ///
 /// Counts, not cases: what they rest on stays with the campaign.
@@ -77,6 +86,8 @@ pub struct Judged<'a> {
     pub doubt: &'a str,
     /// The worst of all runs; `None` where nothing is limited.
     pub worst: Option<Worst<'a>>,
+    /// What the worst stands beside, where that is known.
+    pub beside: Option<Beside<'a>>,
     /// Share of cases that may violate; `None` or 0: not one.
     pub share_limit: Option<f64>,
     /// Confidence of the share's interval.
@@ -109,6 +120,7 @@ impl Default for Judged<'_> {
             trouble: "",
             doubt: "",
             worst: None,
+            beside: None,
             share_limit: None,
             confidence: 0.95,
             chosen: Chosen::default(),
@@ -124,9 +136,9 @@ impl Default for Judged<'_> {
 /// The verdict on executed cases.
 ///
 /// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
-/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random the
-/// Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it
-/// straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
+/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
+/// the Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if
+/// it straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
 /// nothing was asked for, what is no FAIL is UNJUDGED.
 ///
 /// ```
@@ -195,9 +207,9 @@ fn how(judged: &Judged) -> String {
 /// Worst and where, share, evidence, and what was not counted.
 fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     let mut parts = Vec::new();
-    if let Some(worst) = &judged.worst {
-        parts.push(worst_and_where(worst));
-    }
+    let of = judged.beside.map_or(String::new(), |beside| format!(", of {}", beside.of));
+    parts.extend(judged.worst.as_ref().map(|worst| worst_and_where(worst) + &of));
+    parts.extend(judged.beside.map(|beside| beside.by_chance.to_owned()));
     if !judged.limited {
         let nothing =
             if judged.failed > 0 { "nothing else was" } else { "nothing crashed or left the world, no more was" };
@@ -362,7 +374,8 @@ mod tests {
     #[test]
     fn of_cases_that_were_searched_the_count_is_told_and_decides() {
         let value = violation("deviation", 0.65, 0.5);
-        let of = |failed, share_limit| verdict(&Judged { chosen: Chosen::Searched, share_limit, ..with(failed, &value) });
+        let of =
+            |failed, share_limit| verdict(&Judged { chosen: Chosen::Searched, share_limit, ..with(failed, &value) });
         let fails = of(3, None);
         assert_eq!(
             fails.sentence,
@@ -378,6 +391,18 @@ mod tests {
         }
         // What was not judged is open, whatever was allowed.
         assert_eq!(verdict(&Judged { inconclusive: 200, ..with(0, &value) }).exit_code, 5);
+    }
+
+    #[test]
+    fn the_worst_stands_beside_what_nobody_chose() {
+        let value = violation("deviation", 3.91, 0.5);
+        let by_chance = "random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20";
+        let beside = Some(Beside { of: "4 000 flown", by_chance });
+        let told = verdict(&Judged { beside, chosen: Chosen::Searched, ..with(3, &value) }).sentence;
+        let expected = "worst 3.91 m > 0.50 m, case 0117, t = 12.34 s, leg 4→5, rotors saturated 31 %, of 4 000 flown; random \
+                        feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20; 3 of 200 searched violate; \
+                        all 200 witnessed";
+        assert!(told.ends_with(expected), "{told}");
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use airborne::Airborne;
 pub use close_loop::{FlySettings, Sortie};
 pub use command::{Demand, FlightCommand, FlightState};
 pub use controller::{Controlled, Controller, Fault, Misbehaviour, OwnController, Reference, Schedule};
-pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes};
+pub use controllers::{ControllerKind, ControllerSettings, SegmentTimes, minimum_snap_curve};
 pub use disturbance::{Conditions, DiscreteGust, Disturbances, Gusts};
 pub use plant::{Plant, PlantState};
 pub use run::{fly, fly_with};

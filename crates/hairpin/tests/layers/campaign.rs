@@ -30,11 +30,11 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["flight", "drive", "arm", "boat"],
     // A scenario becomes a setup: the one `match`.
     &["setup"],
-    &["coverage", "goals", "states"],
+    &["chance", "coverage", "goals", "states"],
     // The jobs.
     &["mission", "judge"],
     &["execute", "samples"],
-    &["trial", "verify", "verdict", "select", "compare", "shrink"],
+    &["calibrate", "trial", "verify", "verdict", "select", "compare", "shrink"],
     &["generate"],
     &["explain", "assumptions"],
     // What is told of it all.

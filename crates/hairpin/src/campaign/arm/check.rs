@@ -130,6 +130,7 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
     found.require(shared, "execute.log_clock", "\"offset-removed\"", bound);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.flaky(execute.flaky);
+    found.baseline(execute.baseline);
     found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");
     found.from("execute.noise_mm", execute.noise_mm, 0.0, 100.0, " mm");
     let faults = &execute.faults;

@@ -132,6 +132,7 @@ fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Finding
     found.who(execute.controller.is_some(), execute.command.as_deref());
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.flaky(execute.flaky);
+    found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 10_000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");

@@ -1,6 +1,7 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
 use crate::campaign::attachments::Attachments;
+use crate::campaign::digits::grouped;
 use crate::campaign::scenario::{FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Subject};
 use crate::judgement::Stress;
 
@@ -91,6 +92,13 @@ impl Findings {
         }
     }
 
+    /// `execute.baseline`.
+    pub(in crate::campaign) fn baseline(&mut self, cases: Option<u64>) {
+        if let Some(cases) = cases {
+            self.count("execute.baseline", cases, 0, 100_000);
+        }
+    }
+
     /// Whether a score that a file tells was read: a model, which must be of the legs of `subject`, or one of the
     /// user's own. `false` where `score` names no file.
     pub(in crate::campaign) fn score_of_file(
@@ -178,17 +186,4 @@ impl Findings {
         let bound = format!("left out: what is searched takes the place of what is given in {place} or varied");
         self.require(!given, key, value, &bound);
     }
-}
-
-/// `1000000` as `1 000 000`, which can be read.
-fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
 }

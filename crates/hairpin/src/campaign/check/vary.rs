@@ -20,6 +20,7 @@ const FIXED: &[(&str, &str)] = &[
     ("execute.log_clock", "it belongs to the whole campaign"),
     ("spec.regression", "it judges all cases together"),
     ("execute.repeat", "it is the number of runs"),
+    ("execute.baseline", "it is the number of cases to compare with"),
     ("execute.timeout_s", "one program flies all runs"),
     ("execute.workers", "one program flies all runs"),
     ("spec", "its limits may, such as \"spec.deviation.max_m\""),

@@ -3,6 +3,7 @@
 use super::FlightSetup;
 use crate::campaign::Case;
 use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
+use crate::simulation::ControllerKind;
 
 /// What stands behind the legs.
 pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
@@ -81,6 +82,11 @@ pub(super) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
             let from = match deviation.from {
                 DeviationFrom::Leg => "the straight leg being flown",
                 DeviationFrom::NearestLeg => "the nearer of the previous and the current leg",
+                DeviationFrom::Path
+                    if setup.scenario.execute.controller_in_force() == Some(ControllerKind::MinimumSnap) =>
+                {
+                    "the curve that the controller makes of the waypoints"
+                }
                 DeviationFrom::Path => "the programmed path",
             };
             let corner = if deviation.corner_m > 0.0 {

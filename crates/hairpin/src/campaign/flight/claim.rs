@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::fly::own_curve;
 use super::solve::FlightSolver;
 use super::{FlightSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Losses;
@@ -29,6 +30,13 @@ impl Claim for FlightSetup {
 
     fn planned(&self, case: &Case) -> Result<Track, PlanError> {
         Ok(plan::track(&self.robot, case)?)
+    }
+
+    fn followed(&self, case: &Case) -> Result<Track, PlanError> {
+        let Some(curve) = own_curve(self, case) else { return self.planned(case) };
+        let leg_times = curve.legs.iter().map(|leg| leg.duration).collect();
+        let along = Case { leg_times, witness: Some(curve.into()), ..case.clone() };
+        Ok(plan::track(&self.robot, &along)?)
     }
 
     fn timed(&self, case: &Case) -> Vec<Timed> {

@@ -9,7 +9,7 @@ use crate::campaign::kind::{Act, LegByLeg, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
-    Sortie,
+    Sortie, minimum_snap_curve,
 };
 use crate::trajectory::{Flight, Profile, Track};
 
@@ -61,6 +61,14 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
         fixed_velocity: execute.fixed_velocity_m_s,
         segment_times: execute.segment_times,
     }
+}
+
+/// The curve that the controller of ours makes of the waypoints of `case`; `None` where it makes none, or another one
+/// flies.
+pub(super) fn own_curve(setup: &FlightSetup, case: &Case) -> Option<Profile> {
+    let own = setup.scenario.execute.controller_in_force().filter(|_| setup.controller.is_none())?;
+    let curve = || minimum_snap_curve(&setup.robot, setup.scenario.execute.segment_times, &case.waypoints);
+    (own == ControllerKind::MinimumSnap).then(curve)?
 }
 
 /// Velocities in m/s in the cage's axes.

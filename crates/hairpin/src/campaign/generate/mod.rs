@@ -5,6 +5,7 @@
 //! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
 
 mod adaptive;
+mod by_chance;
 mod graphs;
 mod known;
 mod optima;
@@ -21,6 +22,7 @@ use super::scenario::SearchMethod;
 use super::{Case, CaseNumber, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 use crate::trajectory::program::{Motion, Program};
+pub use by_chance::{ByChance, Purpose, by_chance};
 pub use known::Known;
 pub use optima::{Optimum, optima};
 

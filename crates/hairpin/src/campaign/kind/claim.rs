@@ -55,6 +55,15 @@ pub(in crate::campaign) trait Claim {
     /// A case whose numbers are no motion, as a folder that was edited may hold.
     fn planned(&self, case: &Case) -> Result<Track, PlanError>;
 
+    /// The path that is followed where nothing goes wrong: the planned one, unless the controller of ours makes one of
+    /// its own.
+    ///
+    /// # Errors
+    /// As [`Self::planned`].
+    fn followed(&self, case: &Case) -> Result<Track, PlanError> {
+        self.planned(case)
+    }
+
     /// The timed reference that executors get of a case with leg times; empty where they get none.
     fn timed(&self, case: &Case) -> Vec<Timed>;
 
@@ -71,6 +80,11 @@ pub(in crate::campaign) trait Solver: Sync {
     /// Searches graph number `graph` for what is `wanted`; `executions` are for searches in the loop, `stop` ends what
     /// has no bound in counts.
     fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome;
+
+    /// Whether a round's uniform draws are that.
+    fn draws(&self) -> bool {
+        true
+    }
 
     /// Whether its legs can be asked for the optimum of other scores, by their names, than the scenario's.
     fn takes_scores(&self) -> bool {

@@ -8,7 +8,8 @@ use super::text::attitude;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
-    Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status, Tally, vary,
+    Baseline, Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status,
+    Tally, vary,
 };
 use crate::judgement::moves::Regression;
 use crate::judgement::{
@@ -140,6 +141,8 @@ pub struct Pieces<'a> {
     pub influences: Vec<Influence>,
     /// Which cells of the grid of motion were met.
     pub coverage: Option<Coverage>,
+    /// What random feasible cases came to.
+    pub baseline: Option<Baseline>,
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
@@ -168,7 +171,7 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
 /// A case in full: `run` is the result's worst one. Distances are those that were judged.
 ///
 /// The reference is the scenario's with the run's own draws: the leg being executed, the nearer of it and the one
-/// before, or the planned path.
+/// before, or the path that is followed.
 ///
 /// # Errors
 /// A track that the judge refuses.
@@ -185,10 +188,14 @@ pub fn shown(
     // tell.
     let drawn = vary::apply(&setup.scenario, &result.drawn);
     let Terms { from, corner, .. } = drawn.as_ref().unwrap_or(&setup.scenario).head().terms;
+    let followed = match from {
+        DeviationFrom::Path if !setup.has_programs() => setup.kind().followed(case).ok(),
+        _ => None,
+    };
     let reference = match from {
         DeviationFrom::Leg => Reference::Leg,
         DeviationFrom::NearestLeg => Reference::NearestLeg,
-        DeviationFrom::Path => Reference::Path(&planned),
+        DeviationFrom::Path => Reference::Path(followed.as_ref().unwrap_or(&planned)),
     };
     let (mut distances, mut judged) = (Vec::new(), Vec::new());
     if let Some(track) = &flown {

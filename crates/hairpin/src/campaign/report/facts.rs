@@ -6,7 +6,7 @@ use crate::campaign::digits::number;
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::Asked;
 use crate::campaign::{CaseResult, Status};
-use crate::judgement::{Chosen, Measures};
+use crate::judgement::{Chosen, Measures, Stress};
 
 /// Largest deviation and its case, the violations among judged cases, with their share's interval at the scenario's
 /// confidence (0.95 if none is given) where cases were drawn at random, and the number of cases.
@@ -22,6 +22,19 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         numbers.push(of("largest deviation", format!("{} m", number(Some(measures.max_deviation))), limit));
         let place = format!("t = {} s, leg {}", number(Some(measures.t_worst)), leg(measures.leg_worst));
         numbers.push(of("in case", cells(worst)[0].clone(), place));
+    }
+    if let Some(random) = &pieces.baseline {
+        let setup = pieces.setup;
+        let interval =
+            random.interval_in_words(setup).map_or(String::new(), |interval| format!("{interval} in the mean, 95 %; "));
+        let stress = random.stress_percent(pieces.results);
+        let stress = stress.map_or(String::new(), |percent| format!("; these cases {percent:+.0} %"));
+        let note = format!("{interval}{} at worst of {}{stress}", random.told(setup, random.worst), random.cases);
+        let what = match random.stress {
+            Stress::MaxDeviation => "random feasible cases".to_owned(),
+            other => format!("random feasible cases: {}", other.word().replace('-', " ")),
+        };
+        numbers.push(of(&what, random.told(setup, random.mean), note));
     }
     let confidence = pieces.setup.scenario.confidence().unwrap_or(0.95);
     let tally = pieces.tally;

@@ -23,9 +23,14 @@ pub struct Executor<'a> {
     pub accept: f64,
     /// Further runs of every violation, with other noise.
     pub reruns: u64,
+    /// Random feasible cases that are flown beside those of the campaign.
+    pub baseline: u64,
     /// When a run is given up.
     pub patience: Patience,
 }
+
+/// Random feasible cases where the scenario does not say how many.
+pub(in crate::campaign) const BASELINE: u64 = 0;
 
 /// When a run is given up: after a time that is given, else after what it may be expected to take.
 #[derive(Debug, Clone, Copy, PartialEq)]

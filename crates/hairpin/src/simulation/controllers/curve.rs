@@ -65,6 +65,11 @@ impl Curve {
         Ok(Self { legs, leg: 0, tau: 0.0 })
     }
 
+    /// Without its clock.
+    pub(super) fn into_profile(self) -> Profile {
+        Profile { legs: self.legs }
+    }
+
     /// Lets `dt` s pass on the reference's clock, which stops at the end.
     pub(crate) fn advance(&mut self, dt: f64) {
         self.tau += dt;

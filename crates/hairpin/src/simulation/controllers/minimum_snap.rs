@@ -1,12 +1,13 @@
 //! `minimum-snap`: a point moves along the minimum-snap polynomial, and the waypoint cascade follows the point.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use super::cascade::{Cascade, Gains};
 use super::curve::{Curve, NOT_RESET, Pace, SegmentTimes};
 use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::command::{FlightCommand, FlightState};
 use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
+use crate::trajectory::Profile;
 
 /// Fixed by `tests/step_responses.rs`.
 const GAINS: Gains = Gains {
@@ -38,6 +39,11 @@ impl MinimumSnap {
     pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes) -> Self {
         Self { cascade: Cascade::new(robot, GAINS), pace: Pace::new(robot, rule), curve: None }
     }
+}
+
+/// The curve that it leads `robot` along, from waypoint to waypoint; `None` where there is none through them.
+pub fn minimum_snap_curve(robot: &Quadrotor, rule: SegmentTimes, waypoints: &[Point3<f64>]) -> Option<Profile> {
+    Some(Curve::through(waypoints, &Pace::new(robot, rule)).ok()?.into_profile())
 }
 
 impl Controller<Quadrotor> for MinimumSnap {

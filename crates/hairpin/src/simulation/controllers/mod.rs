@@ -14,4 +14,5 @@ mod unstable_waypoint;
 pub(super) use cascade::Cascade;
 pub use curve::SegmentTimes;
 pub use kind::{ControllerKind, ControllerSettings};
+pub use minimum_snap::minimum_snap_curve;
 pub(super) use pilot::Pilot;

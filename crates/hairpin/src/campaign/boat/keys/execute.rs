@@ -38,6 +38,9 @@ pub struct BoatExecute {
     /// Workers of `command`; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workers: Option<u64>,
+    /// Random feasible cases that are run alike, for the stress to stand beside; 0: none, 20 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<u64>,
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
@@ -57,6 +60,7 @@ impl Default for BoatExecute {
             walls: false,
             timeout_s: 60.0,
             workers: None,
+            baseline: None,
             flaky: None,
         }
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::{BoatExecute, BoatScenario};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
+    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
 };
 
 /// A trip is given up after this multiple of its planned duration …
@@ -16,7 +16,8 @@ const SPARE_SECONDS: f64 = 60.0;
 
 impl Keys for BoatScenario {
     fn head(&self) -> Head<'_> {
-        let BoatExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let BoatExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
@@ -31,6 +32,7 @@ impl Keys for BoatScenario {
                 timeout: *timeout_s,
                 workers: *workers,
                 accept: *accept_m,
+                baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },

@@ -268,6 +268,7 @@ fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Find
         found.count("execute.repeat", repeat, 1, 100_000);
     }
     found.flaky(execute.flaky);
+    found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         found.above("execute.time_limit_s", limit, 0.0, 1e6, " s");

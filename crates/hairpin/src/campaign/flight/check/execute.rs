@@ -8,6 +8,7 @@ pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.flaky(execute.flaky);
+    found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
     if let Some(limit) = execute.time_limit_s {
         // A run keeps its track: at 100 000 s some GB.

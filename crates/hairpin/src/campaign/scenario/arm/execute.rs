@@ -30,6 +30,9 @@ pub struct ArmExecute {
     /// What is wrong with the virtual arm.
     #[serde(skip_serializing_if = "FaultSection::is_none")]
     pub faults: FaultSection,
+    /// Random feasible cases that are run alike, for the stress to stand beside; 0: none, 20 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<u64>,
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
@@ -46,6 +49,7 @@ impl Default for ArmExecute {
             servo_lag_s: 0.005,
             noise_mm: 0.01,
             faults: FaultSection::default(),
+            baseline: None,
             flaky: None,
         }
     }

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    ARM_MOVES, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject,
-    Terms, sections,
+    ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
+    Subject, Terms, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};
@@ -41,6 +41,7 @@ impl Keys for ArmScenario {
                 timeout: f64::INFINITY,
                 workers: None,
                 accept: ARRIVED,
+                baseline: execute.baseline.unwrap_or(BASELINE),
                 reruns: execute.flaky.map_or(0, |flaky| flaky.reruns),
                 // The virtual controller's runs end with their program.
                 patience: Patience { given: None, per_waypoint: f64::INFINITY, of_plan: 0.0, spare: 0.0 },

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{DriveExecute, DriveScenario, GroundReach};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject, Terms,
-    sections,
+    BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject,
+    Terms, sections,
 };
 use crate::judgement::Limits;
 
@@ -26,7 +26,8 @@ const LIMITS: &[&str] = &[
 
 impl Keys for DriveScenario {
     fn head(&self) -> Head<'_> {
-        let DriveExecute { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let DriveExecute { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         let limits = &self.spec.limits;
         let judged_by = Limits {
             deviation: limits.path_deviation_m,
@@ -49,6 +50,7 @@ impl Keys for DriveScenario {
                 timeout: *timeout_s,
                 workers: *workers,
                 accept: *accept_m,
+                baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },

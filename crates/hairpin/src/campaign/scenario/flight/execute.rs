@@ -41,6 +41,9 @@ pub struct ExecuteSection {
     /// Workers of `command`; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub workers: Option<u64>,
+    /// Random feasible cases that are run alike, for the stress to stand beside; 0: none, 20 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<u64>,
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
@@ -62,6 +65,7 @@ impl Default for ExecuteSection {
             segment_times: SegmentTimes::SqrtLength,
             timeout_s: 60.0,
             workers: None,
+            baseline: None,
             flaky: None,
         }
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::{ExecuteSection, FlightScenario, ReachName};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
+    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
 };
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -14,7 +14,8 @@ const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
     fn head(&self) -> Head<'_> {
-        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, flaky, time_limit_s, .. } = &self.execute;
+        let ExecuteSection { command, repeat, timeout_s, workers, accept_m, baseline, flaky, time_limit_s, .. } =
+            &self.execute;
         Head {
             seed: self.seed,
             length: Some(self.task.length),
@@ -29,6 +30,7 @@ impl Keys for FlightScenario {
                 timeout: *timeout_s,
                 workers: *workers,
                 accept: *accept_m,
+                baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience {
                     given: *time_limit_s,

@@ -53,7 +53,7 @@ pub enum DeviationFrom {
     Leg,
     /// The nearest of the previous and the current leg.
     NearestLeg,
-    /// The programmed path.
+    /// The planned path; of `minimum-snap` the curve that it makes of the waypoints.
     Path,
 }
 

@@ -1,0 +1,73 @@
+//! Random feasible cases, run as the campaign's are: what its stress stands beside. They are measured and never judged,
+//! and no case of the campaign is one of them.
+
+use hairpin::campaign::generate::{ByChance, Purpose, by_chance};
+use hairpin::campaign::{self, Baseline, Case, CaseResult, Run, Setup, Status, Stop, Tally, vary};
+
+use crate::execute::{Flown, fly_by_case};
+use crate::watch::not_waiting_for;
+use crate::work::Work;
+use crate::{Deadline, Problem, Watch};
+
+/// What the watch is told of.
+const WHAT: &str = "baseline";
+
+/// Draws and runs as many as `work` asks for, where cases of a search have `flown` to compare with, and they are not
+/// there yet. The file is written once all are measured.
+pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn Watch) -> Result<(), Problem> {
+    let setup = &work.setup;
+    let wanted = setup.scenario.executor().baseline;
+    let beside_nothing = flown.runs == flown.failed || !tally.missions.is_empty() || setup.recordings().is_some();
+    if wanted == 0 || beside_nothing || work.folder.read_baseline()?.is_some() {
+        return Ok(());
+    }
+    let ByChance { cases, .. } = drawn(setup, (Purpose::Baseline, wanted), WHAT, watch)?;
+    if cases.is_empty() {
+        return Ok(());
+    }
+    let measured: Result<Vec<CaseResult>, Problem> =
+        fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (WHAT, watch))?.into_iter().collect();
+    Ok(work.folder.write_baseline(&cases, &measured?)?)
+}
+
+/// What the cases by chance of a campaign's folder measured; `None` where there are none.
+pub(crate) fn read_baseline(work: &Work) -> Result<Option<Baseline>, Problem> {
+    let scenario = &work.setup.scenario;
+    let found = work.folder.read_baseline()?;
+    Ok(found.and_then(|measured| Baseline::of(scenario.search().stress, scenario.executor().repeat, &measured)))
+}
+
+/// Cases by chance, as many as are `asked` for or found; `what` is told of as it goes on.
+pub(crate) fn drawn(
+    setup: &Setup,
+    asked: (Purpose, u64),
+    what: &'static str,
+    watch: &dyn Watch,
+) -> Result<ByChance, Problem> {
+    let user_score = setup.user_score();
+    let stop = Stop {
+        cancelled: &|| watch.stopped() || user_score.is_some_and(|user| user.trouble().is_some()),
+        progress: &|done, of| watch.progress(what, done, of),
+        clock: &|| 0.0,
+    };
+    let drawn = not_waiting_for(user_score, watch, Deadline::after(None), || by_chance(setup, asked, &stop));
+    watch.finished(what);
+    if watch.stopped() {
+        return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
+    }
+    if let Some(reason) = &drawn.reason {
+        tracing::info!("{} of {} random cases: {reason}", drawn.cases.len(), asked.1);
+    }
+    Ok(drawn)
+}
+
+/// The worst run of `case`, without what the spec says of it: whether a random case violates is not counted anywhere.
+fn measure(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Problem> {
+    let mut result = campaign::judge(setup, case, runs)?;
+    result.drawn.extend(vary::draw_for_case(&setup.scenario, case.seed, case.number));
+    if result.status != Status::ExecutorFailed {
+        result.status = Status::Unjudged;
+    }
+    (result.violations, result.draws) = (Vec::new(), None);
+    Ok(result)
+}

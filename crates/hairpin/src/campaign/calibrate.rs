@@ -1,0 +1,235 @@
+//! Limits that follow from what is ordinary: of many random feasible cases a given share breaks them.
+
+use serde_json::{Map, Value};
+
+use super::digits::signed_digits;
+use super::judge::measures_of;
+use super::scenario::Asked;
+use super::{Case, Run, Setup};
+use crate::judgement::{Limits, Measures, Quantile, exceeded_by, violations};
+
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+/// Fewer cases give no limit.
+pub const LEAST: usize = 200;
+
+/// One key of `[spec]` that a limit stands in.
+struct Key {
+    key: &'static str,
+    /// The limit that stands there.
+    now: fn(&Limits) -> Option<f64>,
+    /// What it limits.
+    of: fn(&Measures) -> Option<f64>,
+    /// From the unit of both to that of the key.
+    factor: f64,
+    /// Whether less is worse.
+    least: bool,
+}
+
+const fn key(
+    key: &'static str,
+    now: fn(&Limits) -> Option<f64>,
+    of: fn(&Measures) -> Option<f64>,
+    (factor, least): (f64, bool),
+) -> Key {
+    Key { key, now, of, factor, least }
+}
+
+const KEYS: &[Key] = &[
+    key("spec.deviation.max_m", |l| l.deviation, |m| Some(m.max_deviation), (1.0, false)),
+    key("spec.overshoot.max_m", |l| l.overshoot, |m| Some(m.max_overshoot()), (1.0, false)),
+    key("spec.clearance.min_m", |l| l.clearance, |m| m.min_clearance, (1.0, true)),
+    key("spec.acceleration.max_m_s2", |l| l.acceleration, |m| Some(m.max_acceleration), (1.0, false)),
+    key("spec.total_time.max_s", |l| l.total_time, |m| Some(m.total_time), (1.0, false)),
+    key("spec.limits.path_deviation_m", |l| l.deviation, |m| Some(m.max_deviation), (1.0, false)),
+    key("spec.limits.tip_over_margin_deg", |l| l.tip_over_margin, |m| m.min_tip_over_margin, (1.0, true)),
+    key("spec.limits.clearance_m", |l| l.clearance, |m| m.min_clearance, (1.0, true)),
+    key("spec.limits.total_time_s", |l| l.total_time, |m| Some(m.total_time), (1.0, false)),
+    key("spec.path.max_mm", |l| l.deviation, |m| Some(m.max_deviation), (1e3, false)),
+    key("spec.arrival.max_late_ms", |l| l.late, |m| m.latest.map(|late| late.by), (1e3, false)),
+];
+
+/// What the runs of a case came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Of every key that limits are proposed for, its worst value over all runs, larger being worse; infinite where a
+    /// run crashed or did not finish, `None` where it was not measured.
+    worst: Vec<Option<f64>>,
+    /// Whether a run crashed or did not finish.
+    ended_badly: bool,
+    /// Whether a run left the world, a violation beside any limit.
+    pub left_world: bool,
+}
+
+/// A limit that the wanted share of cases breaks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// The key.
+    pub field: &'static str,
+    /// The limit, in the key's unit; `None` where there is none.
+    pub value: Option<f64>,
+    /// Its 95 % interval, in the key's unit.
+    pub interval: Option<[f64; 2]>,
+    /// Cases that it follows from.
+    pub cases: usize,
+    /// Why there is none, in a sentence's part.
+    pub reason: Option<String>,
+}
+
+/// The keys that limits are proposed for: those of the scenario's limits, or that of the deviation where it has none.
+fn keys(setup: &Setup) -> Vec<&'static Key> {
+    let head = setup.scenario.head();
+    let own = || KEYS.iter().filter(|key| head.limits.contains(&key.key));
+    let given: Vec<&Key> = own().filter(|key| (key.now)(&head.terms.limits).is_some()).collect();
+    if given.is_empty() { own().take(1).collect() } else { given }
+}
+
+/// What the runs of `case` came to; `None` where one was not flown or cannot be judged.
+pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
+    let keys = keys(setup);
+    let mut found = Outcome { worst: vec![None; keys.len()], ended_badly: false, left_world: false };
+    for run in runs {
+        let measures = measures_of(setup, case, run)?;
+        let flight = run.outcome.as_ref().ok()?;
+        let events = Limits { unfinished: setup.scenario.asked() != Asked::Nothing, ..Limits::default() };
+        let events = violations(&measures, flight, &events);
+        found.ended_badly |= events.iter().any(|event| event.is_crash() || event.what == "unfinished");
+        found.left_world |= flight.left_world.is_some();
+        for (worst, key) in found.worst.iter_mut().zip(&keys) {
+            let Some(value) = (key.of)(&measures) else { continue };
+            let value = if key.least { -value } else { value };
+            *worst = Some(worst.map_or(value, |worst: f64| worst.max(value)));
+        }
+    }
+    if found.ended_badly {
+        found.worst.iter_mut().for_each(|worst| *worst = Some(f64::INFINITY));
+    }
+    Some(found)
+}
+
+/// The limits that the share `broken` of cases like these break, for every limit that the scenario has or, where it has
+/// none, for the deviation.
+///
+/// A case breaks a limit that one of its runs breaks, and any limit where one crashes or does not finish: how far off
+/// it would have been nobody knows. Fewer than 200 cases, and fewer than the interval takes, give no number.
+pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal> {
+    let badly = outcomes.iter().filter(|outcome| outcome.ended_badly).count();
+    let propose = |(place, key): (usize, &&'static Key)| {
+        let values: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.worst[place]).collect();
+        let cases = values.len();
+        let none =
+            |reason: String| Proposal { field: key.key, value: None, interval: None, cases, reason: Some(reason) };
+        let few = format!("{cases} cases were measured");
+        let limit = match exceeded_by(&values, broken, CONFIDENCE) {
+            _ if cases == badly && cases > 0 => {
+                return none("every case crashes or does not finish".into());
+            }
+            _ if cases == 0 && !outcomes.is_empty() => return none("it is not measured in this scenario".into()),
+            _ if cases < LEAST => return none(format!("{few}, and {LEAST} are the least that a limit follows from")),
+            None => return none(format!("{few}, too few for an interval of what {} % break", 100.0 * broken)),
+            Some(limit) => limit,
+        };
+        if limit.high.is_infinite() {
+            return none(format!(
+                "{badly} of {cases} cases crash or do not finish, whatever the limit, so that it may be that more than {} % \
+                 break any",
+                100.0 * broken
+            ));
+        }
+        let Quantile { value, low, high } = limit;
+        let scale = if key.least { -key.factor } else { key.factor };
+        let ends = if key.least { [high, low] } else { [low, high] };
+        Proposal {
+            field: key.key,
+            value: Some(scale * value),
+            interval: Some(ends.map(|end| scale * end)),
+            cases,
+            reason: None,
+        }
+    };
+    keys(setup).iter().enumerate().map(propose).collect()
+}
+
+/// The scenario's `[spec]` with the proposed limits in it, to three digits: the value of each of its keys.
+pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
+    let mut spec = match setup.scenario.section("spec") {
+        Some(Value::Object(spec)) => spec,
+        _ => Map::new(),
+    };
+    for proposal in proposals {
+        let Some(value) = proposal.value else { continue };
+        let path: Vec<&str> = proposal.field.split('.').skip(1).collect();
+        let ([table, key], Ok(rounded)) = (path.as_slice(), signed_digits(value).parse::<f64>()) else { continue };
+        let table = spec.entry(*table).or_insert_with(|| Value::Object(Map::new()));
+        if let (Value::Object(table), Some(number)) = (table, serde_json::Number::from_f64(rounded)) {
+            table.insert((*key).to_owned(), Value::Number(number));
+        }
+    }
+    spec.retain(|_, value| !value.is_null());
+    spec
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::campaign::Scenario;
+
+    fn setup(spec: Value) -> Setup {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1,
+            "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.0049, 0.0049, 0.0069],
+                "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7,
+                "rotor_speed_rad_s": [0.0, 2200.0], "max_speed_m_s": 18.0, "clearance_radius_m": 0.23,
+                "rotors": [{ "x_m": 0.08, "y_m": 0.08, "spin": 1.0 }, { "x_m": -0.08, "y_m": 0.08, "spin": -1.0 },
+                    { "x_m": -0.08, "y_m": -0.08, "spin": 1.0 }, { "x_m": 0.08, "y_m": -0.08, "spin": -1.0 }] },
+            "world": { "size_m": [20.0, 20.0, 20.0] },
+            "task": { "start_m": [2.0, 2.0, 5.0], "end_m": [14.0, 14.0, 12.0], "length": 5 },
+            "spec": spec,
+        }))
+        .unwrap();
+        Setup::new(scenario).unwrap()
+    }
+
+    fn outcomes(count: usize, badly: usize) -> Vec<Outcome> {
+        let one = |i: usize| {
+            let ended_badly = i < badly;
+            let worst = vec![Some(if ended_badly { f64::INFINITY } else { 0.01 * i as f64 })];
+            Outcome { worst, ended_badly, left_world: false }
+        };
+        (0..count).map(one).collect()
+    }
+
+    #[test]
+    fn a_limit_is_what_the_share_breaks() {
+        let setup = setup(json!({ "deviation": { "max_m": 9.0, "from": "path", "corner_m": 1.0 } }));
+        let found = propose(&setup, &outcomes(200, 0), 0.05);
+        let [only] = found.as_slice() else { panic!("{found:?}") };
+        assert_eq!((only.field, only.cases, &only.reason), ("spec.deviation.max_m", 200, &None));
+        assert!((only.value.unwrap() - 1.89).abs() < 1e-12, "{only:?}");
+        let [low, high] = only.interval.unwrap();
+        assert!((low - 1.83).abs() < 1e-12 && (high - 1.96).abs() < 1e-12, "{only:?}");
+        assert_eq!(
+            json!(spec(&setup, &found)),
+            json!({ "deviation": { "max_m": 1.89, "from": "path", "corner_m": 1.0 } })
+        );
+    }
+
+    #[test]
+    fn too_little_gives_no_number_and_says_why() {
+        let setup = setup(json!("none"));
+        let reason = |outcomes: &[Outcome], share| {
+            let found = propose(&setup, outcomes, share).remove(0);
+            assert_eq!((found.value, found.interval), (None, None));
+            found.reason.unwrap()
+        };
+        assert!(reason(&outcomes(199, 0), 0.05).contains("199 cases were measured, and 200 are the least"));
+        assert!(reason(&outcomes(200, 0), 0.01).contains("too few for an interval of what 1 % break"));
+        assert!(reason(&outcomes(200, 9), 0.05).contains("9 of 200 cases crash"));
+        assert!(reason(&outcomes(300, 300), 0.05).contains("every case crashes"));
+        assert!(reason(&[], 0.05).contains("0 cases were measured"));
+        let found = propose(&setup, &outcomes(200, 0), 0.05);
+        assert_eq!(json!(spec(&setup, &found)), json!({ "deviation": { "max_m": 1.89 } }));
+    }
+}

@@ -1,0 +1,172 @@
+//! What a campaign's stress stands beside: as many numbers from cases that nobody chose, flown alike.
+
+use super::case::CaseResult;
+use super::digits::number;
+use super::setup::Setup;
+use crate::judgement::{Measures, Statistics, Stress, Violation, mean_interval};
+
+/// How they are drawn.
+pub const SAMPLER: &str = "drawn exactly uniform over the feasible trajectories of a sampled graph, one graph for each";
+
+/// Random feasible cases, measured by what the campaign searches for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Baseline {
+    /// Cases that were measured.
+    pub cases: usize,
+    /// Runs of all cases.
+    pub executions: usize,
+    /// What is measured, of each case its worst run.
+    pub stress: Stress,
+    /// Whether less is worse: [`Stress::is_turned`]. Numbers here are as they were measured.
+    pub less_is_worse: bool,
+    /// In the unit of the stress.
+    pub mean: f64,
+    /// 95 % interval of the mean by Student's t, at 0 at least where nothing can be below; `None` for a single case.
+    pub interval: Option<[f64; 2]>,
+    /// In the unit of the stress.
+    pub median: f64,
+    /// The largest.
+    pub max: f64,
+    /// The worst: the largest, or the least where less is worse.
+    pub worst: f64,
+}
+
+impl Baseline {
+    /// Of cases whose `results` were `repeat` runs each; `None` where none was measured.
+    pub fn of(stress: Stress, repeat: u64, results: &[CaseResult]) -> Option<Self> {
+        let measured: Vec<(f64, bool)> = values(stress, results).collect();
+        let less_is_worse = measured.iter().any(|(_, turned)| *turned);
+        let values: Vec<f64> = measured.into_iter().map(|(value, _)| value).collect();
+        let Statistics { mean, median, min, max, .. } = Statistics::of(&values)?;
+        let bound = |end: f64| if min >= 0.0 { end.max(0.0) } else { end };
+        Some(Self {
+            cases: values.len(),
+            executions: results.len() * repeat as usize,
+            stress,
+            less_is_worse,
+            mean,
+            interval: mean_interval(&values).map(|ends| ends.map(bound)),
+            median,
+            max,
+            worst: if less_is_worse { min } else { max },
+        })
+    }
+
+    /// By how many percent the mean of `results` lies above its own; `None` where less is worse, or one of them is not
+    /// above 0.
+    pub fn stress_percent(&self, results: &[CaseResult]) -> Option<f64> {
+        let values: Vec<f64> = values(self.stress, results).map(|(value, _)| value).collect();
+        let Statistics { mean, .. } = Statistics::of(&values)?;
+        let told = !self.less_is_worse && mean > 0.0 && self.mean > 0.0;
+        told.then(|| 100.0 * (mean / self.mean - 1.0))
+    }
+
+    /// `random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20`.
+    pub fn in_words(&self, setup: &Setup) -> String {
+        let name = match self.stress {
+            Stress::MaxDeviation => String::new(),
+            other => format!(": {}", other.word().replace('-', " ")),
+        };
+        let [mean, worst] = [self.mean, self.worst].map(|value| self.told(setup, value));
+        let interval = self.interval_in_words(setup).map_or(String::new(), |interval| format!(" ({interval})"));
+        format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {}", self.cases)
+    }
+
+    /// What they are, for whoever reads what a campaign rests on.
+    pub fn said(&self) -> String {
+        format!(
+            "Random feasible cases: {} of the same feasible set, {SAMPLER}, with as many runs each and draws of their own (baseline.parquet); \
+             measured, not judged, and counted nowhere. The interval of their mean is Student's, 95 %.",
+            self.cases
+        )
+    }
+
+    /// `1.05 to 1.40`, in the unit that [`Self::told`] has.
+    pub fn interval_in_words(&self, setup: &Setup) -> Option<String> {
+        let [low, high] = self.interval?.map(|end| self.in_unit(setup, end).0);
+        Some(format!("{} to {}", number(Some(low)), number(Some(high))))
+    }
+
+    /// `value` with the unit that it is told in.
+    pub fn told(&self, setup: &Setup, value: f64) -> String {
+        match self.in_unit(setup, value) {
+            (value, unit) if unit == "°" => format!("{value:.1}°"),
+            (value, unit) if unit.is_empty() => number(Some(value)),
+            (value, unit) => format!("{} {unit}", number(Some(value))),
+        }
+    }
+
+    fn in_unit(&self, setup: &Setup, value: f64) -> (f64, String) {
+        let what = if self.stress == Stress::MaxDeviation { "deviation" } else { self.stress.word() };
+        let unit = self.stress.unit().to_owned();
+        let measured = Violation { what: what.into(), value, limit: 0.0, unit, at: 0.0, leg: 0 };
+        let Violation { value, unit, .. } = match setup.kind().programs() {
+            Some(programs) => programs.in_their_units(measured),
+            None => measured,
+        };
+        (value, unit)
+    }
+}
+
+/// What was measured of each case's worst run, and whether less of it is worse.
+fn values(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = (f64, bool)> {
+    let value = move |measures: &Measures| {
+        let turned = stress.is_turned(measures);
+        Some((stress.of(measures).filter(|value| value.is_finite())? * if turned { -1.0 } else { 1.0 }, turned))
+    };
+    results.iter().filter_map(move |result| value(result.measures.as_ref()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::{CaseNumber, Status};
+
+    fn results(of: &[Option<f64>], measure: fn(f64) -> Measures) -> Vec<CaseResult> {
+        let one = |(number, value): (usize, &Option<f64>)| CaseResult {
+            case: CaseNumber(number),
+            status: Status::Unjudged,
+            run: 0,
+            measures: value.map(measure),
+            ended: "done".into(),
+            left_world: None,
+            violations: Vec::new(),
+            drawn: Vec::new(),
+            message: None,
+            reruns: None,
+            draws: None,
+        };
+        of.iter().enumerate().map(one).collect()
+    }
+
+    fn deviating(by: &[Option<f64>]) -> Vec<CaseResult> {
+        results(by, |max_deviation| Measures { max_deviation, ..Measures::default() })
+    }
+
+    #[test]
+    fn what_could_be_measured_counts() {
+        let of = |values: &[Option<f64>]| Baseline::of(Stress::MaxDeviation, 3, &deviating(values));
+        let found = of(&[Some(1.0), None, Some(3.0), Some(8.0)]).unwrap();
+        assert_eq!((found.cases, found.executions, found.less_is_worse), (3, 12, false));
+        assert_eq!((found.mean, found.median, found.max, found.worst), (4.0, 3.0, 8.0, 8.0));
+        // s² = 13: 4 ± 4.3027 √(13/3), and no distance is below 0.
+        let [low, high] = found.interval.unwrap();
+        assert!(low == 0.0 && (high - 12.9566).abs() < 1e-3, "{low} {high}");
+        assert_eq!((of(&[None]), of(&[Some(f64::NAN)])), (None, None));
+        assert_eq!(of(&[Some(2.0)]).unwrap().interval, None);
+    }
+
+    #[test]
+    fn stress_is_told_by_the_mean() {
+        let random = Baseline::of(Stress::MaxDeviation, 1, &deviating(&[Some(1.0), Some(3.0)])).unwrap();
+        let percent = |values: &[Option<f64>]| random.stress_percent(&deviating(values));
+        assert_eq!((percent(&[Some(3.0), Some(5.0)]), percent(&[Some(1.0)])), (Some(100.0), Some(-50.0)));
+        assert_eq!((percent(&[None]), percent(&[Some(0.0)])), (None, None));
+        let near = |values: &[Option<f64>]| {
+            results(values, |clearance| Measures { min_clearance: Some(clearance), ..Measures::default() })
+        };
+        let clear = Baseline::of(Stress::Clearance, 1, &near(&[Some(0.5), Some(0.2), Some(0.8)])).unwrap();
+        assert_eq!((clear.mean, clear.max, clear.worst, clear.less_is_worse), (0.5, 0.8, 0.2, true));
+        assert_eq!(clear.stress_percent(&near(&[Some(0.1)])), None);
+    }
+}
