@@ -41,19 +41,31 @@ pub(super) fn leg_pieces(waypoints: &[Point3<f64>]) -> Vec<Piece> {
 }
 
 /// The rising sequence of pieces j(0) ≤ j(1) ≤ … that minimises Σ weight_i · distance(sample_i, piece_j(i))²; among
-/// equals the one that stays behind longest. Pieces may be skipped. Exact, in O(samples · pieces) time where samples
-/// are far from all pieces, in O(samples + pieces) where they are near theirs ([`narrowed`]), and in linear memory
-/// (Hirschberg 1975: the middle sample's piece splits the problem in two).
+/// equals the one that stays behind longest. Pieces may be skipped. In O(samples + pieces) time and linear memory
+/// (Hirschberg 1975: the middle sample's piece splits the problem in two): exact where samples are near their pieces
+/// ([`narrowed`]) or there are few of both; else the best in a band around the assignment of every so-many-th sample,
+/// which widens until the best touches it nowhere.
 pub(super) fn monotone(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) -> Vec<usize> {
     let mut assigned = vec![0; samples.len()];
     if !pieces.is_empty() {
         let problem = Problem { samples, weights, pieces };
         let whole = std::iter::repeat_n(0..pieces.len(), samples.len());
         let windows = narrowed(whole, |sample, piece| problem.cost(sample, piece));
-        problem.split(0, &windows, 0..pieces.len(), &mut assigned);
+        match windows.iter().map(Range::len).sum::<usize>() {
+            much if much > MUCH => problem.around(&windows, &mut assigned),
+            _ => problem.split(0, &windows, 0..pieces.len(), &mut assigned),
+        }
     }
     assigned
 }
+
+/// Pairs of a sample and a piece that are looked at all.
+const MUCH: usize = 200_000;
+/// Samples that are assigned first where there are more pairs.
+const FIRST: usize = 128;
+/// Pieces on either side of a band at first, and how many times wider the next one is.
+const BAND: usize = 8;
+const WIDER: usize = 4;
 
 struct Problem<'a> {
     samples: &'a [Point3<f64>],
@@ -73,6 +85,34 @@ impl Problem<'_> {
     fn cost(&self, sample: usize, piece: usize) -> f64 {
         let Piece { from, to, .. } = &self.pieces[piece];
         self.weights[sample] * square(point_distance(&self.samples[sample], from, to))
+    }
+
+    /// The best in a band around the assignment of every so-many-th sample, within `windows`.
+    fn around(&self, windows: &[Range<usize>], out: &mut [usize]) {
+        let stride = self.samples.len().div_ceil(FIRST);
+        let samples: Vec<_> = self.samples.iter().copied().step_by(stride).collect();
+        let weights: Vec<f64> = self.weights.chunks(stride).map(|block| block.iter().sum()).collect();
+        let first = Problem { samples: &samples, weights: &weights, pieces: self.pieces };
+        let few: Vec<_> = windows.iter().cloned().step_by(stride).collect();
+        let mut near = vec![0; samples.len()];
+        first.split(0, &few, 0..self.pieces.len(), &mut near);
+        let mut side = BAND;
+        loop {
+            let band = |(sample, window): (usize, &Range<usize>)| {
+                let (before, after) = (near[sample / stride], near[(sample / stride + 1).min(near.len() - 1)]);
+                let start = before.saturating_sub(side).clamp(window.start, window.end - 1);
+                start..(after + side + 1).clamp(start + 1, window.end)
+            };
+            let banded: Vec<Range<usize>> = windows.iter().enumerate().map(band).collect();
+            self.split(0, &banded, 0..self.pieces.len(), out);
+            let touches = |(piece, (band, window)): (&usize, (&Range<usize>, &Range<usize>))| {
+                (*piece == band.start && band.start > window.start) || (piece + 1 == band.end && band.end < window.end)
+            };
+            if !out.iter().zip(banded.iter().zip(windows)).any(touches) {
+                return;
+            }
+            side *= WIDER;
+        }
     }
 
     /// Halves the samples (Hirschberg, CACM 18, 1975): least sums of weighted squared distances of the first half
@@ -185,6 +225,35 @@ mod tests {
         let (mut assigned, whole) = (vec![0; samples.len()], vec![0..pieces.len(); samples.len()]);
         Problem { samples, weights, pieces }.split(0, &whole, 0..pieces.len(), &mut assigned);
         assigned
+    }
+
+    #[test]
+    fn the_band_around_a_coarse_assignment_holds_the_best() {
+        for seed in 0..6 {
+            let mut random = stream(seed);
+            // A path that crosses itself, and samples that stray from it by metres and stop in places.
+            let (a, b) = (random.random_range(1.0..4.0), random.random_range(1.0..4.0));
+            let at =
+                |u: f64| Point3::new(10.0 * libm::sin(a * u), 10.0 * libm::sin(b * u + 1.0), 3.0 * libm::sin(2.0 * u));
+            let path: Vec<_> = (0..=600).map(|k| at(f64::from(k) / 100.0)).collect();
+            let pieces: Vec<Piece> =
+                path.windows(2).enumerate().map(|(owner, p)| Piece { from: p[0], to: p[1], owner }).collect();
+            let mut u = 0.0;
+            let stray = random.random_range(0.5..6.0);
+            let samples: Vec<_> = (0..1500)
+                .map(|i| {
+                    u += if i % 400 > 300 { 0.0 } else { 6.0 / 1100.0 };
+                    at(u)
+                        + nalgebra::Vector3::new(libm::sin(0.02 * f64::from(i)), libm::cos(0.013 * f64::from(i)), 0.3)
+                            * stray
+                })
+                .collect();
+            let weights = vec![0.01; samples.len()];
+            let problem = Problem { samples: &samples, weights: &weights, pieces: &pieces };
+            let sum = |assigned: &[usize]| assigned.iter().enumerate().map(|(i, j)| problem.cost(i, *j)).sum::<f64>();
+            let (band, full) = (monotone(&samples, &weights, &pieces), in_full(&samples, &weights, &pieces));
+            assert!(sum(&band) <= sum(&full) * (1.0 + 1e-9), "{seed}: {} {}", sum(&band), sum(&full));
+        }
     }
 
     #[test]
