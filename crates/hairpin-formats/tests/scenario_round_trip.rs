@@ -33,13 +33,19 @@ fn overrides() -> impl Strategy<Value = Vec<(String, String)>> {
         any::<bool>(),
         0.01..10.0,
     );
-    let execute = (prop_oneof![Just("minimum-snap"), Just("geometric")], 1u64..100, 1e-5..1e-3, any::<bool>());
+    let controller = prop_oneof![
+        Just(("minimum-snap", 0.5)),
+        Just(("geometric", 1.0)),
+        Just(("px4-mission", 2.0)),
+        (0.01..100.0).prop_map(|speed| ("crazyflie-goto", speed)),
+    ];
+    let execute = (controller, 1u64..100, 1e-5..1e-3, any::<bool>());
     let seed = 0u64..=i64::MAX as u64;
     (space, obstacles, generate, execute, seed, 1e-300..1e6).prop_map(
         |(space, obstacles, generate, execute, seed, max)| {
             let (size, margin, start, end) = space;
             let (reach, method, waypoints, revisits, step) = generate;
-            let (controller, repeat, physics, noise) = execute;
+            let ((controller, goto_speed), repeat, physics, noise) = execute;
             vec![
                 set("world.obstacles", obstacles),
                 set("world.size_m", size),
@@ -52,6 +58,7 @@ fn overrides() -> impl Strategy<Value = Vec<(String, String)>> {
                 set("generate.search.waypoints", waypoints),
                 set("generate.search.revisits", revisits),
                 set("execute.controller", controller),
+                set("execute.goto_speed_m_s", format!("{goto_speed:?}")),
                 set("execute.repeat", repeat),
                 set("execute.step_s", format!("{physics:?}")),
                 set("execute.noise", noise),

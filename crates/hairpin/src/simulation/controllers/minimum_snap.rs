@@ -69,3 +69,59 @@ impl Controller<Quadrotor> for MinimumSnap {
         self.curve.as_ref().map(Curve::schedule)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::simulation::tests::{cage, shipped};
+    use crate::simulation::{Conditions, ControllerKind, ControllerSettings, FlySettings, Sortie, fly};
+    use crate::trajectory::{Ended, Flight};
+
+    /// Largest distance of a flight from the curve's point at its time, m.
+    fn behind(flight: &Flight, curve: &Curve) -> f64 {
+        let (mut point, mut clock, mut farthest) = (curve.clone(), 0.0, 0.0f64);
+        for (i, t) in flight.track.times().iter().enumerate() {
+            point.advance(t - clock);
+            clock = *t;
+            farthest = farthest.max((point.sample()[0] - flight.track.position(i).coords).norm());
+        }
+        farthest
+    }
+
+    /// What is not fed forward is missed by: the same curve, followed with its acceleration, is met. It is no matter of
+    /// time, and of no robot: the run is over with the curve, 40 s and more before its limit.
+    #[test]
+    fn waypoints_are_missed_by_the_acceleration_that_is_not_fed_forward() {
+        let waypoints =
+            [[1.0, 1.0, 2.0], [5.0, 2.0, 4.0], [2.0, 5.0, 5.0], [6.0, 6.0, 3.0], [3.0, 2.0, 5.0], [7.0, 4.0, 4.0]]
+                .map(Point3::from);
+        let world = cage();
+        for robot in shipped() {
+            let curve = Curve::through(&waypoints, &Pace::new(&robot, SegmentTimes::SqrtLength)).unwrap();
+            let (mut point, mut hardest) = (curve.clone(), 0.0f64);
+            while !point.schedule().over {
+                hardest = hardest.max(point.sample()[2].norm());
+                point.advance(0.01);
+            }
+            let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+            let flown = |kind, accept| {
+                let controller = ControllerSettings { kind, ..ControllerSettings::default() };
+                let settings = FlySettings { accept, ..FlySettings::default() };
+                fly(&sortie, &controller, &Conditions::default(), &settings, 1).unwrap()
+            };
+            // At a steady acceleration the velocity loop needs a/K_v, and the position loop e = a/(K_p K_v) for that.
+            let expected = hardest / (GAINS.position.x * GAINS.velocity_p.x);
+            let narrow = flown(ControllerKind::MinimumSnap, 0.15);
+            let late = behind(&narrow, &curve);
+            let told = format!("{}: {late} m where {expected} m are expected", robot.name);
+            assert!(late > 0.4 * expected && late < 1.2 * expected, "{told}");
+            assert!(narrow.ended == Ended::Time && narrow.reached.last().is_some_and(Option::is_some), "{told}");
+            assert!(*narrow.track.times().last().unwrap() < 50.0, "{told}");
+            assert_eq!(flown(ControllerKind::MinimumSnap, 1.5).ended, Ended::Done, "{told}");
+            let tracked = flown(ControllerKind::Geometric, 0.3);
+            assert!(tracked.ended == Ended::Done && behind(&tracked, &curve) < 0.2 * late, "{told}");
+        }
+    }
+}
