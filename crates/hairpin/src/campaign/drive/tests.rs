@@ -226,7 +226,7 @@ fn what_is_kept_is_confirmed_under_what_varies() {
     let confirmed = ("generate.search.confirm", json!(2));
     let late = ("vary", json!({ "execute.latency_s": { "uniform": [0.4, 0.5] } }));
     let (once, alone) = stress(&[]);
-    let (same, still) = stress(&[late.clone()]);
+    let (same, still) = stress(std::slice::from_ref(&late));
     let (thrice, varied) = stress(&[confirmed.clone(), late]);
     let (_, unvaried) = stress(&[confirmed]);
     assert_eq!((once, same, thrice), (1, 1, 3));
