@@ -135,11 +135,11 @@ fn a_program_of_the_users_flies_them_as_well() {
     run(here, &["export", "a", "--to", "waypoints"]);
     run(here, &["execute", "a", "--missions", "a/missions"]);
     assert!(!here.join("a/baseline.parquet").exists());
-    // Programs of arms are not drawn at random.
+    // Programs of arms are drawn as well.
     let arm =
         ["stress", "demo-arm", "--set", "execute.baseline=3", "--set", "generate.search.programs=1", "--out", "arm"];
     let object = json(here, &arm);
-    assert_eq!(object["baseline"], Value::Null);
+    assert_eq!(object["baseline"]["cases"], json!(3), "{object}");
 }
 
 #[test]
@@ -192,10 +192,9 @@ fn too_few_flights_give_no_number() {
         out.starts_with("spec.deviation.max_m: no limit: 30 cases were measured") && !out.contains("[spec]"),
         "{out}"
     );
-    // Nothing is feasible; nothing is drawn of arms; a share that no number of cases shows.
+    // Nothing is feasible; a share that no number of cases shows.
     let far = [&few[..], &["--set", "generate.timing.step_s=0.05"]].concat();
     assert_eq!(json(here, &far)["exit_code"], 3);
-    refused(here, &["calibrate", "demo-arm"], &["nothing is drawn at random"]);
     refused(here, &["calibrate", "hull.toml", "--share", "0"], &["--share", "0.001 to 0.5"]);
     // A program of the user's flies them.
     fs::copy(MINIMAL, here.join("fly.py")).unwrap();

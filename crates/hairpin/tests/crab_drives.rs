@@ -3,7 +3,7 @@
 
 use hairpin::campaign::drive::Site;
 use hairpin::feasibility::reach::drive::{
-    DriveSettings, DriveSite, GroundSampling, LegRefusal, Manoeuvres, sample_ground,
+    DriveDraft, DriveSettings, DriveSite, GroundSampling, LegRefusal, Manoeuvres, sample_ground,
 };
 use hairpin::feasibility::reach::{DriveRoadmap, Reach};
 use hairpin::feasibility::steering::shooting::families::Problem;
@@ -84,7 +84,7 @@ fn every_manoeuvre_over_craters_turns_its_direction_from_waypoint_to_waypoint() 
         assert_eq!(leg.direction.start, drives[0].legs[0].direction.start);
         ends.push(leg.direction.end);
         let (start, end) = (drive.passing(0).expect("a start"), drive.passing(1).expect("an end"));
-        let same = DriveRoadmap::through(site, &[start, end], &settings).expect("the same leg");
+        let same = DriveDraft::new(&[start, end], &settings).driven(&site, &settings).expect("the same leg");
         assert_eq!(same.legs[0].segments, leg.segments);
     }
     ends.sort_by(f64::total_cmp);
@@ -212,7 +212,7 @@ fn each_controller_follows_a_direction_that_turns() {
         passing(6.0, 1.5, 0.1, -0.5),
         passing(3.0, 0.5, 0.2, 0.3),
     ];
-    let plan = DriveRoadmap::through(site, &passings, &settings).expect("a plan");
+    let plan = DriveDraft::new(&passings, &settings).driven(&site, &settings).expect("a plan");
     plan.legs.iter().for_each(|leg| assert!(off(&rover, &map, &plan, leg) < 0.01, "{leg:?}"));
     assert!(plan.legs.iter().any(|leg| leg.segments[0].gear == Gear::Reverse));
     let slips = Rover { slip: Slip { at_20_deg: 0.3, side_at_20_deg: 0.15 }, ..rover.clone() };

@@ -30,7 +30,7 @@ pub struct Executor<'a> {
 }
 
 /// Random feasible cases where the scenario does not say how many.
-pub(in crate::campaign) const BASELINE: u64 = 0;
+pub(in crate::campaign) const BASELINE: u64 = 20;
 
 /// When a run is given up: after a time that is given, else after what it may be expected to take.
 #[derive(Debug, Clone, Copy, PartialEq)]
