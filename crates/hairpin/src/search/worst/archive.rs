@@ -15,6 +15,8 @@ pub(super) struct Member<P> {
     pub(super) placed: Placed,
     /// Step of its moved waypoints, as a share of its mean leg.
     pub(super) step: f64,
+    /// Its number among all that were executed.
+    pub(super) number: u64,
 }
 
 /// Executed trajectories in the order of their stress, of which some stand.
@@ -62,6 +64,11 @@ impl<P> Archive<P> {
     /// Where what was executed stands on the archive's scale.
     pub(super) fn place(&self, trace: &Trace) -> Placed {
         self.scale.place(trace)
+    }
+
+    /// The place of execution number `number` among those that stand.
+    pub(super) fn rank(&self, number: u64) -> Option<usize> {
+        self.standing().position(|member| member.number == number)
     }
 
     /// How many stand.
@@ -130,7 +137,7 @@ mod tests {
 
     fn member(x: f64, stress: f64) -> Member<f64> {
         let trial = Trial { stress, worst_leg: 0, executions: 1 };
-        Member { plan: x, trial, placed: scale().place(&trace(x)), step: 0.1 }
+        Member { plan: x, trial, placed: scale().place(&trace(x)), step: 0.1, number: 0 }
     }
 
     fn plans(archive: &Archive<f64>) -> Vec<f64> {

@@ -71,19 +71,19 @@ pub(super) struct Child<P> {
     pub(super) step: f64,
 }
 
-/// A child by `change` of `parents`, the most stressful first; `None` where none of eight tries is feasible. `draw` is
+/// A child by `change` of `parents`, the most stressful first, of which the first `cases` would be the answer; `None` where none of eight tries is feasible. `draw` is
 /// the number of the plan that is drawn.
 pub(super) fn child<F: Field>(
     field: &F,
     change: Change,
-    parents: &[&Member<F::Plan>],
+    (parents, cases): (&[&Member<F::Plan>], usize),
     draw: u64,
     random: &mut Stream,
 ) -> Option<Child<F::Plan>> {
     if change == Change::Draw || parents.is_empty() {
         return field.draw(draw).ok().map(|plan| Child { plan, step: FIRST_STEP });
     }
-    let parent = parents[among(parents.len(), random)];
+    let parent = parents[own(parents.len(), cases, random)];
     let step = (parent.step * libm::exp(STEPS_VARY * standard_normals::<1>(random)[0])).clamp(STEPS[0], STEPS[1]);
     (0..TRIES).find_map(|retry| {
         let shrunk = step * libm::pow(0.6, f64::from(retry));
@@ -127,6 +127,12 @@ fn changed<F: Field>(
             field.over(&parent.plan, &moved(change, points, worst, step, random)?)
         }
     }
+}
+
+/// Who is changed: every second time one of those that would be the answer, all of them alike, so that each of their
+/// places is searched; else one of all, the first more often.
+fn own(count: usize, cases: usize, random: &mut Stream) -> usize {
+    if unit(random) < 0.5 { random.random_range(0..count.min(cases.max(1))) } else { among(count, random) }
 }
 
 /// One of `count`, the first more often: u^1.5 of them.

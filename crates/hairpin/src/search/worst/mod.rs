@@ -51,7 +51,7 @@ const PARENTS: usize = 12;
 const FRUITLESS: u32 = 20;
 /// Draws for one that is feasible, at most.
 const DRAWS: u64 = 50;
-/// What a child that stands as a parent is worth beside one that is among the cases.
+/// What a child that stands as a parent is worth, beside one that is the worst of all cases.
 const REWARD: f64 = 0.3;
 
 /// What is asked for.
@@ -144,6 +144,7 @@ fn offer<P: Clone>(archives: &mut [Archive<P>], executed: Vec<Executed<P>>) {
             trial: executed.trials[target],
             placed: archive.place(&executed.trace),
             step: executed.step,
+            number: executed.number,
         });
         let members = members.collect();
         archive.take(members);
@@ -191,6 +192,8 @@ struct Executed<P> {
     trials: Vec<Trial>,
     trace: Trace,
     step: f64,
+    /// Executions before it.
+    number: u64,
 }
 
 /// What became of a place of a round.
@@ -253,13 +256,11 @@ impl<F: Field> Search<'_, F> {
             let target = targets.draw(&mut stream(named_seed(self.settings.seed, "target", number)));
             number += 1;
             let (archive, portfolio) = (&archives[target], &mut portfolios[target]);
-            if archive.len() == 0 && archives.iter().all(|archive| archive.len() == 0) {
+            if archives.iter().all(|archive| archive.len() == 0) {
                 break;
             }
-            // What stands as a case, and what stands at all.
             let cases = self.settings.cases.div_ceil(archives.len());
             let least: Vec<f64> = archives.iter().map(|archive| archive.least(cases)).collect();
-            let stands = archive.least(archive.len());
             let slots = self.round(archive, changes, portfolio);
             let (mut tried, mut children) = (Vec::new(), Vec::new());
             for Slot { change, child } in slots {
@@ -273,14 +274,19 @@ impl<F: Field> Search<'_, F> {
             }
             let executed = self.execute(children, &least);
             fruitless = if executed.iter().any(Option::is_some) { 0 } else { fruitless + 1 };
-            for (change, executed) in tried.iter().zip(&executed) {
-                let stress = executed.as_ref().map_or(f64::NEG_INFINITY, |executed| executed.trials[target].stress);
-                let reward = if stress > least[target] { 1.0 } else { REWARD * f64::from(u8::from(stress > stands)) };
-                portfolio.reward(*change, reward);
-                targets.reward(target, reward);
-                self.drawn += u64::from(changes[*change] == Change::Draw && executed.is_some());
-            }
+            let numbers: Vec<Option<u64>> =
+                executed.iter().map(|executed| executed.as_ref().map(|executed| executed.number)).collect();
             offer(archives, executed.into_iter().flatten().collect());
+            for (change, number) in tried.into_iter().zip(numbers) {
+                let reward = match number.and_then(|number| archives[target].rank(number)) {
+                    Some(rank) if rank < cases => 1.0 - (1.0 - REWARD) * rank as f64 / cases as f64,
+                    Some(_) => REWARD,
+                    None => 0.0,
+                };
+                portfolios[target].reward(change, reward);
+                targets.reward(target, reward);
+                self.drawn += u64::from(changes[change] == Change::Draw && number.is_some());
+            }
             told(self.stresses.len() as u64);
         }
     }
@@ -292,13 +298,13 @@ impl<F: Field> Search<'_, F> {
         self.slots += count;
         self.draws += count;
         let (field, seed) = (self.field, self.settings.seed);
-        let parents: Vec<_> = archive.standing().collect();
+        let (parents, cases): (Vec<_>, _) = (archive.standing().collect(), self.settings.cases);
         (first..first + count)
             .into_par_iter()
             .map(|slot| {
                 let mut random = stream(named_seed(seed, "worst", slot));
                 let change = portfolio.draw(&mut random);
-                let child = child(field, changes[change], &parents, draws + (slot - first), &mut random);
+                let child = child(field, changes[change], (&parents, cases), draws + (slot - first), &mut random);
                 Slot { change, child }
             })
             .collect()
@@ -332,12 +338,13 @@ impl<F: Field> Search<'_, F> {
                 Ran { trials: ran.trials.into_iter().map(finite).collect(), ..ran }
             });
             let stresses = ran.as_ref().map(|ran| ran.trials.iter().map(|trial| trial.stress).collect());
+            let number = self.stresses.len() as u64;
             let executions =
                 ran.as_ref().map_or(1, |ran| ran.trials.iter().map(|trial| trial.executions).max().unwrap_or(1));
             self.stresses.extend((0..executions).map(|_| stresses.clone()));
             executed.push(ran.map(|Ran { trials, behaviour }| {
                 let route = Route::along(self.field.points(&plan));
-                Executed { plan, trials, trace: Trace { route, behaviour }, step }
+                Executed { plan, trials, trace: Trace { route, behaviour }, step, number }
             }));
         }
         executed
