@@ -246,7 +246,16 @@ fn a_drive_that_is_planned_to_creep_is_not_stuck() {
 fn cars_shunt_and_every_reach_set_takes_every_score() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let few = ["--set", "generate.search.cases=1", "--set", "generate.search.waypoints=20", "--set", "task.length=3"];
+    let few = [
+        "--set",
+        "generate.search.method=beam",
+        "--set",
+        "generate.search.cases=1",
+        "--set",
+        "generate.search.waypoints=20",
+        "--set",
+        "task.length=3",
+    ];
     for reach in ["none", "sphere", "hull"] {
         let reach = format!("generate.reach=\"{reach}\"");
         let mut scores = Vec::new();

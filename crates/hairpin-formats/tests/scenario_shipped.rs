@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::drive::DriveSetup;
-use hairpin::campaign::scenario::{FlightScenario, RobotSource};
+use hairpin::campaign::scenario::{DeviationFrom, FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin_formats::scenario::{Report, read_setup, setup_for, to_toml};
 use hairpin_formats::{library, schema, template};
@@ -84,7 +84,7 @@ fn every_shipped_file_validates_against_its_schema() {
         let told: Vec<_> = robots.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
         assert!(told.is_empty(), "{}: {told:?}", shipped.path);
     }
-    let broken = template::template("quadrotor").unwrap().replace("width = 5", "width = -5");
+    let broken = template::template("quadrotor").unwrap().replace("cases = 20", "cases = -20");
     assert!(!scenarios.is_valid(&value(&broken)));
 }
 
@@ -121,10 +121,10 @@ fn the_template_is_the_designs_example() {
     let read = flight(&read);
     assert_eq!((read.seed, read.task.length, read.execute.repeat), (10, 10, 5));
     let search = &read.generate.search;
-    assert_eq!((search.waypoints, search.width, search.cases, search.revisits), (250, 5, 200, false));
+    assert_eq!((search.waypoints, search.width, search.cases, search.revisits), (250, 5, 20, false));
     assert_eq!(read.generate.limits.max_tilt_deg, Some(35.0));
     assert_eq!(read.world.origin.unwrap().x_axis_heading_deg, 73.5);
-    assert_eq!(read.spec.deviation.unwrap().corner_m, 1.0);
+    assert_eq!(read.spec.deviation.unwrap().from, DeviationFrom::Path);
     assert!(read.vary.contains_key("world.wind_m_s"));
     assert_eq!(template::template("quadrotor"), library::scenarios().find(|s| s.name == "quadrotor").map(|s| s.text));
     assert_eq!(template::template("submarine"), None);

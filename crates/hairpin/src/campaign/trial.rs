@@ -10,7 +10,6 @@ use super::learn::LegSample;
 use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
-use super::select::behaviour;
 use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
 use crate::math::random::named_seed;
@@ -90,7 +89,7 @@ impl Trials<'_> {
                 (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
             }
         }
-        Some(Ran { trials, behaviour: behaviour(&executed.measures) })
+        Some(Ran { trials, behaviour: executed.measures.behaviour() })
     }
 
     /// The same once, with what there is to learn from it as trajectory number `trajectory`.

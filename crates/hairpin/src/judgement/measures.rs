@@ -124,4 +124,18 @@ impl Measures {
     pub fn max_overshoot(&self) -> f64 {
         self.overshoots.iter().copied().fold(0.0, f64::max)
     }
+
+    /// What tells one execution from another, each measure in its own unit. What a robot has no measure of counts as 0, of
+    /// all its executions alike.
+    pub fn behaviour(&self) -> Vec<f64> {
+        vec![
+            self.max_deviation,
+            self.mean_deviation,
+            self.max_overshoot(),
+            self.max_acceleration,
+            self.total_time,
+            self.min_clearance.unwrap_or(0.0),
+            self.saturation_share.unwrap_or(0.0),
+        ]
+    }
 }

@@ -1,9 +1,9 @@
 //! Which parts of a path a sample can belong to in the best assignment: what no best one has need not be looked at.
 //!
 //! Costs are not negative. So in a rising assignment of least cost no sample costs more than any one rising assignment
-//! does in all, and whoever has such a one, good or bad, may leave out every pair of a sample and a part that costs more.
-//! What is left is a narrow band where the motion is near its path, found in linear time; where it is not, it is wide,
-//! and the answer the same.
+//! does in all, and whoever has such a one, good or bad, may leave out every pair of a sample and a part that costs
+//! more. What is left is a narrow band where the motion is near its path, found in linear time; where it is not, it is
+//! wide, and the answer the same.
 
 use std::ops::Range;
 

@@ -46,9 +46,9 @@ impl JerkLimited {
 
     /// Moves on by `dt` s, each axis for its own share of that (0 … 1), towards the velocity `wanted` (m/s).
     ///
-    /// The axes come there together, in the time of the slowest, or before it where they accelerate already. `wanted` is
-    /// cut to each axis's speed, which is passed by no more than the acceleration of one turn; what is above its bound
-    /// comes down within the jerk.
+    /// The axes come there together, in the time of the slowest, or before it where they accelerate already. `wanted`
+    /// is cut to each axis's speed, which is passed by no more than the acceleration of one turn; what is above its
+    /// bound comes down within the jerk.
     pub fn follow(&mut self, wanted: &Vector3<f64>, limits: &[AxisLimits; 3], dt: f64) {
         let bound: [f64; 3] = std::array::from_fn(|i| wanted[i].min(limits[i].speed).max(-limits[i].speed));
         let fastest: [Ramp; 3] =

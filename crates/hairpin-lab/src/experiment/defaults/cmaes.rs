@@ -128,16 +128,67 @@ impl Cmaes {
 
     fn decompose(&mut self) {
         let symmetric = (&self.covariance + self.covariance.transpose()) * 0.5;
-        let decomposed = symmetric.symmetric_eigen();
-        let most = decomposed.eigenvalues.max();
-        self.axes = decomposed.eigenvectors;
-        self.lengths = decomposed.eigenvalues.map(|variance| variance.max(LEAST_VARIANCE * most).sqrt());
+        let (variances, axes) = eigen(symmetric);
+        let most = variances.max();
+        self.axes = axes;
+        self.lengths = variances.map(|variance| variance.max(LEAST_VARIANCE * most).sqrt());
     }
+}
+
+/// Sweeps over all pairs of axes at most; a dozen settle what there is.
+const SWEEPS: usize = 40;
+
+/// Eigenvalues and eigenvectors (columns) of a symmetric matrix by cyclic Jacobi rotations, which need no more than square
+/// roots: the same bits on every machine. Source: Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
+fn eigen(mut matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    let n = matrix.nrows();
+    let mut axes = DMatrix::identity(n, n);
+    let whole = matrix.norm();
+    for _ in 0..SWEEPS {
+        let mut off = 0.0;
+        for p in 0..n {
+            for q in p + 1..n {
+                let beside = matrix[(p, q)];
+                off += beside * beside;
+                if beside == 0.0 {
+                    continue;
+                }
+                let tau = (matrix[(q, q)] - matrix[(p, p)]) / (2.0 * beside);
+                let t = (1.0 / (tau.abs() + (1.0 + tau * tau).sqrt())).copysign(tau);
+                let cos = 1.0 / (1.0 + t * t).sqrt();
+                let sin = t * cos;
+                for k in 0..n {
+                    let (a, b) = (matrix[(k, p)], matrix[(k, q)]);
+                    (matrix[(k, p)], matrix[(k, q)]) = (cos * a - sin * b, sin * a + cos * b);
+                }
+                for k in 0..n {
+                    let (a, b) = (matrix[(p, k)], matrix[(q, k)]);
+                    (matrix[(p, k)], matrix[(q, k)]) = (cos * a - sin * b, sin * a + cos * b);
+                    let (a, b) = (axes[(k, p)], axes[(k, q)]);
+                    (axes[(k, p)], axes[(k, q)]) = (cos * a - sin * b, sin * a + cos * b);
+                }
+            }
+        }
+        if off.sqrt() <= 1e-15 * whole {
+            break;
+        }
+    }
+    (matrix.diagonal(), axes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn axes_are_those_of_the_matrix() {
+        let a = DMatrix::from_fn(7, 7, |i, j| libm::sin((3 * i + 5 * j) as f64));
+        let symmetric = &a * a.transpose();
+        let (values, axes) = eigen(symmetric.clone());
+        let again = &axes * DMatrix::from_diagonal(&values) * axes.transpose();
+        assert!((again - &symmetric).norm() < 1e-12 * symmetric.norm(), "{values}");
+        assert!((axes.transpose() * &axes - DMatrix::identity(7, 7)).norm() < 1e-12);
+    }
 
     /// Smallest value of `f` after so many generations.
     fn least(f: impl Fn(&DVector<f64>) -> f64, n: usize, generations: usize) -> f64 {

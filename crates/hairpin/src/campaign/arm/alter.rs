@@ -217,7 +217,8 @@ impl Ways<'_> {
     }
 }
 
-/// The place of a point that leg number `leg` leads to, or comes from: legs lead from home to where moves end, and home.
+/// The place of a point that leg number `leg` leads to, or comes from: legs lead from home to where moves end, and
+/// home.
 fn place_of(way: &[Met], leg: usize, random: &mut Stream) -> Option<usize> {
     let ends: Vec<usize> = (0..way.len()).filter(|k| !way[*k].passed).collect();
     let comes_from = unit(random) < 0.5;

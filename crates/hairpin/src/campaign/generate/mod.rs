@@ -16,16 +16,14 @@ mod worst;
 
 use std::collections::HashSet;
 
-use nalgebra::Point3;
 use rayon::prelude::*;
 
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
-use super::graph::{Outcome, Wanted, fingerprint};
+use super::graph::{Outcome, Wanted, fingerprint, met};
 use super::scenario::SearchMethod;
 use super::trial::kept_seed;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
-use crate::trajectory::program::{Motion, Program};
 pub use by_chance::{ByChance, Purpose, by_chance};
 pub use known::Known;
 pub use optima::{Optimum, optima};
@@ -166,15 +164,6 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
         }
     }
     total
-}
-
-/// What tells one case from another: its waypoints, and the points that the arcs of its program pass between them.
-fn met<'a>(waypoints: &'a [Point3<f64>], program: Option<&'a Program>) -> impl Iterator<Item = Point3<f64>> + 'a {
-    let passed = program.into_iter().flat_map(|program| &program.moves).filter_map(|one| match &one.motion {
-        Motion::Circular { via, .. } => Some(via.pose.translation.vector.into()),
-        _ => None,
-    });
-    waypoints.iter().copied().chain(passed)
 }
 
 /// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.

@@ -18,8 +18,8 @@ impl<'a> Space<'a> {
         Ok(Self { graphs: Graphs::of(setup, &OwnSimulator)? })
     }
 
-    /// Case number `number`, a feasible trajectory of graph number `graph` drawn at random; the same whenever it is asked
-    /// for.
+    /// Case number `number`, a feasible trajectory of graph number `graph` drawn at random; the same whenever it is
+    /// asked for.
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.

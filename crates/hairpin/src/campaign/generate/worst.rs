@@ -4,10 +4,9 @@ use nalgebra::Point3;
 
 use super::graphs::Graphs;
 use super::known::Known;
-use super::met;
 use super::targets::{Margins, targets};
 use crate::campaign::curve::Curve;
-use crate::campaign::graph::{Plan, fingerprint};
+use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::kept_seed;
 use crate::campaign::{Case, Setup, Stop, Tally, Witness};
 use crate::judgement::Stress;

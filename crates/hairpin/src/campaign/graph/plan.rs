@@ -6,6 +6,7 @@ use crate::campaign::{Case, CaseNumber, Environment, Evidence, SeenLeg, Witness}
 use crate::math::random::case_seed;
 use crate::search::Found;
 use crate::trajectory::Profile;
+use crate::trajectory::program::{Motion, Program};
 
 /// A trajectory that a graph gave.
 #[derive(Debug, Clone)]
@@ -99,4 +100,16 @@ pub(in crate::campaign) fn fingerprint(waypoints: impl IntoIterator<Item = Point
     let mut short = [0; 16];
     short.copy_from_slice(&hasher.finalize().as_bytes()[..16]);
     short
+}
+
+/// What tells one case from another: its waypoints, and the points that the arcs of its program pass between them.
+pub(in crate::campaign) fn met<'a>(
+    waypoints: &'a [Point3<f64>],
+    program: Option<&'a Program>,
+) -> impl Iterator<Item = Point3<f64>> + 'a {
+    let passed = program.into_iter().flat_map(|program| &program.moves).filter_map(|one| match &one.motion {
+        Motion::Circular { via, .. } => Some(via.pose.translation.vector.into()),
+        _ => None,
+    });
+    waypoints.iter().copied().chain(passed)
 }

@@ -69,7 +69,10 @@ impl Candidate {
         Self {
             case: case.number,
             stress: measures.map_or(case.score, |measures| measures.max_deviation),
-            trace: Trace { route: Route::along(&case.waypoints), behaviour: measures.map_or_else(Vec::new, behaviour) },
+            trace: Trace {
+                route: Route::along(&case.waypoints),
+                behaviour: measures.map_or_else(Vec::new, Measures::behaviour),
+            },
             cells,
         }
     }
@@ -80,19 +83,6 @@ impl Candidate {
 /// One that was not makes all of them compared by their ways alone.
 pub fn measured(candidates: &[Candidate]) -> bool {
     candidates.iter().all(|candidate| !candidate.trace.behaviour.is_empty())
-}
-
-/// What tells one execution from another. What a robot has no measure of counts as 0, of all cases alike.
-pub(super) fn behaviour(m: &Measures) -> Vec<f64> {
-    vec![
-        m.max_deviation,
-        m.mean_deviation,
-        m.max_overshoot(),
-        m.max_acceleration,
-        m.total_time,
-        m.min_clearance.unwrap_or(0.0),
-        m.saturation_share.unwrap_or(0.0),
-    ]
 }
 
 /// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked

@@ -152,8 +152,8 @@ impl BoatJudge {
         wander(self, points, &timing.rungs(), &ends, length, random)
     }
 
-    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend). `old`
-    /// is what a leg was before. `None` where no choice of velocities has one.
+    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend).
+    /// `old` is what a leg was before. `None` where no choice of velocities has one.
     pub fn mend<'o>(
         &self,
         waypoints: &[MendedWaypoint],

@@ -1,9 +1,9 @@
 //! A witness over changed waypoints: legs whose ends stay are kept, and of what changed velocities and leg times are
 //! chosen anew.
 //!
-//! A dynamic program over the waypoints in order: one state where a waypoint's velocity is kept, a few where it is to be
-//! chosen; each leg takes the time that it had if it is proven for that, else the shortest for which it is. Of all choices
-//! the fastest whole is taken.
+//! A dynamic program over the waypoints in order: one state where a waypoint's velocity is kept, a few where it is to
+//! be chosen; each leg takes the time that it had if it is proven for that, else the shortest for which it is. Of all
+//! choices the fastest whole is taken.
 
 use nalgebra::{Point3, Vector3};
 
@@ -92,8 +92,8 @@ pub fn passed(profile: &Profile, waypoint: usize) -> Vector3<f64> {
     }
 }
 
-/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is what a leg was before. `None` where no choice
-/// is proven.
+/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is what a leg was before. `None` where no
+/// choice is proven.
 pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
     judge: &J,
     rungs: &[f64],

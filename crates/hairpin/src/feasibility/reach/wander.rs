@@ -39,10 +39,10 @@ struct Passed<E> {
 /// A walk of `length` waypoints of `points` from the first to the last, none twice, with leg times of `rungs`; `None`
 /// where none was met within 20 000 judged legs.
 ///
-/// At each step waypoints are drawn, each with a speed that is uniform up to the top speed, until a leg to one is proven,
-/// in the shortest time for which it is, and the end is not out of reach from there by its distance alone; where none is
-/// met the walk goes back by one. So walks are not equally likely: those through states with few ways on come more often
-/// than the others.
+/// At each step waypoints are drawn, each with a speed that is uniform up to the top speed, until a leg to one is
+/// proven, in the shortest time for which it is, and the end is not out of reach from there by its distance alone;
+/// where none is met the walk goes back by one. So walks are not equally likely: those through states with few ways on
+/// come more often than the others.
 pub(in crate::feasibility) fn wander<J: ProveLegs>(
     judge: &J,
     points: &[Point3<f64>],

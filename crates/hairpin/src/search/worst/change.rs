@@ -3,7 +3,7 @@
 //!
 //! Most changes lie around the leg that a plan owes its stress to: what is stressful there stays, and is made more so.
 
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
 use super::archive::Member;
@@ -234,10 +234,11 @@ fn with_motif(
     let last = (worst + 1 + random.random_range(0..2usize)).min(donor.len() - 1);
     let first = (last + 1).saturating_sub(count).max(1);
     let at = random.random_range(1..=points.len() - 1 - count);
-    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::TAU * unit(random));
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(random));
+    let turned = |v: Vector3<f64>| Vector3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z);
     let mut changed = points.to_vec();
     for k in 0..count.min(donor.len() - first) {
-        changed[at + k] = changed[at - 1] + turn * (donor[first + k] - donor[first + k - 1]);
+        changed[at + k] = changed[at - 1] + turned(donor[first + k] - donor[first + k - 1]);
     }
     Some(changed)
 }

@@ -9,8 +9,9 @@
 //! | `portfolio` | which change is tried next |
 //!
 //! Data flow: draws and seeds are executed and fix the scale → rounds: a change each from what stands in the archive →
-//! what is feasible is executed → the archive takes it over, in order → the first that stand are the answer. A round has
-//! a fixed size and each of its places a stream of its own, so that the answer is the same on any number of threads.
+//! what is feasible is executed → the archive takes it over, in order → the first that stand are the answer. A round
+//! has a fixed size and each of its places a stream of its own, so that the answer is the same on any number of
+//! threads.
 //!
 //! No gradient, no model of the robot: only the order of stresses is used, but for the least distance that keeps near
 //! copies of one trajectory from being many cases.

@@ -214,7 +214,8 @@ pub struct ProgramSearch {
     /// `worst`: executions with other noise that what would be kept is given in addition; none if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confirm: Option<u64>,
-    /// `worst`: what is searched for: deviation | acceleration | time | overshoot | lateness; if not given, each limit of
+    /// `worst`: what is searched for: deviation | acceleration | time | overshoot | lateness; if not given, each limit
+    /// of
     /// `[spec]`, by its margin in spreads of what is drawn at random.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,

@@ -66,13 +66,14 @@ drive_search! {
     /// Graphs sampled at most; 20 per case asked for if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub graphs: Option<u64>,
-    /// `worst`: executions for each case asked for, all in one pool; `in-loop`, and the score `executed`: executions per
-    /// graph at most; `adaptive`: executions of all rounds together.
+    /// `worst`: executions for each case asked for, all in one pool; `in-loop`, and the score `executed`: executions
+    /// per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
     /// `worst`: time for the search, s, beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
-    /// `worst`, `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean. 0: none.
+    /// `worst`, `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean.
+    /// 0: none.
     pub confirm: u64,
     /// `adaptive`: rounds of executing and learning; in the first nothing is known, and all is drawn uniformly. If not
     /// given, one for 45 executions, at least 4 where there are enough, at most 15.
