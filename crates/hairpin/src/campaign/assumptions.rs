@@ -41,9 +41,16 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
     let graphs = tally.graphs.max(cases.last().map_or(0, |case| case.graph + 1));
     let found = format!("{} of {} cases asked for", cases.len(), search.cases);
     if search.method == SearchMethod::Worst {
+        let run = match tally.run {
+            0 => "a nominal run".to_owned(),
+            run => {
+                format!("with the draws of one run (number {run}), which of the first ones stressed random cases most")
+            }
+        };
         said.push(format!(
-            "Search: one pool of executions for all cases, each a nominal run: what was executed decides what is tried next, and the worst \
+            "Search: one pool of executions for all cases, each {}: what was executed decides what is tried next, and the worst \
              that differ are kept; no optimum is claimed; {found}, of {} executions, {} of them of trajectories drawn at random ({}).",
+            run,
             tally.expansions,
             tally.drawn,
             tally.sampler.as_deref().unwrap_or("none"),

@@ -46,6 +46,9 @@ pub struct Tally {
     /// Of one pool of executions: those that were of trajectories drawn at random.
     #[serde(skip_serializing_if = "is_zero")]
     pub drawn: u64,
+    /// Of one pool of executions: the number of the run that each was.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub run: u64,
     /// How they were drawn, in a sentence's part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampler: Option<String>,

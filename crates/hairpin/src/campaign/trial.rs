@@ -65,11 +65,11 @@ impl Trials<'_> {
         Some(Trial { stress, executions: 1 + confirm, ..first })
     }
 
-    /// Executes `plan` and measures it by each of `stresses`, NaN where one was not measured; with what tells the
-    /// execution from others. What comes to the `least` of one of them is executed `confirm` times more, as runs 1, 2, …
-    /// of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
-    pub(super) fn execute_for(&self, plan: &Plan, stresses: &[Stress], least: &[f64]) -> Option<Ran> {
-        let executed = self.executed(plan)?;
+    /// Executes `plan` as run number `run` and measures it by each of `stresses`, NaN where one was not measured; with
+    /// what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
+    /// as runs 1, 2, … of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
+    pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), stresses: &[Stress], least: &[f64]) -> Option<Ran> {
+        let executed = self.executed_as(plan, run)?;
         let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
         let trial = |stress: &Stress| Trial {
             stress: measured(stress, &executed.measures),
@@ -167,8 +167,13 @@ impl Trials<'_> {
     }
 
     fn executed(&self, plan: &Plan) -> Option<Executed> {
+        self.executed_as(plan, 0)
+    }
+
+    /// As run number `run`, with what is drawn for that.
+    fn executed_as(&self, plan: &Plan, run: usize) -> Option<Executed> {
         let case = self.case(plan);
-        let run = run_of(self.setup, self.executor, &case, 0, mission(self.setup, &case, 0));
+        let run = run_of(self.setup, self.executor, &case, run, mission(self.setup, &case, run));
         let measures = measures_of(self.setup, &case, &run)?;
         Some(Executed { case, run, measures })
     }

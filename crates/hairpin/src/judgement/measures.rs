@@ -125,8 +125,8 @@ impl Measures {
         self.overshoots.iter().copied().fold(0.0, f64::max)
     }
 
-    /// What tells one execution from another, each measure in its own unit. What a robot has no measure of counts as 0, of
-    /// all its executions alike.
+    /// What tells one execution from another, each measure in its own unit. What a robot has no measure of counts as 0,
+    /// of all its executions alike.
     pub fn behaviour(&self) -> Vec<f64> {
         vec![
             self.max_deviation,

@@ -138,8 +138,8 @@ impl Cmaes {
 /// Sweeps over all pairs of axes at most; a dozen settle what there is.
 const SWEEPS: usize = 40;
 
-/// Eigenvalues and eigenvectors (columns) of a symmetric matrix by cyclic Jacobi rotations, which need no more than square
-/// roots: the same bits on every machine. Source: Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
+/// Eigenvalues and eigenvectors (columns) of a symmetric matrix by cyclic Jacobi rotations, which need no more than
+/// square roots: the same bits on every machine. Source: Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
 fn eigen(mut matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
     let n = matrix.nrows();
     let mut axes = DMatrix::identity(n, n);

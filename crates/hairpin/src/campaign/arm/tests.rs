@@ -259,7 +259,7 @@ fn programs_execute_for_the_stresses_of_arms() {
     let plan = solver.draw(0).unwrap();
     let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
     let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
-    let run = || trials.execute_for(&plan, &stresses, &[f64::INFINITY; 4]).unwrap().trials;
+    let run = || trials.execute_for((&plan, 0), &stresses, &[f64::INFINITY; 4]).unwrap().trials;
     let trials = run();
     for ((trial, stress), least) in trials.iter().zip(stresses).zip([1e-4, 1.0, 1e-3, 1.0]) {
         let word = stress.word();

@@ -1,6 +1,7 @@
 //! The search `worst`: one pool of executions for all cases, over whatever kind of robot.
 
 use nalgebra::Point3;
+use rayon::prelude::*;
 
 use super::graphs::Graphs;
 use super::known::Known;
@@ -8,10 +9,16 @@ use super::targets::{Margins, targets};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::kept_seed;
-use crate::campaign::{Case, Setup, Stop, Tally, Witness};
+use crate::campaign::{Case, Setup, Stop, Tally, Witness, vary};
 use crate::judgement::Stress;
 use crate::math::random::{Stream, named_seed};
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
+
+/// Runs that the one of the search is chosen among, and random trajectories that they are compared by.
+const RUNS: usize = 4;
+const SAMPLE: u64 = 6;
+/// Number of the first of these: no search draws so many.
+const OF_CHOICE: u64 = 1 << 30;
 
 /// A plan, and the graph that it or the first of its ancestors was drawn from.
 #[derive(Clone)]
@@ -27,6 +34,8 @@ struct Plans<'a> {
     /// Of the first draw: cases that vary draw from graphs of their own.
     first: u64,
     stresses: Vec<Stress>,
+    /// The run that each is executed as.
+    run: usize,
 }
 
 impl Field for Plans<'_> {
@@ -77,7 +86,47 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        self.graphs.trials(drawn.graph).execute_for(&drawn.plan, &self.stresses, least)
+        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.stresses, least)
+    }
+}
+
+impl Plans<'_> {
+    /// Chooses the run that trajectories are executed as: the nominal one where nothing is drawn for runs, else of the
+    /// first four that of which a few random trajectories bear most, by the first target; the executions that this
+    /// took.
+    ///
+    /// What is executed nominally alone says little where what is drawn decides. All trajectories are executed under
+    /// the same draws, so that they are compared by what they are; a twentieth of the executions at most goes to the
+    /// choice, and where that is too few the first run with draws is taken.
+    fn choose_run(&mut self, executions: u64) -> u64 {
+        let setup = self.graphs.setup;
+        let runs = (setup.scenario.executor().repeat as usize).min(RUNS);
+        if runs < 2 || setup.scenario.vary().keys().all(|key| vary::shapes_the_plan(key)) {
+            return 0;
+        }
+        self.run = 1;
+        let most = (executions / (20 * runs as u64)).min(SAMPLE);
+        let drawn = (0..most).into_par_iter().filter_map(|number| self.draw(OF_CHOICE + number).ok());
+        let drawn: Vec<Drawn> = drawn.collect();
+        let pairs: Vec<(usize, &Drawn)> =
+            (0..runs).flat_map(|run| drawn.iter().map(move |drawn| (run, drawn))).collect();
+        let stresses: Vec<(usize, f64)> = pairs
+            .par_iter()
+            .map(|(run, drawn)| {
+                let plan = (&drawn.plan, *run);
+                let ran = self.graphs.trials(drawn.graph).execute_for(plan, &self.stresses[..1], &[f64::INFINITY]);
+                (*run, ran.map_or(f64::NAN, |ran| ran.trials[0].stress))
+            })
+            .collect();
+        let mean = |run: usize| {
+            let of_run =
+                || stresses.iter().filter(|(of, stress)| *of == run && !stress.is_nan()).map(|(_, stress)| stress);
+            of_run().sum::<f64>() / of_run().count().max(1) as f64
+        };
+        if !drawn.is_empty() {
+            self.run = (0..runs).max_by(|a, b| mean(*a).total_cmp(&mean(*b)).then(b.cmp(a))).unwrap_or(1);
+        }
+        stresses.len() as u64
     }
 }
 
@@ -87,6 +136,8 @@ pub(super) struct Pool {
     pub(super) plans: Vec<Drawn>,
     pub(super) curve: Curve,
     pub(super) drawn: u64,
+    /// The run that each was executed as.
+    pub(super) run: usize,
     pub(super) apart: f64,
     pub(super) nothing: Option<String>,
 }
@@ -96,23 +147,27 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
     let search = graphs.setup.scenario.search();
     let seed = named_seed(graphs.setup.scenario.seed(), "worst", first);
     let targets = targets(graphs.setup);
-    let settings = WorstSettings { cases, targets: targets.len(), executions, per_trial: 1 + search.confirm, seed };
     let begun = (stop.clock)();
     let late = || search.seconds.is_some_and(|seconds| (stop.clock)() - begun >= seconds);
     let told = |made: u64| (stop.progress)(made as usize, executions as usize);
-    let plans = Plans { graphs, stop, first, stresses: targets.iter().map(|target| target.stress).collect() };
+    let mut plans =
+        Plans { graphs, stop, first, stresses: targets.iter().map(|target| target.stress).collect(), run: 0 };
+    let tried = plans.choose_run(executions);
+    let per_trial = 1 + search.confirm;
+    let settings = WorstSettings { cases, targets: targets.len(), executions: executions - tried, per_trial, seed };
     let Worst { found, stresses, first: drawn_first, drawn, apart, nothing } =
         worst(&plans, &settings, &|| (stop.cancelled)() || late(), &told);
-    let mut curve = Curve { graph: first, ..Curve::default() };
+    let mut curve = Curve { graph: first, executions: tried, ..Curve::default() };
     let margins = Margins::of(&targets, &stresses[..stresses.len().min(drawn_first as usize)]);
     stresses.iter().for_each(|stresses| curve.push(stresses.as_ref().and_then(|stresses| margins.most(stresses))));
+    let run = plans.run;
     let plans = found.into_iter().map(|found| {
         let Drawn { graph, plan } = found.plan;
         let score = margins.told(found.target, found.trial.stress);
         let plan = graphs.solver.finished(Plan { score, bound: None, ..plan });
         Drawn { graph, plan }
     });
-    Pool { plans: plans.collect(), curve, drawn, apart, nothing }
+    Pool { plans: plans.collect(), curve, drawn, run, apart, nothing }
 }
 
 /// The cases that a scenario asks for, from one pool of executions; those of `known`, if it has all of them.
@@ -123,7 +178,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     }
     let setup: &Setup = graphs.setup;
     let search = setup.scenario.search();
-    let Pool { plans, curve, drawn, apart, nothing } =
+    let Pool { plans, curve, drawn, run, apart, nothing } =
         pool(graphs, search.cases as usize, [search.pooled_executions(), 0], stop);
     let mut tally = Tally {
         units: 1,
@@ -133,6 +188,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
         complete: plans.len() as u64 >= search.cases,
         stopped: (stop.cancelled)(),
         drawn,
+        run: run as u64,
         sampler: Some(graphs.solver.drawn_how().into()),
         apart: Some(apart),
         nothing,

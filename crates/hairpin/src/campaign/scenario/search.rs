@@ -60,7 +60,8 @@ pub struct SearchSection {
     /// `adaptive`: time for executing and learning beside `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// `worst`, `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them; if not given,
+    /// `worst`, `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them; if not
+    /// given,
     /// `worst` moves them and `in-loop` does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_waypoints: Option<bool>,

@@ -71,8 +71,8 @@ pub(super) struct Child<P> {
     pub(super) step: f64,
 }
 
-/// A child by `change` of `parents`, the most stressful first, of which the first `cases` would be the answer; `None` where none of eight tries is feasible. `draw` is
-/// the number of the plan that is drawn.
+/// A child by `change` of `parents`, the most stressful first, of which the first `cases` would be the answer; `None`
+/// where none of eight tries is feasible. `draw` is the number of the plan that is drawn.
 pub(super) fn child<F: Field>(
     field: &F,
     change: Change,

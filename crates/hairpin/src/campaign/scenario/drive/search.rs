@@ -88,8 +88,8 @@ drive_search! {
     /// `worst` moves them and `in-loop` does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_waypoints: Option<bool>,
-    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn at
-    /// random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
+    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn
+    /// at random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,
     /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
