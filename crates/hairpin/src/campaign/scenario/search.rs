@@ -61,12 +61,11 @@ pub struct SearchSection {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
     /// `worst`, `in-loop`: whether waypoints are moved off their graph, as far as the reach set lets them; if not
-    /// given,
-    /// `worst` moves them and `in-loop` does not.
+    /// given, `worst` moves them and `in-loop` does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_waypoints: Option<bool>,
-    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn at
-    /// random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
+    /// `worst`: what is searched for; if not given, each limit of `[spec]`, by its margin in spreads of what is drawn
+    /// at random: deviation | clearance | acceleration | time | overshoot | tip-over | lateness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,
     /// `in-loop`, `adaptive`, and the score `executed`: what is searched for: max-deviation | mean-deviation |
