@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::drive::DriveSetup;
-use hairpin::campaign::scenario::{DeviationFrom, FlightScenario, RobotSource};
+use hairpin::campaign::scenario::{FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin_formats::scenario::{Report, read_setup, setup_for, to_toml};
 use hairpin_formats::{library, schema, template};
@@ -124,7 +124,7 @@ fn the_template_is_the_designs_example() {
     assert_eq!((search.waypoints, search.width, search.cases, search.revisits), (250, 5, 20, false));
     assert_eq!(read.generate.limits.max_tilt_deg, Some(35.0));
     assert_eq!(read.world.origin.unwrap().x_axis_heading_deg, 73.5);
-    assert_eq!(read.spec.deviation.unwrap().from, DeviationFrom::Path);
+    assert_eq!(read.spec.deviation.unwrap().corner_m, 1.0);
     assert!(read.vary.contains_key("world.wind_m_s"));
     assert_eq!(template::template("quadrotor"), library::scenarios().find(|s| s.name == "quadrotor").map(|s| s.text));
     assert_eq!(template::template("submarine"), None);
