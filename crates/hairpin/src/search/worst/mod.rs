@@ -64,6 +64,8 @@ pub struct WorstSettings {
     pub targets: usize,
     /// Executions of all together at most, failed ones included.
     pub executions: u64,
+    /// Executions that rounds and the first draws are sized for: as many, unless something else ends the search.
+    pub sized_for: u64,
     /// Executions of one trial at most.
     pub per_trial: u64,
     /// Seed of all that is drawn.
@@ -211,7 +213,7 @@ impl<F: Field> Search<'_, F> {
 
     /// Places of a round.
     fn places(&self) -> u64 {
-        (self.settings.executions / ROUNDS).clamp(PLACES[0], PLACES[1])
+        (self.settings.sized_for / ROUNDS).clamp(PLACES[0], PLACES[1])
     }
 
     /// Anything is worth being kept.
@@ -221,7 +223,7 @@ impl<F: Field> Search<'_, F> {
 
     /// What is executed before anything is changed: seeds and draws.
     fn first(&mut self, told: &dyn Fn(u64)) -> Vec<Executed<F::Plan>> {
-        let executions = self.settings.executions;
+        let executions = self.settings.sized_for;
         let wanted = (executions / DRAWN).max(LEAST_DRAWN.min(executions / 2)).max(1);
         let seeds = self.field.seeds().into_iter();
         let seeds = seeds.map(|plan| Child { plan, step: FIRST_STEP }).collect();

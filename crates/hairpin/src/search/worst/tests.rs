@@ -103,7 +103,7 @@ impl Field for Room {
 }
 
 fn settings(cases: usize, executions: u64) -> WorstSettings {
-    WorstSettings { cases, targets: 1, executions, per_trial: 1, seed: 3 }
+    WorstSettings { cases, targets: 1, executions, sized_for: executions, per_trial: 1, seed: 3 }
 }
 
 fn search(room: &Room, settings: &WorstSettings) -> Worst<Vec<Point3<f64>>> {
