@@ -154,7 +154,16 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
         Plans { graphs, stop, first, stresses: targets.iter().map(|target| target.stress).collect(), run: 0 };
     let tried = plans.choose_run(executions);
     let per_trial = 1 + search.confirm;
-    let settings = WorstSettings { cases, targets: targets.len(), executions: executions - tried, per_trial, seed };
+    let sized_for = executions.saturating_sub(tried);
+    let settings = WorstSettings {
+        cases,
+        targets: targets.len(),
+        // A time is a budget of its own.
+        executions: if search.seconds.is_some() { u64::MAX } else { sized_for },
+        sized_for,
+        per_trial,
+        seed,
+    };
     let Worst { found, stresses, first: drawn_first, drawn, apart, nothing } =
         worst(&plans, &settings, &|| (stop.cancelled)() || late(), &told);
     let mut curve = Curve { graph: first, executions: tried, ..Curve::default() };

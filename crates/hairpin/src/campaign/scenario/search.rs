@@ -44,7 +44,7 @@ pub struct SearchSection {
     /// `worst`: executions for each case asked for, all in one pool; `in-loop`, and the score `executed`: executions
     /// per graph at most; `adaptive`: executions of all rounds together.
     pub executions: u64,
-    /// `worst`: time for the search, s, beside `executions`; what is found then depends on the clock.
+    /// `worst`: time for the search, s, in the place of `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// `worst`, `in-loop`: executions under noise that what would be kept is given in addition; its stress is the mean.
