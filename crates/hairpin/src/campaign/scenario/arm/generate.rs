@@ -208,7 +208,7 @@ pub struct ProgramSearch {
     /// `worst`: executions for each program asked for, all in one pool; 200 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub executions: Option<u64>,
-    /// `worst`: time for the search beside `executions`; what is found then depends on the clock.
+    /// `worst`: time for the search in the place of `executions`; what is found then depends on the clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// `worst`: executions with other noise that what would be kept is given in addition; none if not given.
