@@ -16,12 +16,16 @@ pub(super) fn section(data: &ReportData) -> String {
     let Some(figure) = figure(data) else { return String::new() };
     // A figure that cannot be drawn leaves the table, and the file.
     let drawn = figure.svg().unwrap_or_default();
+    let place = match data.curves.len() {
+        1 => "over executions".to_owned(),
+        graphs => {
+            format!("in each of {graphs} graphs, over executions in that graph; one that ended earlier keeps its last")
+        }
+    };
     format!(
-        "<section class=\"panel\" id=\"progress\"><h2>Stress against executions</h2><p class=\"note\">The largest {} executed so far \
-         in each of {} graphs, over executions in that graph; one that ended earlier keeps its last. Every rise is in \
-         best-so-far.tsv.</p><figure>{drawn}</figure>{}</section>",
+        "<section class=\"panel\" id=\"progress\"><h2>Stress against executions</h2><p class=\"note\">The largest {} executed so far, \
+         {place}. Every rise is in best-so-far.tsv.</p><figure>{drawn}</figure>{}</section>",
         in_words(data.stress),
-        data.curves.len(),
         rounds(&data.rounds)
     )
 }

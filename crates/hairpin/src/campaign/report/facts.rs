@@ -4,7 +4,7 @@ use super::data::{Metric, Pieces};
 use super::text::{cells, leg};
 use crate::campaign::digits::number;
 use crate::campaign::kind::{Facts, word};
-use crate::campaign::scenario::Asked;
+use crate::campaign::scenario::{Asked, SearchMethod};
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Chosen, Measures, Stress};
 
@@ -77,13 +77,22 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let Facts { world, task, search, proven, .. } = setup.kind().facts();
     let search = search.unwrap_or_else(|| {
         let search = scenario.search();
-        format!(
-            "{}, width {}, {} waypoints per graph, score {}",
-            word(&search.method),
-            search.width,
-            search.waypoints,
-            scenario.score()
-        )
+        let method = word(&search.method);
+        match search.method {
+            SearchMethod::Worst => {
+                let budget = match search.seconds {
+                    Some(seconds) => format!("{seconds} s"),
+                    None => format!("{} executions for each case", search.executions),
+                };
+                format!("{method}, {budget}, in one pool")
+            }
+            _ => format!(
+                "{method}, width {}, {} waypoints per graph, score {}",
+                search.width,
+                search.waypoints,
+                scenario.score()
+            ),
+        }
     });
     let fact = |label: &str, value: String| [label.to_owned(), value];
     vec![
