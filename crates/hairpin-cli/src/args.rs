@@ -6,6 +6,7 @@ mod compare;
 mod experiment;
 mod explain;
 mod import;
+mod keys;
 mod learn;
 mod max_load;
 mod numbers;
@@ -29,6 +30,7 @@ pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
+pub(crate) use keys::Keys;
 pub(crate) use learn::Learn;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use pipeline::{

@@ -6,7 +6,7 @@ use hairpin_jobs::consent::Consent;
 use hairpin_jobs::sets::{self, Set};
 use hairpin_jobs::work::{CampaignSettings, IfThere};
 
-use crate::args::{Campaign, Commands, Kernels, Threads};
+use crate::args::{Campaign, Commands, Kernels, Keys, Threads};
 
 /// Takes the threads that were asked for.
 pub(crate) fn take_threads(threads: &Threads) {
@@ -28,13 +28,10 @@ pub(crate) fn consent(commands: &Commands) -> Consent {
 
 /// What a campaign is begun with.
 pub(crate) fn campaign(campaign: &Campaign, executor: Option<&str>) -> Result<CampaignSettings, Problem> {
-    let mut all = split(&campaign.sets)?;
-    all.extend(campaign.seed.map(sets::seed));
-    all.extend(executor.map(sets::executor));
     Ok(CampaignSettings {
         scenario: campaign.scenario.clone(),
         out: campaign.out.clone(),
-        sets: all,
+        sets: keys(&campaign.keys, executor)?,
         if_there: if_there(campaign.resume, campaign.force),
         time_limit_s: campaign.time_limit,
         simd: simd(&campaign.kernels),
@@ -49,6 +46,14 @@ pub(crate) fn if_there(resume: bool, force: bool) -> IfThere {
         (false, true) => IfThere::Replace,
         (false, false) => IfThere::Refuse,
     }
+}
+
+/// The keys that were typed, the seed and who executes after the others.
+pub(crate) fn keys(keys: &Keys, executor: Option<&str>) -> Result<Vec<Set>, Problem> {
+    let mut all = split(&keys.sets)?;
+    all.extend(keys.seed.map(sets::seed));
+    all.extend(executor.map(sets::executor));
+    Ok(all)
 }
 
 /// `key=value` as typed; the value may hold further signs of equality.

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use commands::{contents, copy, json, refused, run};
+use commands::{contents, copy, json, refused, run, small_hull};
 use hairpin_formats::folder::CampaignFolder;
 use serde_json::Value;
 
@@ -20,30 +20,8 @@ const EXECUTED: &str = r#"{ method = "beam", waypoints = 40, cases = 2, executio
 /// Hull legs under `search`, flown by the sluggish point with `more` of its options.
 fn scenario(search: &str, score: &str, more: &str) -> String {
     let command = format!("python3 '{SLUGGISH}' {more}");
-    format!(
-        r#"
-hairpin = 1
-robot = "flightgoggles"
-seed = 3
-[world]
-size_m = [20, 20, 20]
-[task]
-start_m = [2, 2, 5]
-end_m = [14, 14, 12]
-length = 5
-[generate]
-reach = "hull"
-timing = {{ step_s = 1.0 }}
-search = {search}
-score = "{score}"
-[execute]
-command = "{}"
-timeout_s = 20.0
-[spec]
-deviation = {{ max_m = 0.5, from = "nearest-leg" }}
-"#,
-        command.trim()
-    )
+    let flown = format!("command = \"{}\"\ntimeout_s = 20.0", command.trim());
+    small_hull(&format!("{search}\nscore = \"{score}\"")).replace("controller = \"minimum-snap\"", &flown)
 }
 
 /// Score, largest deviation of every case of a campaign.

@@ -3,7 +3,8 @@
 use clap::Args;
 
 use super::commands::Commands;
-use super::numbers::{LARGEST_SEED, small_share};
+use super::keys::Keys;
+use super::numbers::small_share;
 use super::resources::{Kernels, Threads};
 
 /// Flies random feasible cases of the scenario, 200 at least and none of its campaign's, and proposes for every limit
@@ -19,12 +20,8 @@ pub(crate) struct Calibrate {
     /// Cases that are flown; as many as the share takes, 200 at least, if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), allow_negative_numbers = true)]
     pub(crate) cases: Option<u64>,
-    /// Override one scenario key: dotted key, TOML value; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) sets: Vec<String>,
-    /// Root seed, instead of the scenario's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) keys: Keys,
     /// Who flies: a program that speaks the executor protocol, instead of the scenario's executor
     #[arg(long, value_name = "CMD")]
     pub(crate) executor: Option<String>,

@@ -4,7 +4,8 @@ use clap::Args;
 use hairpin_jobs::explain::ExplainSettings;
 
 use super::commands::Commands;
-use super::numbers::{LARGEST_SEED, seconds};
+use super::keys::Keys;
+use super::numbers::seconds;
 use super::resources::{Kernels, Threads};
 
 /// Searches a fixed number of graphs, counts where candidates for legs are lost, by limit, and where nothing is
@@ -14,12 +15,8 @@ use super::resources::{Kernels, Threads};
 pub(crate) struct Explain {
     /// Scenario file, the name of a shipped scenario or robot, or a campaign folder's scenario.toml
     pub(crate) scenario: String,
-    /// Override one scenario key: dotted key, TOML value; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) sets: Vec<String>,
-    /// Root seed, instead of the scenario's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) keys: Keys,
     /// Graphs that are sampled and searched; with every change the same ones
     #[arg(long, value_name = "N", default_value_t = ExplainSettings::default().graphs, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     pub(crate) graphs: u64,

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::commands::Commands;
-use super::numbers::{LARGEST_SEED, seconds};
+use super::keys::Keys;
+use super::numbers::seconds;
 use super::resources::{Kernels, Threads};
 
 /// What every command that begins a campaign takes.
@@ -16,12 +17,8 @@ pub(crate) struct Campaign {
     /// Campaign folder; out/NAME of the scenario if not given
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Root seed, instead of the scenario's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
-    pub(crate) seed: Option<u64>,
-    /// Override one scenario key: dotted key, TOML value; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) sets: Vec<String>,
+    #[command(flatten)]
+    pub(crate) keys: Keys,
     /// Go on with an interrupted campaign (same arguments, same --out)
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,

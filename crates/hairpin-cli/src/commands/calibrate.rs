@@ -4,7 +4,7 @@ use hairpin::campaign::calibrate::{Proposal, spec};
 use hairpin::campaign::digits;
 use hairpin_formats::scenario;
 use hairpin_jobs::calibrate::{CalibrateSettings, Calibrated, calibrate};
-use hairpin_jobs::{Problem, Watch, sets};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
 use crate::args::Calibrate;
@@ -14,12 +14,9 @@ use crate::{console, settings};
 /// Runs the command.
 pub(crate) fn run(asked: &Calibrate, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
-    let mut all = settings::split(&asked.sets)?;
-    all.extend(asked.seed.map(sets::seed));
-    all.extend(asked.executor.as_deref().map(sets::executor));
     let settings = CalibrateSettings {
         scenario: asked.scenario.clone(),
-        sets: all,
+        sets: settings::keys(&asked.keys, asked.executor.as_deref())?,
         share: asked.share,
         cases: asked.cases,
         simd: settings::simd(&asked.kernels),

@@ -2,7 +2,7 @@
 
 use hairpin::campaign::Losses;
 use hairpin_jobs::explain::{ExplainSettings, explain};
-use hairpin_jobs::{Problem, Watch, sets};
+use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
 use crate::args::Explain;
@@ -11,11 +11,9 @@ use crate::{console, settings};
 /// Runs the command: 0 where something is feasible, 3 where nothing is.
 pub(crate) fn run(asked: &Explain, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
-    let mut all = settings::split(&asked.sets)?;
-    all.extend(asked.seed.map(sets::seed));
     let settings = ExplainSettings {
         scenario: asked.scenario.clone(),
-        sets: all,
+        sets: settings::keys(&asked.keys, None)?,
         graphs: asked.graphs,
         time_limit_s: asked.time_limit,
         simd: settings::simd(&asked.kernels),

@@ -175,15 +175,12 @@ mod tests {
 
     use super::*;
     use crate::campaign::Scenario;
+    use crate::campaign::testing::quadrotor;
 
     fn setup(spec: Value) -> Setup {
         let scenario: Scenario = serde_json::from_value(json!({
             "hairpin": 1,
-            "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.0049, 0.0049, 0.0069],
-                "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7,
-                "rotor_speed_rad_s": [0.0, 2200.0], "max_speed_m_s": 18.0, "clearance_radius_m": 0.23,
-                "rotors": [{ "x_m": 0.08, "y_m": 0.08, "spin": 1.0 }, { "x_m": -0.08, "y_m": 0.08, "spin": -1.0 },
-                    { "x_m": -0.08, "y_m": -0.08, "spin": 1.0 }, { "x_m": 0.08, "y_m": -0.08, "spin": -1.0 }] },
+            "robot": quadrotor(),
             "world": { "size_m": [20.0, 20.0, 20.0] },
             "task": { "start_m": [2.0, 2.0, 5.0], "end_m": [14.0, 14.0, 12.0], "length": 5 },
             "spec": spec,

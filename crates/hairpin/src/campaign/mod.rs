@@ -41,6 +41,8 @@ pub mod shrink;
 pub mod states;
 pub mod stop;
 pub mod tally;
+#[cfg(test)]
+mod testing;
 mod trial;
 pub mod user_score;
 pub mod vary;

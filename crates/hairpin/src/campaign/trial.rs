@@ -22,12 +22,19 @@ const CONFIRMING: usize = 1 << 20;
 
 /// The seed that a trajectory over `waypoints` keeps as a case, so that it is carried out later as it was while it was
 /// searched for; `None` where it is not, or in our own simulator: there seeds follow from cases' numbers.
-pub(super) fn kept_seed(setup: &Setup, executor: &dyn Executor, waypoints: &[Point3<f64>]) -> Option<u64> {
+fn kept_seed(setup: &Setup, executor: &dyn Executor, waypoints: &[Point3<f64>]) -> Option<u64> {
     if executor.is_ours() || !setup.scenario.executes() {
         return None;
     }
     let [a, b, c, d, e, f, g, h, ..] = fingerprint(waypoints.iter().copied());
     Some(named_seed(setup.scenario.seed(), "executed", u64::from_le_bytes([a, b, c, d, e, f, g, h])))
+}
+
+/// Case number `number` that `plan` of graph number `graph` becomes, with the seed that it was executed with.
+pub(super) fn executed_case(setup: &Setup, executor: &dyn Executor, plan: Plan, (graph, number): (u64, usize)) -> Case {
+    let kept = kept_seed(setup, executor, &plan.waypoints);
+    let case = plan.case(setup.scenario.seed(), graph, number);
+    Case { seed: kept.unwrap_or(case.seed), ..case }
 }
 
 /// Executions of plans of one graph.

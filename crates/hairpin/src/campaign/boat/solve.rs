@@ -1,18 +1,17 @@
 //! One graph, from its number to its plans: waypoints drawn in free water, their roadmap, the search asked for.
 
 use nalgebra::Point3;
-use rand::RngExt;
 
 use super::BoatSetup;
 use super::legs::scores;
 use super::through::{is_free, through};
 use crate::campaign::Stop;
-use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed};
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed, between};
 use crate::campaign::kind::Solver;
 use crate::feasibility::boat::{BoatJudge, BoatRoadmap, BoatRoadmapSettings};
 use crate::feasibility::reach::WitnessLegs;
-use crate::feasibility::reach::mend::{Chosen, mended, old_leg};
-use crate::feasibility::reach::wander::Wandered;
+use crate::feasibility::reach::mend::mend_over;
+use crate::feasibility::reach::wander::{Wandered, wander};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream, unit};
 
@@ -88,12 +87,7 @@ impl<'a> BoatSolver<'a> {
     /// The same; where velocities are in the way, other ones are chosen at what changed, and then beside it.
     fn mended(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
-        let before = &plan.waypoints;
-        let mend = |chosen| {
-            let waypoints = mended(profile, before, points, chosen);
-            self.judge.mend(&waypoints, &self.timing, |leg| old_leg(profile, before, points, leg))
-        };
-        let profile = Chosen::ALL.into_iter().find_map(mend)?;
+        let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;
         (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points.to_vec(), profile))
     }
 
@@ -148,7 +142,7 @@ impl Solver for BoatSolver<'_> {
         let points = self.sample(graph)?;
         let mut random = stream(named_seed(self.setup.scenario.seed, "wander", graph));
         let length = self.setup.scenario.task.length as usize;
-        let drawn = self.judge.wander(&points, &self.timing, length, &mut random);
+        let drawn = wander(&self.judge, &points, &self.timing, length, &mut random);
         let Wandered { waypoints, profile } = drawn.ok_or("none was met by drawing leg by leg")?;
         if profile.duration() > self.setup.longest() {
             return Err("`max_time_s` is exceeded".into());
@@ -166,7 +160,6 @@ impl Solver for BoatSolver<'_> {
     }
 
     fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
-        let points = self.sample(graph).ok()?;
-        Some(points[random.random_range(1..points.len() - 1)])
+        Some(between(&self.sample(graph).ok()?, random))
     }
 }

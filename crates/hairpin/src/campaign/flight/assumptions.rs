@@ -1,9 +1,9 @@
 //! What a flight's claim, execution and limits rest on, said from the run's own settings.
 
 use super::FlightSetup;
+use super::fly::makes_own_curve;
 use crate::campaign::Case;
 use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
-use crate::simulation::ControllerKind;
 
 /// What stands behind the legs.
 pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
@@ -82,11 +82,7 @@ pub(super) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
             let from = match deviation.from {
                 DeviationFrom::Leg => "the straight leg being flown",
                 DeviationFrom::NearestLeg => "the nearer of the previous and the current leg",
-                DeviationFrom::Path
-                    if setup.scenario.execute.controller_in_force() == Some(ControllerKind::MinimumSnap) =>
-                {
-                    "the curve that the controller makes of the waypoints"
-                }
+                DeviationFrom::Path if makes_own_curve(setup) => "the curve that the controller makes of the waypoints",
                 DeviationFrom::Path => "the programmed path",
             };
             let corner = if deviation.corner_m > 0.0 {

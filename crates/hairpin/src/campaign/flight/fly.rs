@@ -67,9 +67,14 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
 /// The curve that the controller of ours makes of the waypoints of `case`; `None` where it makes none, or another one
 /// flies.
 pub(super) fn own_curve(setup: &FlightSetup, case: &Case) -> Option<Profile> {
-    let own = setup.scenario.execute.controller_in_force().filter(|_| setup.controller.is_none())?;
     let curve = || minimum_snap_curve(&setup.robot, setup.scenario.execute.segment_times, &case.waypoints);
-    (own == ControllerKind::MinimumSnap).then(curve)?
+    makes_own_curve(setup).then(curve)?
+}
+
+/// Whether it makes one of any.
+pub(super) fn makes_own_curve(setup: &FlightSetup) -> bool {
+    let ours = setup.scenario.execute.controller_in_force().filter(|_| setup.controller.is_none());
+    ours == Some(ControllerKind::MinimumSnap)
 }
 
 /// Velocities in m/s in the cage's axes.

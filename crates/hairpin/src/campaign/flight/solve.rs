@@ -1,14 +1,13 @@
 //! One graph, from its number to its plans: the reach set asked for, the search asked for, and never another.
 
 use nalgebra::Point3;
-use rand::RngExt;
 
 use super::certificates::Certifier;
 use super::stepwise::Stepwise;
 use super::witness::Witness;
 use super::{FlightSetup, graph, surround};
 use crate::campaign::Stop;
-use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wanted};
+use crate::campaign::graph::{Executions, Looped, Outcome, Plan, Surroundings, Wanted, between};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::ReachName;
 use crate::feasibility::certify::Certificate;
@@ -58,8 +57,7 @@ impl<'a> FlightSolver<'a> {
         plan
     }
 
-    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a
-    /// witness
+    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a witness
     /// `rewitnessed` makes the new one.
     ///
     /// Start and end stay where they are; what is in between keeps the margin from the walls and the robot's radius
@@ -153,16 +151,12 @@ impl Solver for FlightSolver<'_> {
     }
 
     fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {
-        let points = graph::sample(self.setup, graph).ok()?;
-        Some(points[random.random_range(1..points.len() - 1)])
+        Some(between(&graph::sample(self.setup, graph).ok()?, random))
     }
 
     fn crossed(&self, graph: u64, plan: &Plan, other: &Plan, leg: usize, _: &mut Stream) -> Option<Plan> {
         match &self.set {
-            Set::Stepwise(_) => {
-                let (head, tail) = (plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?);
-                self.over(graph, plan, &[head, tail].concat())
-            }
+            Set::Stepwise(_) => self.over(graph, plan, &plan.spliced(other, leg)?),
             Set::Witness(set) => set.crossed(plan, other, leg),
         }
     }

@@ -9,8 +9,8 @@ use crate::campaign::Witness as CaseWitness;
 use crate::campaign::graph::{Looped, Outcome, Plan, Remembered, Roads, Wanted, Witnessed};
 use crate::campaign::scenario::Timing;
 use crate::feasibility::certify::{Certificate, certify};
-use crate::feasibility::reach::mend::{Chosen, MendedWaypoint, OldLeg, mended, old_leg, passed};
-use crate::feasibility::reach::wander::Wandered;
+use crate::feasibility::reach::mend::{Chosen, MendedWaypoint, OldLeg, mend, mend_over, mended, passed};
+use crate::feasibility::reach::wander::{Wandered, wander};
 use crate::feasibility::reach::{Roadmap, RoadmapSettings, WitnessLegs};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
@@ -71,7 +71,7 @@ impl<'a> Witness<'a> {
     pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
         let scenario = &self.setup.scenario;
         let mut random = stream(named_seed(scenario.seed, "wander", graph));
-        let drawn = self.judge.wander(points, &self.timing, scenario.task.length as usize, &mut random);
+        let drawn = wander(&self.judge, points, &self.timing, scenario.task.length as usize, &mut random);
         let Wandered { waypoints, profile } = drawn.ok_or("none was met by drawing leg by leg")?;
         self.plan(waypoints, profile).ok_or_else(|| "`max_flight_time_s` is exceeded".into())
     }
@@ -86,21 +86,17 @@ impl<'a> Witness<'a> {
     /// as well.
     pub(super) fn over(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
-        let before = &plan.waypoints;
-        let mend = |chosen| {
-            let waypoints = mended(profile, before, points, chosen);
-            self.judge.mend(&waypoints, &self.timing, |leg| old_leg(profile, before, points, leg))
-        };
-        self.plan(points.to_vec(), Chosen::ALL.into_iter().find_map(mend)?)
+        let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;
+        self.plan(points.to_vec(), profile)
     }
 
     /// `plan` up to the first waypoint of leg `leg`, and `other` after it.
     pub(super) fn crossed(&self, plan: &Plan, other: &Plan, leg: usize) -> Option<Plan> {
         let [head, tail] = [plan, other].map(|plan| plan.witness.as_ref().and_then(CaseWitness::profile));
         let (head, tail) = (head?, tail?);
-        let points = [plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?].concat();
+        let points = plan.spliced(other, leg)?;
         let of = |k: usize| if k <= leg { head } else { tail };
-        let mend = |chosen: bool| {
+        let joined = |chosen: bool| {
             let waypoint = |(k, place): (usize, &Point3<f64>)| MendedWaypoint {
                 place: *place,
                 velocity: passed(of(k), k),
@@ -108,9 +104,9 @@ impl<'a> Witness<'a> {
             };
             let waypoints: Vec<_> = points.iter().enumerate().map(waypoint).collect();
             let old = |k: usize| of(k).legs.get(k).filter(|_| k != leg).map_or(OldLeg::None, OldLeg::Same);
-            self.judge.mend(&waypoints, &self.timing, old)
+            mend(&self.judge, &self.timing, &waypoints, old)
         };
-        self.plan(points.clone(), mend(false).or_else(|| mend(true))?)
+        self.plan(points.clone(), joined(false).or_else(|| joined(true))?)
     }
 
     /// `plan` with another velocity at a waypoint of leg `leg`, or another time of that leg.
@@ -139,7 +135,7 @@ impl<'a> Witness<'a> {
             Some(leg) => OldLeg::Took(leg.duration),
             None => OldLeg::None,
         };
-        self.plan(plan.waypoints.clone(), self.judge.mend(&waypoints, &self.timing, old)?)
+        self.plan(plan.waypoints.clone(), mend(&self.judge, &self.timing, &waypoints, old)?)
     }
 
     /// Searches graph number `graph` over `points`.

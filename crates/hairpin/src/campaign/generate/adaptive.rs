@@ -18,7 +18,7 @@ use crate::campaign::graph::{Outcome, Plan, Round, Wanted, fingerprint};
 use crate::campaign::learn::{LegSample, ScoreModel};
 use crate::campaign::samples::learn;
 use crate::campaign::scenario::SearchSection;
-use crate::campaign::trial::kept_seed;
+use crate::campaign::trial::executed_case;
 use crate::campaign::{Case, RoundTally, Setup, Stop, Tally};
 use crate::math::random::named_seed;
 
@@ -311,7 +311,7 @@ impl Campaign<'_> {
     }
 
     fn finish(mut self, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
-        let (seed, wanted) = (self.setup.scenario.seed(), self.search.cases as usize);
+        let wanted = self.search.cases as usize;
         match learn(self.setup, self.search.stress, &self.samples) {
             Ok(model) => self.tally.model = Some(Box::new(model)),
             Err(reason) => self.tally.unlearned = Some(reason.to_string()),
@@ -328,9 +328,7 @@ impl Campaign<'_> {
                     break;
                 }
                 if seen.insert(fingerprint(plan.waypoints.iter().copied())) {
-                    let kept = kept_seed(self.setup, self.sampled.executor, &plan.waypoints);
-                    let case = plan.case(seed, number, cases.len());
-                    cases.push(Case { seed: kept.unwrap_or(case.seed), ..case });
+                    cases.push(executed_case(self.setup, self.sampled.executor, plan, (number, cases.len())));
                 } else {
                     self.tally.duplicates += 1;
                 }

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
 use super::graph::{Outcome, Wanted, fingerprint, met};
 use super::scenario::SearchMethod;
-use super::trial::kept_seed;
+use super::trial::executed_case;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 pub use by_chance::{ByChance, Purpose, by_chance};
@@ -205,10 +205,11 @@ impl<'a> Collector<'a> {
                 self.tally.duplicates += 1;
                 continue;
             }
-            // What was drawn for a case hangs on its own seed.
-            let kept = kept_seed(self.setup, self.executor, &plan.waypoints).filter(|_| number.is_none());
-            let case = plan.case(self.setup.scenario.seed(), graph, number.unwrap_or(self.cases));
-            new.push(Case { seed: kept.unwrap_or(case.seed), ..case });
+            new.push(match number {
+                // What was drawn for a case hangs on its own seed.
+                Some(number) => plan.case(self.setup.scenario.seed(), graph, number),
+                None => executed_case(self.setup, self.executor, plan, (graph, self.cases)),
+            });
             self.cases += 1;
         }
         new

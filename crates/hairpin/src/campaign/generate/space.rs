@@ -35,7 +35,7 @@ impl<'a> Space<'a> {
     /// `case` over other `points`, as many as its own, with the same evidence; `None` where that is not feasible.
     pub fn over(&self, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
         let plan = self.graphs.solver.over(case.graph, &Plan::of(case), points)?;
-        let number = case.number;
-        Some(Case { number, seed: case.seed, ..plan.case(self.graphs.setup.scenario.seed(), case.graph, number.0) })
+        let over = plan.case(self.graphs.setup.scenario.seed(), case.graph, case.number.0);
+        Some(Case { seed: case.seed, ..over })
     }
 }

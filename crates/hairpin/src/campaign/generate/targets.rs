@@ -2,7 +2,7 @@
 
 use crate::campaign::Setup;
 use crate::campaign::scenario::SearchMethod;
-use crate::judgement::{Limits, Stress};
+use crate::judgement::{Limits, Statistics, Stress};
 
 /// A stress, and the limit that is asked of it, as it is measured: more is worse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,11 +60,9 @@ impl<'a> Margins<'a> {
     /// The spread is the standard deviation, or 1 in the stress's own unit where that is 0.
     pub(super) fn of(targets: &'a [Target], first: &[Option<Vec<f64>>]) -> Self {
         let spread = |target: usize| {
-            let values = || first.iter().flatten().map(|stresses| stresses[target]).filter(|stress| !stress.is_nan());
-            let count = values().count().max(1) as f64;
-            let mean = values().sum::<f64>() / count;
-            let spread = (values().map(|value| (value - mean) * (value - mean)).sum::<f64>() / count).sqrt();
-            if spread > 0.0 { spread } else { 1.0 }
+            let values = first.iter().flatten().map(|stresses| stresses[target]).filter(|stress| !stress.is_nan());
+            let spread = Statistics::of(&values.collect::<Vec<_>>()).map(|statistics| statistics.std);
+            spread.filter(|spread| *spread > 0.0).unwrap_or(1.0)
         };
         Self { targets, spreads: (0..targets.len()).map(spread).collect() }
     }

@@ -8,7 +8,7 @@ use super::known::Known;
 use super::targets::{Margins, targets};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
-use crate::campaign::trial::kept_seed;
+use crate::campaign::trial::executed_case;
 use crate::campaign::{Case, Setup, Stop, Tally, Witness, vary};
 use crate::judgement::Stress;
 use crate::math::random::{Stream, named_seed};
@@ -205,12 +205,8 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     };
     tally.complete &= !tally.stopped;
     tally.curves.push(curve);
-    let seed = setup.scenario.seed();
-    let case = |(number, Drawn { graph, plan }): (usize, Drawn)| {
-        let kept = kept_seed(setup, graphs.executor, &plan.waypoints);
-        let case = plan.case(seed, graph, number);
-        Case { seed: kept.unwrap_or(case.seed), ..case }
-    };
+    let case =
+        |(number, Drawn { graph, plan }): (usize, Drawn)| executed_case(setup, graphs.executor, plan, (graph, number));
     let cases: Vec<Case> = plans.into_iter().enumerate().map(case).collect();
     sink(&cases, &tally);
     tally

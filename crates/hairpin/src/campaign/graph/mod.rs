@@ -24,7 +24,7 @@ pub(super) use losses::Counter;
 pub use losses::{Losses, Lost, Stage};
 pub(super) use optima::AGGREGATES;
 pub(super) use outcome::Outcome;
-pub(super) use plan::{Plan, fingerprint, met};
+pub(super) use plan::{Plan, between, fingerprint, met};
 pub(super) use question::{Looped, Question, Round, Wanted};
 pub(super) use remembered::Remembered;
 pub(super) use scores::{Named, learned};

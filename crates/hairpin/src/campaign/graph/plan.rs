@@ -1,9 +1,10 @@
 //! A trajectory that a graph gave.
 
 use nalgebra::Point3;
+use rand::RngExt;
 
 use crate::campaign::{Case, CaseNumber, Environment, Evidence, SeenLeg, Witness};
-use crate::math::random::case_seed;
+use crate::math::random::{Stream, case_seed};
 use crate::search::Found;
 use crate::trajectory::Profile;
 use crate::trajectory::program::{Motion, Program};
@@ -60,6 +61,11 @@ impl Plan {
         }
     }
 
+    /// Waypoints up to the first one of leg `leg`, and those of `other` after as many; `None` where one of both has none.
+    pub(in crate::campaign) fn spliced(&self, other: &Self, leg: usize) -> Option<Vec<Point3<f64>>> {
+        Some([self.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?].concat())
+    }
+
     /// What `case` was made of.
     pub(in crate::campaign) fn of(case: &Case) -> Self {
         let Case {
@@ -87,6 +93,11 @@ impl Plan {
             environment: self.environment,
         }
     }
+}
+
+/// One of the free waypoints of a graph: neither its start nor its end.
+pub(in crate::campaign) fn between(points: &[Point3<f64>], random: &mut Stream) -> Point3<f64> {
+    points[random.random_range(1..points.len() - 1)]
 }
 
 /// 128 bits of BLAKE3 over the coordinates: equal waypoint lists are one trajectory.

@@ -1,12 +1,10 @@
 //! The claim: what a kind searches, plans and proves.
 
-use std::collections::HashSet;
-
 use nalgebra::Point3;
 use thiserror::Error;
 
 use super::{Knobs, Same};
-use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Round, Wanted};
+use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::math::random::Stream;
 use crate::simulation::SimulationError;
@@ -91,23 +89,12 @@ pub(in crate::campaign) trait Solver: Sync {
 
     /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for.
     ///
-    /// Unless a kind has a cheaper way, each walk of the graph is equally likely.
-    ///
     /// # Errors
     /// Why there is none, in a sentence's part.
-    fn draw(&self, graph: u64) -> Result<Plan, String> {
-        let known = HashSet::new();
-        let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
-        let Outcome { plans, reason, .. } =
-            self.solve(graph, Executions::none(), Wanted::Round(&round), &Stop::never());
-        let drawn = plans.into_iter().next().map(|(_, plan)| plan);
-        drawn.ok_or_else(|| reason.unwrap_or_else(|| "no feasible trajectory was drawn".into()))
-    }
+    fn draw(&self, graph: u64) -> Result<Plan, String>;
 
     /// How [`draw`](Self::draw) draws, in a sentence's part.
-    fn drawn_how(&self) -> &'static str {
-        "each feasible trajectory of a sampled graph equally likely"
-    }
+    fn drawn_how(&self) -> &'static str;
 
     /// Plans that other searches of its own find, to begin a search of changes with beside draws.
     fn seeds(&self, _stop: &Stop) -> Vec<Plan> {
@@ -128,8 +115,7 @@ pub(in crate::campaign) trait Solver: Sync {
 
     /// `plan`, drawn from graph number `graph`, up to the first waypoint of leg `leg`, and `other` after it.
     fn crossed(&self, graph: u64, plan: &Plan, other: &Plan, leg: usize, _random: &mut Stream) -> Option<Plan> {
-        let (head, tail) = (plan.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?);
-        self.over(graph, plan, &[head, tail].concat())
+        self.over(graph, plan, &plan.spliced(other, leg)?)
     }
 
     /// `plan` with something else than its waypoints changed, at leg `leg` if that can be; `None` where nothing can, or

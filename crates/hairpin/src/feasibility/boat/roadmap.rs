@@ -8,10 +8,9 @@ use rand::RngExt;
 
 use super::leg::{BoatEnd, BoatJudge};
 use super::limits::BoatInfeasible;
-use crate::feasibility::reach::mend::{MendedWaypoint, OldLeg, mend};
 use crate::feasibility::reach::proven_legs::ProveLegs;
 use crate::feasibility::reach::states::{States, Velocities};
-use crate::feasibility::reach::wander::{Ends, Wandered, another, wander};
+use crate::feasibility::reach::wander::another;
 use crate::feasibility::reach::{Leg, LegFeatures, Reach, WitnessLegs, WitnessNode};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::Stream;
@@ -55,6 +54,16 @@ impl ProveLegs for BoatJudge {
 
     fn speed(end: &BoatEnd) -> f64 {
         end.speed()
+    }
+
+    fn state(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> BoatEnd {
+        self.end(place, [velocity.x, velocity.y])
+    }
+
+    /// Towards another waypoint.
+    fn aimed(&self, points: &[Point3<f64>], w: usize, speed: f64, _longest: f64, random: &mut Stream) -> Vector3<f64> {
+        let way = points[another(points, w, f64::INFINITY, random)] - points[w];
+        way.try_normalize(1e-9).unwrap_or_else(Vector3::x) * speed
     }
 }
 
@@ -128,39 +137,6 @@ impl<'a> BoatRoadmap<'a> {
         let across = if both > 0.0 { (x * way.y - y * way.x).abs() / both } else { 0.0 };
         let corner = 1.0 - (features.turn / std::f64::consts::FRAC_PI_2 - 1.0).abs();
         features.v_in / top * (features.v_out / top) * corner * 0.5 * (1.0 + across)
-    }
-}
-
-impl BoatJudge {
-    /// A walk of `length` waypoints of `points` from the first to the last and its witness, drawn leg by leg:
-    /// [`wander`](crate::feasibility::reach::wander). `None` where none was met.
-    ///
-    /// Speeds are uniform up to the top speed; each velocity points towards another waypoint.
-    pub fn wander(
-        &self,
-        points: &[Point3<f64>],
-        timing: &LegTiming,
-        length: usize,
-        random: &mut Stream,
-    ) -> Option<Wandered> {
-        let moving = |w: usize, speed: f64, random: &mut Stream| {
-            let way = points[another(points, w, f64::INFINITY, random)] - points[w];
-            let way = way.try_normalize(1e-9).unwrap_or_else(Vector3::x) * speed;
-            self.end(&points[w], [way.x, way.y])
-        };
-        let ends = Ends { at_rest: &|point| self.end(point, [0.0; 2]), moving: &moving };
-        wander(self, points, &timing.rungs(), &ends, length, random)
-    }
-
-    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](crate::feasibility::reach::mend).
-    /// `old` is what a leg was before. `None` where no choice of velocities has one.
-    pub fn mend<'o>(
-        &self,
-        waypoints: &[MendedWaypoint],
-        timing: &LegTiming,
-        old: impl Fn(usize) -> OldLeg<'o>,
-    ) -> Option<Profile> {
-        mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(place, [velocity.x, velocity.y]), old)
     }
 }
 

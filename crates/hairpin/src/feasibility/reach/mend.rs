@@ -8,6 +8,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::proven_legs::ProveLegs;
+use crate::feasibility::steering::LegTiming;
 use crate::trajectory::{Profile, ProfileLeg};
 
 /// Speeds that are tried where one is to be chosen, as shares of the top speed.
@@ -15,18 +16,18 @@ const SPEEDS: [f64; 3] = [0.6, 0.3, 0.0];
 
 /// How a waypoint is passed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MendedWaypoint {
+pub(crate) struct MendedWaypoint {
     /// m.
-    pub place: Point3<f64>,
+    pub(crate) place: Point3<f64>,
     /// m/s.
-    pub velocity: Vector3<f64>,
+    pub(crate) velocity: Vector3<f64>,
     /// Whether this velocity is kept; else others are tried as well.
-    pub kept: bool,
+    pub(crate) kept: bool,
 }
 
 /// Which velocities are chosen anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Chosen {
+pub(crate) enum Chosen {
     /// None: waypoints are passed as those were whose places they have.
     None,
     /// Those of waypoints that are others.
@@ -37,13 +38,13 @@ pub enum Chosen {
 
 impl Chosen {
     /// In the order in which they are tried: what a trajectory is stressful by stays as long as it can.
-    pub const ALL: [Chosen; 3] = [Chosen::None, Chosen::Changed, Chosen::Beside];
+    pub(crate) const ALL: [Chosen; 3] = [Chosen::None, Chosen::Changed, Chosen::Beside];
 }
 
 /// The waypoints of `profile`, with other `points` in their places; both ends are passed as they were.
 ///
 /// `before` are the profile's own waypoints; as many as `points`.
-pub fn mended(
+pub(crate) fn mended(
     profile: &Profile,
     before: &[Point3<f64>],
     points: &[Point3<f64>],
@@ -66,7 +67,7 @@ pub fn mended(
 
 /// What a leg was before.
 #[derive(Debug, Clone, PartialEq)]
-pub enum OldLeg<'a> {
+pub(crate) enum OldLeg<'a> {
     /// Known to be proven: its ends are as they were.
     Same(&'a ProfileLeg),
     /// Of other ends, in so many seconds.
@@ -76,7 +77,7 @@ pub enum OldLeg<'a> {
 }
 
 /// What leg number `leg` of `profile` was, whose waypoints were `before` and are `points` now.
-pub fn old_leg<'a>(profile: &'a Profile, before: &[Point3<f64>], points: &[Point3<f64>], leg: usize) -> OldLeg<'a> {
+fn old_leg<'a>(profile: &'a Profile, before: &[Point3<f64>], points: &[Point3<f64>], leg: usize) -> OldLeg<'a> {
     match profile.legs.get(leg) {
         Some(old) if before.get(leg..=leg + 1) == points.get(leg..=leg + 1) => OldLeg::Same(old),
         Some(old) => OldLeg::Took(old.duration),
@@ -84,21 +85,36 @@ pub fn old_leg<'a>(profile: &'a Profile, before: &[Point3<f64>], points: &[Point
     }
 }
 
+/// The witness over other `points` in the places of `before`, the waypoints of `profile`: what did not change is kept, and
+/// where velocities are in the way other ones are chosen at what changed, and then beside it. `None` where no choice is
+/// proven.
+pub(crate) fn mend_over<J: ProveLegs>(
+    judge: &J,
+    timing: &LegTiming,
+    profile: &Profile,
+    before: &[Point3<f64>],
+    points: &[Point3<f64>],
+) -> Option<Profile> {
+    Chosen::ALL.into_iter().find_map(|chosen| {
+        let waypoints = mended(profile, before, points, chosen);
+        mend(judge, timing, &waypoints, |leg| old_leg(profile, before, points, leg))
+    })
+}
+
 /// Velocity at waypoint number `waypoint`, m/s.
-pub fn passed(profile: &Profile, waypoint: usize) -> Vector3<f64> {
+pub(crate) fn passed(profile: &Profile, waypoint: usize) -> Vector3<f64> {
     match waypoint.checked_sub(1).map(|before| profile.legs.get(before)) {
         Some(Some(leg)) => leg.derivative(leg.duration, 1),
         _ => profile.legs.first().map_or_else(Vector3::zeros, |leg| leg.derivative(0.0, 1)),
     }
 }
 
-/// The fastest witness over `waypoints` with leg times of `rungs`; `old` is what a leg was before. `None` where no
+/// The fastest witness over `waypoints` with leg times of `timing`; `old` is what a leg was before. `None` where no
 /// choice is proven.
-pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
+pub(crate) fn mend<'o, J: ProveLegs>(
     judge: &J,
-    rungs: &[f64],
+    timing: &LegTiming,
     waypoints: &[MendedWaypoint],
-    end: impl Fn(&Point3<f64>, Vector3<f64>) -> J::End,
     old: impl Fn(usize) -> OldLeg<'o>,
 ) -> Option<Profile> {
     struct Reached<E> {
@@ -107,11 +123,12 @@ pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
         /// Number of the state before, and the leg from it.
         from: Option<(usize, ProfileLeg)>,
     }
+    let rungs = timing.rungs();
     let mut layers: Vec<Vec<Reached<J::End>>> = Vec::with_capacity(waypoints.len());
     for (k, waypoint) in waypoints.iter().enumerate() {
         let choices = choices(judge, waypoints, k);
         let Some(before) = layers.last() else {
-            layers.push(vec![Reached { end: end(&waypoint.place, waypoint.velocity), time: 0.0, from: None }]);
+            layers.push(vec![Reached { end: judge.state(&waypoint.place, &waypoint.velocity), time: 0.0, from: None }]);
             continue;
         };
         let (known, took) = match old(k - 1) {
@@ -120,10 +137,10 @@ pub(in crate::feasibility) fn mend<'o, J: ProveLegs>(
             OldLeg::Took(time) => (None, Some(time)),
             OldLeg::None => (None, None),
         };
-        let times = || took.iter().chain(rungs);
+        let times = || took.iter().chain(&rungs);
         let mut layer = Vec::with_capacity(choices.len());
         for velocity in choices {
-            let there = end(&waypoint.place, velocity);
+            let there = judge.state(&waypoint.place, &velocity);
             let mut best: Option<(f64, usize, ProfileLeg)> = None;
             for (number, here) in before.iter().enumerate() {
                 let leg = known.clone().or_else(|| times().find_map(|time| judge.leg(&here.end, &there, *time).ok()));

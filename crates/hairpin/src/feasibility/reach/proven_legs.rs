@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use nalgebra::{Point3, Vector3};
+
+use crate::math::random::Stream;
 use crate::trajectory::ProfileLeg;
 
 /// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
@@ -36,7 +39,7 @@ impl WitnessLegs {
 }
 
 /// Proves legs between states of one robot.
-pub(in crate::feasibility) trait ProveLegs {
+pub(crate) trait ProveLegs {
     /// A state.
     type End;
     /// Why a leg is none.
@@ -53,4 +56,11 @@ pub(in crate::feasibility) trait ProveLegs {
 
     /// Speed of a state, m/s.
     fn speed(end: &Self::End) -> f64;
+
+    /// The state at `place` with `velocity`, m/s.
+    fn state(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> Self::End;
+
+    /// A velocity of `speed` (m/s) at waypoint number `w` of `points`, in a direction drawn at random; a leg takes
+    /// `longest` s at most.
+    fn aimed(&self, points: &[Point3<f64>], w: usize, speed: f64, longest: f64, random: &mut Stream) -> Vector3<f64>;
 }

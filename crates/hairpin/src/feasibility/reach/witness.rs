@@ -12,10 +12,9 @@ use std::cell::OnceCell;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-use super::mend::{MendedWaypoint, OldLeg, mend};
 use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
 use super::states::{States, Velocities};
-use super::wander::{Ends, Wandered, another, wander};
+use super::wander::another;
 use super::{Leg, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
@@ -85,6 +84,16 @@ impl ProveLegs for LegJudge {
 
     fn speed(end: &LegEnd) -> f64 {
         end.velocity.norm()
+    }
+
+    fn state(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> LegEnd {
+        self.end(*place, *velocity)
+    }
+
+    /// Towards a waypoint that a leg at that speed can reach.
+    fn aimed(&self, points: &[Point3<f64>], w: usize, speed: f64, longest: f64, random: &mut Stream) -> Vector3<f64> {
+        let towards = points[another(points, w, speed * longest, random)] - points[w];
+        towards.try_normalize(1e-9).unwrap_or_else(Vector3::zeros) * speed
     }
 }
 
@@ -212,41 +221,6 @@ impl<'a> Roadmap<'a> {
             .collect();
         let nearest = |p: &Point3<f64>| near.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
         points.iter().map(nearest).collect()
-    }
-}
-
-impl LegJudge {
-    /// A walk of `length` waypoints of `points` from the first to the last and its witness, drawn leg by leg:
-    /// [`wander`](super::wander). `None` where none was met.
-    ///
-    /// Speeds are uniform up to the top speed, and each velocity points towards a waypoint that a leg at that speed can
-    /// reach. Walks through states with few ways on come more often than under [`uniform`](crate::search::uniform()),
-    /// which needs all legs of a graph: this judges some hundred.
-    pub fn wander(
-        &self,
-        points: &[Point3<f64>],
-        timing: &LegTiming,
-        length: usize,
-        random: &mut Stream,
-    ) -> Option<Wandered> {
-        let longest = timing.range().1;
-        let moving = |w: usize, speed: f64, random: &mut Stream| {
-            let towards = points[another(points, w, speed * longest, random)] - points[w];
-            self.end(points[w], towards.try_normalize(1e-9).unwrap_or_else(Vector3::zeros) * speed)
-        };
-        let ends = Ends { at_rest: &|point| self.end(*point, Vector3::zeros()), moving: &moving };
-        wander(self, points, &timing.rungs(), &ends, length, random)
-    }
-
-    /// The fastest witness over `waypoints` with leg times of `timing`: [`mend`](super::mend). `old` is what a
-    /// leg was before. `None` where no choice of velocities has one.
-    pub fn mend<'o>(
-        &self,
-        waypoints: &[MendedWaypoint],
-        timing: &LegTiming,
-        old: impl Fn(usize) -> OldLeg<'o>,
-    ) -> Option<Profile> {
-        mend(self, &timing.rungs(), waypoints, |place, velocity| self.end(*place, velocity), old)
     }
 }
 

@@ -3,16 +3,13 @@
 use serde_json::{Value, json};
 
 use crate::campaign::scenario::KeyPath;
+use crate::campaign::testing::quadrotor;
 use crate::campaign::{Scenario, Setup};
 
 fn scenario() -> Value {
     json!({
         "hairpin": 1,
-        "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "inertia_kg_m2": [0.0049, 0.0049, 0.0069],
-            "thrust_coefficient_n_s2": 1.91e-6, "moment_coefficient_n_m_s2": 2.6e-7, "rotor_speed_rad_s": [0.0, 2200.0],
-            "rotors": [{ "x_m": 0.08, "y_m": 0.08, "spin": 1.0 }, { "x_m": -0.08, "y_m": 0.08, "spin": -1.0 },
-                { "x_m": -0.08, "y_m": -0.08, "spin": 1.0 }, { "x_m": 0.08, "y_m": -0.08, "spin": -1.0 }],
-            "max_speed_m_s": 18.0, "clearance_radius_m": 0.23 },
+        "robot": quadrotor(),
         "world": { "size_m": [30.0, 30.0, 30.0], "keep_in_margin_m": 2.0, "obstacles": [
             { "name": "mast", "box": { "center_m": [12.0, 8.0, 5.0], "size_m": [2.0, 2.0, 10.0] } }] },
         "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },

@@ -215,8 +215,7 @@ pub struct ProgramSearch {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confirm: Option<u64>,
     /// `worst`: what is searched for: deviation | acceleration | time | overshoot | lateness; if not given, each limit
-    /// of
-    /// `[spec]`, by its margin in spreads of what is drawn at random.
+    /// of `[spec]`, by its margin in spreads of what is drawn at random.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<Target>,
     /// `worst`: points of a program; as many as the heaviest has if not given.
