@@ -16,7 +16,7 @@ const WHAT: &str = "baseline";
 /// there yet. The file is written once all are measured.
 pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn Watch) -> Result<(), Problem> {
     let setup = &work.setup;
-    let wanted = setup.scenario.executor().baseline;
+    let wanted = setup.scenario.baseline_cases();
     let beside_nothing = flown.runs == flown.failed || !tally.missions.is_empty() || setup.recordings().is_some();
     if wanted == 0 || beside_nothing || work.folder.read_baseline()?.is_some() {
         return Ok(());

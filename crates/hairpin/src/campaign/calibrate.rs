@@ -93,7 +93,7 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
         let flight = run.outcome.as_ref().ok()?;
         let events = Limits { unfinished: setup.scenario.asked() != Asked::Nothing, ..Limits::default() };
         let events = violations(&measures, flight, &events);
-        found.ended_badly |= events.iter().any(|event| event.is_crash() || event.what == "unfinished");
+        found.ended_badly |= events.iter().any(|event| event.is_crash() || event.is_unfinished());
         found.left_world |= flight.left_world.is_some();
         for (worst, key) in found.worst.iter_mut().zip(&keys) {
             let Some(value) = (key.of)(&measures) else { continue };

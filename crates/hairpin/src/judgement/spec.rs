@@ -46,6 +46,11 @@ impl Default for Limits {
     }
 }
 
+/// What stands still moves less than this, m, for as long, s: what hovers keeps so still by far, and what still creeps
+/// to a waypoint of the usual radius does not.
+const STILL_M: f64 = 0.1;
+const STILL_S: f64 = 5.0;
+
 impl Limits {
     /// Whether there is any limit.
     pub fn are_given(&self) -> bool {
@@ -73,13 +78,13 @@ impl Limits {
 pub struct Violation {
     /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`,
     /// `late`; or an event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm
-    /// `halted`, `left-world`, `unfinished`.
+    /// `halted`, `left-world`, `stalled`, `unfinished`.
     pub what: String,
-    /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished run
-    /// the number of waypoints reached.
+    /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished or
+    /// stalled run the number of waypoints reached.
     pub value: f64,
-    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished run the number of
-    /// waypoints.
+    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished or stalled run the number
+    /// of waypoints.
     pub limit: f64,
     /// Unit, as printed: `m`, `m/s²`, `s`, `°`, empty.
     pub unit: String,
@@ -92,12 +97,17 @@ pub struct Violation {
 impl Violation {
     /// Whether the limit is a lower one.
     pub fn is_lower_limit(&self) -> bool {
-        matches!(self.what.as_str(), "clearance" | "tip-over-margin" | "unfinished")
+        self.is_unfinished() || matches!(self.what.as_str(), "clearance" | "tip-over-margin")
     }
 
     /// Whether the run came to a bad end, of whatever kind.
     pub fn is_crash(&self) -> bool {
         matches!(self.what.as_str(), "crash" | "tip-over" | "belly-contact" | "stuck" | "halted" | "off-map")
+    }
+
+    /// Whether the run ended short of its last waypoint without a crash.
+    pub fn is_unfinished(&self) -> bool {
+        matches!(self.what.as_str(), "stalled" | "unfinished")
     }
 
     /// What happened, in words, where no measured limit is violated.
@@ -110,6 +120,7 @@ impl Violation {
             "halted" => "halted".into(),
             "off-map" => "left the map".into(),
             "left-world" => "left the world".into(),
+            "stalled" => format!("stood still after {} of {} waypoints", self.value, self.limit),
             "unfinished" => format!("stopped at {} of {} waypoints", self.value, self.limit),
             _ => return None,
         })
@@ -128,7 +139,7 @@ impl Violation {
         let rank = match self.what.as_str() {
             _ if self.is_crash() => 3,
             "left-world" => 2,
-            "unfinished" => 1,
+            _ if self.is_unfinished() => 1,
             _ => 0,
         };
         let excess = if self.is_lower_limit() { self.limit - self.value } else { self.value - self.limit };
@@ -231,9 +242,21 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
         _ => false,
     };
     if limits.unfinished && unfinished {
-        found.push(event("unfinished", reached as f64, all as f64, "waypoints", end, last));
+        // One that stands still short of a waypoint would not have come there in any time.
+        let (what, at) = stalled(flight).map_or(("unfinished", end), |since| ("stalled", since));
+        found.push(event(what, reached as f64, all as f64, "waypoints", at, last));
     }
     found
+}
+
+/// Since when a run that its time limit ended had stood still, s: for [`STILL_S`] at least, within [`STILL_M`] of where
+/// it ended.
+fn stalled(flight: &Flight) -> Option<f64> {
+    let (track, times) = (&flight.track, flight.track.times());
+    let end = times.len().checked_sub(1)?;
+    let moved = |index: &usize| (track.position(*index) - track.position(end)).norm() > STILL_M;
+    let since = times[(0..end).rev().find(moved).map_or(0, |moved| moved + 1)];
+    (flight.ended == Ended::Time && times[end] - since >= STILL_S).then_some(since)
 }
 
 /// The leg being flown at `t`, by the executor's channel or, without one, by the waypoints reached until then.

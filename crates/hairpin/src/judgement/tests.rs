@@ -340,6 +340,17 @@ fn violations_come_gravest_first() {
     let found = violations(&measures, &flight(Ended::Time, Some(1.0)), &limits);
     assert_eq!((found[0].what.as_str(), found[0].at, found[0].leg), ("left-world", 1.0, 0));
     assert_eq!((found[1].value, found[1].limit, found[1].leg), (2.0, 3.0, 1));
+    // Nine seconds more at the last place, a waypoint short, are no end by time: it stands still.
+    let still = |step: f64| {
+        let flown: Vec<[f64; 3]> = (0..10).map(|n| [5.0 + step * f64::from(n), -2.0, 0.0]).collect();
+        let flown = Flight { track: track(seconds(10), &flown, &[]), ..flight(Ended::Time, None) };
+        let found = violations(&measures, &flown, &Limits::default());
+        (found[0].what.clone(), found[0].at, found[0].event())
+    };
+    let words = |words: &str| Some(format!("{words} after 2 of 3 waypoints"));
+    assert_eq!(still(0.0), ("stalled".into(), 0.0, words("stood still")));
+    assert_eq!(still(0.018), ("stalled".into(), 4.0, words("stood still")));
+    assert_eq!((still(0.03).0.as_str(), still(0.03).1), ("unfinished", 9.0));
     let lenient = Limits { unfinished: false, ..Limits::default() };
     assert!(violations(&measures, &flight(Ended::Time, None), &lenient).is_empty());
 }

@@ -71,7 +71,7 @@ impl Say for ArmSetup {
                     format!(
                         "programs through {} points, by {} executions for {target}",
                         self.asked_points(),
-                        search.pooled_executions(),
+                        self.scenario.searched_executions(),
                     )
                 }
             }),

@@ -188,7 +188,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     let setup: &Setup = graphs.setup;
     let search = setup.scenario.search();
     let Pool { plans, curve, drawn, run, apart, nothing } =
-        pool(graphs, search.cases as usize, [search.pooled_executions(), 0], stop);
+        pool(graphs, search.cases as usize, [setup.scenario.searched_executions(), 0], stop);
     let mut tally = Tally {
         units: 1,
         graphs: drawn,

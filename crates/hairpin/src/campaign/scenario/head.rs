@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Asked, Distribution, Environment, Mistake, Named, Origin, Projected, SearchSection, Subject, Terms};
+use super::{
+    Asked, Distribution, Environment, Mistake, Named, Origin, Projected, SearchMethod, SearchSection, Subject, Terms,
+};
 use crate::trajectory::program::{Tool, WorkObject};
 
 /// Who executes a campaign's trajectories, and how often.
@@ -170,6 +172,28 @@ pub trait Keys: Any {
     /// Who executes, and how often.
     fn executor(&self) -> Executor<'_> {
         self.head().executor
+    }
+
+    /// Random cases that the campaign is compared with. With a command, which may be slow, the method `worst` flies
+    /// them out of its budget, and at most half of that goes to them.
+    fn baseline_cases(&self) -> u64 {
+        let executor = self.executor();
+        match self.pays_for_its_baseline() {
+            true => executor.baseline.min(self.search().pooled_executions() / (2 * executor.repeat.max(1))),
+            false => executor.baseline,
+        }
+    }
+
+    /// Executions that the pool of the method `worst` has for its search.
+    fn searched_executions(&self) -> u64 {
+        let baseline = if self.pays_for_its_baseline() { self.baseline_cases() * self.executor().repeat } else { 0 };
+        self.search().pooled_executions() - baseline
+    }
+
+    /// Whether the random cases are flown out of the search's budget: a time is a budget of the search alone.
+    fn pays_for_its_baseline(&self) -> bool {
+        let search = self.search();
+        self.executor().command.is_some() && search.method == SearchMethod::Worst && search.seconds.is_none()
     }
 
     /// The word of the controller of ours that executes; `None` where a command does.
