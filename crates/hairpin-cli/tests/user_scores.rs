@@ -135,3 +135,46 @@ fn a_time_limit_does_not_wait_for_an_answer() {
     refused(here, &["generate", "q.toml", "--out", "never", "--time-limit", "0.5"], &["was not loaded in time"]);
     assert!(!here.join("never").exists());
 }
+
+/// Searches the hull's flights by a target.
+fn with_target(here: &Path, target: &str) {
+    let search = r#"{ method = "worst", waypoints = 60, cases = 2, executions = 15, target = "python:my target.py" }"#;
+    fs::write(here.join("q.toml"), small_hull(search)).unwrap();
+    fs::write(here.join("my target.py"), target).unwrap();
+}
+
+#[test]
+fn the_worst_is_searched_by_a_target_of_the_users() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    with_target(
+        here,
+        "def target(run):\n    assert len(run['t_s']) == len(run['q_wxyz']) == len(run['channels']['vx_m_s'])\n    return run['t_s'][-1]\n",
+    );
+    json(here, &["stress", "q.toml", "--out", "a", "--set", "execute.baseline=0"]);
+    let campaign = CampaignFolder::open(&here.join("a")).unwrap();
+    let found = campaign.read_cases().unwrap();
+    let results = campaign.read_results().unwrap();
+    assert_eq!((found.len(), results.len()), (2, 2));
+    for case in &found {
+        let result = results.iter().find(|result| result.case == case.number).unwrap();
+        let time = result.measures.as_ref().unwrap().total_time;
+        assert!((case.score - time).abs() < 1e-9, "{} {time}", case.score);
+    }
+    let curve = fs::read_to_string(here.join("a/best-so-far.tsv")).unwrap();
+    assert!(curve.lines().next().unwrap().contains("target"), "{curve}");
+    // A folder stands alone, and threads change nothing.
+    assert!(here.join("a/target.py").is_file());
+    json(here, &["generate", "q.toml", "--out", "b", "--threads", "1"]);
+    assert_eq!(cases(&here.join("b")), found);
+    // It is a file's word only where something executes what it tries.
+    let words = ["generate.search.target", "only the method `worst` has a target"];
+    refused(here, &["generate", "q.toml", "--out", "c", "--set", "generate.search.method=\"exact\""], &words);
+    with_target(here, "def target(run):\n    return 1 / 0\n");
+    let words = ["`generate.search.target` = python:my target.py: File", "line 2", "ZeroDivisionError"];
+    refused(here, &["generate", "q.toml", "--out", "d"], &words);
+    with_target(here, "def score(leg):\n    return 1\n");
+    refused(here, &["generate", "q.toml", "--out", "e"], &["it defines no function target(run)"]);
+    let unknown = ["generate", "q.toml", "--out", "f", "--set", "generate.search.target=\"deviations\""];
+    refused(here, &unknown, &["deviation", "python:FILE"]);
+}

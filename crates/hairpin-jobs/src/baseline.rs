@@ -44,13 +44,13 @@ pub(crate) fn drawn(
     what: &'static str,
     watch: &dyn Watch,
 ) -> Result<ByChance, Problem> {
-    let user_score = setup.user_score();
+    let code = setup.user_code();
     let stop = Stop {
-        cancelled: &|| watch.stopped() || user_score.is_some_and(|user| user.trouble().is_some()),
+        cancelled: &|| watch.stopped() || code.iter().any(|(_, user)| user.trouble().is_some()),
         progress: &|done, of| watch.progress(what, done, of),
         clock: &|| 0.0,
     };
-    let drawn = not_waiting_for(user_score, watch, Deadline::after(None), || by_chance(setup, asked, &stop));
+    let drawn = not_waiting_for(&code, watch, Deadline::after(None), || by_chance(setup, asked, &stop));
     watch.finished(what);
     if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));

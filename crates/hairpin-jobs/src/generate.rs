@@ -48,9 +48,9 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
     let begun = Instant::now();
-    let user_score = work.setup.user_score();
-    let score_trouble = || user_score.and_then(|user| user.trouble());
-    let stopped = || watch.stopped() || deadline.passed() || score_trouble().is_some();
+    let code = work.setup.user_code();
+    let code_trouble = || code.iter().find_map(|(key, user)| Some((key, user.trouble()?)));
+    let stopped = || watch.stopped() || deadline.passed() || code_trouble().is_some();
     let stop = Stop {
         cancelled: &stopped,
         progress: &|done, of| watch.progress(WHAT, done, of),
@@ -58,7 +58,7 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     };
     let search = |Asked { executor, stop: over }: Asked| {
         let stop = Stop { cancelled: over, ..stop };
-        not_waiting_for(user_score, watch, deadline, || {
+        not_waiting_for(&code, watch, deadline, || {
             hairpin::campaign::generate(&work.setup, &known, executor, &stop, &mut |new, tally| {
                 cases.extend_from_slice(new);
                 if at.elapsed() > CHECKPOINT && trouble.is_none() {
@@ -73,8 +73,8 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    if let Some(trouble) = score_trouble() {
-        return Err(Problem::input(format!("`{}` = {trouble}", work.setup.scenario.score_key())));
+    if let Some((key, trouble)) = code_trouble() {
+        return Err(Problem::input(format!("`{key}` = {trouble}")));
     }
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {

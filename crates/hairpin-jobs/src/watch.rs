@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use hairpin::campaign::LegScorer;
+use hairpin::campaign::UserCode;
 
 /// Whoever runs a job. Asked and told from any thread.
 pub trait Watch: Sync {
@@ -85,21 +85,23 @@ impl Deadline {
 /// Between two questions whether an answer of the user's score is still wanted.
 const POLL: Duration = Duration::from_millis(20);
 
-/// Does `work`, which may ask `score`. What that takes for an answer is not up to us; what is waited for it is.
+/// Does `work`, which may ask `code`. What that takes for an answer is not up to us; what is waited for it is.
 pub(crate) fn not_waiting_for<T>(
-    score: Option<&dyn LegScorer>,
+    code: &[(&str, &dyn UserCode)],
     watch: &dyn Watch,
     deadline: Deadline,
     work: impl FnOnce() -> T,
 ) -> T {
-    let Some(user) = score else { return work() };
+    if code.is_empty() {
+        return work();
+    }
     thread::scope(|scope| {
         // Closes with the work, however that ends.
         let (_at_work, done) = sync_channel::<()>(0);
         scope.spawn(move || {
             while done.recv_timeout(POLL) == Err(RecvTimeoutError::Timeout) {
                 if watch.stopped() || deadline.passed() {
-                    return user.stop();
+                    return code.iter().for_each(|(_, user)| user.stop());
                 }
             }
         });

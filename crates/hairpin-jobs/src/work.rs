@@ -86,12 +86,12 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let search = setup.scenario.search();
     tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
     may_make(&path, &setup, settings.if_there)?;
-    if let Some(user) = setup.user_score() {
+    for (key, user) in setup.user_code() {
         let deadline = Deadline::after(settings.time_limit_s);
-        let tried = not_waiting_for(Some(user), watch, deadline, || user.try_out());
+        let tried = not_waiting_for(&[(key, user)], watch, deadline, || user.try_out());
         tried.map_err(|why| match watch.stopped() {
-            true => Problem::Interrupted("stopped before the score was loaded".into()),
-            false => Problem::input(format!("`{}` = {why}", setup.scenario.score_key())),
+            true => Problem::Interrupted(format!("stopped before the file of `{key}` was loaded")),
+            false => Problem::input(format!("`{key}` = {why}")),
         })?;
     }
     Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })

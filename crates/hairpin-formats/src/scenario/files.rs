@@ -10,7 +10,7 @@ use super::attached::{Wrong, ending};
 use super::guest::Guest;
 use super::report::Report;
 use super::whole::read_file;
-use super::{baseline, cell, learned, terrain, user_score};
+use super::{baseline, cell, learned, terrain, user_score, user_target};
 use crate::bounds::MOST_MESH_PARTS;
 use crate::folder::inside;
 use crate::mesh::read_mesh;
@@ -26,7 +26,7 @@ pub(super) fn read(
     if !wrong.is_empty() {
         return (Attachments::default(), wrong);
     }
-    let Named { map, cloud, costs, meshes, score, baseline } = scenario.named();
+    let Named { map, cloud, costs, meshes, score, target, baseline } = scenario.named();
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
     let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
     let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
@@ -39,6 +39,9 @@ pub(super) fn read(
     if let Some((key, score)) = score {
         attachments.model = noting(learned::read(key, score, find), &mut wrong).flatten();
         attachments.user_score = noting(user_score::read(key, score, find, guest.is_some()), &mut wrong).flatten();
+    }
+    if let Some(target) = target {
+        attachments.user_target = noting(user_target::read(target, find, guest.is_some()), &mut wrong).flatten();
     }
     (attachments, wrong)
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::scenario::{LEARNED, Named, PYTHON};
+use hairpin::campaign::scenario::{LEARNED, Named, PYTHON, TARGET_KEY, Target};
 
 use super::attached::Wrong;
 use super::tree::{Node, NodeKind};
@@ -69,7 +69,7 @@ pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
 
 /// Every file that a scenario names, by its key.
 fn names(named: &Named<'_>) -> Vec<(String, String)> {
-    let Named { map, cloud, costs, meshes, score, baseline } = named;
+    let Named { map, cloud, costs, meshes, score, target, baseline } = named;
     let mut all: Vec<(String, String)> = Vec::new();
     let mut add = |key: &str, name: &str| all.push((key.to_owned(), name.to_owned()));
     if let Some(file) = map.as_ref().and_then(|map| map.file.as_ref()) {
@@ -90,6 +90,9 @@ fn names(named: &Named<'_>) -> Vec<(String, String)> {
         && let Some(file) = [LEARNED, PYTHON].iter().find_map(|kind| score.strip_prefix(kind))
     {
         add(key, file);
+    }
+    if let Some(Target::Python(file)) = target {
+        add(TARGET_KEY, file);
     }
     if let Some(baseline) = baseline {
         add("spec.regression.baseline", &baseline.baseline);

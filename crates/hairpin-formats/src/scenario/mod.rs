@@ -8,6 +8,7 @@ mod cell;
 mod files;
 mod guest;
 mod learned;
+mod python;
 mod report;
 mod resolve;
 mod robot;
@@ -18,6 +19,7 @@ mod terrain;
 mod tree;
 mod urdf;
 mod user_score;
+mod user_target;
 mod whole;
 mod write;
 

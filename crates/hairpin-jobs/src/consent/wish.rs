@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use hairpin::campaign::Setup;
+use hairpin::campaign::scenario::TARGET_KEY;
 use hairpin_formats::bounds::{self, MOST_RASTER_BYTES};
 use hairpin_formats::executor::Command;
 use hairpin_formats::recordings::leads_out;
@@ -48,7 +49,11 @@ impl Wish {
             key: scenario.score_key().into(),
             what: What::Python { file: score.given.clone(), hash: blake3::hash(&score.bytes).into() },
         });
-        score.into_iter().collect()
+        let target = attachments.user_target(scenario.search().target.as_ref()).map(|target| Self {
+            key: TARGET_KEY.into(),
+            what: What::Python { file: target.given.clone(), hash: blake3::hash(&target.bytes).into() },
+        });
+        score.into_iter().chain(target).collect()
     }
 
     /// All that a campaign asks for.

@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use super::baseline::Baseline;
 use super::learn::ScoreModel;
-use super::scenario::{CostTable, LEARNED, PYTHON, PointsSource, RegressionLimit, Scenario, TerrainSection};
+use super::scenario::{CostTable, LEARNED, PYTHON, PointsSource, RegressionLimit, Scenario, Target, TerrainSection};
 use super::user_score::LegScorer;
+use super::user_target::RunMeter;
 use crate::world::terrain::ElevationMap;
 
 /// A file as it was read.
@@ -71,6 +72,8 @@ pub struct Attachments {
     pub model: Option<Attached<ScoreModel>>,
     /// The score of the user's own, `python:FILE`.
     pub user_score: Option<Attached<dyn LegScorer>>,
+    /// The target of the user's own, `python:FILE`.
+    pub user_target: Option<Attached<dyn RunMeter>>,
     /// `spec.regression.baseline`.
     pub baseline: Option<Attached<Baseline>>,
 }
@@ -81,7 +84,7 @@ impl Attachments {
         fn kept<T: ?Sized>(attached: Option<&Attached<T>>) -> Option<(&str, &[u8])> {
             attached.map(|attached| (attached.name.as_str(), &*attached.bytes))
         }
-        let Self { map, cloud, costs, model, user_score, baseline } = self;
+        let Self { map, cloud, costs, model, user_score, user_target, baseline } = self;
         let map = map.as_ref().map(|(_, map)| map);
         let all = [
             kept(map),
@@ -89,6 +92,7 @@ impl Attachments {
             kept(costs.as_ref()),
             kept(model.as_ref()),
             kept(user_score.as_ref()),
+            kept(user_target.as_ref()),
             kept(baseline.as_ref()),
         ];
         all.into_iter().flatten().collect()
@@ -118,6 +122,12 @@ impl Attachments {
     /// The score of the user's own that `score` names.
     pub fn user_score(&self, score: &str) -> Option<&Attached<dyn LegScorer>> {
         self.user_score.as_ref().filter(|user| score.strip_prefix(PYTHON) == Some(&user.name))
+    }
+
+    /// The target of the user's own that `target` names.
+    pub fn user_target(&self, target: Option<&Target>) -> Option<&Attached<dyn RunMeter>> {
+        let Some(Target::Python(file)) = target else { return None };
+        self.user_target.as_ref().filter(|user| user.name == *file)
     }
 
     /// What earlier releases did.

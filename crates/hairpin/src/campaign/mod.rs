@@ -44,7 +44,9 @@ pub mod tally;
 #[cfg(test)]
 mod testing;
 mod trial;
+mod user_code;
 pub mod user_score;
+pub mod user_target;
 pub mod vary;
 pub mod verdict;
 pub mod verify;
@@ -71,6 +73,8 @@ pub use setup::Setup;
 pub use shrink::{ShrinkError, Shrunk, shrink};
 pub use stop::Stop;
 pub use tally::{RoundTally, Tally};
+pub use user_code::UserCode;
 pub use user_score::LegScorer;
+pub use user_target::RunMeter;
 pub use verdict::{how_obtained, verdict};
 pub use verify::verify;

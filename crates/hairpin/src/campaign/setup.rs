@@ -13,8 +13,11 @@ use super::case::Case;
 use super::check::check_vary;
 use super::kind::{Build, Given, Handed, Kind, Programs, RobotWords};
 use super::own_controller::AnyController;
+use super::scenario::TARGET_KEY;
 use super::scenario::{Environment, Mistake, Scenario, kinds_of_robots};
+use super::user_code::UserCode;
 use super::user_score::LegScorer;
+use super::user_target::RunMeter;
 use super::vary;
 use crate::math::simd::Simd;
 
@@ -242,6 +245,18 @@ impl Setup {
     /// The score of the user's own, if that is what legs are scored by.
     pub fn user_score(&self) -> Option<&dyn LegScorer> {
         self.attachments.user_score(self.scenario.score()).map(|user| &*user.read)
+    }
+
+    /// What measures runs for the search, where that is the user's own.
+    pub fn user_target(&self) -> Option<&dyn RunMeter> {
+        self.attachments.user_target(self.scenario.search().target.as_ref()).map(|user| &*user.read)
+    }
+
+    /// All code of the user's own that a search asks, by the keys that name it.
+    pub fn user_code(&self) -> Vec<(&'static str, &dyn UserCode)> {
+        let score = self.user_score().map(|score| (self.scenario.score_key(), score as &dyn UserCode));
+        let target = self.user_target().map(|target| (TARGET_KEY, target as &dyn UserCode));
+        score.into_iter().chain(target).collect()
     }
 
     /// The word of the controller that executes, the caller's or ours; `None` where a command does.

@@ -10,6 +10,7 @@ use super::learn::LegSample;
 use super::mission::run_seed;
 use super::placement::Placement;
 use super::samples::samples_of;
+use super::user_target::RunFacts;
 use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
 use crate::math::random::named_seed;
@@ -35,6 +36,13 @@ pub(super) fn executed_case(setup: &Setup, executor: &dyn Executor, plan: Plan, 
     let kept = kept_seed(setup, executor, &plan.waypoints);
     let case = plan.case(setup.scenario.seed(), graph, number);
     Case { seed: kept.unwrap_or(case.seed), ..case }
+}
+
+/// What an execution is measured by, more is worse: by the judge, or by a function of the user's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sought {
+    Measured(Stress),
+    Users,
 }
 
 /// Executions of plans of one graph.
@@ -72,24 +80,23 @@ impl Trials<'_> {
         Some(Trial { stress, executions: 1 + confirm, ..first })
     }
 
-    /// Executes `plan` as run number `run` and measures it by each of `stresses`, NaN where one was not measured; with
+    /// Executes `plan` as run number `run` and measures it by each of `sought`, NaN where one was not measured; with
     /// what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
     /// as runs 1, 2, … of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
-    pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), stresses: &[Stress], least: &[f64]) -> Option<Ran> {
+    pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), sought: &[Sought], least: &[f64]) -> Option<Ran> {
         let executed = self.executed_as(plan, run)?;
-        let measured = |stress: &Stress, measures: &Measures| stress.of(measures).unwrap_or(f64::NAN);
-        let trial = |stress: &Stress| Trial {
-            stress: measured(stress, &executed.measures),
-            worst_leg: stress.worst_leg(&executed.measures).unwrap_or(0),
+        let trial = |sought: &Sought| Trial {
+            stress: self.measured(*sought, &executed),
+            worst_leg: worst_leg(*sought, &executed.measures),
             executions: 1,
         };
-        let mut trials: Vec<Trial> = stresses.iter().map(trial).collect();
+        let mut trials: Vec<Trial> = sought.iter().map(trial).collect();
         let confirm = self.setup.scenario.search().confirm;
         if confirm > 0 && trials.iter().zip(least).any(|(trial, least)| trial.stress >= *least) {
             for number in 0..confirm {
                 let again = self.again(&executed.case, 1 + number as usize, number);
-                for (trial, stress) in trials.iter_mut().zip(stresses) {
-                    trial.stress += again.as_ref().map_or(f64::NAN, |again| measured(stress, &again.measures));
+                for (trial, sought) in trials.iter_mut().zip(sought) {
+                    trial.stress += again.as_ref().map_or(f64::NAN, |again| self.measured(*sought, again));
                 }
             }
             for trial in &mut trials {
@@ -97,6 +104,19 @@ impl Trials<'_> {
             }
         }
         Some(Ran { trials, behaviour: executed.measures.behaviour() })
+    }
+
+    fn measured(&self, sought: Sought, executed: &Executed) -> f64 {
+        match sought {
+            Sought::Measured(stress) => stress.of(&executed.measures).unwrap_or(f64::NAN),
+            Sought::Users => self.asked(executed).unwrap_or(f64::NAN),
+        }
+    }
+
+    /// What the user's own function makes of a run.
+    fn asked(&self, Executed { case, run, .. }: &Executed) -> Option<f64> {
+        let flight = run.outcome.as_ref().ok()?;
+        Some(self.setup.user_target()?.measure(&RunFacts::of(flight, &case.waypoints)))
     }
 
     /// The same once, with what there is to learn from it as trajectory number `trajectory`.
@@ -199,6 +219,15 @@ impl Trials<'_> {
         let kept = kept_seed(self.setup, self.executor, &case.waypoints).map(|kept| self.seed.unwrap_or(kept));
         Case { seed: kept.unwrap_or(case.seed), ..case }
     }
+}
+
+/// The leg to change first. A function says nothing of legs: where the robot strayed most.
+fn worst_leg(sought: Sought, measures: &Measures) -> usize {
+    let stress = match sought {
+        Sought::Measured(stress) => stress,
+        Sought::Users => Stress::MaxDeviation,
+    };
+    stress.worst_leg(measures).unwrap_or(0)
 }
 
 /// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::user_code::UserCode;
 use crate::feasibility::reach::LegFeatures;
 use crate::search::LegView;
 
@@ -62,22 +63,10 @@ impl LegFacts {
 }
 
 /// Scores legs. The same leg must get the same numbers whenever, and in whatever company, it is asked for.
-pub trait LegScorer: Send + Sync {
+pub trait LegScorer: UserCode {
     /// Of every leg what it scores whatever was flown before it, and what it adds to the score of the leg after it; NaN
-    /// where there is [trouble](Self::trouble).
+    /// where there is [trouble](UserCode::trouble).
     fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]>;
-
-    /// Why legs have no score, if that has happened.
-    fn trouble(&self) -> Option<String>;
-
-    /// Sees whether there is a score at all, before it is asked for any.
-    ///
-    /// # Errors
-    /// As [trouble](Self::trouble); it was [stopped](Self::stop).
-    fn try_out(&self) -> Result<(), String>;
-
-    /// Waits for no answer any more: what is being scored, and what is asked for from now on, gets NaN.
-    fn stop(&self);
 }
 
 impl fmt::Debug for dyn LegScorer + '_ {

@@ -15,7 +15,8 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["boat::keys"],
     // All keys are one sum: the table of the kinds.
     &["scenario::kinds"],
-    &["vary", "user_score", "baseline"],
+    &["user_code"],
+    &["vary", "user_score", "user_target", "baseline"],
     // What a case and its runs are.
     &["case"],
     &["clock", "learn", "influence", "placement", "own_controller"],

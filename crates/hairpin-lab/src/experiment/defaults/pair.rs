@@ -20,7 +20,7 @@ pub(super) fn pair(
 ) -> Result<Option<PairRecord>, Problem> {
     let seed = run_seed(cell, size, number);
     let base = setup(cell, named_seed(seed, "chance", 0), &[])?;
-    let field = Field { setup: &base, stress: cell.target.stress(), fresh: size.fresh };
+    let field = Field { setup: &base, stress: cell.stress, fresh: size.fresh };
     let known = measured.get(number).and_then(|run| run.ways.iter().find(|way| way.way == Way::Worst));
     let (kept, executions) = match known {
         Some(way) => (way.kept.clone(), way.executions),

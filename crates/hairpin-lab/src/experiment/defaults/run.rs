@@ -48,7 +48,7 @@ pub(super) fn run(
     let drawn_from = if cell.same_graphs { seed } else { named_seed(seed, "uniform", 0) };
     let base = setup(cell, drawn_from, &keys(cell, size, Way::WorstInGraph))?;
     let space = Space::of(&base).map_err(Problem::input)?;
-    let field = Field { setup: &base, stress: cell.target.stress(), fresh: size.fresh };
+    let field = Field { setup: &base, stress: cell.stress, fresh: size.fresh };
 
     let mut ways = Vec::new();
     let mut costed = None;
@@ -126,7 +126,7 @@ fn keys(cell: &Cell, size: &Size, way: Way) -> Vec<(&'static str, String)> {
     // Words in JSON are words in TOML.
     match method {
         "worst" => keys.push(("generate.search.target", json!(cell.target).to_string())),
-        _ => keys.push(("generate.search.stress", json!(cell.target.stress()).to_string())),
+        _ => keys.push(("generate.search.stress", json!(cell.stress).to_string())),
     }
     keys
 }
@@ -135,7 +135,7 @@ fn keys(cell: &Cell, size: &Size, way: Way) -> Vec<(&'static str, String)> {
 fn evolved(cell: &Cell, size: &Size, seed: u64, watch: &dyn Watch) -> Result<Found, Problem> {
     let setup = setup(cell, named_seed(seed, "cmaes", 0), &keys(cell, size, Way::Cmaes))?;
     let space = Space::of(&setup).map_err(Problem::input)?;
-    let field = Field { setup: &setup, stress: cell.target.stress(), fresh: 0 };
+    let field = Field { setup: &setup, stress: cell.stress, fresh: 0 };
     let drawn = |case: usize, count: usize| -> Result<Vec<Case>, String> {
         let first = case as u64 * GRAPHS_OF_A_CASE;
         let (mut starts, mut why) = (Vec::new(), String::new());

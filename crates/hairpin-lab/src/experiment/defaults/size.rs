@@ -1,6 +1,7 @@
 //! How large the experiment is, and the cells that it has.
 
 use hairpin::campaign::scenario::Target;
+use hairpin::judgement::Stress;
 use hairpin::math::random::named_seed;
 use hairpin_jobs::Problem;
 use serde::{Deserialize, Serialize};
@@ -88,6 +89,8 @@ pub(super) struct Cell {
     /// Keys and values over the scenario.
     pub(super) sets: Vec<(String, String)>,
     pub(super) target: Target,
+    /// The target, as all ways are measured by it.
+    pub(super) stress: Stress,
     pub(super) coordinates: usize,
     pub(super) same_graphs: bool,
     ways: Option<Vec<Way>>,
@@ -129,7 +132,7 @@ impl Size {
     /// The cells that are asked for.
     ///
     /// # Errors
-    /// A key of a family without a value; coordinates that no waypoint has.
+    /// A key of a family without a value; coordinates that no waypoint has; a target that the judge does not measure.
     pub(super) fn cells(&self) -> Result<Vec<Cell>, Problem> {
         let mut cells = Vec::new();
         for family in &self.families {
@@ -160,11 +163,14 @@ impl Family {
             };
             sets.push((key.trim().to_owned(), value.trim().to_owned()));
         }
+        let no_measure =
+            || Problem::input(format!("`target` = {:?}: must be a measure of the judge's", self.target.word()));
         Ok(Cell {
             name: format!("{}/{controller}", self.name.as_deref().unwrap_or(robot)),
             scenario: self.scenario.clone(),
             sets,
-            target: self.target,
+            target: self.target.clone(),
+            stress: self.target.stress().ok_or_else(no_measure)?,
             coordinates: self.coordinates,
             same_graphs: self.same_graphs,
             ways: self.ways.clone(),

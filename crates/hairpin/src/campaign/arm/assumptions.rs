@@ -107,8 +107,10 @@ pub(super) fn search(setup: &ArmSetup, cases: &[Case], tally: &Tally, said: &mut
 fn executed(setup: &ArmSetup, cases: &[Case], tally: &Tally, often: &str) -> Vec<String> {
     let (moves, asked) = (&setup.scenario.generate.moves, setup.scenario.search());
     let arcs = if moves.arcs { ", which points arcs pass" } else { "" };
-    let target =
-        asked.target.map_or("each limit of `spec`, by its margin in spreads of what was drawn".into(), |target| {
+    let target = asked
+        .target
+        .as_ref()
+        .map_or("each limit of `spec`, by its margin in spreads of what was drawn".into(), |target| {
             format!("`{}`", target.word())
         });
     let mut said = vec![format!(

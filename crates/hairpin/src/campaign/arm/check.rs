@@ -26,6 +26,7 @@ pub(super) fn check(
     let points = count(&keys.task, files);
     check_task(&keys.task, points, &mut found);
     check_generate(&keys.generate, points, files, &mut found);
+    found.target_of_file(keys.generate.search.target.as_ref(), files);
     if let CostSection::Learned(cost) = &keys.generate.cost {
         found.score_of_file("generate.cost", &cost.score, files, || keys.subject());
     }
@@ -114,7 +115,7 @@ fn check_search(search: &ProgramSearch, points: u64, found: &mut Findings) {
             ("executions", search.executions.map(|count| count.to_string())),
             ("confirm", search.confirm.map(|count| count.to_string())),
             ("seconds", search.seconds.map(|seconds| seconds.to_string())),
-            ("target", search.target.map(|target| format!("\"{}\"", target.word()))),
+            ("target", search.target.as_ref().map(|target| format!("\"{}\"", target.word()))),
             ("points", search.points.map(|count| count.to_string())),
         ];
         for (key, value) in given.into_iter().filter_map(|(key, value)| Some((key, value?))) {
@@ -132,7 +133,7 @@ fn check_search(search: &ProgramSearch, points: u64, found: &mut Findings) {
     if let Some(seconds) = search.seconds {
         found.above("generate.search.seconds", seconds, 0.0, 1e6, " s");
     }
-    if let Some(target) = search.target {
+    if let Some(target) = &search.target {
         let bound = "one of deviation, acceleration, time, overshoot, lateness: a program's runs have no other measure";
         let measured = !matches!(target, Target::Clearance | Target::TipOver);
         found.require(measured, "generate.search.target", format!("\"{}\"", target.word()), bound);

@@ -67,7 +67,7 @@ impl Say for ArmSetup {
                 ),
                 ProgramMethod::Worst => {
                     let search = self.scenario.search();
-                    let target = search.target.map_or("the limits of spec", Target::word);
+                    let target = search.target.as_ref().map_or("the limits of spec".into(), Target::word);
                     format!(
                         "programs through {} points, by {} executions for {target}",
                         self.asked_points(),

@@ -11,7 +11,7 @@ use super::ways::Ways;
 use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
-use crate::campaign::trial::Trials;
+use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
@@ -259,7 +259,7 @@ fn programs_execute_for_the_stresses_of_arms() {
     let plan = solver.draw(0).unwrap();
     let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
     let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
-    let run = || trials.execute_for((&plan, 0), &stresses, &[f64::INFINITY; 4]).unwrap().trials;
+    let run = || trials.execute_for((&plan, 0), &stresses.map(Sought::Measured), &[f64::INFINITY; 4]).unwrap().trials;
     let trials = run();
     for ((trial, stress), least) in trials.iter().zip(stresses).zip([1e-4, 1.0, 1e-3, 1.0]) {
         let word = stress.word();
@@ -272,7 +272,7 @@ fn programs_execute_for_the_stresses_of_arms() {
 #[test]
 fn keys_of_the_search_for_the_worst_have_bounds() {
     let asked = setup(&[("generate.search.target", json!("lateness"))]).scenario.search();
-    assert_eq!((asked.method, asked.executions, asked.target), (SearchMethod::Worst, 40, Some(Target::Lateness)));
+    assert_eq!((asked.method, asked.executions, &asked.target), (SearchMethod::Worst, 40, &Some(Target::Lateness)));
     assert_eq!((asked.cases, asked.confirm, asked.pooled_executions()), (3, 0, 120));
     for (key, value, words) in [
         ("generate.search.executions", json!(0), "generate.search.executions = 0: must be 1 … 1 000 000"),

@@ -116,6 +116,7 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
         let bound = "another one, or world.keep_out given: there is nothing to be near to";
         found.require(near, "generate.search.stress", "\"clearance\"", bound);
     }
+    found.target_of_file(search.target.as_ref(), files);
     if found.score_of_file(key, score, files, || keys.subject()) {
         return;
     }

@@ -2,7 +2,9 @@
 
 use crate::campaign::attachments::Attachments;
 use crate::campaign::digits::grouped;
-use crate::campaign::scenario::{FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Subject};
+use crate::campaign::scenario::{
+    FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Subject, TARGET_KEY, Target,
+};
 use crate::judgement::Stress;
 
 /// Each is tried against every leg for every execution.
@@ -108,6 +110,14 @@ impl Findings {
     pub(in crate::campaign) fn baseline(&mut self, cases: Option<u64>) {
         if let Some(cases) = cases {
             self.count("execute.baseline", cases, 0, 100_000);
+        }
+    }
+
+    /// Whether a target of the user's own was read.
+    pub(in crate::campaign) fn target_of_file(&mut self, target: Option<&Target>, attachments: &Attachments) {
+        if let Some(Target::Python(_)) = target {
+            let value = format!("\"{}\"", target.map(Target::word).unwrap_or_default());
+            self.require(attachments.user_target(target).is_some(), TARGET_KEY, value, "read with its scenario");
         }
     }
 

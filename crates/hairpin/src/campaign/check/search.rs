@@ -1,7 +1,7 @@
 //! Bounds of `generate.search`.
 
 use super::Findings;
-use crate::campaign::scenario::{EXECUTED, LEAST_PER_ROUND, SearchMethod, SearchSection};
+use crate::campaign::scenario::{EXECUTED, LEAST_PER_ROUND, SearchMethod, SearchSection, TARGET_KEY};
 
 /// Rounds at most.
 const MOST_ROUNDS: u64 = 1_000;
@@ -23,6 +23,11 @@ pub(in crate::campaign) fn check_search(search: &SearchSection, found: &mut Find
         let worst = search.method == SearchMethod::Worst;
         found.above("generate.search.seconds", seconds, 0.0, 1e6, " s");
         found.require(worst, "generate.search.seconds", seconds, "left out: only the method `worst` ends by it");
+    }
+    if let Some(target) = &search.target {
+        let worst = search.method == SearchMethod::Worst;
+        let bound = "left out: only the method `worst` has a target (`stress` is what others search for)";
+        found.require(worst, TARGET_KEY, format!("\"{}\"", target.word()), bound);
     }
     found.count("generate.search.confirm", search.confirm, 0, search.executions.saturating_sub(1).min(1_000));
     if let Some(graphs) = search.graphs {

@@ -8,7 +8,7 @@ use super::solve::DriveSolver;
 use crate::campaign::graph::Plan;
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
-use crate::campaign::trial::Trials;
+use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
@@ -220,7 +220,7 @@ fn what_is_kept_is_confirmed_under_what_varies() {
         let setup = setup(car(), changes);
         let plan = solver(&setup).draw(0).unwrap();
         let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
-        let ran = trials.execute_for((&plan, 0), &[Stress::MaxDeviation], &[0.0]).unwrap();
+        let ran = trials.execute_for((&plan, 0), &[Sought::Measured(Stress::MaxDeviation)], &[0.0]).unwrap();
         (ran.trials[0].executions, ran.trials[0].stress)
     };
     let confirmed = ("generate.search.confirm", json!(2));

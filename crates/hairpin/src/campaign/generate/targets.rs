@@ -2,12 +2,13 @@
 
 use crate::campaign::Setup;
 use crate::campaign::scenario::SearchMethod;
+use crate::campaign::trial::Sought;
 use crate::judgement::{Limits, Statistics, Stress};
 
-/// A stress, and the limit that is asked of it, as it is measured: more is worse.
+/// What is measured, and the limit that is asked of it, as it is measured: more is worse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Target {
-    pub(super) stress: Stress,
+    pub(super) sought: Sought,
     pub(super) limit: Option<f64>,
 }
 
@@ -15,12 +16,12 @@ pub(super) struct Target {
 /// where there are none the deviation.
 pub(super) fn targets(setup: &Setup) -> Vec<Target> {
     let search = setup.scenario.search();
-    let one = |stress| vec![Target { stress, limit: None }];
+    let one = |sought| vec![Target { sought, limit: None }];
     if let Some(target) = search.target {
-        return one(target.stress());
+        return one(target.stress().map_or(Sought::Users, Sought::Measured));
     }
     if search.stress != Stress::default() {
-        return one(search.stress);
+        return one(Sought::Measured(search.stress));
     }
     let Limits { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, unfinished: _ } =
         setup.scenario.head().terms.limits;
@@ -35,16 +36,22 @@ pub(super) fn targets(setup: &Setup) -> Vec<Target> {
         (Stress::Lateness, late),
     ];
     let given = limits.into_iter().filter(|(_, limit)| limit.is_some());
-    let given: Vec<Target> = given.map(|(stress, limit)| Target { stress, limit }).collect();
-    if given.is_empty() { one(Stress::default()) } else { given }
+    let given: Vec<Target> = given.map(|(stress, limit)| Target { sought: Sought::Measured(stress), limit }).collect();
+    if given.is_empty() { one(Sought::Measured(Stress::default())) } else { given }
 }
 
 /// The name of what the largest stress so far of a search is told in: `max_deviation_m`, or `margin_in_spreads` where
-/// several limits are searched at once.
+/// several limits are searched at once, `target` where the user's own function says it.
 pub fn column(setup: &Setup) -> String {
     let search = setup.scenario.search();
-    let several = search.method == SearchMethod::Worst && targets(setup).len() > 1;
-    if several { "margin_in_spreads".into() } else { search.sought().column() }
+    if search.method != SearchMethod::Worst {
+        return search.sought().column();
+    }
+    match *targets(setup) {
+        [Target { sought: Sought::Users, .. }] => "target".into(),
+        [_] => search.sought().column(),
+        _ => "margin_in_spreads".into(),
+    }
 }
 
 /// How stresses are told: as they are where there is one, and as what they are beyond their limits, in spreads of what

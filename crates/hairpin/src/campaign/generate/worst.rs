@@ -8,9 +8,8 @@ use super::known::Known;
 use super::targets::{Margins, targets};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
-use crate::campaign::trial::executed_case;
+use crate::campaign::trial::{Sought, executed_case};
 use crate::campaign::{Case, Setup, Stop, Tally, Witness, vary};
-use crate::judgement::Stress;
 use crate::math::random::{Stream, named_seed};
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 
@@ -33,7 +32,7 @@ struct Plans<'a> {
     stop: &'a Stop<'a>,
     /// Of the first draw: cases that vary draw from graphs of their own.
     first: u64,
-    stresses: Vec<Stress>,
+    sought: Vec<Sought>,
     /// The run that each is executed as.
     run: usize,
 }
@@ -86,7 +85,7 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.stresses, least)
+        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
     }
 }
 
@@ -114,7 +113,7 @@ impl Plans<'_> {
             .par_iter()
             .map(|(run, drawn)| {
                 let plan = (&drawn.plan, *run);
-                let ran = self.graphs.trials(drawn.graph).execute_for(plan, &self.stresses[..1], &[f64::INFINITY]);
+                let ran = self.graphs.trials(drawn.graph).execute_for(plan, &self.sought[..1], &[f64::INFINITY]);
                 (*run, ran.map_or(f64::NAN, |ran| ran.trials[0].stress))
             })
             .collect();
@@ -150,8 +149,7 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
     let begun = (stop.clock)();
     let late = || search.seconds.is_some_and(|seconds| (stop.clock)() - begun >= seconds);
     let told = |made: u64| (stop.progress)(made as usize, executions as usize);
-    let mut plans =
-        Plans { graphs, stop, first, stresses: targets.iter().map(|target| target.stress).collect(), run: 0 };
+    let mut plans = Plans { graphs, stop, first, sought: targets.iter().map(|target| target.sought).collect(), run: 0 };
     let tried = plans.choose_run(executions);
     let per_trial = 1 + search.confirm;
     let sized_for = executions.saturating_sub(tried);

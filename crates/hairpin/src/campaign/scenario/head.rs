@@ -55,7 +55,7 @@ impl Patience {
 }
 
 /// What scenarios of all kinds say, under one name each.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Head<'a> {
     /// Root seed of the campaign.
     pub seed: u64,

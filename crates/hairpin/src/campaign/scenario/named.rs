@@ -1,7 +1,7 @@
 //! The keys of a scenario that name files, whatever moves in it: what the door reads, and renames to the copies of a
 //! campaign's folder.
 
-use super::{CostTable, RegressionLimit, TerrainSection};
+use super::{CostTable, RegressionLimit, Target, TerrainSection};
 
 /// Keys that name files.
 #[derive(Debug, Default)]
@@ -16,6 +16,8 @@ pub struct Named<'a> {
     pub meshes: Vec<NamedMesh<'a>>,
     /// The score with its key.
     pub score: Option<(&'static str, &'a mut String)>,
+    /// `generate.search.target`.
+    pub target: Option<&'a mut Target>,
     /// `spec.regression`.
     pub baseline: Option<&'a mut RegressionLimit>,
 }

@@ -1,6 +1,8 @@
 //! `generate.search`: how a graph is searched, whatever moves through it.
 
-use schemars::JsonSchema;
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use crate::judgement::Stress;
@@ -15,7 +17,7 @@ pub const LEARNED: &str = "learned:";
 pub const PYTHON: &str = "python:";
 
 /// `generate.search`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchSection {
     /// worst | beam | exact | uniform | in-loop | adaptive.
@@ -100,9 +102,12 @@ impl Default for SearchSection {
     }
 }
 
+/// The key of what is searched for.
+pub const TARGET_KEY: &str = "generate.search.target";
+
 /// What the method `worst` searches for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum Target {
     /// Largest deviation from the reference.
     Deviation,
@@ -118,12 +123,24 @@ pub enum Target {
     TipOver,
     /// Latest arrival at a waypoint, by its planned time.
     Lateness,
+    /// What a function of the user's makes of a run: `python:FILE`, its file.
+    Python(String),
 }
 
 impl Target {
+    const MEASURED: [Self; 7] = [
+        Self::Deviation,
+        Self::Clearance,
+        Self::Acceleration,
+        Self::Time,
+        Self::Overshoot,
+        Self::TipOver,
+        Self::Lateness,
+    ];
+
     /// The word in scenarios.
-    pub fn word(self) -> &'static str {
-        match self {
+    pub fn word(&self) -> String {
+        let word = match self {
             Self::Deviation => "deviation",
             Self::Clearance => "clearance",
             Self::Acceleration => "acceleration",
@@ -131,20 +148,58 @@ impl Target {
             Self::Overshoot => "overshoot",
             Self::TipOver => "tip-over",
             Self::Lateness => "lateness",
-        }
+            Self::Python(file) => return format!("{PYTHON}{file}"),
+        };
+        word.into()
     }
 
-    /// As a stress, of which more is worse.
-    pub fn stress(self) -> Stress {
+    /// As a stress, of which more is worse; `None` of what only the user's function knows.
+    pub fn stress(&self) -> Option<Stress> {
         match self {
-            Self::Deviation => Stress::MaxDeviation,
-            Self::Clearance => Stress::Clearance,
-            Self::Acceleration => Stress::MaxAcceleration,
-            Self::Time => Stress::Time,
-            Self::Overshoot => Stress::Overshoot,
-            Self::TipOver => Stress::Tilt,
-            Self::Lateness => Stress::Lateness,
+            Self::Deviation => Some(Stress::MaxDeviation),
+            Self::Clearance => Some(Stress::Clearance),
+            Self::Acceleration => Some(Stress::MaxAcceleration),
+            Self::Time => Some(Stress::Time),
+            Self::Overshoot => Some(Stress::Overshoot),
+            Self::TipOver => Some(Stress::Tilt),
+            Self::Lateness => Some(Stress::Lateness),
+            Self::Python(_) => None,
         }
+    }
+}
+
+impl From<Target> for String {
+    fn from(target: Target) -> Self {
+        target.word()
+    }
+}
+
+impl TryFrom<String> for Target {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Self, String> {
+        if let Some(file) = word.strip_prefix(PYTHON) {
+            return Ok(Self::Python(file.into()));
+        }
+        let words = || Self::MEASURED.iter().map(|target| format!("`{}`", target.word())).collect::<Vec<_>>();
+        let unknown = || format!("unknown variant `{word}`, expected one of {}, `{PYTHON}FILE`", words().join(", "));
+        Self::MEASURED.into_iter().find(|target| target.word() == word).ok_or_else(unknown)
+    }
+}
+
+impl JsonSchema for Target {
+    fn schema_name() -> Cow<'static, str> {
+        "Target".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "What the method `worst` searches for: a measure, or `python:FILE`, a function of your own.",
+            "anyOf": [
+                { "enum": Self::MEASURED.map(|target| target.word()) },
+                { "type": "string", "pattern": format!("^{PYTHON}") },
+            ],
+        })
     }
 }
 
@@ -206,9 +261,9 @@ impl SearchSection {
         self.executions.saturating_mul(self.cases)
     }
 
-    /// What is searched for, as the first word of it.
+    /// What is searched for as it is measured beside all other cases; of a target of the user's the usual stress.
     pub fn sought(&self) -> Stress {
-        self.target.map_or(self.stress, Target::stress)
+        self.target.as_ref().and_then(Target::stress).unwrap_or(self.stress)
     }
 
     /// Whether waypoints are moved off their graphs.

@@ -20,7 +20,7 @@ impl Keys for BoatScenario {
         Head {
             seed: self.seed,
             length: Some(self.task.length),
-            search: self.generate.search,
+            search: self.generate.search.clone(),
             score: &self.generate.score,
             score_key: "generate.score",
             cases_key: "generate.search.cases",
@@ -79,7 +79,8 @@ impl Keys for BoatScenario {
     }
 
     fn named(&mut self) -> Named<'_> {
-        Named { score: Some(("generate.score", &mut self.generate.score)), ..Named::default() }
+        let score = Some(("generate.score", &mut self.generate.score));
+        Named { score, target: self.generate.search.target.as_mut(), ..Named::default() }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

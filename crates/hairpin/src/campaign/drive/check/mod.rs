@@ -81,6 +81,7 @@ impl DriveSetup {
 fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) {
     let (key, search) = ("generate.search.score", &keys.generate.search);
     let score = &search.score;
+    found.target_of_file(search.target.as_ref(), files);
     if !found.score_of_file(key, score, files, || keys.subject()) {
         if score == EXECUTED {
             check_executed(&search.section(), key, found);

@@ -25,6 +25,7 @@ pub(super) fn check(scenario: &FlightScenario, files: &Attachments, found: &mut 
     found.count("generate.velocities", generate.velocities, 1, 64);
     check_search(&generate.search, generate, found);
     check_score(scenario, files, found);
+    found.target_of_file(generate.search.target.as_ref(), files);
     check_limits(&generate.limits, found);
 }
 

@@ -197,7 +197,7 @@ pub enum MoveName {
 }
 
 /// `search = { programs, visits, time_limit_s }`, or `search = { method = "worst", programs, executions, target }`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProgramSearch {
     /// heaviest: those of largest cost | worst: those whose execution goes worst, found by executing.
@@ -285,7 +285,7 @@ impl ProgramSearch {
             executions: self.executions.unwrap_or(usual.executions),
             seconds: self.seconds,
             confirm: self.confirm.unwrap_or(usual.confirm),
-            target: self.target,
+            target: self.target.clone(),
             waypoints: points,
             cases: self.programs,
             per_graph: self.programs,

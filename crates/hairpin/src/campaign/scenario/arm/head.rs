@@ -115,7 +115,8 @@ impl Keys for ArmScenario {
             PointsSource::File(file) => Some((file, &mut self.task.checksum)),
             PointsSource::List(_) | PointsSource::Drawn(_) => None,
         };
-        Named { map: None, cloud, costs, meshes: meshes.collect(), score, baseline: self.spec.regression.as_mut() }
+        let (target, baseline) = (self.generate.search.target.as_mut(), self.spec.regression.as_mut());
+        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, baseline }
     }
 
     fn frames(&self) -> Option<(Tool, WorkObject)> {

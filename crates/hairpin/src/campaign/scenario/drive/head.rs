@@ -109,7 +109,7 @@ impl Keys for DriveScenario {
         let terrain = &mut self.world.terrain;
         let map = (terrain.file.is_some() && terrain.generator.is_none()).then_some(terrain);
         let score = Some(("generate.search.score", &mut self.generate.search.score));
-        Named { map, score, ..Named::default() }
+        Named { map, score, target: self.generate.search.target.as_mut(), ..Named::default() }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

@@ -33,7 +33,7 @@ macro_rules! drive_search {
 
             /// The part that flights have as well.
             pub fn section(&self) -> SearchSection {
-                SearchSection { $first: self.$first, $($key: self.$key,)+ }
+                SearchSection { $first: self.$first, $($key: self.$key.clone(),)+ }
             }
         }
     };

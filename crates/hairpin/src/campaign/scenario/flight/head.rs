@@ -18,7 +18,7 @@ impl Keys for FlightScenario {
         Head {
             seed: self.seed,
             length: Some(self.task.length),
-            search: self.generate.search,
+            search: self.generate.search.clone(),
             score: &self.generate.score,
             score_key: "generate.score",
             cases_key: "generate.search.cases",
@@ -103,7 +103,7 @@ impl Keys for FlightScenario {
             })
         });
         let score = Some(("generate.score", &mut self.generate.score));
-        Named { meshes: meshes.collect(), score, ..Named::default() }
+        Named { meshes: meshes.collect(), score, target: self.generate.search.target.as_mut(), ..Named::default() }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

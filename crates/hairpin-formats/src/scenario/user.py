@@ -1,4 +1,5 @@
-# Scores legs with the functions of a file: a line when they are there, then for every line of JSON with legs a line with their scores.
+# Scores legs, or measures runs, with the functions of a file: a line when they are there, then for every line of JSON with legs or
+# runs a line with their numbers.
 import sys
 
 # Whatever lies where hairpin was started is none of its modules.
@@ -14,14 +15,34 @@ import traceback
 LARGEST = 1e100
 
 
-def number(value, leg):
+def number(value, of):
     if not abs(float(value)) <= LARGEST:
         wanted = f"must be within ±{LARGEST:g}" if math.isfinite(float(value)) else "is no finite number"
-        raise ValueError(f"{value!r} {wanted}, of the leg {leg}")
+        raise ValueError(f"{value!r} {wanted}, of {of}")
     return float(value)
 
 
-def main(path, alone):
+def scores(space):
+    score, left = space.get("score"), space.get("left")
+    if not callable(score):
+        raise TypeError("it defines no function score(leg)")
+    return lambda leg: [number(score(leg), f"the leg {leg}"), number(left(leg), f"the leg {leg}") if left else 0.0]
+
+
+def targets(space):
+    target = space.get("target")
+    if not callable(target):
+        raise TypeError("it defines no function target(run)")
+
+    def measured(run):
+        value = target(run)
+        # None: it has nothing to say of this run.
+        return None if value is None else number(value, f"the run over {run['waypoints_m']}")
+
+    return measured
+
+
+def main(path, alone, what):
     questions, answers = os.fdopen(os.dup(0), encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
     # What the file prints is its log, and it has nothing to read.
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
@@ -30,20 +51,17 @@ def main(path, alone):
     if not alone:
         sys.path.insert(0, os.path.dirname(os.path.abspath(path)))
     with open(path, encoding="utf-8-sig") as file:
-        space = {"__name__": "hairpin_score", "__file__": path}
+        space = {"__name__": f"hairpin_{what}", "__file__": path}
         exec(compile(file.read(), path, "exec"), space)
-    score, left = space.get("score"), space.get("left")
-    if not callable(score):
-        raise TypeError("it defines no function score(leg)")
+    answer = {"score": scores, "target": targets}[what](space)
     print("ready", file=answers, flush=True)
     for line in questions:
-        parts = [[number(score(leg), leg), number(left(leg), leg) if left else 0.0] for leg in json.loads(line)]
-        print(json.dumps(parts), file=answers, flush=True)
+        print(json.dumps([answer(asked) for asked in json.loads(line)]), file=answers, flush=True)
 
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[1], sys.argv[2] == "alone")
+        main(sys.argv[1], sys.argv[2] == "alone", sys.argv[3])
     except BaseException:
         lines = traceback.format_exc().strip().splitlines()
         # The place in the user's file, and what is wrong there.
