@@ -1,5 +1,6 @@
 //! Answers as CSV: a row for each segment of each drive, in the frame of the query.
 
+use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 use std::io;
 
@@ -146,16 +147,10 @@ pub fn head() -> String {
 }
 
 /// The rows of `answers`, in their order: one a segment, and one where there is none.
-///
-/// # Errors
-/// Memory that cannot be had.
-pub fn rows(answers: &[Answer]) -> csv::Result<Vec<u8>> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let mut text = String::new();
-    for answer in answers {
-        write_rows(&mut table, &mut text, answer)?;
-    }
-    table.into_inner().map_err(|error| error.into_error().into())
+pub fn rows(answers: &[Answer]) -> String {
+    let mut table = String::new();
+    answers.iter().for_each(|answer| add_rows(&mut table, answer));
+    table
 }
 
 /// The answers of a table as [`head()`] and [`rows`] write it, in their order.
@@ -186,60 +181,76 @@ pub fn kept_answers(table: impl io::Read) -> io::Result<Vec<KeptAnswer>> {
     Ok(kept)
 }
 
-fn write_rows(table: &mut csv::Writer<Vec<u8>>, text: &mut String, answer: &Answer) -> csv::Result<()> {
+fn add_rows(table: &mut String, answer: &Answer) {
     let left = answer.frame.left();
     let pieces = answer.drive.as_ref().map_or(&[][..], |drive| &drive.pieces);
-    // What all rows of the answer end in.
-    let whole = answer.drive.as_ref().map(|Drive { errors, max_curvature_1_m, .. }| {
-        [errors.x_m, left * errors.y_m, left * errors.yaw_rad, left * errors.curvature_1_m, *max_curvature_1_m]
-    });
-    let mut cell = |table: &mut csv::Writer<Vec<u8>>, what: fmt::Arguments<'_>| {
-        text.clear();
-        // Writing to a string does not fail.
-        let _ = text.write_fmt(what);
-        table.write_field(&*text)
-    };
+    let id = quoted(&answer.id);
+    // What all rows of the answer have in their middle, and what they end in.
+    let (mut middle, mut end) = (String::new(), String::new());
+    // Writing to a string does not fail.
+    let _ = write!(middle, ",{},{},{:.3}", answer.status, answer.iterations, answer.time_us);
+    match &answer.drive {
+        Some(Drive { errors, max_curvature_1_m, .. }) => {
+            let turned = [errors.y_m, errors.yaw_rad, errors.curvature_1_m].map(|error| left * error);
+            [errors.x_m]
+                .iter()
+                .chain(&turned)
+                .chain([max_curvature_1_m])
+                .for_each(|number| add_number(&mut end, *number));
+        }
+        None => end.push_str(",,,,,"),
+    }
+    let (limit, excess) = answer.limit.as_ref().map_or(("", None), |(limit, excess)| (limit, *excess));
+    end.push(',');
+    end.push_str(&quoted(limit));
+    match excess {
+        Some(excess) => add_number(&mut end, excess),
+        None => end.push(','),
+    }
     for segment in 0..pieces.len().max(1) {
-        let (kind, way, numbers) = match pieces.get(segment) {
-            Some(Piece::Arc { length_m, curvature: a, direction }) => {
-                let [a0, a1, a2, a3, a4, a5] = a.map(|a| left * a);
-                ("arc", Some(*direction), Some([*length_m, 0.0, a0, a1, a2, a3, a4, a5]))
+        let _ = write!(table, "{id},{segment},");
+        let numbers = match pieces.get(segment) {
+            Some(Piece::Arc { length_m, curvature, direction }) => {
+                let _ = write!(table, "arc,{direction}");
+                Some((*length_m, 0.0, curvature.map(|a| left * a)))
             }
             Some(Piece::Turn { angle_rad }) => {
-                ("turn", Some(1), Some([0.0, left * angle_rad, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
+                table.push_str("turn,1");
+                Some((0.0, left * angle_rad, [0.0; 6]))
             }
-            None => ("", None, None),
+            None => {
+                table.push(',');
+                None
+            }
         };
-        table.write_field(&answer.id)?;
-        cell(table, format_args!("{segment}"))?;
-        table.write_field(kind)?;
-        match way {
-            Some(way) => cell(table, format_args!("{way}"))?,
-            None => table.write_field("")?,
-        }
-        cell(table, format_args!("{}", answer.status))?;
-        cell(table, format_args!("{}", answer.iterations))?;
-        cell(table, format_args!("{:.3}", answer.time_us))?;
-        for number in numbers.map_or([None; 8], |numbers| numbers.map(Some)).into_iter().chain(match whole {
-            Some(whole) => whole.map(Some),
-            None => [None; 5],
-        }) {
-            match number {
-                // Digits that read back to the same bits; no minus before zero.
-                Some(number) => cell(table, format_args!("{}", number + 0.0))?,
-                None => table.write_field("")?,
+        table.push_str(&middle);
+        match numbers {
+            Some((length, turn, bends)) => {
+                [length, turn].iter().chain(&bends).for_each(|number| add_number(table, *number));
             }
+            None => table.push_str(",,,,,,,,"),
         }
-        let (limit, excess) = answer.limit.as_ref().map_or(("", None), |(limit, excess)| (limit, *excess));
-        table.write_field(limit)?;
-        match excess {
-            Some(excess) => cell(table, format_args!("{}", excess + 0.0))?,
-            None => table.write_field("")?,
-        }
-        // Ends the record.
-        table.write_record(None::<&[u8]>)?;
+        table.push_str(&end);
+        table.push('\n');
     }
-    Ok(())
+}
+
+/// A comma, and digits that read back to the same bits; no minus before zero.
+fn add_number(text: &mut String, number: f64) {
+    if number == 0.0 {
+        text.push_str(",0");
+    } else {
+        let _ = write!(text, ",{number}");
+    }
+}
+
+/// A cell as tables have it: in quotes where it would be more than one, or begin a line.
+fn quoted(cell: &str) -> Cow<'_, str> {
+    if cell.contains(['"', ',', '\r', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\"")).into()
+    } else {
+        cell.into()
+    }
 }
 
 #[cfg(test)]
@@ -247,7 +258,7 @@ mod tests {
     use super::*;
 
     fn lines(answers: &[Answer]) -> Vec<String> {
-        (head() + std::str::from_utf8(&rows(answers).unwrap()).unwrap()).lines().map(str::to_owned).collect()
+        (head() + &rows(answers)).lines().map(str::to_owned).collect()
     }
 
     #[test]
@@ -294,8 +305,8 @@ mod tests {
             limit: None,
         };
         let answers = [of("a,\"\n", Status::Ok, Some(drive)), of("b", Status::TimeLimit, None)];
-        let table = head().into_bytes().into_iter().chain(rows(&answers).unwrap()).collect::<Vec<u8>>();
-        let kept = kept_answers(&table[..]).unwrap();
+        let table = head() + &rows(&answers);
+        let kept = kept_answers(table.as_bytes()).unwrap();
         let wanted = |id: &str, status, driven| KeptAnswer { id: id.into(), status, time_us: 2.5, driven };
         assert_eq!(kept, [wanted("a,\"\n", Status::Ok, true), wanted("b", Status::TimeLimit, false)]);
         assert!(kept_answers(&b"id,x\n"[..]).unwrap_err().to_string().contains("columns"));

@@ -18,10 +18,10 @@ use crate::{Problem, Watch};
 
 /// Drives of a file that are drawn at most.
 const MOST_DRAWN: usize = 500;
-/// Bytes of a block of queries, about ten of them.
-const BLOCK: usize = 1000;
+/// Bytes of a block of queries, about forty of them.
+const BLOCK: usize = 4000;
 /// Blocks for each thread between two looks at what is done.
-const ROUND: usize = 32;
+const ROUND: usize = 16;
 
 /// Where the rows of answers go.
 pub enum Answers<'a> {
@@ -240,8 +240,7 @@ impl Run<'_> {
                 batch.wrong.push((row.line, wrong));
             }
         }
-        let rows = steering::rows(&answers).map_err(|error| error.to_string())?;
-        Ok(Done { batch, rows, whole })
+        Ok(Done { batch, rows: steering::rows(&answers).into_bytes(), whole })
     }
 }
 

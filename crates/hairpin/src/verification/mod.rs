@@ -53,6 +53,8 @@ mod twist;
 mod walk;
 
 #[cfg(test)]
+mod midpoint;
+#[cfg(test)]
 mod tests;
 
 pub use arm::{

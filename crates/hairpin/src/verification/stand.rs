@@ -137,6 +137,11 @@ impl Rest {
         Self { unknowns: last.unknowns + share * change, inverse: last.inverse }
     }
 
+    /// The largest difference of heights (m) and angles (rad).
+    pub(super) fn apart(&self, other: &Self) -> f64 {
+        (self.unknowns - other.unknowns).amax()
+    }
+
     /// At rest on the ground below `place` (x, y, ψ), looked for from the slope there, from level, and from in between.
     ///
     /// Unknown are z, φ, θ and with a rocker-bogie the rocker's and both bogies' angles, such that every wheel's gap is

@@ -63,6 +63,8 @@ struct Tried {
     looks: Vec<Look>,
     /// What its halves differ by from what they are extrapolated to.
     off: f64,
+    /// Whether a look found the body far from where it was foreseen: it fell, or a nearer rest was passed by.
+    fell: bool,
 }
 
 /// A stride that was taken: a parabola through three poses.
@@ -79,6 +81,8 @@ const ACCURACY: f64 = 1e-4;
 const LONGEST: f64 = 0.1;
 /// The shortest is this share of the drive, or this long, m and rad: whatever it leaves out is told.
 const SHORTEST: (f64, f64) = (1.0 / 4000.0, 2.5e-4);
+/// Heights and angles farther from what was foreseen are those of another rest, m and rad.
+const FELL: f64 = 0.02;
 /// Places of a drive that are shown, and how often its torques are asked for.
 const SHOWN: f64 = 2000.0;
 /// Tilts are looked for where they might exceed the largest by this, rad.
@@ -117,8 +121,9 @@ impl<T: Terrain> Stretch<'_, T> {
             };
             // A difference that is not a number is as large as can be; its root is that of third-order terms.
             let longer = 0.9 * (allowed / tried.off).sqrt();
-            if !(tried.off <= allowed || h <= shortest) {
-                stride = shortest.max(h * longer.max(0.2).min(0.7));
+            if h > shortest && (tried.fell || !(tried.off <= allowed)) {
+                let shorter = if tried.fell { 0.25 } else { longer.max(0.2).min(0.7) };
+                stride = shortest.max(h * shorter);
                 continue;
             }
             followed.strides += 1;
@@ -163,8 +168,10 @@ impl<T: Terrain> Stretch<'_, T> {
     fn by_midpoints(&self, from: &Station, h: f64, looks: &[Look]) -> Result<Tried, NoRest> {
         let rates = |look: &Look, pose: &Pose| self.course.rates(&look.rest, pose[2], look.s);
         let mut near = looks[looks.len().saturating_sub(2)..].to_vec();
+        let mut fell = false;
         let mut look = |s: f64, pose: &Pose| -> Result<Look, NoRest> {
             let look = self.look(&near, s, *pose)?;
+            fell |= foreseen(&near, s).apart(&look.rest) > FELL;
             near.push(look.clone());
             Ok(look)
         };
@@ -178,7 +185,8 @@ impl<T: Terrain> Stretch<'_, T> {
         let second_look = look(from.s + 0.75 * h, &second)?;
         let halves = moved(&half, &rates(&second_look, &second), 0.5 * h);
         let seen = vec![first_look, middle_look, second_look];
-        Ok(self.extrapolated(from, &whole, half, &halves, foreseen(&seen, from.s + h), seen))
+        let ahead = foreseen(&seen, from.s + h);
+        Ok(Tried { fell, ..self.extrapolated(from, &whole, half, &halves, ahead, seen) })
     }
 
     /// From rest to rest by the twist between them, whole and in halves.
@@ -188,13 +196,16 @@ impl<T: Terrain> Stretch<'_, T> {
             let ahead = moved(&pose, &course.rates(rest, pose[2], s), h);
             carry(stand, self.terrain, rest, [pose, ahead], h, |place: &Place| course.body_rates(place, s + 0.5 * h))
         };
-        let whole = step(&mut from.rest.clone(), from.pose, from.s, h)?;
+        let mut at_once = from.rest.clone();
+        let whole = step(&mut at_once, from.pose, from.s, h)?;
         let mut rest = from.rest.clone();
         let half = step(&mut rest, from.pose, from.s, 0.5 * h)?;
         let middle = Look { s: from.s + 0.5 * h, rest: rest.clone() };
         let halves = step(&mut rest, half, from.s + 0.5 * h, 0.5 * h)?;
         let end = Look { s: from.s + h, rest: rest.clone() };
-        Ok(self.extrapolated(from, &whole, half, &halves, rest, vec![middle, end]))
+        // Both ways lead to one rest, but where they end in two.
+        let fell = at_once.apart(&rest) > FELL;
+        Ok(Tried { fell, ..self.extrapolated(from, &whole, half, &halves, rest, vec![middle, end]) })
     }
 
     /// Both ways of second order: halves are off by a third of what they differ by from the whole.
@@ -214,7 +225,7 @@ impl<T: Terrain> Stretch<'_, T> {
             DrivePiece::Turn { .. } => self.left,
         };
         let off = [off[0], off[1], off[2] * ahead.max(1.0)].into_iter().map(f64::abs).fold(0.0, largest);
-        Tried { middle, end, rest, looks, off }
+        Tried { middle, end, rest, looks, off, fell: false }
     }
 
     /// Adds the largest tilt and torque along what was driven.
