@@ -198,6 +198,9 @@ impl<'t> Decimal<'t> {
 }
 
 fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
+    if let Some(costs) = plain(text, least) {
+        return Ok(costs);
+    }
     let rows: Vec<Row> = Rows::of(text, Cut::COMMAS).collect();
     // Blank lines count but at the end.
     let points = rows.last().map_or(0, |last| last.line);
@@ -243,6 +246,68 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
     Ok(Costs { points, costs, decimals })
 }
 
+/// A table of nothing but digits, points, commas and line ends, without a mistake; of another, which [`parse`] reads by its rows,
+/// or says what is wrong with it, `None`.
+///
+/// Millions of cells that programs wrote are read in one pass over their bytes, in a tenth of the time.
+fn plain(text: &str, least: usize) -> Option<Costs> {
+    let text = text.strip_suffix('\n').unwrap_or(text);
+    let points = 1 + text.bytes().filter(|byte| *byte == b'\n').count();
+    // A cell takes at least its comma.
+    if text.trim_ascii().is_empty() || text.len() + 1 < points * points {
+        return None;
+    }
+    // Digits without the point, and how many of them are behind it.
+    let mut cells = Vec::with_capacity(points * points);
+    for line in text.split('\n') {
+        let before = cells.len();
+        for cell in line.strip_suffix('\r').unwrap_or(line).as_bytes().split(|byte| *byte == b',') {
+            cells.push(plain_cell(cell)?);
+        }
+        if cells.len() != before + points {
+            return None;
+        }
+    }
+    let decimals = |(at, cell): (usize, &Option<(i64, u8)>)| match cell {
+        Some((_, decimals)) if at % (points + 1) != 0 => usize::from(*decimals),
+        _ => 0,
+    };
+    let most = cells.iter().enumerate().map(decimals).max().unwrap_or(0).max(least);
+    let mut costs = vec![None; points * points];
+    for (at, cell) in cells.into_iter().enumerate().filter(|(at, _)| at % (points + 1) != 0) {
+        if let Some((digits, decimals)) = cell {
+            costs[at] = Some(digits.checked_mul(10i64.checked_pow(most as u32 - u32::from(decimals))?)?);
+        }
+    }
+    (most <= MOST_DECIMALS).then_some(Costs { points, costs, decimals: most })
+}
+
+/// Digits without their point, and how many of them are behind it but for zeros at the end; `Some(None)` of an empty cell, `None` of
+/// what is no such number or has too many digits to be sure that it fits.
+fn plain_cell(cell: &[u8]) -> Option<Option<(i64, u8)>> {
+    if cell.is_empty() {
+        return Some(None);
+    }
+    let (mut digits, mut decimals, mut behind, mut any) = (0i64, 0u8, false, false);
+    if cell.len() > MOST_DECIMALS {
+        return None;
+    }
+    for byte in cell {
+        match byte {
+            b'0'..=b'9' => {
+                (digits, any) = (10 * digits + i64::from(byte - b'0'), true);
+                decimals += u8::from(behind);
+            }
+            b'.' if !behind => behind = true,
+            _ => return None,
+        }
+    }
+    while decimals > 0 && digits % 10 == 0 {
+        (digits, decimals) = (digits / 10, decimals - 1);
+    }
+    any.then_some(Some((digits, decimals)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -268,6 +333,24 @@ mod tests {
         assert_eq!(["2", "2.01", "0", "2.1000", "-1", "x"].map(|text| costs.at_least(text)), {
             [Some(20), Some(21), Some(0), Some(21), None, None]
         });
+    }
+
+    /// A blank before its first cell makes a table one that is read by its rows.
+    #[test]
+    fn plain_tables_are_read_as_others_are() {
+        for text in
+            ["0,1\n2,0\n", "0,1\r\n2,0", ",1.50,2\n.25,,3.\n,7,9.999\n", "0.125,10\n100,0.5\n", "5\n", "0,00012\n0.0,1"]
+        {
+            assert!(plain(text, 0).is_some(), "{text:?}");
+            for least in [0, 3] {
+                let by_rows = parse(Path::new("costs.csv"), &format!(" {text}"), least).unwrap();
+                assert_eq!(plain(text, least), Some(by_rows), "{text:?}");
+            }
+        }
+        for text in ["", "\n", "0,1\n\n2,0\n", "0,1\n2\n", "1,2,3\n", ",.\n1,", ",1e3\n1,", ",12345678901234567890\n1,"]
+        {
+            assert_eq!(plain(text, 0), None, "{text:?}");
+        }
     }
 
     #[test]

@@ -44,11 +44,12 @@ pub struct MaxLoad {
     pub time: Duration,
 }
 
-/// Searches the heaviest path of a graph; stopped, it gives the best so far.
+/// Searches the heaviest path of a graph; stopped, it gives the best so far. Its time begins before the graph is read.
 ///
 /// # Errors
 /// A graph that cannot be read; settings that do not fit it or each other.
 pub fn max_load(settings: &MaxLoadSettings, watch: &dyn Watch) -> Result<MaxLoad, Problem> {
+    let (begun, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
     let graph = Graph::read(&settings.graph)?;
     let walks = settings.visits > 1;
     if walks && !matches!(settings.search.method, Method::Auto | Method::Branch) {
@@ -56,7 +57,6 @@ pub fn max_load(settings: &MaxLoadSettings, watch: &dyn Watch) -> Result<MaxLoad
     }
     let min_cost = settings.min_cost.as_deref().map(|text| graph.at_least(text)).transpose()?;
     let search = HeaviestSettings { min_cost, ..settings.search.clone() };
-    let (begun, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s));
     let stop = || watch.stopped() || deadline.passed();
     let (found, walk) = if walks {
         let HeaviestSettings { ends, programs, most_nodes, proof, .. } = search;

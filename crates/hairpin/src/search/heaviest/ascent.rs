@@ -12,6 +12,9 @@ use super::relaxation::Relaxation;
 /// Share of the last step that the next keeps.
 const MOMENTUM: f64 = 0.3;
 
+/// Choices looked at between two questions whether to stop.
+const LOOKED_AT: usize = 1 << 17;
+
 /// Multipliers, the best so far, and what relaxed solutions had in common.
 ///
 /// One λ a point and one for the start, all in units of the scaled costs.
@@ -55,6 +58,11 @@ pub(super) struct Pace {
     pub(super) patience: usize,
 }
 
+/// Looks after which it is asked whether to stop: so many as take some milliseconds.
+pub(super) fn asked_every(choices: &Choices) -> usize {
+    (LOOKED_AT / choices.len()).clamp(1, 32)
+}
+
 impl Ascent {
     /// All multipliers 0; buffers that every later run uses again.
     pub(super) fn new(choices: &Choices, limit: i64) -> Self {
@@ -74,7 +82,7 @@ impl Ascent {
     ///
     /// Each look is one spanning tree or arborescence. `threshold` and `target` are scaled costs: a bound below the
     /// first closes the problem, since nothing in it is wanted, and the second is where Polyak's step aims. `stop` is
-    /// asked every 32 looks. Rounding to whole multipliers costs nothing but a slightly different step: L is a bound at
+    /// asked every 32 looks, of many arcs at each. Rounding to whole multipliers costs nothing but a slightly different step: L is a bound at
     /// any λ.
     pub(super) fn run<R: Relaxation>(
         &mut self,
@@ -87,8 +95,9 @@ impl Ascent {
     ) -> Ended {
         self.begin(choices, begin);
         let (mut alpha, mut waited) = (pace.alpha, 0);
+        let every = asked_every(choices);
         for iteration in 0..pace.iterations.max(1) {
-            if iteration % 32 == 31 && stop() {
+            if iteration % every == every - 1 && stop() {
                 return Ended::Open;
             }
             let Some(bound) = self.look(relaxation, problem, iteration == 0) else { return Ended::Closed };

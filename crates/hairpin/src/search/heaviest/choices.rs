@@ -87,24 +87,32 @@ impl Choices {
         Self::new(n, directed, list)
     }
 
-    /// The same with only the arcs that are among the `most` best of either of their points, by what multipliers leave
-    /// of their costs.
+    /// With only the arcs that are among the `most` best of either of their points, by what multipliers leave of their costs.
     ///
-    /// A smaller problem whose paths are paths of the whole, so good for finding; its bounds are none of the whole.
-    pub(super) fn near(&self, multipliers: &[i64], most: usize) -> Self {
-        let mut of_point = vec![Vec::new(); self.points];
-        for (id, arc) in self.arcs.iter().enumerate() {
-            let weight = multipliers[arc.from as usize] + multipliers[arc.to as usize] - arc.cost;
-            of_point[arc.from as usize].push((weight, id));
-            of_point[arc.to as usize].push((weight, id));
+    /// A smaller problem whose paths are paths of the whole, so good for finding; its bounds are none of the whole. O(n²).
+    pub(super) fn near(arcs: &Arcs, scale: i64, multipliers: &[i64], most: usize) -> Self {
+        let n = arcs.points();
+        let directed = !arcs.symmetric();
+        let mut kept = Vec::new();
+        let mut row: Vec<(i64, u32)> = Vec::new();
+        for point in 0..n {
+            for turned in if directed { &[false, true][..] } else { &[false] } {
+                let cost = |other: usize| if *turned { arcs.cost(other, point) } else { arcs.cost(point, other) };
+                let others = (0..n).filter_map(|other| Some((multipliers[other] - cost(other)? * scale, other as u32)));
+                row.clear();
+                row.extend(others);
+                if most < row.len() {
+                    row.select_nth_unstable(most);
+                    row.truncate(most);
+                }
+                let (point, swap) = (point as u32, |other: u32| *turned || !directed && other < point as u32);
+                kept.extend(row.iter().map(|(_, other)| if swap(*other) { (*other, point) } else { (point, *other) }));
+            }
         }
-        let mut kept = vec![false; self.arcs.len()];
-        for arcs in &mut of_point {
-            arcs.sort_unstable();
-            arcs.iter().take(most).for_each(|(_, id)| kept[*id] = true);
-        }
-        let arcs = self.arcs.iter().zip(kept).filter(|(_, kept)| *kept).map(|(arc, _)| *arc).collect();
-        Self::new(self.points, self.directed, arcs)
+        kept.sort_unstable();
+        kept.dedup();
+        let cost = |from: u32, to: u32| arcs.raw(from as usize, to as usize) * scale;
+        Self::new(n, directed, kept.into_iter().map(|(from, to)| Arc { from, to, cost: cost(from, to) }).collect())
     }
 
     /// m + 3n.

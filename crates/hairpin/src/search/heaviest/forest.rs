@@ -173,7 +173,7 @@ impl<K: Key> Forest<K> {
     ///
     /// The weight of the last join that connected them: joins come heaviest first. [`FORCED`] where only forced joins
     /// do. O(log n).
-    fn narrowest(&self, mut a: u32, mut b: u32) -> i64 {
+    pub(super) fn narrowest(&self, mut a: u32, mut b: u32) -> i64 {
         let mut last = 0;
         while a != b {
             let (one, other) = (self.links[a as usize], self.links[b as usize]);

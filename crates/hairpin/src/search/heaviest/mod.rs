@@ -46,6 +46,7 @@ mod triples;
 mod volume;
 mod walk;
 mod walks;
+mod whole;
 mod workspace;
 
 #[cfg(test)]

@@ -6,19 +6,23 @@
 use super::ascent::{Ascent, Ended, Pace};
 use super::best::Best;
 use super::branch::{Ground, Open, Searched, branch};
-use super::choices::{Choices, IN, Made, OPEN, OUT};
+use super::choices::{Arc, Choices, IN, Made, OPEN, OUT};
 use super::first_multipliers::first_multipliers;
 use super::local::Local;
 use super::problem::{Arcs, Ends};
 use super::question::{HeaviestSettings, Method};
 use super::record::{Next, Recorder};
 use super::relaxation::{Relaxation, path_of};
+use super::whole::Whole;
 use crate::math::random::{named_seed, stream};
 
 /// Candidates of each point while multipliers are far from good.
 const NEAR: usize = 10;
 /// Steps of the multipliers in each round.
 const STEPS: usize = 200;
+/// The whole table is taken up once so few arcs a point are left of it, or after so many rounds among few of them.
+const FEW_LEFT: usize = 20;
+const ROUNDS: usize = 8;
 /// Rounds without a better path before branching begins.
 const PATIENCE: usize = 2;
 /// Steps along means of relaxed solutions, where so many arcs a point are left open that branching would be long.
@@ -41,6 +45,7 @@ pub(super) fn scale_of(arcs: &Arcs) -> i64 {
 /// What is known of the whole problem.
 struct Root<'a, R> {
     arcs: &'a Arcs,
+    ends: Ends,
     scale: i64,
     choices: Choices,
     made: Made,
@@ -70,12 +75,13 @@ pub(super) fn prove<'a, R: Relaxation>(
     stop: &'a (dyn Fn() -> bool + Sync),
 ) -> (Searched, i64, Recorder) {
     let mut root = Root::<R>::new(arcs, settings, path, record, stop);
-    let closed = root.settle(settings);
+    let widened = root.widen();
+    let closed = widened == Some(true) || widened.is_some() && root.settle(settings);
     let finished = |best: Best, open: Option<i64>| Searched { best, open, nodes: 0, first: 0, again: false };
     if closed {
         return (finished(root.best, None), root.bound, root.record);
     }
-    if settings.method == Method::Local {
+    if settings.method == Method::Local || widened.is_none() {
         return (finished(root.best, Some(root.bound)), root.bound, root.record);
     }
     let mut nodes = 0;
@@ -102,7 +108,7 @@ pub(super) fn prove<'a, R: Relaxation>(
 
 impl<'a, R: Relaxation> Root<'a, R> {
     /// Of more than 3 [`NEAR`] points, the ascent begins among each point's [`NEAR`] heaviest arcs. What it reaches
-    /// there is no bound of the whole; the multipliers it finds are those that the whole table begins with.
+    /// there is no bound of the whole ([`Root::widen`]).
     fn new(
         arcs: &'a Arcs,
         settings: &HeaviestSettings,
@@ -113,15 +119,16 @@ impl<'a, R: Relaxation> Root<'a, R> {
         let (scale, ends) = (scale_of(arcs), settings.ends);
         let multipliers = first_multipliers(arcs, scale);
         let random = stream(named_seed(settings.seed, "heaviest path", 0));
-        let local = Local::new(arcs, ends, path, &unscaled(&multipliers, scale), random);
+        let local = Local::new(arcs, ends, path, &unscaled(&multipliers, scale), random, stop);
         let turns = arcs.symmetric() && ends == Ends::default();
         let mut best = Best::new(settings.programs, turns, settings.min_cost.unwrap_or(0));
         best.offer(arcs.total(path).unwrap_or(0), path.to_vec());
-        let full = Choices::all(arcs, scale);
-        let choices = full.near(&multipliers, if arcs.points() > 3 * NEAR { NEAR } else { usize::MAX });
+        let few = arcs.points() > 3 * NEAR;
+        let choices = if few { Choices::near(arcs, scale, &multipliers, NEAR) } else { Choices::all(arcs, scale) };
         let made = Made::new(&choices, ends).unwrap_or_else(|| Made::nothing(&choices));
         let mut root = Self {
             arcs,
+            ends,
             scale,
             relaxation: R::new(&choices),
             ascent: Ascent::new(&choices, 4 * arcs.largest() * scale),
@@ -136,12 +143,87 @@ impl<'a, R: Relaxation> Root<'a, R> {
             stop,
         };
         root.polish(arcs.points() as u64);
-        // Among few arcs no bound is one of the whole problem, so that none may end the ascent.
-        root.ascend(i64::MIN);
-        root.made = Made::new(&full, ends).unwrap_or_else(|| Made::nothing(&full));
-        root.relaxation = R::new(&full);
-        root.choices = full;
+        if few {
+            // Among few arcs no bound is one of the whole problem, so that none may end the ascent.
+            root.ascend(i64::MIN);
+        }
         root
+    }
+
+    /// From few arcs to all that may be in a heavier path; whether that closes the problem, `None` if it was stopped before.
+    ///
+    /// Steps go along few arcs, to which those come that the heaviest tree of the whole has beside them, until its bound leaves few
+    /// open. Where costs are directed all arcs come at once.
+    fn widen(&mut self) -> Option<bool> {
+        if !self.arcs.symmetric() {
+            self.take_up(Choices::all(self.arcs, self.scale));
+            return Some(false);
+        }
+        let points = self.arcs.points();
+        let mut least = self.multipliers.clone();
+        for round in 0.. {
+            let threshold = self.threshold();
+            let multipliers = std::mem::take(&mut self.multipliers);
+            let whole = Whole::at(self.arcs, self.ends, self.scale, &multipliers);
+            let (bound, tree) =
+                whole.as_ref().map_or((i64::MIN, Vec::new()), |whole| (whole.bound, whole.tree().to_vec()));
+            if bound < self.bound {
+                self.bound = bound;
+                least.copy_from_slice(&multipliers);
+            }
+            let mut left = 0;
+            if let Some(whole) = whole.filter(|whole| whole.bound >= threshold) {
+                whole.each(threshold, |_, stays| left += usize::from(stays));
+            }
+            self.multipliers = multipliers;
+            if bound < threshold {
+                return Some(self.close());
+            }
+            if left <= FEW_LEFT * points || round == ROUNDS {
+                self.multipliers = least;
+                return Some(self.keep());
+            }
+            if (self.stop)() {
+                return None;
+            }
+            self.lack(tree);
+            self.ascend(i64::MIN);
+            self.polish(points as u64);
+        }
+        None
+    }
+
+    /// Takes arcs to the few that it lacks.
+    fn lack(&mut self, tree: Vec<Arc>) {
+        let mut arcs = std::mem::take(&mut self.choices.arcs);
+        arcs.extend(tree);
+        arcs.sort_unstable_by_key(|arc| (arc.from, arc.to));
+        arcs.dedup_by_key(|arc| (arc.from, arc.to));
+        self.take_up(Choices::new(self.arcs.points(), false, arcs));
+    }
+
+    /// Takes up those arcs of the whole that its bound leaves; whether nothing is left.
+    fn keep(&mut self) -> bool {
+        let threshold = self.threshold();
+        let n = self.arcs.points() as u64;
+        let (mut kept, mut out) = (Vec::new(), Vec::new());
+        let wanted = self.record.wanted;
+        let Some(whole) = Whole::at(self.arcs, self.ends, self.scale, &self.multipliers) else { return self.close() };
+        whole.each(threshold, |arc, stays| match stays {
+            true => kept.push(arc),
+            false if wanted => out.push(u64::from(arc.from) * n + u64::from(arc.to)),
+            false => {}
+        });
+        self.look(out, Vec::new());
+        self.take_up(Choices::new(self.arcs.points(), false, kept));
+        Made::new(&self.choices, self.ends).is_none()
+    }
+
+    /// Goes on with these choices, of which nothing is decided but what the ends say.
+    fn take_up(&mut self, choices: Choices) {
+        self.made = Made::new(&choices, self.ends).unwrap_or_else(|| Made::nothing(&choices));
+        self.relaxation = R::new(&choices);
+        self.choices = choices;
     }
 
     /// Takes paths that were found elsewhere; the local search goes on from the best.

@@ -5,7 +5,7 @@
 //! a mean of trees, v̄ ← α d + (1 − α) v̄ with the α that makes |v̄| least, does; steps go from the best multipliers
 //! (volume algorithm; Barahona & Anbil 2000).
 
-use super::ascent::{Ascent, Ended};
+use super::ascent::{Ascent, Ended, asked_every};
 use super::choices::{Choices, Made};
 use super::relaxation::Relaxation;
 
@@ -36,8 +36,9 @@ impl Ascent {
     ) -> Ended {
         self.begin(problem.0, begin);
         let (mut factor, mut share, mut waited, mut gap) = (FACTOR, SHARE, 0, f64::INFINITY);
+        let every = asked_every(problem.0);
         for iteration in 0..iterations {
-            if iteration % 32 == 31 && stop() {
+            if iteration % every == every - 1 && stop() {
                 return Ended::Open;
             }
             let Some(bound) = self.look(relaxation, problem, iteration == 0) else { return Ended::Closed };

@@ -50,7 +50,14 @@ impl<'a> Local<'a> {
     ///
     /// Potentials are in units of cost: of each point, then of the dummy. The path is improved at once, before any
     /// kick; all draws come from `random`, in an order that the table and the settings decide.
-    pub(super) fn new(arcs: &'a Arcs, ends: Ends, path: &[usize], potentials: &[i64], random: Stream) -> Self {
+    pub(super) fn new(
+        arcs: &'a Arcs,
+        ends: Ends,
+        path: &[usize],
+        potentials: &[i64],
+        random: Stream,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Self {
         let table = Table::new(arcs, ends);
         let tour = Tour::of_path(&table, path);
         let total = tour.total(&table);
@@ -74,7 +81,7 @@ impl<'a> Local<'a> {
         local.rank(potentials);
         local.note();
         local.wake_all();
-        local.improve();
+        local.improve(stop);
         local.keep();
         local
     }
@@ -135,7 +142,7 @@ impl<'a> Local<'a> {
                 return times;
             }
             self.disturb();
-            self.improve();
+            self.improve(stop);
             self.keep();
         }
         times
@@ -231,12 +238,17 @@ impl<'a> Local<'a> {
         [before, a, b, c, d, after].into_iter().for_each(|point| self.wake(point));
     }
 
-    /// Until no move helps.
-    fn improve(&mut self) {
+    /// Until no move helps, or `stop` says so, which is asked every 256 points: of thousands the first time is long.
+    fn improve(&mut self, stop: &(dyn Fn() -> bool + Sync)) {
+        let mut looked = 0;
         loop {
             while let Some(point) = self.queue.pop() {
                 self.queued[point as usize] = false;
                 while self.tour.has(point) && self.improve_at(point) {}
+                looked += 1;
+                if looked % 256 == 0 && stop() {
+                    return;
+                }
             }
             if self.tour.len() == self.table.size || !self.put_in() {
                 return;
