@@ -8,6 +8,7 @@ use super::halving::ProofSettings;
 use super::proof::BodyLimits;
 use crate::feasibility::collision::FreeSpace;
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
+use crate::math::interval::unrolled;
 use crate::math::polynomial::septic;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
@@ -110,7 +111,7 @@ impl LegJudge {
         let data = |end: &LegEnd, axis: usize| {
             [end.position[axis], end.velocity[axis], end.acceleration[axis], end.jerk[axis]]
         };
-        let coefficients = std::array::from_fn(|axis| septic(&data(from, axis), &data(to, axis), duration));
+        let coefficients = unrolled!(|axis| septic(&data(from, axis), &data(to, axis), duration));
         ProfileLeg { duration, coefficients }
     }
 
@@ -174,10 +175,10 @@ impl LegJudge {
     fn instants_allowed(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
         const INSTANTS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
         let tau = f64x4::new(INSTANTS) * leg.duration;
-        let d = leg.coefficients.map(|c| low_derivatives(&c, tau));
-        let velocity = d.map(|axis| axis[1]);
+        let d = unrolled!(|axis| low_derivatives(&leg.coefficients[axis], tau));
+        let velocity = unrolled!(|axis| d[axis][1]);
         let speed = Flatness::speed(&velocity);
-        let force = self.flatness.force(&velocity, &d.map(|axis| axis[2]), speed);
+        let force = self.flatness.force(&velocity, &unrolled!(|axis| d[axis][2]), speed);
         let thrust = Flatness::speed(&force);
         if let Some((lane, limit, margin)) = self.body.force_violation(speed, force[2], thrust) {
             return Err(Infeasible::at(limit, 0, INSTANTS[lane] * leg.duration, margin));
