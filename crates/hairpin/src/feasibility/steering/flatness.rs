@@ -190,12 +190,13 @@ impl Flatness {
         })
     }
 
-    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s²) there: ω̇ = (−F̈y, F̈x, 0)/(m g).
+    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m g).
     #[inline]
-    pub(super) fn level_rotors(&self, second: &[f64; 3]) -> [f64; 4] {
+    pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();
-        let moments = [-second[1] * inverse * self.inertia[0], second[0] * inverse * self.inertia[1], 0.0];
-        self.rotors(self.weight(), &moments)
+        let roll = -second[1] * inverse * self.inertia[0];
+        let pitch = second[0] * inverse * self.inertia[1];
+        self.rotors(N::constant(self.weight()), &[roll, pitch, N::constant(0.0)])
     }
 
     /// The thrust vector m(v̇ + g e₃) + D(v), N.
@@ -225,9 +226,8 @@ impl Flatness {
         let speed = Self::speed(&flat.velocity);
         let [d0, d1, d2] = self.drag(&flat.velocity, &flat.acceleration, &flat.jerk, speed);
         let m = self.mass;
-        let [fx, fy, fz] = unrolled!(|i| {
-            flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 })
-        });
+        let [fx, fy, fz] =
+            unrolled!(|i| { flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 }) });
         let [dx, dy, dz] = unrolled!(|i| flat.jerk[i] * m + d1[i]);
         let [ddx, ddy, ddz] = unrolled!(|i| flat.snap[i] * m + d2[i]);
 

@@ -72,6 +72,15 @@ impl BodyLimits {
         Some((Limit::RotorMin, part, if speed.is_nan() { f64::NEG_INFINITY } else { speed - self.rotor_speed.0 }))
     }
 
+    /// The lanes on which a squared rotor speed is out of its limits by more than `share` of the largest. NaN is not.
+    #[inline(always)]
+    pub(super) fn rotors_beyond(&self, squares: &[f64x4; 4], share: f64) -> u32 {
+        let room = share * self.rotor_high;
+        let (low, high) = (f64x4::splat(self.rotor_low - room), f64x4::splat(self.rotor_high + room));
+        let beyond = unrolled!([0, 1, 2, 3], |i| squares[i].simd_lt(low) | squares[i].simd_gt(high));
+        (beyond[0] | beyond[1] | beyond[2] | beyond[3]).to_bitmask()
+    }
+
     /// The first of four instants that violates speed, thrust or tilt, with the margin in the limit's unit.
     #[inline]
     pub(super) fn force_violation(&self, speed: f64x4, vertical: f64x4, thrust: f64x4) -> Option<(usize, Limit, f64)> {
