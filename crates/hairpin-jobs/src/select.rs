@@ -1,10 +1,11 @@
 //! A few of many cases, in a campaign folder of their own.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
+use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
 
 use crate::consent::{Consent, Wish};
@@ -72,7 +73,8 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     if same_place(&settings.folder, &settings.out) {
         return Err(Problem::input("--out: must be another folder than OUT"));
     }
-    let all = work.folder.read_cases()?;
+    // Plans and runs are read of those that are chosen: they are nearly all of a campaign.
+    let all = work.folder.read_cases_without_profiles()?;
     let results = work.folder.read_results()?;
     let measured = measured(&results);
     let (cases, unmeasured): (Vec<Case>, Vec<Case>) =
@@ -94,7 +96,12 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
             listed(&unmeasured.iter().map(Case::id).collect::<Vec<_>>())
         ));
     }
-    let candidates = candidates(&work, &cases, &measured)?;
+    let met = Met::new(&work, &cases, !measured.is_empty() && unmeasured.is_empty())?;
+    let of_all = (0..cases.len()).collect::<Vec<_>>();
+    let known = if by == By::Coverage { met.by_case(&of_all)? } else { vec![BTreeSet::new(); cases.len()] };
+    let with_cells = cases.iter().zip(known);
+    let candidates: Vec<Candidate> =
+        with_cells.map(|(case, met)| Candidate::new(case, measured.get(&case.number).copied(), met)).collect();
     if by == By::Coverage && candidates.iter().all(|candidate| candidate.cells.is_empty()) {
         return Err(Problem::input(format!(
             "--by coverage: what was exercised is known of executed cases: hairpin execute {}",
@@ -103,17 +110,19 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     }
     let choice = Choice::new(&candidates);
     let places = choice.best(count, by);
+    let stressful = choice.best(count, By::Stress);
     let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
     chosen.sort_by_key(|case| case.number);
+    chosen.iter_mut().try_for_each(|case| work.folder.read_witness(case))?;
     let folder = write(&work, settings, (&all, &results), &chosen)?;
     Ok(Selected {
         folder,
         names: places.iter().map(|place| cases[*place].id()).collect(),
         of: cases.len(),
-        selected: choice.measure(&places),
-        most_stressful: choice.measure(&choice.best(count, By::Stress)),
-        all: choice.measure(&(0..candidates.len()).collect::<Vec<_>>()),
-        cells: Grid::of(&work.setup).cells(),
+        selected: choice.measure(&places, met.together(&places)?),
+        most_stressful: choice.measure(&stressful, met.together(&stressful)?),
+        all: choice.measure(&of_all, met.by_all(&of_all)?),
+        cells: met.grid.cells(),
         stress: StressUnit::of(&work, &candidates),
     })
 }
@@ -138,23 +147,43 @@ fn measured(results: &[CaseResult]) -> HashMap<CaseNumber, &CaseResult> {
     results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect()
 }
 
-/// Every case with its result and the cells that its runs met, where it has them.
-fn candidates(
-    work: &Work,
-    cases: &[Case],
-    measured: &HashMap<CaseNumber, &CaseResult>,
-) -> Result<Vec<Candidate>, Problem> {
-    let table = work.folder.read_runs_table()?;
-    let grid = Grid::of(&work.setup);
-    cases
-        .par_iter()
-        .map(|case| {
-            let runs = work.folder.read_runs(case.number, &table)?;
-            let met: BTreeSet<usize> =
-                runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-            Ok(Candidate::new(case, measured.get(&case.number).copied(), met))
-        })
-        .collect()
+/// The cells that cases met, where they were executed.
+struct Met<'a> {
+    work: &'a Work,
+    cases: &'a [Case],
+    table: BTreeMap<(CaseNumber, usize), RunFacts>,
+    grid: Grid,
+    /// How many all of them met, if that was told when they were judged.
+    judged: Option<usize>,
+}
+
+impl<'a> Met<'a> {
+    /// Of `cases`; `judged`: they are those of the campaign's judgement.
+    fn new(work: &'a Work, cases: &'a [Case], judged: bool) -> Result<Self, Problem> {
+        let grid = Grid::of(&work.setup);
+        let told = if judged { work.folder.read_coverage()? } else { None };
+        let judged = told.filter(|told| told.grid == grid).map(|told| told.hit);
+        Ok(Self { work, cases, table: work.folder.read_runs_table()?, grid, judged })
+    }
+
+    /// Those that each of these cases met.
+    fn by_case(&self, places: &[usize]) -> Result<Vec<BTreeSet<usize>>, Problem> {
+        let met = |place: &usize| {
+            let case = &self.cases[*place];
+            let runs = self.work.folder.read_runs(case.number, &self.table)?;
+            Ok(runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect())
+        };
+        places.par_iter().map(met).collect()
+    }
+
+    /// How many they met together.
+    fn together(&self, places: &[usize]) -> Result<usize, Problem> {
+        Ok(self.by_case(places)?.into_iter().flatten().collect::<BTreeSet<_>>().len())
+    }
+
+    fn by_all(&self, all: &[usize]) -> Result<usize, Problem> {
+        self.judged.map_or_else(|| self.together(all), Ok)
+    }
 }
 
 /// The new folder: the chosen cases with their plans and runs, judged if the old one was.

@@ -7,6 +7,8 @@
 
 use wide::f64x4;
 
+use super::interval::unrolled;
+
 /// Coefficients c_i of Σ c_i τ^i.
 ///
 /// On [0, T], τ in s: c_i has the unit of the value over sⁱ.
@@ -56,13 +58,13 @@ pub fn septic(start: &[f64; 4], end: &[f64; 4], duration: f64) -> Septic {
 #[inline(always)]
 pub(crate) fn derivatives(c: &Septic, tau: f64x4) -> [f64x4; 8] {
     const FACTORIAL: [f64; 8] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0];
-    let mut b = c.map(f64x4::splat);
+    let mut b = unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |i| f64x4::splat(c[i]));
     for order in 0..7 {
         for i in (order..7).rev() {
             b[i] += b[i + 1] * tau;
         }
     }
-    std::array::from_fn(|order| b[order] * FACTORIAL[order])
+    unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| b[order] * FACTORIAL[order])
 }
 
 /// Control points b_0…b_7 of the same polynomial on [0, `duration`]: p(τ) = Σ b_i B_i(τ/T) lies in their hull, and

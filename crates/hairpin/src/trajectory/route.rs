@@ -27,6 +27,14 @@ impl Route {
         }))
     }
 
+    /// How many places ways are compared at.
+    pub const PLACES: usize = PLACES;
+
+    /// The coordinates of its places, m, place by place.
+    pub fn coordinates(&self) -> impl Iterator<Item = f64> {
+        self.0.iter().flat_map(|place| [place.x, place.y, place.z])
+    }
+
     /// How far two ways are apart, m: √(Σ |pᵢ − qᵢ|² / n) over the n places of both. A metric.
     pub fn apart(&self, other: &Self) -> f64 {
         let squares: f64 = self.0.iter().zip(&other.0).map(|(p, q)| (p - q).norm_squared()).sum();

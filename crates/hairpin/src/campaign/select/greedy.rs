@@ -1,6 +1,7 @@
 //! Choices that are made one by one, and how near to the best they are known to be.
 
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
+use std::collections::{BTreeSet, BinaryHeap};
 
 /// The `count` heaviest, the heaviest first; the first of equals.
 ///
@@ -17,19 +18,21 @@ pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
 /// for distances that are a metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and
 /// dynamic updates, 2012).
 ///
-/// O(n · count) distances, each asked for once; of equal gains the first item.
-pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64, count: usize) -> Vec<usize> {
+/// `distances` of an item to each are asked for once for every item that is chosen; of equal gains the first item.
+pub(super) fn dispersed(weights: &[f64], distances: impl Fn(usize) -> Vec<f64>, count: usize) -> Vec<usize> {
     // One item has no pairs: its weight alone decides.
     let per_weight = 0.5 * (count.saturating_sub(1)).max(1) as f64;
     let mut gains: Vec<f64> = weights.iter().map(|weight| 0.5 * per_weight * weight).collect();
-    let mut left: BTreeSet<usize> = (0..weights.len()).collect();
+    let mut left: Vec<usize> = (0..weights.len()).collect();
     let mut chosen = Vec::with_capacity(count);
     while chosen.len() < count {
-        let Some(best) = first_best(&left, |item| gains[item]) else { break };
-        left.remove(&best);
+        let best = left.iter().copied().reduce(|best, item| if gains[item] > gains[best] { item } else { best });
+        let Some(best) = best else { break };
+        left.retain(|item| *item != best);
         chosen.push(best);
+        let distances = distances(best);
         for item in &left {
-            gains[*item] += distance(best, *item);
+            gains[*item] += distances[*item];
         }
     }
     chosen
@@ -39,25 +42,49 @@ pub(super) fn dispersed(weights: &[f64], distance: impl Fn(usize, usize) -> f64,
 /// 1/e of what the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing
 /// submodular set functions, 1978).
 ///
-/// Weights 0 … 1. O(n · count) differences of sets.
+/// Weights 0 … 1. What a set covers that is new only falls: sets wait with what they last had, and only those that could
+/// be the best are looked at again (Minoux: Accelerated greedy algorithms for maximizing submodular set functions, 1978).
 pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize) -> Vec<usize> {
-    let mut covered = BTreeSet::new();
-    let mut left: BTreeSet<usize> = (0..sets.len()).collect();
+    let mut covered: BTreeSet<usize> = BTreeSet::new();
+    // Weights are 0 … 1: they decide between equals alone. Of equals the first is the greatest here.
+    let worth = |item: usize, covered: &BTreeSet<usize>| Waiting {
+        gain: sets[item].difference(covered).count() as f64 + 0.5 * weights[item],
+        item,
+    };
+    let mut waiting: BinaryHeap<Waiting> = (0..sets.len()).map(|item| worth(item, &covered)).collect();
     let mut chosen = Vec::with_capacity(count);
     while chosen.len() < count {
-        // Weights are 0 … 1: they decide between equals alone.
-        let new = |item: usize| sets[item].difference(&covered).count() as f64 + 0.5 * weights[item];
-        let Some(best) = first_best(&left, new) else { break };
-        left.remove(&best);
-        chosen.push(best);
-        covered.extend(sets[best].iter().copied());
+        let Some(first) = waiting.pop() else { break };
+        let now = worth(first.item, &covered);
+        if waiting.peek().is_some_and(|next| *next > now) {
+            waiting.push(now);
+            continue;
+        }
+        chosen.push(now.item);
+        covered.extend(sets[now.item].iter().copied());
     }
     chosen
 }
 
-/// The first of those that gain most; `None` of nothing.
-fn first_best(left: &BTreeSet<usize>, gain: impl Fn(usize) -> f64) -> Option<usize> {
-    left.iter().copied().reduce(|best, item| if gain(item) > gain(best) { item } else { best })
+/// A set that waits to be chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Waiting {
+    gain: f64,
+    item: usize,
+}
+
+impl Eq for Waiting {}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.gain.total_cmp(&other.gain).then(other.item.cmp(&self.item))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 #[cfg(test)]
@@ -73,9 +100,20 @@ mod tests {
             .collect()
     }
 
+    /// Each time the first of those that gain most, all of them asked again.
+    fn plainly(n: usize, count: usize, gain: impl Fn(usize, &[usize]) -> f64) -> Vec<usize> {
+        let mut chosen = Vec::new();
+        for _ in 0..count {
+            let left = (0..n).filter(|item| !chosen.contains(item));
+            let best = left.reduce(|best, item| if gain(item, &chosen) > gain(best, &chosen) { item } else { best });
+            chosen.extend(best);
+        }
+        chosen
+    }
+
     #[test]
     fn one_item_is_the_heaviest() {
-        assert_eq!(dispersed(&[0.2, 0.1, 0.9, 0.9], |_, _| 1.0, 1), [2]);
+        assert_eq!(dispersed(&[0.2, 0.1, 0.9, 0.9], |_| vec![1.0; 4], 1), [2]);
     }
 
     #[test]
@@ -94,7 +132,15 @@ mod tests {
                 1.5 * weight + pairs.map(|(a, b)| apart(a, b)).sum::<f64>()
             };
             let best = all(n, count).iter().map(|items| value(items)).fold(0.0, f64::max);
-            let found = value(&dispersed(&weights, apart, count));
+            let row = |one: usize| (0..n).map(|other| apart(one, other)).collect();
+            let chosen = dispersed(&weights, row, count);
+            assert_eq!(
+                chosen,
+                plainly(n, count, |item, chosen| 0.75 * weights[item]
+                    + chosen.iter().fold(0.0, |sum, other| sum + apart(item, *other))),
+                "seed {seed}"
+            );
+            let found = value(&chosen);
             assert!(found >= 0.5 * best && found <= best + 1e-12, "seed {seed}: {found} of {best}");
 
             let sets: Vec<BTreeSet<usize>> =
@@ -102,7 +148,13 @@ mod tests {
             let sets: Vec<&BTreeSet<usize>> = sets.iter().collect();
             let covers = |items: &[usize]| items.iter().flat_map(|item| sets[*item]).collect::<BTreeSet<_>>().len();
             let best = all(n, count).iter().map(|items| covers(items)).max().unwrap();
-            let found = covers(&covering(&sets, &weights, count));
+            let chosen = covering(&sets, &weights, count);
+            let new = |item: usize, chosen: &[usize]| {
+                let known: BTreeSet<usize> = chosen.iter().flat_map(|other| sets[*other].clone()).collect();
+                sets[item].difference(&known).count() as f64 + 0.5 * weights[item]
+            };
+            assert_eq!(chosen, plainly(n, count, new), "seed {seed}");
+            let found = covers(&chosen);
             assert!(found as f64 >= (1.0 - (-1.0_f64).exp()) * best as f64 && found <= best, "seed {seed}");
         }
     }

@@ -7,12 +7,11 @@ mod greedy;
 
 use std::collections::BTreeSet;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Case, CaseNumber, CaseResult};
 use crate::judgement::Measures;
-use crate::search::worst::{Placed, Scale, Trace};
+use crate::search::worst::{Crowd, Placed, Scale, Trace};
 use crate::trajectory::Route;
 
 /// What a choice is for.
@@ -56,7 +55,7 @@ pub struct Candidate {
     trace: Trace,
     /// Cells of the grid of motion that it met.
     ///
-    /// By their numbers in the grid.
+    /// By their numbers in the grid; read for a choice by coverage alone.
     pub cells: BTreeSet<usize>,
 }
 
@@ -91,8 +90,7 @@ pub fn measured(candidates: &[Candidate]) -> bool {
 pub struct Choice<'a> {
     candidates: &'a [Candidate],
     stress: Vec<f64>,
-    scale: Scale,
-    placed: Vec<Placed>,
+    crowd: Crowd,
 }
 
 /// How good a choice is.
@@ -119,17 +117,13 @@ pub struct Measured {
 impl<'a> Choice<'a> {
     /// Among `candidates`.
     ///
-    /// O(n²) distances on all threads, O(n) memory. The stress of each is (s − min) / (max − min).
+    /// O(n²) comparisons of outlines on all threads, O(n) memory. The stress of each is (s − min) / (max − min).
     pub fn new(candidates: &'a [Candidate]) -> Self {
         let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
         let traces: Vec<Trace> = candidates.iter().map(|c| c.trace.clone()).collect();
         let scale = Scale::of(&traces);
-        let placed = traces.iter().map(|trace| scale.place(trace)).collect();
-        Self { candidates, stress, scale, placed }
-    }
-
-    fn apart(&self, a: usize, b: usize) -> f64 {
-        self.scale.apart(&self.placed[a], &self.placed[b])
+        let placed: Vec<Placed> = traces.iter().map(|trace| scale.place(trace)).collect();
+        Self { candidates, stress, crowd: Crowd::new(&scale, &placed) }
     }
 
     /// `count` of the candidates, as their places in the list, in the order in which they are chosen.
@@ -138,7 +132,7 @@ impl<'a> Choice<'a> {
     pub fn best(&self, count: usize, by: By) -> Vec<usize> {
         match by {
             By::Stress => greedy::heaviest(&self.stress, count),
-            By::Diverse => greedy::dispersed(&self.stress, |a, b| self.apart(a, b), count),
+            By::Diverse => greedy::dispersed(&self.stress, |one| self.crowd.from(one), count),
             By::Coverage => {
                 let cells: Vec<&BTreeSet<usize>> = self.candidates.iter().map(|candidate| &candidate.cells).collect();
                 greedy::covering(&cells, &self.stress, count)
@@ -148,26 +142,17 @@ impl<'a> Choice<'a> {
 
     /// How good a choice of places is.
     ///
-    /// Of places as [`Self::best`] gives them; O(k²) distances for k of them.
-    pub fn measure(&self, chosen: &[usize]) -> Measured {
+    /// Of places as [`Self::best`] gives them, which met so many `cells`; O(k²) comparisons for k of them.
+    pub fn measure(&self, chosen: &[usize], cells: usize) -> Measured {
         let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
-        // Sum and least of each row; rows are added up in their order, on any number of threads.
-        let of_row = |i: usize| {
-            let distances = chosen[..i].iter().map(|b| self.apart(chosen[i], *b));
-            distances.fold((0.0, f64::INFINITY), |(sum, least), distance| (sum + distance, distance.min(least)))
-        };
-        let rows: Vec<(f64, f64)> = (0..chosen.len()).into_par_iter().map(of_row).collect();
-        let (sum, nearest) = rows.into_iter().fold((0.0, f64::INFINITY), |all, row| (all.0 + row.0, all.1.min(row.1)));
-        let pairs = chosen.len() * chosen.len().saturating_sub(1) / 2;
-        let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
-        let cells: BTreeSet<usize> = chosen.iter().flat_map(|place| self.candidates[*place].cells.clone()).collect();
+        let (spread, nearest) = self.crowd.some(chosen).spread();
         Measured {
             cases: chosen.len(),
-            stress: mean(stress().sum(), chosen.len()),
+            stress: if chosen.is_empty() { 0.0 } else { stress().sum::<f64>() / chosen.len() as f64 },
             worst: stress().fold(f64::NEG_INFINITY, f64::max),
-            spread: mean(sum, pairs),
-            nearest: if pairs == 0 { 0.0 } else { nearest },
-            cells: cells.len(),
+            spread,
+            nearest,
+            cells,
         }
     }
 }
@@ -207,10 +192,9 @@ mod tests {
         let mut diverse = choice.best(3, By::Diverse);
         diverse.sort_unstable();
         assert!(diverse[0] < 5 && diverse[1..] == [5, 6], "{diverse:?}");
-        let (alike, apart) = (choice.measure(&[0, 1, 2]), choice.measure(&diverse));
+        let (alike, apart) = (choice.measure(&[0, 1, 2], 1), choice.measure(&diverse, 5));
         assert!(apart.spread > 3.0 * alike.spread && apart.stress < alike.stress && alike.nearest < 0.02);
         assert_eq!(choice.best(2, By::Coverage), [6, 0]);
-        assert_eq!(choice.measure(&[6, 0]).cells, 4);
         assert_eq!(choice.best(99, By::Diverse).len(), 7);
     }
 }

@@ -48,6 +48,11 @@ pub(crate) trait ProveLegs {
     /// The leg from `from` to `to` in `duration` (s), if every limit holds at every instant of it.
     fn leg(&self, from: &Self::End, to: &Self::End, duration: f64) -> Result<ProfileLeg, Self::Why>;
 
+    /// The number of the first of `durations` (s) in which the leg is one.
+    fn first(&self, from: &Self::End, to: &Self::End, durations: &[f64]) -> Option<usize> {
+        durations.iter().position(|duration| self.leg(from, to, *duration).is_ok())
+    }
+
     /// No leg is faster than this on the mean, m/s.
     fn fastest(&self) -> f64;
 

@@ -199,9 +199,8 @@ impl<'a, J: ProveLegs> States<'a, J> {
     /// The shortest feasible rung between two states, of those that are no shorter than `least`.
     fn shortest(&self, from: usize, to: usize, least: f64) -> Option<u32> {
         let begin = self.rungs.partition_point(|rung| *rung < least);
-        (begin..self.rungs.len())
-            .find(|rung| self.judge.leg(&self.states[from], &self.states[to], self.rungs[*rung]).is_ok())
-            .map(|rung| rung as u32)
+        let found = self.judge.first(&self.states[from], &self.states[to], &self.rungs[begin..]);
+        found.map(|rung| (begin + rung) as u32)
     }
 
     /// Time of the straight line between two waypoints at the largest speed, s.

@@ -74,6 +74,10 @@ impl ProveLegs for LegJudge {
         self.judge(from, to, duration)
     }
 
+    fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
+        self.first(from, to, durations)
+    }
+
     fn fastest(&self) -> f64 {
         self.limits().max_speed
     }

@@ -16,7 +16,7 @@
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use thiserror::Error;
 
-use crate::math::interval::Smooth;
+use crate::math::interval::{Smooth, unrolled};
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
@@ -150,16 +150,16 @@ impl Flatness {
     fn drag<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], j: &[N; 3], speed: N) -> [[N; 3]; 3] {
         let linear = self.drag_linear;
         if self.drag_quadratic == 0.0 {
-            return [v.map(|c| c * linear), a.map(|c| c * linear), j.map(|c| c * linear)];
+            return [unrolled!(|i| v[i] * linear), unrolled!(|i| a[i] * linear), unrolled!(|i| j[i] * linear)];
         }
-        let n = v.map(|c| c.direction(speed));
+        let n = unrolled!(|i| v[i].direction(speed));
         let speed_rate = dot(&n, a);
         let bend = dot(a, a) - speed_rate.square() + dot(v, j);
         let c = self.drag_quadratic;
         [
-            std::array::from_fn(|i| v[i] * linear + v[i] * speed * c),
-            std::array::from_fn(|i| a[i] * linear + (a[i] * speed + v[i] * speed_rate) * c),
-            std::array::from_fn(|i| j[i] * linear + (j[i] * speed + a[i] * speed_rate * 2.0 + n[i] * bend) * c),
+            unrolled!(|i| v[i] * linear + v[i] * speed * c),
+            unrolled!(|i| a[i] * linear + (a[i] * speed + v[i] * speed_rate) * c),
+            unrolled!(|i| j[i] * linear + (j[i] * speed + a[i] * speed_rate * 2.0 + n[i] * bend) * c),
         ]
     }
 
@@ -184,25 +184,26 @@ impl Flatness {
     /// Squares of the rotor speeds for a thrust (N) and moments (N·m).
     #[inline(always)]
     fn rotors<N: Smooth>(&self, thrust: N, moments: &[N; 3]) -> [N; 4] {
-        std::array::from_fn(|i| {
+        unrolled!([0, 1, 2, 3], |i| {
             let [t, x, y, z] = self.unmix[i];
             thrust * t + moments[0] * x + moments[1] * y + moments[2] * z
         })
     }
 
-    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s²) there: ω̇ = (−F̈y, F̈x, 0)/(m g).
+    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m g).
     #[inline]
-    pub(super) fn level_rotors(&self, second: &[f64; 3]) -> [f64; 4] {
+    pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();
-        let moments = [-second[1] * inverse * self.inertia[0], second[0] * inverse * self.inertia[1], 0.0];
-        self.rotors(self.weight(), &moments)
+        let roll = -second[1] * inverse * self.inertia[0];
+        let pitch = second[0] * inverse * self.inertia[1];
+        self.rotors(N::constant(self.weight()), &[roll, pitch, N::constant(0.0)])
     }
 
     /// The thrust vector m(v̇ + g e₃) + D(v), N.
     #[inline(always)]
     pub(super) fn force<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], speed: N) -> [N; 3] {
         let drag = speed * self.drag_quadratic + N::constant(self.drag_linear);
-        let mut force: [N; 3] = std::array::from_fn(|i| a[i] * self.mass + v[i] * drag);
+        let mut force = unrolled!(|i| a[i] * self.mass + v[i] * drag);
         force[2] = force[2] + N::constant(self.weight());
         force
     }
@@ -225,11 +226,10 @@ impl Flatness {
         let speed = Self::speed(&flat.velocity);
         let [d0, d1, d2] = self.drag(&flat.velocity, &flat.acceleration, &flat.jerk, speed);
         let m = self.mass;
-        let [fx, fy, fz]: [N; 3] = std::array::from_fn(|i| {
-            flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 })
-        });
-        let [dx, dy, dz]: [N; 3] = std::array::from_fn(|i| flat.jerk[i] * m + d1[i]);
-        let [ddx, ddy, ddz]: [N; 3] = std::array::from_fn(|i| flat.snap[i] * m + d2[i]);
+        let [fx, fy, fz] =
+            unrolled!(|i| { flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 }) });
+        let [dx, dy, dz] = unrolled!(|i| flat.jerk[i] * m + d1[i]);
+        let [ddx, ddy, ddz] = unrolled!(|i| flat.snap[i] * m + d2[i]);
 
         // s² = Fx² + Fz², the squared length in the body's plane of symmetry.
         let s2 = fx.square() + fz.square();

@@ -8,10 +8,14 @@ use super::halving::ProofSettings;
 use super::proof::BodyLimits;
 use crate::feasibility::collision::FreeSpace;
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
+use crate::math::interval::unrolled;
 use crate::math::polynomial::septic;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 use crate::world::World;
+
+/// More than rounding can make of a squared rotor speed at a leg's end, as a share of the largest.
+const ROUNDING: f64 = 1e-7;
 
 /// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
 ///
@@ -110,7 +114,7 @@ impl LegJudge {
         let data = |end: &LegEnd, axis: usize| {
             [end.position[axis], end.velocity[axis], end.acceleration[axis], end.jerk[axis]]
         };
-        let coefficients = std::array::from_fn(|axis| septic(&data(from, axis), &data(to, axis), duration));
+        let coefficients = unrolled!(|axis| septic(&data(from, axis), &data(to, axis), duration));
         ProfileLeg { duration, coefficients }
     }
 
@@ -140,6 +144,42 @@ impl LegJudge {
         Ok(leg)
     }
 
+    /// The number of the first of `durations` (s) in which the leg is one by [`Self::judge`].
+    ///
+    /// Most are refused four at a time, for what rotors would have to do at the ends alone.
+    pub fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
+        durations.chunks(4).enumerate().find_map(|(k, few)| {
+            let refused = self.ends_refuse(from, to, few);
+            let asked = (0..few.len()).filter(|i| refused >> i & 1 == 0);
+            asked.into_iter().find(|i| self.judge(from, to, few[*i]).is_ok()).map(|i| 4 * k + i)
+        })
+    }
+
+    /// Which of four durations or fewer [`Self::ends_allowed`] refuses by more than rounding: bit i for number i.
+    ///
+    /// With e the residues of [`septic`], p⁗ T⁴ = 840 e₀ − 360 e₁ + 60 e₂ − 4 e₃ at the first end, and
+    /// −840 e₀ + 480 e₁ − 120 e₂ + 16 e₃ at the last.
+    #[inline]
+    fn ends_refuse(&self, from: &LegEnd, to: &LegEnd, few: &[f64]) -> u32 {
+        let t = f64x4::new(unrolled!([0, 1, 2, 3], |i| few[i.min(few.len() - 1)]));
+        let (t2, t3) = (t * t, t * t * t);
+        let mass = f64x4::splat(self.mass) / (t2 * t2);
+        let ends = unrolled!([0, 1], |i| {
+            let c1 = t * from.velocity[i];
+            let (c2, c3) = (t2 * (0.5 * from.acceleration[i]), t3 * (from.jerk[i] / 6.0));
+            let e0 = f64x4::splat(to.position[i] - from.position[i]) - c1 - c2 - c3;
+            let e1 = t * to.velocity[i] - c1 - c2 * 2.0 - c3 * 3.0;
+            let e2 = t2 * to.acceleration[i] - c2 * 2.0 - c3 * 6.0;
+            let e3 = t3 * to.jerk[i] - c3 * 6.0;
+            let (first, last) =
+                (e0 * 840.0 - e1 * 360.0 + e2 * 60.0 - e3 * 4.0, e1 * 480.0 - e0 * 840.0 - e2 * 120.0 + e3 * 16.0);
+            [mass * first + f64x4::splat(from.drag_second[i]), mass * last + f64x4::splat(to.drag_second[i])]
+        });
+        let [x, y] = ends;
+        let beyond = |end: usize| self.body.rotors_beyond(&self.flatness.level_rotors(&[x[end], y[end]]), ROUNDING);
+        beyond(0) | beyond(1)
+    }
+
     /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.
     ///
     /// Space first, then the body.
@@ -155,8 +195,8 @@ impl LegJudge {
     #[inline]
     fn ends_allowed(&self, from: &LegEnd, to: &LegEnd, leg: &ProfileLeg) -> Result<(), Infeasible> {
         let t = leg.duration;
-        let mut second = [[0.0; 3]; 2];
-        for (axis, c) in leg.coefficients.iter().enumerate() {
+        let mut second = [[0.0; 2]; 2];
+        for (axis, c) in leg.coefficients[..2].iter().enumerate() {
             let last = ((840.0 * c[7] * t + 360.0 * c[6]) * t + 120.0 * c[5]) * t + 24.0 * c[4];
             second[0][axis] = self.mass * 24.0 * c[4] + from.drag_second[axis];
             second[1][axis] = self.mass * last + to.drag_second[axis];
@@ -174,10 +214,10 @@ impl LegJudge {
     fn instants_allowed(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
         const INSTANTS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
         let tau = f64x4::new(INSTANTS) * leg.duration;
-        let d = leg.coefficients.map(|c| low_derivatives(&c, tau));
-        let velocity = d.map(|axis| axis[1]);
+        let d = unrolled!(|axis| low_derivatives(&leg.coefficients[axis], tau));
+        let velocity = unrolled!(|axis| d[axis][1]);
         let speed = Flatness::speed(&velocity);
-        let force = self.flatness.force(&velocity, &d.map(|axis| axis[2]), speed);
+        let force = self.flatness.force(&velocity, &unrolled!(|axis| d[axis][2]), speed);
         let thrust = Flatness::speed(&force);
         if let Some((lane, limit, margin)) = self.body.force_violation(speed, force[2], thrust) {
             return Err(Infeasible::at(limit, 0, INSTANTS[lane] * leg.duration, margin));

@@ -11,7 +11,7 @@ use wide::f64x4;
 use super::flatness::{Demand, FlatState, Flatness, LEAST_VERTICAL_THRUST, flat_state};
 use super::halving::{ProofSettings, prove_by_halving};
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
-use crate::math::interval::{Enclosure, Smooth};
+use crate::math::interval::{Enclosure, Smooth, unrolled};
 use crate::math::polynomial::derivatives;
 use crate::math::power::square;
 use crate::robot::quadrotor::Quadrotor;
@@ -70,6 +70,15 @@ impl BodyLimits {
             return Some((Limit::RotorMax, part, self.rotor_speed.1 - speed));
         }
         Some((Limit::RotorMin, part, if speed.is_nan() { f64::NEG_INFINITY } else { speed - self.rotor_speed.0 }))
+    }
+
+    /// The lanes on which a squared rotor speed is out of its limits by more than `share` of the largest. NaN is not.
+    #[inline(always)]
+    pub(super) fn rotors_beyond(&self, squares: &[f64x4; 4], share: f64) -> u32 {
+        let room = share * self.rotor_high;
+        let (low, high) = (f64x4::splat(self.rotor_low - room), f64x4::splat(self.rotor_high + room));
+        let beyond = unrolled!([0, 1, 2, 3], |i| squares[i].simd_lt(low) | squares[i].simd_gt(high));
+        (beyond[0] | beyond[1] | beyond[2] | beyond[3]).to_bitmask()
     }
 
     /// The first of four instants that violates speed, thrust or tilt, with the margin in the limit's unit.
@@ -141,24 +150,28 @@ impl BodyLimits {
     fn evaluate(&self, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
         let tau = f64x4::new(batch.map(|(center, _)| center));
         let half = f64x4::new(batch.map(|(_, half)| half));
-        let d = leg.coefficients.map(|c| derivatives(&c, tau));
-        let of = |order: usize| std::array::from_fn(|axis| Enclosure::taylor(&d[axis][order..], half));
-        let flat = FlatState { velocity: of(1), acceleration: of(2), jerk: of(3), snap: of(4) };
+        let d = unrolled!(|axis| derivatives(&leg.coefficients[axis], tau));
+        let flat = FlatState {
+            velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
+            acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
+            jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
+            snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
+        };
         let demand = flatness.demand(&flat);
         // All ones; comparisons with NaN are false, so what is undefined is never proven.
         let mut proven = f64x4::ZERO.simd_eq(f64x4::ZERO);
         let mut violated = f64x4::ZERO;
-        let mut require = |margin: Enclosure, room: f64| {
+        let mut require = |margin: &Enclosure, room: f64| {
             proven &= margin.lower().simd_ge(f64x4::splat(room));
             violated |= margin.middle.simd_lt(f64x4::ZERO);
         };
-        for (margin, room) in self.force_margins(demand.speed, demand.force[2], demand.thrust) {
-            require(margin, room);
+        for (margin, room) in &self.force_margins(demand.speed, demand.force[2], demand.thrust) {
+            require(margin, *room);
         }
         let (low, high) = (Enclosure::constant(self.rotor_low), Enclosure::constant(self.rotor_high));
-        for square in demand.rotors {
-            require(square - low, ROUNDING * self.rotor_high);
-            require(high - square, ROUNDING * self.rotor_high);
+        for square in &demand.rotors {
+            require(&(*square - low), ROUNDING * self.rotor_high);
+            require(&(high - *square), ROUNDING * self.rotor_high);
         }
         (proven.to_bitmask(), violated.to_bitmask())
     }

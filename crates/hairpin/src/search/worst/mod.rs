@@ -19,7 +19,9 @@
 
 mod archive;
 mod change;
+mod crowd;
 mod field;
+mod lanes;
 mod portfolio;
 mod rounds;
 mod scale;
@@ -28,6 +30,7 @@ mod settings;
 mod tests;
 
 use self::archive::{Archive, Member};
+pub use self::crowd::Crowd;
 pub use self::field::{Field, Ran};
 use self::rounds::{Search, offer};
 pub use self::scale::{Placed, Scale, Trace};

@@ -1,9 +1,13 @@
 //! How far two trajectories are apart: how far their ways are, and how far what came of them is, each as a share of
 //! what a sample spans.
 
-use rayon::prelude::*;
+use std::f64::consts::PI;
 
+use super::lanes::{Lanes, Outlines, centred};
 use crate::trajectory::Route;
+
+/// Waves of a way that its outline has, along each axis.
+const WAVES: usize = 4;
 
 /// A trajectory as it is compared.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +44,8 @@ pub struct Scale {
 impl Scale {
     /// The scale of `sample`.
     ///
-    /// O(n²) distances on all threads, O(n) memory: those of all pairs of ten thousand would take a gigabyte.
+    /// O(n²) outlines of ways and behaviours on all threads, O(n) memory; ways themselves only where outlines do not
+    /// say that they are nearer than others.
     pub fn of(sample: &[Trace]) -> Self {
         let count = sample.iter().map(|trace| trace.behaviour.len()).min().unwrap_or(0);
         let range = |m: usize| {
@@ -49,10 +54,15 @@ impl Scale {
             [low, column().fold(f64::NEG_INFINITY, f64::max) - low]
         };
         let scale = Self { measures: (0..count).map(range).collect(), longest: [0.0; 2] };
+        if sample.is_empty() {
+            return scale;
+        }
         let placed: Vec<Placed> = sample.iter().map(|trace| scale.place(trace)).collect();
-        let of_row = |a: usize| placed[..a].iter().fold([0.0; 2], |most, b| larger(most, parts(&placed[a], b)));
-        let longest = (0..placed.len()).into_par_iter().map(of_row).reduce(|| [0.0; 2], larger);
-        Self { longest, ..scale }
+        let ways: Vec<Vec<f64>> = placed.iter().map(|placed| placed.route.coordinates().collect()).collect();
+        let shares: Vec<Vec<f64>> = placed.into_iter().map(|placed| placed.shares).collect();
+        let way = Lanes::new(&ways, 3 * Route::PLACES, 3).largest_square(&outlines(&ways));
+        let behaviour = Lanes::new(&shares, count, 1).largest_square(&Outlines::new(&shares, &axes(count)));
+        Self { longest: roots([way, behaviour]), ..scale }
     }
 
     /// Where `trace` stands; shares of what lies outside of the sample's range lie outside of 0 … 1.
@@ -65,9 +75,30 @@ impl Scale {
     ///
     /// Of both parts that are not 0 throughout the sample the mean, or one of them alone.
     pub fn apart(&self, one: &Placed, other: &Placed) -> f64 {
-        let count = self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64;
+        let squares = one.shares.iter().zip(&other.shares).map(|(x, y)| (x - y) * (x - y));
+        self.mean([one.route.apart(&other.route), squares.sum::<f64>().sqrt()])
+    }
+
+    /// Of two parts, m and shares of ranges, the distance.
+    pub(super) fn mean(&self, parts: [f64; 2]) -> f64 {
         let share = |(part, longest): (f64, f64)| if longest > 0.0 { part / longest } else { 0.0 };
-        parts(one, other).into_iter().zip(self.longest).map(share).sum::<f64>() / count
+        parts.into_iter().zip(self.longest).map(share).sum::<f64>() / self.counting()
+    }
+
+    #[cfg(test)]
+    pub(super) fn longest(&self) -> [f64; 2] {
+        self.longest
+    }
+
+    /// How many parts count.
+    fn counting(&self) -> f64 {
+        self.longest.iter().filter(|longest| **longest > 0.0).count().max(1) as f64
+    }
+
+    /// By what the roots of both parts' squared differences are multiplied before they are added up.
+    pub(super) fn weights(&self) -> [f64; 2] {
+        let [way, behaviour] = self.longest.map(|l| if l > 0.0 { 1.0 / (l * self.counting()) } else { 0.0 });
+        [way / (Route::PLACES as f64).sqrt(), behaviour]
     }
 
     /// The distance that so many of the pairs of `sample` (0 … 1) are nearer than; 0 without pairs.
@@ -81,14 +112,35 @@ impl Scale {
     }
 }
 
-/// Of the ways, m, and of the behaviours.
-fn parts(one: &Placed, other: &Placed) -> [f64; 2] {
-    let squares = one.shares.iter().zip(&other.shares).map(|(x, y)| (x - y) * (x - y));
-    [one.route.apart(&other.route), squares.sum::<f64>().sqrt()]
+impl Placed {
+    /// The coordinates of its way and its shares.
+    pub(super) fn vectors(&self) -> [Vec<f64>; 2] {
+        [self.route.coordinates().collect(), self.shares.clone()]
+    }
 }
 
-fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [0, 1].map(|i| a[i].max(b[i]))
+/// Both parts from the squares of their differences, as [`Route::apart`] has that of ways.
+pub(super) fn roots([way, behaviour]: [f64; 2]) -> [f64; 2] {
+    [(way / Route::PLACES as f64).sqrt(), behaviour.sqrt()]
+}
+
+/// The first waves of the ways' orthonormal cosine transform along each axis.
+fn outlines(ways: &[Vec<f64>]) -> Outlines {
+    let places = Route::PLACES;
+    let wave = |k: usize, place: usize| {
+        let long = if k == 0 { 1.0 } else { 2.0 };
+        (long / places as f64).sqrt() * libm::cos(PI * (place as f64 + 0.5) * k as f64 / places as f64)
+    };
+    let direction = |k: usize, axis: usize| {
+        (0..3 * places).map(|i| if i % 3 == axis { wave(k, i / 3) } else { 0.0 }).collect::<Vec<f64>>()
+    };
+    let directions: Vec<Vec<f64>> = (0..3 * WAVES).map(|d| direction(d / 3, d % 3)).collect();
+    Outlines::new(&centred(ways, 3 * places), &directions)
+}
+
+/// All directions of so many numbers: nothing is left out.
+fn axes(count: usize) -> Vec<Vec<f64>> {
+    (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }
 
 #[cfg(test)]

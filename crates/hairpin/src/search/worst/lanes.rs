@@ -1,0 +1,249 @@
+//! Vectors side by side in lanes, so that all pairs of them can be compared: what is asked of two is answered to the
+//! same bits, only sums over all pairs are added up another way.
+
+use rayon::prelude::*;
+
+use crate::math::simd::{Simd, kernel};
+
+/// Vectors in a block.
+const LANES: usize = 8;
+/// Those of a block that are compared with others at once.
+const ROWS: usize = 4;
+/// More than rounding takes from a bound of a squared distance, as a share.
+const ROUNDING: f64 = 1e-9;
+/// More than a distance, as a share of the largest, can be wrong by where it comes from products.
+const ALIKE: f64 = 1e-6;
+
+/// A number for each pair of four vectors with the eight of a block.
+type Pairs = [[f64; LANES]; ROWS];
+
+/// Vectors of equal size, block by block, coordinate by coordinate; the last block is filled up with the first vector.
+#[derive(Debug, Clone)]
+pub(super) struct Lanes {
+    count: usize,
+    size: usize,
+    /// Coordinates whose squares are added up before they are added to the others': 3 of places, 1 of numbers.
+    group: usize,
+    values: Vec<f64>,
+}
+
+impl Lanes {
+    /// `vectors` of `size` coordinates in groups of 3 or 1.
+    pub(super) fn new(vectors: &[Vec<f64>], size: usize, group: usize) -> Self {
+        let blocks = vectors.len().div_ceil(LANES);
+        let mut values = vec![0.0; blocks * size * LANES];
+        for at in 0..blocks * LANES {
+            let vector = vectors.get(at).unwrap_or(&vectors[0]);
+            for (k, value) in vector.iter().enumerate().take(size) {
+                values[(at / LANES * size + k) * LANES + at % LANES] = *value;
+            }
+        }
+        Self { count: vectors.len(), size, group, values }
+    }
+
+    fn blocks(&self) -> usize {
+        self.count.div_ceil(LANES)
+    }
+
+    fn squares(&self, own: usize, first: usize, out: &mut [Pairs]) {
+        if self.size == 0 {
+            return;
+        }
+        squares_with(Simd::Widest, &self.values, self.size * LANES, self.group, own * LANES + first, out);
+    }
+
+    /// ‖x − y‖² of vector `one` and each.
+    pub(super) fn squares_from(&self, one: usize) -> Vec<f64> {
+        let mut pairs = vec![[[0.0; LANES]; ROWS]; self.blocks()];
+        self.squares(one / LANES, one % LANES / ROWS * ROWS, &mut pairs);
+        pairs.iter().flat_map(|pairs| pairs[one % ROWS]).take(self.count).collect()
+    }
+
+    /// The largest ‖x − y‖² + (`left` of x + `left` of y)² of the vectors of a block with those of it and of all before.
+    fn most_of(&self, own: usize, left: &[f64]) -> f64 {
+        let mut pairs = vec![[[0.0; LANES]; ROWS]; own + 1];
+        let mut most = [0.0; LANES];
+        for first in [0, ROWS] {
+            self.squares(own, first, &mut pairs);
+            for (pairs, left_of) in pairs.iter().zip(left.chunks_exact(LANES)) {
+                for (r, row) in pairs.iter().enumerate() {
+                    let left = left[own * LANES + first + r];
+                    for ((most, square), other) in most.iter_mut().zip(row).zip(left_of) {
+                        let square = square + (left + other) * (left + other);
+                        *most = if square > *most { square } else { *most };
+                    }
+                }
+            }
+        }
+        most.into_iter().fold(0.0, f64::max)
+    }
+
+    /// The largest ‖x − y‖² of all pairs.
+    ///
+    /// Blocks are looked at in the order of what `outlines` say of them, until they say that none is left.
+    pub(super) fn largest_square(&self, outlines: &Outlines) -> f64 {
+        let all: Vec<usize> = (0..self.blocks()).collect();
+        let bound = |own: &usize| (outlines.vectors.most_of(*own, &outlines.left), *own);
+        let mut order: Vec<(f64, usize)> = all.par_iter().map(bound).collect();
+        order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        let nothing = vec![0.0; self.blocks() * LANES];
+        let mut most: f64 = 0.0;
+        for few in order.chunks(LANES) {
+            if few[0].0 * (1.0 + ROUNDING) < most {
+                break;
+            }
+            most = few.par_iter().map(|(_, own)| self.most_of(*own, &nothing)).reduce(|| most, f64::max);
+        }
+        most
+    }
+}
+
+/// Shorter vectors, each with the length ρ of what they leave out: those that they stand for are never farther apart
+/// than √(‖x − y‖² + (ρ + ρ')²).
+#[derive(Debug, Clone)]
+pub(super) struct Outlines {
+    vectors: Lanes,
+    left: Vec<f64>,
+}
+
+impl Outlines {
+    /// The components of `vectors` along the orthonormal `directions`.
+    pub(super) fn new(vectors: &[Vec<f64>], directions: &[Vec<f64>]) -> Self {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let short: Vec<Vec<f64>> = vectors.iter().map(|v| directions.iter().map(|d| dot(v, d)).collect()).collect();
+        let left = vectors.iter().zip(&short).map(|(v, short)| {
+            // What rounding takes from a difference of squares is a share of the whole.
+            (dot(v, v) * (1.0 + ROUNDING * ROUNDING.sqrt()) - dot(short, short)).max(0.0).sqrt()
+        });
+        let mut left: Vec<f64> = left.collect();
+        let vectors = Lanes::new(&short, directions.len(), 1);
+        left.resize(vectors.blocks() * LANES, left[0]);
+        Self { vectors, left }
+    }
+}
+
+kernel! {
+    fn squares_with(values: &[f64], block: usize, group: usize, row: usize, out: &mut [Pairs]) {
+        let (own, first) = (&values[row / LANES * block..][..block], row % LANES);
+        for (out, other) in out.iter_mut().zip(values.chunks_exact(block)) {
+            *out = if group == 3 { squares::<3>(own, first, other) } else { squares::<1>(own, first, other) };
+        }
+    }
+}
+
+#[inline(always)]
+fn squares<const GROUP: usize>(own: &[f64], first: usize, other: &[f64]) -> Pairs {
+    let mut total = [[0.0; LANES]; ROWS];
+    for (own, other) in own.chunks_exact(GROUP * LANES).zip(other.chunks_exact(GROUP * LANES)) {
+        for r in 0..ROWS {
+            for l in 0..LANES {
+                let difference = own[first + r] - other[l];
+                let mut square = difference * difference;
+                for k in 1..GROUP {
+                    let difference = own[k * LANES + first + r] - other[k * LANES + l];
+                    square += difference * difference;
+                }
+                total[r][l] += square;
+            }
+        }
+    }
+    total
+}
+
+/// `vectors` less their mean.
+pub(super) fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
+    let mean: Vec<f64> =
+        (0..size).map(|k| vectors.iter().map(|vector| vector[k]).sum::<f64>() / vectors.len() as f64).collect();
+    vectors.iter().map(|vector| vector.iter().zip(&mean).map(|(x, mean)| x - mean).collect()).collect()
+}
+
+/// Vectors around their mean, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: half the work of differences,
+/// and as exact but where two are alike.
+#[derive(Debug, Clone)]
+pub(super) struct Centred {
+    lanes: Lanes,
+    /// Their squares.
+    squares: Vec<f64>,
+}
+
+impl Centred {
+    pub(super) fn new(vectors: &[Vec<f64>], size: usize) -> Self {
+        let lanes = Lanes::new(&centred(vectors, size), size, 1);
+        let mut squares = vec![0.0; lanes.blocks() * LANES];
+        for (at, square) in squares.iter_mut().enumerate() {
+            let block = &lanes.values[at / LANES * size * LANES..][..size * LANES];
+            *square = block.iter().skip(at % LANES).step_by(LANES).map(|x| x * x).sum();
+        }
+        Self { lanes, squares }
+    }
+}
+
+/// Of `weights[0]` ‖x − y‖ + `weights[1]` ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that
+/// may be nearest to one before them.
+///
+/// Of each block a sum; they are added up in their order, on any number of threads.
+pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<usize>) {
+    let (count, blocks) = (parts[0].lanes.count, parts[0].lanes.blocks());
+    let parts = parts.map(|part| (part.lanes.values.as_slice(), part.squares.as_slice()));
+    let of_block = |own: usize| {
+        let (mut sums, mut least) = ([0.0; LANES], [f64::INFINITY; LANES]);
+        add_pairs(Simd::Widest, parts, weights, (own, count), &mut sums, &mut least);
+        (sums.into_iter().sum::<f64>(), least.into_iter().fold(f64::INFINITY, f64::min))
+    };
+    let all: Vec<(f64, f64)> = (0..blocks).into_par_iter().map(of_block).collect();
+    let nearest = all.iter().map(|(_, least)| *least).fold(f64::INFINITY, f64::min);
+    let near = all.iter().enumerate().filter(|(_, (_, least))| *least <= nearest + ALIKE);
+    let near = near.flat_map(|(own, _)| own * LANES..((own + 1) * LANES).min(count)).collect();
+    (all.iter().map(|(sum, _)| sum).sum(), near)
+}
+
+kernel! {
+    fn add_pairs(
+        parts: [(&[f64], &[f64]); 2],
+        weights: [f64; 2],
+        place: (usize, usize),
+        sums: &mut [f64; LANES],
+        least: &mut [f64; LANES],
+    ) {
+        let (own, count) = place;
+        for first in [0, ROWS] {
+            for block in 0..=own {
+                let mut apart = [[0.0; LANES]; ROWS];
+                for ((values, squares), weight) in parts.into_iter().zip(weights) {
+                    let size = values.len() / squares.len() * LANES;
+                    let dots = dots(&values[own * size..][..size], first, &values[block * size..][..size]);
+                    let (of_own, of_other) = (&squares[own * LANES..][..LANES], &squares[block * LANES..][..LANES]);
+                    for r in 0..ROWS {
+                        for l in 0..LANES {
+                            let square = of_own[first + r] + of_other[l] - 2.0 * dots[r][l];
+                            apart[r][l] += weight * if square > 0.0 { square } else { 0.0 }.sqrt();
+                        }
+                    }
+                }
+                for r in 0..ROWS {
+                    // Each pair once, and none of what fills the last block up.
+                    let row = own * LANES + first + r;
+                    let before = if row < count { row - block * LANES } else { 0 };
+                    for l in 0..LANES {
+                        let (counts, apart) = (l < before, apart[r][l]);
+                        sums[l] += if counts { apart } else { 0.0 };
+                        least[l] = if counts & (apart < least[l]) { apart } else { least[l] };
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn dots(own: &[f64], first: usize, other: &[f64]) -> Pairs {
+    let mut total = [[0.0; LANES]; ROWS];
+    for (own, other) in own.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+        for r in 0..ROWS {
+            for l in 0..LANES {
+                total[r][l] += own[first + r] * other[l];
+            }
+        }
+    }
+    total
+}
