@@ -144,12 +144,11 @@ fn candidates(
     cases: &[Case],
     measured: &HashMap<CaseNumber, &CaseResult>,
 ) -> Result<Vec<Candidate>, Problem> {
-    let table = work.folder.read_runs_table()?;
     let grid = Grid::of(&work.setup);
     cases
         .par_iter()
         .map(|case| {
-            let runs = work.folder.read_runs(case.number, &table)?;
+            let runs = work.folder.read_measured(case.number)?;
             let met: BTreeSet<usize> =
                 runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
             Ok(Candidate::new(case, measured.get(&case.number).copied(), met))
@@ -181,7 +180,6 @@ fn write(
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();
     old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
-    let table = old.read_runs_table()?;
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
@@ -189,13 +187,8 @@ fn write(
     let names = missions.filter(|(case, _)| numbers.contains(&case.number)).map(|(_, name)| name.clone()).collect();
     let tally = Tally { complete: true, missions: names, selected: true, ..old_tally };
     there.write_tally(&tally)?;
-    let facts: Vec<_> =
-        table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();
-    if !facts.is_empty() {
-        there.write_runs_table(&facts)?;
-    }
     let judged = results.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
-    if judged && !facts.is_empty() {
+    if judged && there.has_runs() {
         let judgement = judge_cases(&new, chosen, &tally, &[])?;
         write_report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     }

@@ -1,15 +1,23 @@
-//! `trajectories/CASE.parquet` and `executions/CASE-RUN.parquet`: poses in time with their channels,
-//! `t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,…`, world frame, quaternion w first.
+//! `trajectories/` and `executions/`: poses in time with their channels,
+//! `case,run,t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,…`, world frame, quaternion w first.
+//!
+//! Of what was measured at its full rate only the rows are written where it bends; between them positions and velocities
+//! follow the cubic (Hermite), everything else the line, within the tolerances that stand in the file's metadata.
 
+use std::collections::BTreeSet;
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array};
-use hairpin::trajectory::{Channel, Track};
+use arrow_array::types::{Float32Type, Float64Type};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
+use hairpin::campaign::CaseNumber;
+use hairpin::trajectory::bends::period;
+use hairpin::trajectory::{Channel, Tolerances, Track, bends};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::table::{Columns, Table, TableError};
-use crate::atomic::WriteError;
+use super::piece::Piece;
+use super::table::{CASE, Columns, RUN, Table, TableError};
 
 const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 /// Channels that stand right after the pose, whatever the track's order.
@@ -17,12 +25,41 @@ const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 /// A quaternion rewritten in single precision is off by 1e-7; one that is off by more than this is another thing.
 const NORM_TOLERANCE: f64 = 1e-3;
 
-/// Writes a planned track.
+/// Position: also what is left of it when its bits are rounded stays within a tenth of a millimetre.
+pub(super) const TOLERANCES: Tolerances = Tolerances { position: 1e-4, attitude: 1e-3, share: 0.01 };
+/// Positions are written in steps of 2⁻¹⁷ m, 8 µm: so their last bytes are zeros, wherever in the world they are.
+const STEPS_PER_METRE: f64 = 131_072.0;
+const ROUNDING_M: f64 = 1e-5;
+
+/// A planned motion, the rows where it bends.
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write(path: &Path, track: &Track) -> Result<(), WriteError> {
-    columns(track).write(path, "trajectory")
+/// There is no room for it.
+pub fn planned(case: CaseNumber, track: &Track) -> io::Result<Piece> {
+    thinned((case, None), track, &BTreeSet::new())
+}
+
+/// The motion of a run, or a plan, the rows where it bends and those in `marked`.
+pub(super) fn thinned(
+    key: (CaseNumber, Option<usize>),
+    track: &Track,
+    marked: &BTreeSet<usize>,
+) -> io::Result<Piece> {
+    let Some(period) = period(track) else { return Piece::of(columns(key, track)) };
+    let within = Tolerances { position: TOLERANCES.position - ROUNDING_M, ..TOLERANCES };
+    Piece::thinned(rounded(columns(key, &track.picked(&bends(track, marked, &within)))), Some(period))
+}
+
+/// Positions in steps, times as they are, and everything else in single precision.
+fn rounded(columns: Columns) -> Columns {
+    columns.map_numbers(|name, values| match name {
+        "t_s" => Arc::new(values.clone()),
+        _ if POSE[..3].contains(&name) => {
+            let step = |value: f64| (value * STEPS_PER_METRE).round() / STEPS_PER_METRE;
+            Arc::new(values.unary::<_, Float64Type>(step))
+        }
+        _ => Arc::new(values.unary::<_, Float32Type>(|value| value as f32)),
+    })
 }
 
 /// Reads a track: every further column of numbers becomes a channel.
@@ -33,8 +70,13 @@ pub fn read(path: &Path) -> Result<Track, TableError> {
     from_table(&Table::read(path)?)
 }
 
-pub(super) fn columns(track: &Track) -> Columns {
+/// All rows as they are.
+pub(super) fn columns((case, run): (CaseNumber, Option<usize>), track: &Track) -> Columns {
     let mut columns = Columns::default();
+    columns.push(CASE, Arc::new(StringArray::from(vec![case.to_string(); track.len()])));
+    if let Some(run) = run {
+        columns.push(RUN, Arc::new(Int64Array::from(vec![run as i64; track.len()])));
+    }
     columns.push("t_s", number_column(track.times().iter().copied()));
     if let Some(legs) = track.channel("leg") {
         columns.push("leg", leg_column(legs));
@@ -50,14 +92,16 @@ pub(super) fn columns(track: &Track) -> Columns {
     columns
 }
 
-pub(super) fn from_table(table: &Table) -> Result<Track, TableError> {
+pub(crate) fn from_table(table: &Table) -> Result<Track, TableError> {
     let times = table.numbers("t_s")?;
     let pose = POSE.iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let poses = (0..times.len()).map(|row| isometry(table, row, std::array::from_fn(|i| pose[i][row])));
     let poses = poses.collect::<Result<Vec<_>, _>>()?;
     let mut channels = Vec::new();
     for name in table.names() {
-        if name != "t_s" && !POSE.contains(&name.as_str()) && !table.is_text(&name) {
+        let is_channel = ![CASE, RUN, "t_s"].contains(&name.as_str()) && !POSE.contains(&name.as_str());
+        // What only other runs of the table have is empty.
+        if is_channel && !table.is_text(&name) && !table.is_empty(&name) {
             channels.push(Channel { values: table.numbers(&name)?, name });
         }
     }
