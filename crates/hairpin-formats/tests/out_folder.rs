@@ -71,9 +71,14 @@ fn generated_cases_stand_without_results() {
 fn the_same_campaign_is_the_same_bytes() {
     let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     drop((written(first.path()), written(second.path())));
-    for name in
-        ["results.parquet", "waypoints.parquet", PART_OF_RUNS, "profiles/part-00000.parquet", PART, "trajectories/part-00000.parquet"]
-    {
+    for name in [
+        "results.parquet",
+        "waypoints.parquet",
+        PART_OF_RUNS,
+        "profiles/part-00000.parquet",
+        PART,
+        "trajectories/part-00000.parquet",
+    ] {
         assert_eq!(fs::read(first.path().join(name)).unwrap(), fs::read(second.path().join(name)).unwrap(), "{name}");
     }
 }
@@ -163,7 +168,10 @@ fn a_file_per_case_and_run_is_read() {
     // A group of a part without its first columns is what stood in a file.
     let split = |table: &str, keys: usize, name: &dyn Fn(usize) -> (String, Option<String>)| {
         let part = place.path().join(table).join("part-00000.parquet");
-        let groups = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap()).unwrap().metadata().num_row_groups();
+        let groups = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap())
+            .unwrap()
+            .metadata()
+            .num_row_groups();
         for group in 0..groups {
             let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap()).unwrap();
             let batch = reader.with_row_groups(vec![group]).build().unwrap().next().unwrap().unwrap();
@@ -199,7 +207,7 @@ fn a_file_per_case_and_run_is_read() {
         assert!(folder.has_valid_run(run.case, run.run));
     }
     let stamps = folder.read_planned(CaseNumber(0)).unwrap();
-    assert!(stamps.len() < plan.len() && stamps.times().last() == plan.times().last(), "rows are read as they stand");
+    assert!(stamps.len() <= plan.len() && stamps.times().last() == plan.times().last(), "rows are read as they stand");
 }
 
 /// Whoever reads cases walks legs by number: a file that has too few, or times for too many, would be walked beyond its

@@ -17,7 +17,8 @@ pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
     let replayed = match &asked.case {
         None => replay(&asked.file, simd, &consent, watch)?,
         Some(case) => {
-            let number = case.parse().map_err(|_| Problem::input(format!("--case {case}: must be a case such as 0007")))?;
+            let number =
+                case.parse().map_err(|_| Problem::input(format!("--case {case}: must be a case such as 0007")))?;
             replay_case((&asked.file, number), simd, &consent, watch)?
         }
     };

@@ -72,11 +72,7 @@ impl CampaignFolder {
             self.read_witness(case)?;
             if case.witness.as_ref().and_then(Witness::legs).is_some_and(|legs| legs + 1 != case.waypoints.len()) {
                 let what = "has another number of legs than between its waypoints";
-                return Err(FolderError::Contradiction {
-                    path: self.path.join(PROFILES),
-                    case: case.number,
-                    what,
-                });
+                return Err(FolderError::Contradiction { path: self.path.join(PROFILES), case: case.number, what });
             }
         }
         Ok(all)
@@ -181,8 +177,7 @@ impl CampaignFolder {
     pub fn read_planned(&self, case: CaseNumber) -> Result<Track, FolderError> {
         let path = self.path.join(TRAJECTORIES);
         let found = self.read_rows_of(TRAJECTORIES, case)?;
-        let (rows, period) =
-            found.ok_or(FolderError::Contradiction { path, case, what: "has no planned motion" })?;
+        let (rows, period) = found.ok_or(FolderError::Contradiction { path, case, what: "has no planned motion" })?;
         let track = track::from_table(&rows)?;
         Ok(period.map_or(track.clone(), |period| track.at_period(period)))
     }

@@ -25,7 +25,8 @@ impl CampaignFolder {
             let known = self.part_with(TRAJECTORIES, case)?.map(|part| part.piece((case, 0))).transpose()?.flatten();
             let piece = match known {
                 Some(piece) => piece,
-                None => track::planned(case, &self.read_planned(case)?).map_err(|cause| there.no_room(TRAJECTORIES, cause))?,
+                None => track::planned(case, &self.read_planned(case)?)
+                    .map_err(|cause| there.no_room(TRAJECTORIES, cause))?,
             };
             planned.push((case, piece));
         }
@@ -53,7 +54,9 @@ impl CampaignFolder {
             let landed = match known.filter(|_| !self.run_path(case, run).exists()) {
                 Some(facts) => self.landed(EXECUTIONS, facts)?,
                 None => match self.read_run(case, run)? {
-                    Some(run) => Landed::of(&run, &BTreeSet::new()).map_err(|cause| there.no_room(EXECUTIONS, cause))?,
+                    Some(run) => {
+                        Landed::of(&run, &BTreeSet::new()).map_err(|cause| there.no_room(EXECUTIONS, cause))?
+                    }
                     None => continue,
                 },
             };

@@ -111,9 +111,8 @@ impl CampaignFolder {
             && let Some(facts) = around.get(&(case, run))
             && !self.run_path(case, run).exists()
         {
-            let moved = || self.part_with(EXECUTIONS, case).is_ok_and(|part| {
-                part.is_some_and(|part| part.has((case, run)))
-            });
+            let moved =
+                || self.part_with(EXECUTIONS, case).is_ok_and(|part| part.is_some_and(|part| part.has((case, run))));
             return asked(facts) && (!facts.recorded || facts.end_s.is_none() || moved());
         }
         let found = runs::read_run(&self.run_path(case, run));
@@ -209,11 +208,16 @@ impl CampaignFolder {
     }
 
     fn missing(&self, case: CaseNumber, run: usize) -> FolderError {
-        self.contradiction(case, run, "is missing, and the table of runs has it: hairpin execute --resume")
+        self.contradiction(
+            case,
+            run,
+            "has a run in the table of runs, and its motion is missing: hairpin execute --resume",
+        )
     }
 
     fn contradiction(&self, case: CaseNumber, run: usize, what: &'static str) -> FolderError {
-        FolderError::Contradiction { path: self.run_path(case, run), case, what }
+        let own = Some(self.run_path(case, run)).filter(|path| path.exists());
+        FolderError::Contradiction { path: own.unwrap_or_else(|| self.path.join(EXECUTIONS)), case, what }
     }
 
     /// The runs of `case` that were flown again, in their order, as [`Self::read_measured`] has runs.

@@ -227,7 +227,12 @@ pub(super) fn complete_lists(table: &Table, column: &str) -> Result<Vec<Vec<f64>
     table.number_lists(column)?.into_iter().enumerate().map(complete).collect()
 }
 
-pub(super) fn same_lengths<A, B>(table: &Table, column: &str, lists: &[Vec<A>], first: &[Vec<B>]) -> Result<(), TableError> {
+pub(super) fn same_lengths<A, B>(
+    table: &Table,
+    column: &str,
+    lists: &[Vec<A>],
+    first: &[Vec<B>],
+) -> Result<(), TableError> {
     match (0..lists.len()).find(|&row| lists[row].len() != first[row].len()) {
         Some(row) => {
             let found = format!("{} values", lists[row].len());

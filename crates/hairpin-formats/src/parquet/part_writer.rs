@@ -100,7 +100,8 @@ impl PartWriter {
                 let metadata = metadata.metadata();
                 if let Some(file) = file.take() {
                     let schema = metadata.file_metadata().schema_descr().root_schema_ptr();
-                    writer = Some(SerializedFileWriter::new(file, schema, Arc::new(properties.clone())).map_err(io_error)?);
+                    writer =
+                        Some(SerializedFileWriter::new(file, schema, Arc::new(properties.clone())).map_err(io_error)?);
                 }
                 let Some(writer) = &mut writer else { continue };
                 for group in metadata.row_groups() {

@@ -40,8 +40,8 @@ impl Piece {
         let mut builder = properties(&schema).set_statistics_enabled(EnabledStatistics::None);
         for key in [CASE, RUN] {
             // What tells one piece from another without reading it.
-            builder = builder
-                .set_column_statistics_enabled(ColumnPath::new(vec![key.into()]), EnabledStatistics::Chunk);
+            builder =
+                builder.set_column_statistics_enabled(ColumnPath::new(vec![key.into()]), EnabledStatistics::Chunk);
         }
         let builder = builder.set_offset_index_disabled(true);
         let mut writer = ArrowWriter::try_new(Vec::new(), schema.clone(), Some(builder.build())).map_err(io_error)?;

@@ -118,8 +118,10 @@ impl Columns {
     pub(crate) fn write(self, path: &Path, schema_name: &str) -> Result<(), WriteError> {
         let batch = self.into_batch();
         let schema = batch.schema();
-        let properties =
-            properties(&schema).set_statistics_enabled(EnabledStatistics::Chunk).set_key_value_metadata(Some(notes(schema_name, &[]))).build();
+        let properties = properties(&schema)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_key_value_metadata(Some(notes(schema_name, &[])))
+            .build();
         atomic::write_with(path, |file| {
             let mut writer = ArrowWriter::try_new(file, schema.clone(), Some(properties)).map_err(io_error)?;
             writer.write(&batch).map_err(io_error)?;
@@ -138,8 +140,7 @@ pub(super) fn notes(schema_name: &str, more: &[(String, String)]) -> Vec<KeyValu
 
 /// How columns are packed.
 pub(super) fn properties(schema: &Schema) -> WriterPropertiesBuilder {
-    let mut builder =
-        WriterProperties::builder().set_compression(Compression::SNAPPY).set_created_by("hairpin".into());
+    let mut builder = WriterProperties::builder().set_compression(Compression::SNAPPY).set_created_by("hairpin".into());
     for field in schema.fields() {
         // Measured numbers hardly repeat: their bytes side by side compress better than a dictionary.
         if field.data_type().is_floating() {

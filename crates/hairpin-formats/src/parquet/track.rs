@@ -40,11 +40,7 @@ pub fn planned(case: CaseNumber, track: &Track) -> io::Result<Piece> {
 }
 
 /// The motion of a run, or a plan, the rows where it bends and those in `marked`.
-pub(super) fn thinned(
-    key: (CaseNumber, Option<usize>),
-    track: &Track,
-    marked: &BTreeSet<usize>,
-) -> io::Result<Piece> {
+pub(super) fn thinned(key: (CaseNumber, Option<usize>), track: &Track, marked: &BTreeSet<usize>) -> io::Result<Piece> {
     let Some(period) = period(track) else { return Piece::of(columns(key, track)) };
     let within = Tolerances { position: TOLERANCES.position - ROUNDING_M, ..TOLERANCES };
     Piece::thinned(rounded(columns(key, &track.picked(&bends(track, marked, &within)))), Some(period))

@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::bounds::FARTHEST_M;
+use hairpin::campaign::{Case, Run};
 use hairpin_formats::executor::FromExecutor;
 use hairpin_formats::library;
-use hairpin::campaign::{Case, Run};
 use hairpin_formats::parquet::part_writer::write_one;
 use hairpin_formats::parquet::{cases, profile, results, runs, track};
 use hairpin_formats::repro::Repro;

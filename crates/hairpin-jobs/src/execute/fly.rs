@@ -9,8 +9,8 @@ use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
 };
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
-use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::atomic::WriteError;
+use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{FolderError, Landed, RunWriter};
 use rayon::prelude::*;
 
@@ -98,9 +98,9 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
     let violating: Vec<(&Case, usize, usize)> = violating?.into_iter().flatten().collect();
     let all = violating.iter().flat_map(|(case, ..)| (0..wanted).map(|again| (case.number, again)));
     let writer = work.folder.write_reruns(wanted, all);
-    let jobs = violating.iter().flat_map(|(case, run, known)| {
-        (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) })
-    });
+    let jobs = violating
+        .iter()
+        .flat_map(|(case, run, known)| (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) }));
     let jobs: Vec<Job> = jobs.collect();
     fly(work, &jobs, (jobs.len(), writer), watch)
 }
@@ -128,13 +128,15 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
     let stop = || watch.stopped() || broken();
     match command_of(&work.setup)? {
         // Part by part, so that few are open at a time.
-        None => missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(|part| {
-            part.par_iter().for_each(|job| {
-                if !stop() {
-                    landed(job, job.simulate(&work.setup));
-                }
-            });
-        }),
+        None => {
+            missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(|part| {
+                part.par_iter().for_each(|job| {
+                    if !stop() {
+                        landed(job, job.simulate(&work.setup));
+                    }
+                });
+            })
+        }
         Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
     }
     drop(steps);

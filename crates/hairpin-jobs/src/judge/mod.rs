@@ -13,8 +13,8 @@ use hairpin::campaign::{
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
-use hairpin_formats::{atomic, junit};
 use hairpin_formats::repro::Repro;
+use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
 
 use crate::Problem;

@@ -241,7 +241,11 @@ pub fn is_at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Result<bool, Mi
 }
 
 /// How a run is measured by `terms`, from the `path` where they ask for it.
-pub(super) fn settings<'a>(terms: &Terms, path: Option<&'a Track>, clearance: Option<&'a Clearance<'a>>) -> Settings<'a> {
+pub(super) fn settings<'a>(
+    terms: &Terms,
+    path: Option<&'a Track>,
+    clearance: Option<&'a Clearance<'a>>,
+) -> Settings<'a> {
     let reference = match (terms.from, path) {
         (DeviationFrom::Path, Some(path)) => Reference::Path(path),
         (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,

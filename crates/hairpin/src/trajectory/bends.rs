@@ -253,9 +253,7 @@ impl<'a> Between<'a> {
             let [a, b] = [channel.values[from], channel.values[from + 1]];
             match VELOCITY.iter().position(|name| *name == channel.name) {
                 _ if channel.name == "leg" => a,
-                Some(axis) => {
-                    speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span)
-                }
+                Some(axis) => speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span),
                 None => a + (b - a) * share,
             }
         };

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray, UInt64Array};
 use hairpin::campaign::{Case, CaseResult, Draws, Reruns};
-use hairpin::judgement::Violation;
 use hairpin::judgement::Share;
+use hairpin::judgement::Violation;
 
 use super::super::drawn;
 use super::super::measures;
