@@ -75,7 +75,7 @@ def test_results_begin_with_the_contract(campaign):
     assert set(results["evidence"].to_pylist()) <= {"witnessed", "hull-feasible", "unchecked"}
 
 
-def test_every_table_is_snappy_and_says_its_schema(campaign):
+def test_every_table_is_packed_and_says_its_schema(campaign):
     for path in campaign.rglob("*.parquet"):
         opened = pq.ParquetFile(path)
         notes = opened.schema_arrow.metadata or {}
@@ -83,7 +83,7 @@ def test_every_table_is_snappy_and_says_its_schema(campaign):
         assert notes[b"hairpin.schema"] and int(notes[b"hairpin.schema_version"]) >= 1, path
         for group in range(opened.num_row_groups):
             for column in range(opened.metadata.num_columns):
-                assert opened.metadata.row_group(group).column(column).compression == "SNAPPY", path
+                assert opened.metadata.row_group(group).column(column).compression in ("SNAPPY", "ZSTD"), path
 
 
 def test_trajectories_and_executions_share_their_columns(campaign):
@@ -97,7 +97,7 @@ def test_trajectories_and_executions_share_their_columns(campaign):
             if [before[key] for key in keys] == [row[key] for key in keys]:
                 assert before["t_s"] < row["t_s"], row
         for row in rows:
-            assert abs(sum(row[q] ** 2 for q in ("qw", "qx", "qy", "qz")) - 1) < 1e-6, row
+            assert abs(sum(row[q] ** 2 for q in ("qw", "qx", "qy", "qz")) - 1) < 1e-4, row
 
 
 def test_a_case_or_run_is_a_row_group_that_its_statistics_name(campaign):

@@ -148,7 +148,7 @@ pub fn write_one(path: &Path, schema_name: &str, piece: Piece) -> Result<(), Wri
 fn tolerances() -> (String, String) {
     let within = serde_json::json!({
         "position_m": TOLERANCES.position,
-        "attitude_rad": TOLERANCES.attitude,
+        "attitude": TOLERANCES.attitude,
         "share_of_range": TOLERANCES.share,
     });
     ("hairpin.tolerances".into(), within.to_string())

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
+use ::parquet::basic::{Compression, ZstdLevel};
 use ::parquet::file::properties::EnabledStatistics;
 use ::parquet::schema::types::ColumnPath;
 use arrow_array::{RecordBatch, new_null_array};
@@ -37,7 +38,9 @@ impl Piece {
 
     pub(super) fn of_batch(batch: &RecordBatch, period: Option<f64>) -> io::Result<Self> {
         let schema = batch.schema();
-        let mut builder = properties(&schema).set_statistics_enabled(EnabledStatistics::None);
+        let mut builder = properties(&schema)
+            .set_statistics_enabled(EnabledStatistics::None)
+            .set_compression(Compression::ZSTD(ZstdLevel::default()));
         for key in [CASE, RUN] {
             // What tells one piece from another without reading it.
             builder =

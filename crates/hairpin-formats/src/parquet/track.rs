@@ -25,11 +25,15 @@ const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 /// A quaternion rewritten in single precision is off by 1e-7; one that is off by more than this is another thing.
 const NORM_TOLERANCE: f64 = 1e-3;
 
-/// Position: also what is left of it when its bits are rounded stays within a tenth of a millimetre.
+/// How far the motion between rows is from what was left out, at most.
 pub(super) const TOLERANCES: Tolerances = Tolerances { position: 1e-4, attitude: 1e-3, share: 0.01 };
-/// Positions are written in steps of 2⁻¹⁷ m, 8 µm: so their last bytes are zeros, wherever in the world they are.
-const STEPS_PER_METRE: f64 = 131_072.0;
-const ROUNDING_M: f64 = 1e-5;
+/// The same less what rounding takes of it.
+const WITHIN: Tolerances = Tolerances { position: 9e-5, attitude: 0.98e-3, share: 0.009 };
+/// Steps of positions, m, and of quaternions, and of velocities, m/s: powers of two, so that the last bytes are zeros.
+const STEP: f64 = 1.0 / 131_072.0;
+const VELOCITY_STEP: f64 = 1.0 / 16_384.0;
+/// Steps in what every other channel may be off.
+const STEPS: f64 = 8.0;
 
 /// A planned motion, the rows where it bends.
 ///
@@ -42,20 +46,33 @@ pub fn planned(case: CaseNumber, track: &Track) -> io::Result<Piece> {
 /// The motion of a run, or a plan, the rows where it bends and those in `marked`.
 pub(super) fn thinned(key: (CaseNumber, Option<usize>), track: &Track, marked: &BTreeSet<usize>) -> io::Result<Piece> {
     let Some(period) = period(track) else { return Piece::of(columns(key, track)) };
-    let within = Tolerances { position: TOLERANCES.position - ROUNDING_M, ..TOLERANCES };
-    Piece::thinned(rounded(columns(key, &track.picked(&bends(track, marked, &within)))), Some(period))
+    Piece::thinned(rounded(columns(key, &track.picked(&bends(track, marked, &WITHIN)))), Some(period))
 }
 
-/// Positions in steps, times as they are, and everything else in single precision.
+/// Times as they are, everything else in steps; in single precision but for positions, which may lie anywhere in the
+/// world.
 fn rounded(columns: Columns) -> Columns {
+    let in_steps = |value: f64, step: f64| if step > 0.0 { (value / step).round() * step } else { value };
     columns.map_numbers(|name, values| match name {
         "t_s" => Arc::new(values.clone()),
-        _ if POSE[..3].contains(&name) => {
-            let step = |value: f64| (value * STEPS_PER_METRE).round() / STEPS_PER_METRE;
-            Arc::new(values.unary::<_, Float64Type>(step))
+        _ if POSE[..3].contains(&name) => Arc::new(values.unary::<_, Float64Type>(|value| in_steps(value, STEP))),
+        _ => {
+            let step = match name {
+                _ if POSE.contains(&name) => STEP,
+                _ if VELOCITY.contains(&name) => VELOCITY_STEP,
+                _ => step_of(values.values()),
+            };
+            Arc::new(values.unary::<_, Float32Type>(|value| in_steps(value, step) as f32))
         }
-        _ => Arc::new(values.unary::<_, Float32Type>(|value| value as f32)),
     })
+}
+
+/// The power of two that is a small part of what a channel may be off; 0 of one that does not change.
+fn step_of(values: &[f64]) -> f64 {
+    let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    let most = TOLERANCES.share * (high - low) / STEPS;
+    // Its exponent alone.
+    if most.is_normal() && most > 0.0 { f64::from_bits(most.to_bits() & (0x7ff << 52)) } else { 0.0 }
 }
 
 /// Reads a track: every further column of numbers becomes a channel.
