@@ -123,14 +123,14 @@ fn a_folder_in_the_place_of_a_file_is_told() {
         ("results.parquet", &["judge", "a"][..]),
         ("junit.xml", &["judge", "a"]),
         ("report.html", &["report", "a"]),
-        ("executions/0001-0.parquet", &["execute", "a"]),
+        ("executions/part-00000.parquet", &["execute", "a"]),
         ("missions/0002.csv", &["export", "a", "--to", "waypoints"]),
         (".lock", &["judge", "a"]),
     ] {
         let broken = folder.path().join("a");
         copy(&folder.path().join("calm"), &broken);
         let _ = fs::remove_file(broken.join(file));
-        fs::create_dir(broken.join(file)).unwrap();
+        fs::create_dir_all(broken.join(file)).unwrap();
         refused(folder.path(), command, &[&format!("a/{file}"), "irectory"]);
         fs::remove_dir_all(broken).unwrap();
     }

@@ -4,7 +4,9 @@ mod commands;
 
 use std::fs;
 
-use commands::{SMALL, contents, json, run};
+use commands::{SMALL, json, run};
+use hairpin::campaign::Run;
+use hairpin_formats::folder::CampaignFolder;
 
 #[test]
 fn violations_are_run_again_with_other_noise() {
@@ -16,12 +18,13 @@ fn violations_are_run_again_with_other_noise() {
     let limit = format!("spec.deviation.max_m={}", worst - 1e-6);
     let again = ["execute", "a", "--set", &limit, "--rerun-violations", "12"];
     assert_eq!(run(here, &again).0, 0);
-    let reruns = |folder: &str| {
-        contents(&here.join(folder)).into_iter().filter(|(name, _)| name.starts_with("reruns/")).collect::<Vec<_>>()
+    let reruns = |folder: &str| -> Vec<Run> {
+        let kept = CampaignFolder::open(&here.join(folder)).unwrap();
+        kept.read_cases().unwrap().iter().flat_map(|case| kept.read_reruns(case.number).unwrap()).collect()
     };
     let first = reruns("a");
     assert_eq!(first.len(), 12, "one violation, twelve times");
-    let distinct: std::collections::BTreeSet<&Vec<u8>> = first.iter().map(|(_, bytes)| bytes).collect();
+    let distinct: std::collections::BTreeSet<String> = first.iter().map(|run| format!("{:?}", run.outcome)).collect();
     assert_eq!(distinct.len(), 12, "each with noise of its own");
 
     let object = json(here, &["judge", "a"]);

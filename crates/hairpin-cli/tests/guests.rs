@@ -231,7 +231,7 @@ fn a_list_names_nothing_outside_its_folder() {
     let here = folder.path();
     json(here, &[&SMALL[..], &["--out", "a"]].concat());
     let list = fs::read_to_string(here.join("a/.hairpin")).unwrap();
-    assert!(list.lines().any(|line| line == "executions/CASE-RUN.parquet"), "{list}");
+    assert!(list.lines().any(|line| line == "executions/part-PART.parquet"), "{list}");
     fs::write(here.join("victim.parquet"), "mine").unwrap();
     let out = here.join("victim.parquet");
     for name in ["../victim.parquet", out.to_str().unwrap(), "executions/../../victim.parquet"] {
@@ -258,7 +258,7 @@ fn links_do_not_lead_out_of_a_folder() {
     fs::create_dir(here.join("target")).unwrap();
     fs::write(here.join("target/victim"), "mine").unwrap();
     let links =
-        ["report.html", "results.parquet", ".lock", "junit.xml", "executions/0000-0.parquet", "executions", "repro"];
+        ["report.html", "results.parquet", ".lock", "junit.xml", "executions/part-00000.parquet", "executions", "runs"];
     for (number, name) in links.into_iter().enumerate() {
         let received = format!("r{number}");
         copy(&here.join("a"), &here.join(&received));

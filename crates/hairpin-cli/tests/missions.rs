@@ -72,7 +72,7 @@ fn what_spreadsheets_write_flies_as_the_same_mission() {
     ] {
         mission(folder.path(), &text);
         assert_eq!(json(folder.path(), &["execute", "a", "--missions", "mine"])["counts"]["cases"], 1, "{text:?}");
-        flown.push(fs::read(folder.path().join("a/executions/0000-0.parquet")).unwrap());
+        flown.push(fs::read(folder.path().join("a/executions/part-00000.parquet")).unwrap());
         assert!(*flown.last().unwrap() == flown[0], "{text:?} flies otherwise");
     }
 }

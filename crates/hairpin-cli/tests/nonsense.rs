@@ -78,13 +78,14 @@ fn campaign_folders_with_a_broken_file() {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), &[&SMALL[..], &["--out", "sound", "--set", "spec.deviation.max_m=0.01"]].concat());
     let resume = [&SMALL[..], &["--out", "a", "--set", "spec.deviation.max_m=0.01", "--resume"]].concat();
-    let reads: [(&str, &[&[&str]]); 6] = [
+    let reads: [(&str, &[&[&str]]); 7] = [
         ("scenario.toml", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
         ("generation.json", &[&resume, &["judge", "a"], &["report", "a"]]),
         ("results.parquet", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
         ("waypoints.parquet", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
-        ("executions/0001-0.parquet", &[&["judge", "a"], &["report", "a"], &["export", "a", "--to", "csv"]]),
-        ("trajectories/0001.parquet", &[&["report", "a"], &["export", "a", "--to", "csv"]]),
+        ("runs/part-00000.parquet", &[&["judge", "a"], &["report", "a"], &["export", "a", "--to", "csv"]]),
+        ("executions/part-00000.parquet", &[&["report", "a"], &["export", "a", "--to", "csv"]]),
+        ("trajectories/part-00000.parquet", &[&["report", "a"], &["export", "a", "--to", "csv"]]),
     ];
     for (file, commands) in reads {
         let whole = fs::read(folder.path().join("sound").join(file)).unwrap();
@@ -100,14 +101,14 @@ fn campaign_folders_with_a_broken_file() {
     }
     // To `verify` a broken profile is a finding about its case.
     copy(&folder.path().join("sound"), &folder.path().join("a"));
-    fs::write(folder.path().join("a/profiles/0001.parquet"), GARBAGE).unwrap();
+    fs::write(folder.path().join("a/profiles/part-00000.parquet"), GARBAGE).unwrap();
     let (code, out, error) = run(folder.path(), &["verify", "a"]);
-    assert!(code == 1 && out.contains("case 0001") && out.contains("NOT VERIFIED 3/4"), "{out}{error}");
+    assert!(code == 1 && out.contains("NOT VERIFIED 0/4"), "{out}{error}");
     // To `--resume` a broken flight is one that has not been flown.
     copy(&folder.path().join("sound"), &folder.path().join("b"));
-    fs::write(folder.path().join("b/executions/0001-0.parquet"), GARBAGE).unwrap();
+    fs::write(folder.path().join("b/executions/part-00000.parquet"), GARBAGE).unwrap();
     assert_eq!(run(folder.path(), &["execute", "b", "--resume"]).0, 0);
-    let flight = |out: &str| fs::read(folder.path().join(out).join("executions/0001-0.parquet")).unwrap();
+    let flight = |out: &str| fs::read(folder.path().join(out).join("executions/part-00000.parquet")).unwrap();
     assert!(flight("b") == flight("sound"));
 }
 

@@ -29,7 +29,7 @@ fn portable_campaigns_are_the_same_bit_for_bit_and_say_what_they_are() {
         let (mut portable, mut widest) = (contents(&at("a")), contents(&at("c")));
         portable.remove("scenario.toml");
         widest.remove("scenario.toml");
-        assert!(portable.keys().filter(|name| name.starts_with("trajectories/")).count() == 3);
+        assert!(portable.keys().filter(|name| name.starts_with("trajectories/")).count() == 1);
         assert!(portable == widest, "{scenario}");
         let ((portable, left), (widest, right)) = (level(&at("a")), level(&at("c")));
         assert_eq!((portable.as_str(), left), ("portable", right));

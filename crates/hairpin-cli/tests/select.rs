@@ -145,9 +145,11 @@ fn a_choice_replaces_nothing_by_way_of_a_folder_that_is_not_there() {
         refused(here, typed, &["new/../all", "there is no folder new"]);
     }
     assert!(before == contents(&here.join("all")));
-    // A run that the table has and the folder has not is missed, not passed over.
-    fs::remove_file(here.join("all/executions/0001-0.parquet")).unwrap();
-    refused(here, &["judge", "all"], &["0001-0.parquet", "is missing, and runs.parquet has it"]);
+    // A motion that the table of runs has and the folder has not is missed, not passed over; what was measured of it stands.
+    let judged = json(here, &["judge", "all"]);
+    fs::remove_file(here.join("all/executions/part-00000.parquet")).unwrap();
+    assert_eq!(json(here, &["judge", "all"]), judged);
+    refused(here, &["export", "all", "--to", "csv"], &["case 0000", "its motion is missing", "--resume"]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod out_campaign;
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Arc;
@@ -10,7 +11,10 @@ use arrow_array::cast::AsArray;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_cast::cast;
 use arrow_schema::{DataType, Field, Schema};
+use hairpin::campaign::{Case, CaseNumber, Run};
 use hairpin::math::random::case_seed;
+use hairpin_formats::folder::{CampaignFolder, Existing, Landed};
+use hairpin_formats::parquet::part_writer::write_one;
 use hairpin_formats::parquet::{TableError, profile, results, runs, track};
 use out_campaign::campaign;
 use parquet::arrow::ArrowWriter;
@@ -42,6 +46,14 @@ fn rewrite(path: &Path, change: impl Fn(&str, &ArrayRef) -> Option<ArrayRef>) {
     writer.close().unwrap();
 }
 
+fn write_profile(path: &Path, case: &Case) {
+    write_one(path, "profile", profile::piece(case.number, case.profile().unwrap()).unwrap()).unwrap();
+}
+
+fn write_run(path: &Path, run: &Run) {
+    write_one(path, "execution", runs::piece(run, &BTreeSet::new()).unwrap().unwrap()).unwrap();
+}
+
 fn as_type(column: &ArrayRef, kind: DataType) -> Option<ArrayRef> {
     Some(cast(column, &kind).unwrap())
 }
@@ -55,7 +67,7 @@ fn profiles_survive_another_writer() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("0000.parquet");
     let witness = campaign().cases[0].profile().cloned().unwrap();
-    profile::write(&path, &witness).unwrap();
+    write_one(&path, "profile", profile::piece(CaseNumber(0), &witness).unwrap()).unwrap();
     rewrite(&path, |name, column| match name {
         "leg" => as_type(column, DataType::Int16),
         "axis" => as_type(column, dictionary()),
@@ -95,7 +107,7 @@ fn results_and_runs_survive_another_writer() {
     assert_eq!(rows.into_iter().filter_map(|row| row.result).collect::<Vec<_>>(), expected);
 
     let path = place.path().join("0000-1.parquet");
-    runs::write_run(&path, &campaign.runs[1]).unwrap();
+    write_run(&path, &campaign.runs[1]);
     rewrite(&path, |_, column| Some(column.clone()));
     let (track, facts) = runs::read_run(&path).unwrap();
     assert_eq!((Some(&track), facts), (campaign.runs[1].outcome.as_ref().ok().map(|flight| &flight.track), None));
@@ -128,7 +140,7 @@ fn a_wrong_value_is_named_with_its_place() {
     let path = place.path().join("0000.parquet");
     let campaign = campaign();
     let tamper = |wanted: &'static str, row: usize, value: f64| {
-        profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
+        write_profile(&path, &campaign.cases[0]);
         rewrite(&path, |name, column| {
             let mut values: Vec<f64> = match name == wanted {
                 true => cast(column, &DataType::Float64)
@@ -156,13 +168,52 @@ fn a_wrong_value_is_named_with_its_place() {
             other => panic!("{column}[{row}] = {value}: {other:?}"),
         }
     }
-    profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
+    write_profile(&path, &campaign.cases[0]);
     rewrite(&path, |name, column| (name != "c7").then(|| column.clone()));
     let message = profile::read(&path).unwrap_err().to_string();
     assert!(message.contains("0000.parquet") && message.contains("c7") && message.contains("missing"), "{message}");
-    profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap();
+    write_profile(&path, &campaign.cases[0]);
     rewrite(&path, |name, column| if name == "c1" { as_type(column, DataType::Utf8) } else { Some(column.clone()) });
     assert!(matches!(profile::read(&path), Err(TableError::Column { column, .. }) if column == "c1"));
+}
+
+/// Whatever is done to the parts of a campaign: an answer, or a refusal.
+#[test]
+fn no_broken_part_panics() {
+    let place = tempfile::tempdir().unwrap();
+    let campaign = campaign();
+    let folder = CampaignFolder::create(place.path(), Existing::Replace).unwrap();
+    folder.write_scenario("hairpin = 1\n").unwrap();
+    folder.write_cases(&campaign.cases).unwrap();
+    let writer = folder.write_runs(3, campaign.runs.iter().map(|run| (run.case, run.run)));
+    campaign.runs.iter().for_each(|run| writer.land(Landed::of(run, &BTreeSet::new()).unwrap()).unwrap());
+    writer.finish().unwrap();
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut refused = 0;
+    for name in ["executions", "runs", "profiles"] {
+        let path = place.path().join(name).join("part-00000.parquet");
+        let sound = fs::read(&path).unwrap();
+        for trial in 0..60_u64 {
+            let mut bytes = sound.clone();
+            let at = (case_seed(sound.len() as u64, trial) % bytes.len() as u64) as usize;
+            match trial % 3 {
+                0 => bytes.truncate(at),
+                1 => bytes[at] ^= 1 << (trial % 8),
+                _ => {
+                    let end = bytes.len() - 1 - at % 900.min(bytes.len());
+                    bytes[end] ^= (trial >> 1) as u8 | 1;
+                }
+            }
+            fs::write(&path, &bytes).unwrap();
+            let opened = CampaignFolder::open(place.path()).unwrap();
+            let answers = [opened.read_runs(CaseNumber(0)).is_err(), opened.read_cases().is_err()];
+            opened.has_valid_run(CaseNumber(0), 1);
+            refused += usize::from(answers.contains(&true));
+        }
+        fs::write(&path, sound).unwrap();
+    }
+    drop(std::panic::take_hook());
+    assert!(refused > 90, "{refused} of 180 spoiled parts were refused");
 }
 
 #[test]
@@ -174,9 +225,9 @@ fn no_broken_file_panics() {
     let mut refused = 0;
     for kind in 0..3_u64 {
         match kind {
-            0 => profile::write(&path, campaign.cases[0].profile().unwrap()).unwrap(),
+            0 => write_profile(&path, &campaign.cases[0]),
             1 => results::write(&path, &campaign.cases, &campaign.results).unwrap(),
-            _ => runs::write_run(&path, &campaign.runs[1]).unwrap(),
+            _ => write_run(&path, &campaign.runs[1]),
         }
         let sound = fs::read(&path).unwrap();
         for trial in 0..400_u64 {

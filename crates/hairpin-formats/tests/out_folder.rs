@@ -2,29 +2,36 @@
 
 mod out_campaign;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use hairpin::campaign::{CaseNumber, Witness};
-use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
-use hairpin_formats::parquet::runs::RunFacts;
+use hairpin::campaign::{Case, CaseNumber, Run, Witness};
+use hairpin_formats::folder::{CampaignFolder, Existing, FolderError, Landed};
+use hairpin_formats::parquet::track;
 use out_campaign::{campaign, planned};
+
+const PART: &str = "executions/part-00000.parquet";
+const PART_OF_RUNS: &str = "runs/part-00000.parquet";
 
 fn written(path: &Path) -> CampaignFolder {
     let campaign = campaign();
     let folder = CampaignFolder::create(path, Existing::Replace).unwrap();
     folder.write_scenario("hairpin = 1\n").unwrap();
     folder.write_tally(&campaign.tally).unwrap();
-    for case in &campaign.cases {
-        folder.write_planned(case.number, &planned(case)).unwrap();
-    }
+    let pack = |case: &Case| (case.number, track::planned(case.number, &planned(case)).unwrap());
+    folder.write_planned(campaign.cases.iter().map(pack).collect()).unwrap();
     folder.write_cases(&campaign.cases).unwrap();
-    for run in &campaign.runs {
-        folder.write_run(run).unwrap();
-    }
-    folder.write_runs_table(&campaign.runs.iter().map(RunFacts::of).collect::<Vec<_>>()).unwrap();
+    land(&folder, campaign.runs.iter());
     folder.write_results(&campaign.cases, &campaign.results).unwrap();
     folder
+}
+
+/// Runs land in the order given.
+fn land<'r>(folder: &CampaignFolder, runs: impl Iterator<Item = &'r Run> + Clone) {
+    let writer = folder.write_runs(3, runs.clone().map(|run| (run.case, run.run)));
+    runs.for_each(|run| writer.land(Landed::of(run, &BTreeSet::new()).unwrap()).unwrap());
+    writer.finish().unwrap();
 }
 
 #[test]
@@ -37,11 +44,14 @@ fn everything_comes_back_to_the_bit() {
     assert_eq!(folder.read_tally().unwrap(), campaign.tally);
     assert_eq!(folder.read_cases().unwrap(), campaign.cases);
     assert_eq!(folder.read_results().unwrap(), campaign.results);
-    let table = folder.read_runs_table().unwrap();
     for case in &campaign.cases {
         let expected: Vec<_> = campaign.runs.iter().filter(|run| run.case == case.number).cloned().collect();
-        assert_eq!(folder.read_runs(case.number, &table).unwrap(), expected);
-        assert_eq!(folder.read_planned(case.number).unwrap(), planned(case));
+        assert_eq!(folder.read_runs(case.number).unwrap(), expected, "what is not measured is kept whole");
+        let (read, planned) = (folder.read_planned(case.number).unwrap(), planned(case));
+        assert_eq!(read.len(), planned.len());
+        for row in 0..read.len() {
+            assert!((read.position(row) - planned.position(row)).norm() < 1e-4);
+        }
     }
 }
 
@@ -61,29 +71,143 @@ fn generated_cases_stand_without_results() {
 fn the_same_campaign_is_the_same_bytes() {
     let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     drop((written(first.path()), written(second.path())));
-    for name in
-        ["results.parquet", "waypoints.parquet", "runs.parquet", "profiles/0000.parquet", "executions/0000-1.parquet"]
-    {
+    for name in [
+        "results.parquet",
+        "waypoints.parquet",
+        PART_OF_RUNS,
+        "profiles/part-00000.parquet",
+        PART,
+        "trajectories/part-00000.parquet",
+    ] {
         assert_eq!(fs::read(first.path().join(name)).unwrap(), fs::read(second.path().join(name)).unwrap(), "{name}");
     }
 }
 
 #[test]
-fn a_run_is_valid_only_if_it_is_whole_and_the_one_named() {
+fn a_run_is_valid_only_if_it_is_whole() {
     let place = tempfile::tempdir().unwrap();
-    let folder = written(place.path());
-    assert!(folder.has_valid_run(CaseNumber(0), 1));
-    assert!(folder.has_valid_run(CaseNumber(1), 0), "a failed executor is an answer as well");
-    assert!(!folder.has_valid_run(CaseNumber(0), 9));
-    let bytes = fs::read(folder.run_path(CaseNumber(0), 1)).unwrap();
-    fs::write(folder.run_path(CaseNumber(0), 1), &bytes[..bytes.len() / 2]).unwrap();
-    assert!(!folder.has_valid_run(CaseNumber(0), 1));
-    fs::copy(folder.run_path(CaseNumber(0), 0), folder.run_path(CaseNumber(0), 1)).unwrap();
-    assert!(!folder.has_valid_run(CaseNumber(0), 1), "run 0 under the name of run 1");
-    assert!(matches!(
-        folder.read_runs(CaseNumber(0), &folder.read_runs_table().unwrap()),
-        Err(FolderError::Contradiction { case: CaseNumber(0), .. })
-    ));
+    drop(written(place.path()));
+    let reopened = || CampaignFolder::open(place.path()).unwrap();
+    assert!(reopened().has_valid_run(CaseNumber(0), 1));
+    assert!(reopened().has_valid_run(CaseNumber(1), 0), "a failed executor is an answer as well");
+    assert!(!reopened().has_valid_run(CaseNumber(0), 9));
+    let (part, facts) = (place.path().join(PART), place.path().join(PART_OF_RUNS));
+    let bytes = fs::read(&part).unwrap();
+    fs::write(&part, &bytes[..bytes.len() / 2]).unwrap();
+    assert!(!reopened().has_valid_run(CaseNumber(0), 1));
+    assert!(reopened().has_valid_run(CaseNumber(1), 0), "of what was not flown no motion is missed");
+    fs::remove_file(&part).unwrap();
+    let told = reopened().read_runs(CaseNumber(0)).unwrap_err();
+    assert!(matches!(told, FolderError::Contradiction { case: CaseNumber(0), .. }), "{told}");
+    fs::remove_file(&facts).unwrap();
+    fs::write(&part, bytes).unwrap();
+    assert!(!reopened().has_valid_run(CaseNumber(0), 1), "nothing says how it ended");
+}
+
+/// Whatever the order in which runs land, and whatever an interruption left, the files are the same.
+#[test]
+fn runs_land_in_any_order_and_go_on() {
+    let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    drop(written(first.path()));
+    let campaign = campaign();
+    let folder = CampaignFolder::create(second.path(), Existing::Replace).unwrap();
+    folder.write_scenario("hairpin = 1\n").unwrap();
+    let begun = |runs: &[&Run]| {
+        let writer = folder.write_runs(3, campaign.runs.iter().map(|run| (run.case, run.run)));
+        runs.iter().for_each(|run| writer.land(Landed::of(run, &BTreeSet::new()).unwrap()).unwrap());
+        writer.finish().unwrap();
+    };
+    let (late, early): (Vec<&Run>, Vec<&Run>) = campaign.runs.iter().rev().partition(|run| run.run == 1);
+    begun(&early);
+    let reopened = CampaignFolder::open(second.path()).unwrap();
+    assert!(reopened.has_valid_run(CaseNumber(2), 0) && !reopened.has_valid_run(CaseNumber(0), 1));
+    begun(&late);
+    for name in [PART, PART_OF_RUNS] {
+        assert_eq!(fs::read(first.path().join(name)).unwrap(), fs::read(second.path().join(name)).unwrap(), "{name}");
+    }
+}
+
+/// A table may be one file, and a data frame may have written it, its rows in one group.
+#[test]
+fn another_writers_table_is_read() {
+    use arrow_select::concat::concat_batches;
+    use parquet::arrow::ArrowWriter;
+    use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+    let place = tempfile::tempdir().unwrap();
+    drop(written(place.path()));
+    let campaign = campaign();
+    let part = place.path().join(PART);
+    let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap()).unwrap();
+    assert_eq!(reader.metadata().num_row_groups(), 4, "a group for each run that was flown");
+    let schema = reader.schema().clone();
+    let batches: Vec<_> = reader.build().unwrap().map(Result::unwrap).collect();
+    let whole = concat_batches(&schema, &batches).unwrap();
+    let single = fs::File::create(place.path().join("executions.parquet")).unwrap();
+    let mut writer = ArrowWriter::try_new(single, schema, None).unwrap();
+    writer.write(&whole).unwrap();
+    writer.close().unwrap();
+    fs::remove_file(&part).unwrap();
+    let folder = CampaignFolder::open(place.path()).unwrap();
+    for run in campaign.runs.iter().filter(|run| run.outcome.is_ok()) {
+        assert_eq!(folder.read_run(run.case, run.run).unwrap().as_ref(), Some(run));
+    }
+}
+
+/// Folders of earlier versions have a file for each case and run, with what is known of a run in its file's metadata.
+#[test]
+fn a_file_per_case_and_run_is_read() {
+    use parquet::arrow::ArrowWriter;
+    use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+    use parquet::file::metadata::KeyValue;
+    use parquet::file::properties::WriterProperties;
+    let place = tempfile::tempdir().unwrap();
+    drop(written(place.path()));
+    let campaign = campaign();
+    let read = CampaignFolder::open(place.path()).unwrap();
+    let plan = read.read_planned(CaseNumber(0)).unwrap();
+    // A group of a part without its first columns is what stood in a file.
+    let split = |table: &str, keys: usize, name: &dyn Fn(usize) -> (String, Option<String>)| {
+        let part = place.path().join(table).join("part-00000.parquet");
+        let groups = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap())
+            .unwrap()
+            .metadata()
+            .num_row_groups();
+        for group in 0..groups {
+            let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&part).unwrap()).unwrap();
+            let batch = reader.with_row_groups(vec![group]).build().unwrap().next().unwrap().unwrap();
+            let batch = batch.project(&(keys..batch.num_columns()).collect::<Vec<_>>()).unwrap();
+            let (file, facts) = name(group);
+            let notes = facts.map(|facts| vec![KeyValue::new("hairpin.run".to_owned(), facts)]);
+            let properties = WriterProperties::builder().set_key_value_metadata(notes).build();
+            let file = fs::File::create(place.path().join(table).join(file)).unwrap();
+            let mut writer = ArrowWriter::try_new(file, batch.schema(), Some(properties)).unwrap();
+            writer.write(&batch).unwrap();
+            writer.close().unwrap();
+        }
+        fs::remove_file(part).unwrap();
+    };
+    split("profiles", 1, &|_| ("0000.parquet".into(), None));
+    split("trajectories", 1, &|case| (format!("{case:04}.parquet"), None));
+    let flown: Vec<&Run> = campaign.runs.iter().filter(|run| run.outcome.is_ok()).collect();
+    split("executions", 2, &|place| {
+        let run = flown[place];
+        let flight = run.outcome.as_ref().unwrap();
+        let facts = serde_json::json!({
+            "case": run.case, "run": run.run, "ended": flight.ended.word(), "message": null,
+            "left_world_s": flight.left_world, "reached_s": flight.reached, "drawn": run.drawn,
+        });
+        (format!("{}-{}.parquet", run.case, run.run), Some(facts.to_string()))
+    });
+    fs::rename(place.path().join(PART_OF_RUNS), place.path().join("runs.parquet")).unwrap();
+    fs::remove_dir(place.path().join("runs")).unwrap();
+    let folder = CampaignFolder::open(place.path()).unwrap();
+    assert_eq!(folder.read_cases().unwrap(), campaign.cases);
+    for run in flown {
+        assert_eq!(folder.read_run(run.case, run.run).unwrap().as_ref(), Some(run));
+        assert!(folder.has_valid_run(run.case, run.run));
+    }
+    let stamps = folder.read_planned(CaseNumber(0)).unwrap();
+    assert!(stamps.len() <= plan.len() && stamps.times().last() == plan.times().last(), "rows are read as they stand");
 }
 
 /// Whoever reads cases walks legs by number: a file that has too few, or times for too many, would be walked beyond its
@@ -97,7 +221,7 @@ fn legs_are_as_many_as_there_are_between_waypoints() {
     profile.legs.pop();
     folder.write_cases(&edited).unwrap();
     let told = folder.read_cases().unwrap_err().to_string();
-    assert!(told.contains("0000.parquet") && told.contains("another number of legs"), "{told}");
+    assert!(told.contains("profiles") && told.contains("another number of legs"), "{told}");
     let mut edited = campaign().cases;
     edited[0].leg_times.push(1.0);
     folder.write_cases(&edited).unwrap();
@@ -155,15 +279,15 @@ fn one_writer_at_a_time() {
 fn a_new_campaign_takes_nothing_over_and_keeps_missions() {
     let place = tempfile::tempdir().unwrap();
     drop(written(place.path()));
+    fs::create_dir(place.path().join("missions")).unwrap();
     fs::write(place.path().join("missions/0000.plan"), "{}").unwrap();
     drop(CampaignFolder::create(place.path(), Existing::Resume).unwrap());
-    assert!(place.path().join("executions/0000-0.parquet").exists());
+    assert!(place.path().join(PART).exists());
     let folder = CampaignFolder::create(place.path(), Existing::Replace).unwrap();
-    assert!(
-        !folder.has_cases()
-            && !folder.run_path(CaseNumber(0), 0).exists()
-            && !folder.profile_path(CaseNumber(0)).exists()
-    );
+    assert!(!folder.has_cases() && !folder.has_runs());
+    for table in ["executions", "profiles", "runs", "trajectories"] {
+        assert!(!place.path().join(table).exists(), "{table}");
+    }
     assert!(place.path().join("missions/0000.plan").exists());
 }
 

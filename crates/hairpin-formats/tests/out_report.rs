@@ -2,12 +2,14 @@
 
 mod out_campaign;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use hairpin::campaign::report::{COLUMNS, cells};
 use hairpin::campaign::{Setup, Status};
-use hairpin_formats::folder::{CampaignFolder, Existing};
+use hairpin_formats::folder::{CampaignFolder, Existing, Landed};
+use hairpin_formats::parquet::track;
 use hairpin_formats::report::{self, SHOWN};
 use out_campaign::stress::{self, judged, scenario};
 
@@ -18,12 +20,16 @@ fn written(place: &Path) -> (CampaignFolder, Setup) {
     folder.write_scenario("hairpin = 1\n").unwrap();
     folder.write_cases(&campaign.cases).unwrap();
     folder.write_tally(&campaign.tally).unwrap();
+    let mut planned = Vec::new();
     for case in &campaign.cases {
-        folder.write_planned(case.number, &stress::planned(case)).unwrap();
+        planned.push((case.number, track::planned(case.number, &stress::planned(case)).unwrap()));
     }
+    folder.write_planned(planned).unwrap();
+    let writer = folder.write_runs(1, campaign.runs.iter().map(|run| (run.case, run.run)));
     for run in &campaign.runs {
-        folder.write_run(run).unwrap();
+        writer.land(Landed::of(run, &BTreeSet::new()).unwrap()).unwrap();
     }
+    writer.finish().unwrap();
     folder.write_results(&campaign.cases, &campaign.results).unwrap();
     (folder, setup)
 }

@@ -1,11 +1,14 @@
 //! Generation: trajectories, their planned motion, and what the search did.
 
+use std::fmt::Display;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
+use hairpin_formats::parquet::track;
+use rayon::prelude::*;
 
 use crate::execute::{Asked, in_the_loop};
 use crate::watch::not_waiting_for;
@@ -14,6 +17,8 @@ use crate::{Deadline, Problem, Watch, optimum};
 
 /// Between checkpoints: what a kill may cost.
 const CHECKPOINT: Duration = Duration::from_secs(30);
+/// Cases whose planned motions are in memory at a time.
+const AT_ONCE: usize = 1000;
 /// What the watch is told of.
 const WHAT: &str = "generate";
 
@@ -133,10 +138,14 @@ fn known(work: &Work) -> Result<Known, Problem> {
 /// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
 /// says no more than those before it: a kill in between leaves cases too many, never too few.
 pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
-    for case in &cases[from..] {
-        let planned = planned(&work.setup, case);
-        let planned = planned.map_err(|error| Problem::input(format!("case {}: {error}", case.id())))?;
-        work.folder.write_planned(case.number, &planned)?;
+    let pack = |case: &Case| {
+        let refuse = |error: &dyn Display| Problem::input(format!("case {}: {error}", case.id()));
+        let planned = planned(&work.setup, case).map_err(|error| refuse(&error))?;
+        Ok((case.number, track::planned(case.number, &planned).map_err(|error| refuse(&error))?))
+    };
+    for block in cases[from..].chunks(AT_ONCE) {
+        let packed: Result<Vec<_>, Problem> = block.par_iter().map(pack).collect();
+        work.folder.write_planned(packed?)?;
     }
     work.folder.write_new_cases(cases, from)?;
     Ok(work.folder.write_tally(tally)?)

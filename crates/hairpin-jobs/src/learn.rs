@@ -11,6 +11,7 @@ use hairpin_formats::atomic;
 use rayon::prelude::*;
 
 use crate::Problem;
+use crate::execute::runs_to_judge;
 use crate::work::{Work, open_to_read};
 
 /// A score that was learned and written.
@@ -100,15 +101,14 @@ fn pooled<S: Send>(
     let (mut all, mut before) = (Vec::new(), 0);
     for work in works {
         let cases = work.folder.read_cases()?;
-        let table = work.folder.read_runs_table()?;
         let of_case = |case: &Case| {
-            let runs = work.folder.read_runs(case.number, &table)?;
+            let runs = runs_to_judge(work, case)?.runs;
             Ok(of(&work.setup, case, &runs, before + case.number.0, stress))
         };
         let samples = cases.par_iter().map(of_case).collect::<Result<Vec<Vec<S>>, Problem>>()?;
         let samples: Vec<S> = samples.into_iter().flatten().collect();
         if samples.is_empty() {
-            return Err(nothing(work, &cases, table.is_empty(), stress));
+            return Err(nothing(work, &cases, !work.folder.has_runs(), stress));
         }
         all.extend(samples);
         before += cases.iter().map(|case| case.number.0 + 1).max().unwrap_or_default();
@@ -179,9 +179,8 @@ mod tests {
         // The union: the cases of one, then those of the other as number 7 and so on.
         let mut union = Vec::new();
         for (work, before) in works.iter().zip([0, 7]) {
-            let table = work.folder.read_runs_table().unwrap();
             for mut case in work.folder.read_cases().unwrap() {
-                let runs = work.folder.read_runs(case.number, &table).unwrap();
+                let runs = runs_to_judge(&work, &case).unwrap().runs;
                 case.number.0 += before;
                 union.extend(leg_samples(&work.setup, &case, &runs, Stress::MaxDeviation));
             }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, CaseResult, Setup, Status};
+use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Status};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::repro::Repro;
@@ -10,6 +10,7 @@ use hairpin_formats::scenario;
 
 use crate::consent::{Consent, Wish};
 use crate::execute::fly_one;
+use crate::work::open_to_read;
 use crate::{Problem, Watch};
 
 /// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
@@ -45,8 +46,37 @@ pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> 
     let setup = setup.with_simd(simd);
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
     consent.ask(&campaign_of(file), &Wish::of_execution(&setup))?;
-    let flown = fly_one(&setup, &case, repro.run, watch)?;
-    let result = campaign::judge(&setup, &case, std::slice::from_ref(&flown))?;
+    fly(repro, &setup, &case, watch)
+}
+
+/// Flies the worst run of a case of the judged campaign in `folder` again, by the kernels `simd`.
+///
+/// # Errors
+/// There is no such case, or nothing was measured of it; else as [`replay`].
+pub fn replay_case(
+    (folder, case): (&Path, CaseNumber),
+    simd: Simd,
+    consent: &Consent,
+    watch: &dyn Watch,
+) -> Result<ReplayedRepro, Problem> {
+    let work = open_to_read(folder)?;
+    let refuse = |why: &str| Problem::input(format!("--case {case}: {why}"));
+    let mut found = work.folder.read_cases_without_profiles()?.into_iter().find(|one| one.number == case);
+    let found = found.as_mut().ok_or_else(|| refuse("the campaign has no such case"))?;
+    work.folder.read_witness(found)?;
+    let result = work.folder.read_results()?.into_iter().find(|result| result.case == case);
+    let result = result.filter(|result| result.measures.is_some());
+    let result = result.ok_or_else(|| refuse("nothing was measured of it: hairpin execute, then hairpin judge"))?;
+    let repro = Repro::of(&work.setup, found, &result);
+    let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd);
+    let case = repro.case().map_err(|why| refuse(&why))?;
+    consent.ask(folder, &Wish::of_execution(&setup))?;
+    fly(repro, &setup, &case, watch)
+}
+
+fn fly(repro: Repro, setup: &Setup, case: &Case, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
+    let flown = fly_one(setup, case, repro.run, watch)?;
+    let result = campaign::judge(setup, case, std::slice::from_ref(&flown))?;
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
     let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
     Ok(ReplayedRepro { repro, result, same })
@@ -73,6 +103,10 @@ mod tests {
         let file = folder.join("repro/0000.json");
         let again = replay(&file, Simd::Widest, &Consent::default(), &Unwatched).unwrap();
         assert!(again.reproduces(), "{again:?}");
+        let by_case = |case| replay_case((&folder, CaseNumber(case)), Simd::Widest, &Consent::default(), &Unwatched);
+        let same = by_case(0).unwrap();
+        assert!(same.reproduces() && same.result == again.result, "{same:?}");
+        assert!(by_case(7).unwrap_err().to_string().contains("no such case"));
         let other = std::fs::read_to_string(&file).unwrap().replacen("\"hairpin_repro\": 1", "\"hairpin_repro\": 2", 1);
         std::fs::write(&file, other).unwrap();
         let refused = replay(&file, Simd::Portable, &Consent::default(), &Unwatched).unwrap_err();

@@ -151,7 +151,6 @@ fn measured(results: &[CaseResult]) -> HashMap<CaseNumber, &CaseResult> {
 struct Met<'a> {
     work: &'a Work,
     cases: &'a [Case],
-    table: BTreeMap<(CaseNumber, usize), RunFacts>,
     grid: Grid,
     /// How many all of them met, if that was told when they were judged.
     judged: Option<usize>,
@@ -163,14 +162,14 @@ impl<'a> Met<'a> {
         let grid = Grid::of(&work.setup);
         let told = if judged { work.folder.read_coverage()? } else { None };
         let judged = told.filter(|told| told.grid == grid).map(|told| told.hit);
-        Ok(Self { work, cases, table: work.folder.read_runs_table()?, grid, judged })
+        Ok(Self { work, cases, grid, judged })
     }
 
     /// Those that each of these cases met.
     fn by_case(&self, places: &[usize]) -> Result<Vec<BTreeSet<usize>>, Problem> {
         let met = |place: &usize| {
             let case = &self.cases[*place];
-            let runs = self.work.folder.read_runs(case.number, &self.table)?;
+            let runs = self.work.folder.read_measured(case.number)?;
             Ok(runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect())
         };
         places.par_iter().map(met).collect()
@@ -210,7 +209,6 @@ fn write(
     let (old, there) = (&work.folder, &new.folder);
     let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();
     old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
-    let table = old.read_runs_table()?;
     there.write_new_cases(chosen, 0)?;
     let old_tally = old.read_tally()?;
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
@@ -218,13 +216,8 @@ fn write(
     let names = missions.filter(|(case, _)| numbers.contains(&case.number)).map(|(_, name)| name.clone()).collect();
     let tally = Tally { complete: true, missions: names, selected: true, ..old_tally };
     there.write_tally(&tally)?;
-    let facts: Vec<_> =
-        table.into_iter().filter(|((case, _), _)| numbers.contains(case)).map(|(_, facts)| facts).collect();
-    if !facts.is_empty() {
-        there.write_runs_table(&facts)?;
-    }
     let judged = results.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
-    if judged && !facts.is_empty() {
+    if judged && there.has_runs() {
         let judgement = judge_cases(&new, chosen, &tally, &[])?;
         write_report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     }

@@ -131,9 +131,12 @@ pub(crate) struct Verify {
 
 #[derive(Debug, Args)]
 pub(crate) struct Replay {
-    /// repro/CASE.json of a campaign folder
+    /// repro/CASE.json of a campaign folder, or with --case the folder
     #[arg(value_name = "REPRO")]
     pub(crate) file: PathBuf,
+    /// The worst run of this case of the campaign folder
+    #[arg(long, value_name = "CASE")]
+    pub(crate) case: Option<String>,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

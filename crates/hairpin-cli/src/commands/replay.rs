@@ -2,7 +2,7 @@
 
 use hairpin::campaign::Status;
 use hairpin::campaign::report::violation;
-use hairpin_jobs::replay::replay;
+use hairpin_jobs::replay::{replay, replay_case};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
@@ -13,7 +13,15 @@ use crate::{console, settings};
 /// Runs the command: 1 when it violates again, 0 when it does not, 4 when the executor failed.
 pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
     let consent = settings::consent(&asked.commands);
-    let replayed = replay(&asked.file, settings::simd(&asked.kernels), &consent, watch)?;
+    let simd = settings::simd(&asked.kernels);
+    let replayed = match &asked.case {
+        None => replay(&asked.file, simd, &consent, watch)?,
+        Some(case) => {
+            let number =
+                case.parse().map_err(|_| Problem::input(format!("--case {case}: must be a case such as 0007")))?;
+            replay_case((&asked.file, number), simd, &consent, watch)?
+        }
+    };
     let (repro, result) = (&replayed.repro, &replayed.result);
     let again: Vec<String> = result.violations.iter().map(violation).collect();
     let message = result.message.as_deref().unwrap_or_default();

@@ -1,14 +1,19 @@
 //! The cases of a campaign folder: what `generate` writes, and every later part reads.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
+use super::parts::{CASES_PER_PART, PROFILES, PROGRAMS, TRAJECTORIES};
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
+use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_TEXT_BYTES};
+use crate::parquet::piece::Piece;
 use crate::parquet::results::Row;
+use crate::parquet::table::Table;
 use crate::parquet::{cases, drive, profile, track};
 use crate::rapid::{self, Frames};
 use crate::scenario::MADE_BY;
@@ -22,24 +27,34 @@ impl CampaignFolder {
         self.write_new_cases(all, 0)
     }
 
-    /// As [`Self::write_cases`], where the profiles of the first `old` cases are in the folder already.
+    /// As [`Self::write_cases`], where the witnesses of the first `old` cases are in the folder already.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn write_new_cases(&self, all: &[Case], old: usize) -> Result<(), FolderError> {
+        for block in all[old..].chunk_by(|a, b| a.number.0 / CASES_PER_PART == b.number.0 / CASES_PER_PART) {
+            let mut pieces = Vec::new();
+            for case in block {
+                let piece = match (case.profile(), case.commands()) {
+                    (Some(witness), _) => profile::piece(case.number, witness),
+                    (_, Some(witness)) => drive::piece(case.number, witness),
+                    _ => continue,
+                };
+                pieces.push((case.number, piece.map_err(|cause| self.no_room(PROFILES, cause))?));
+            }
+            self.add_pieces(PROFILES, pieces)?;
+        }
         for case in &all[old..] {
-            if let Some(witness) = case.profile() {
-                profile::write(&self.profile_path(case.number), witness)?;
-            }
-            if let Some(witness) = case.commands() {
-                drive::write(&self.profile_path(case.number), witness)?;
-            }
             if let Some(program) = case.program() {
                 self.write_program(case, program)?;
             }
         }
         cases::write(&self.file(WAYPOINTS), all)?;
         self.write_results(all, &[])
+    }
+
+    pub(super) fn no_room(&self, table: &str, cause: io::Error) -> FolderError {
+        FolderError::Write(WriteError { path: self.path.join(table), cause })
     }
 
     /// Whether there are cases, those of a checkpoint at least.
@@ -57,11 +72,7 @@ impl CampaignFolder {
             self.read_witness(case)?;
             if case.witness.as_ref().and_then(Witness::legs).is_some_and(|legs| legs + 1 != case.waypoints.len()) {
                 let what = "has another number of legs than between its waypoints";
-                return Err(FolderError::Contradiction {
-                    path: self.profile_path(case.number),
-                    case: case.number,
-                    what,
-                });
+                return Err(FolderError::Contradiction { path: self.path.join(PROFILES), case: case.number, what });
             }
         }
         Ok(all)
@@ -107,12 +118,12 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
-        let (program, profile) = (self.program_path(case.number), self.profile_path(case.number));
+        let program = self.program_path(case.number);
         if program.exists() {
             case.witness = Some(self.read_program(&program, case.number)?.into());
-        } else if profile.exists() {
-            let drive = drive::is_drive(&profile)?;
-            let witness = if drive { drive::read(&profile)?.into() } else { profile::read(&profile)?.into() };
+        } else if let Some((rows, _)) = self.read_rows_of(PROFILES, case.number)? {
+            let drive = drive::is_drive(&rows);
+            let witness = if drive { drive::from_table(&rows)?.into() } else { profile::from_table(&rows)?.into() };
             case.witness = Some(witness);
         }
         Ok(())
@@ -121,6 +132,7 @@ impl CampaignFolder {
     /// Writes `programs/CASE.mod`: the program as RAPID, which is what a campaign keeps of it.
     fn write_program(&self, case: &Case, program: &Program) -> Result<(), FolderError> {
         let path = self.program_path(case.number);
+        atomic::make_folder(&self.path.join(PROGRAMS))?;
         let header = [format!("Evidence: {}", case.claim())];
         let text = rapid::module(program, &header)
             .map_err(|error| FolderError::Program { path: path.clone(), what: error.to_string() })?;
@@ -146,33 +158,39 @@ impl CampaignFolder {
 
     /// `programs/CASE.mod`.
     pub fn program_path(&self, case: CaseNumber) -> PathBuf {
-        self.path.join("programs").join(format!("{case}.mod"))
+        self.path.join(PROGRAMS).join(format!("{case}.mod"))
     }
 
-    /// Writes the planned motion of a case, sampled.
+    /// Writes the planned motions of cases, in their order, the rows where they bend; what is in the folder of the first
+    /// of these cases or of later ones goes.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_planned(&self, case: CaseNumber, planned: &Track) -> Result<(), FolderError> {
-        Ok(track::write(&self.trajectory_path(case), planned)?)
+    pub fn write_planned(&self, planned: Vec<(CaseNumber, Piece)>) -> Result<(), FolderError> {
+        self.add_pieces(TRAJECTORIES, planned)
     }
 
-    /// Reads the planned motion of a case.
+    /// Reads the planned motion of a case, sampled as it was planned.
     ///
     /// # Errors
-    /// The file is missing or broken.
+    /// It is missing or broken.
     pub fn read_planned(&self, case: CaseNumber) -> Result<Track, FolderError> {
-        Ok(track::read(&self.trajectory_path(case))?)
+        let path = self.path.join(TRAJECTORIES);
+        let found = self.read_rows_of(TRAJECTORIES, case)?;
+        let (rows, period) = found.ok_or(FolderError::Contradiction { path, case, what: "has no planned motion" })?;
+        let track = track::from_table(&rows)?;
+        Ok(period.map_or(track.clone(), |period| track.at_period(period)))
     }
 
-    /// `profiles/CASE.parquet`.
-    pub fn profile_path(&self, case: CaseNumber) -> PathBuf {
-        self.path.join("profiles").join(format!("{case}.parquet"))
-    }
-
-    /// `trajectories/CASE.parquet`.
-    pub fn trajectory_path(&self, case: CaseNumber) -> PathBuf {
-        self.path.join("trajectories").join(format!("{case}.parquet"))
+    /// The rows of a case in `table` and, where only some are there, the time between its samples; from a file of its
+    /// own in folders that have one per case.
+    fn read_rows_of(&self, table: &str, case: CaseNumber) -> Result<Option<(Table, Option<f64>)>, FolderError> {
+        let own = self.path.join(table).join(format!("{case}.parquet"));
+        if own.exists() {
+            return Ok(Some((Table::read(&own)?, None)));
+        }
+        let Some(part) = self.part_with(table, case)? else { return Ok(None) };
+        Ok(part.table((case, 0))?.map(|rows| (rows, part.period())))
     }
 
     /// `CASE.planned.csv`: the planned motion as text, exported.

@@ -1,12 +1,17 @@
 //! Some cases of a campaign, copied into another folder.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use hairpin::campaign::CaseNumber;
 use hairpin::campaign::learn::NAME;
 
+use super::parts::{EXECUTIONS, RERUNS, TRAJECTORIES};
+use super::run_writer::Landed;
 use super::{ARCS, BEST_SO_FAR, CampaignFolder, FolderError, GRAPH, OPTIMUM, REASONS};
+use crate::parquet::runs::RunFacts;
+use crate::parquet::track;
 
 impl CampaignFolder {
     /// Copies planned motions and runs of `cases` into `there`, and what belongs to the campaign as a whole. Their
@@ -15,21 +20,77 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be read or written.
     pub fn copy_cases(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
+        let mut planned = Vec::new();
         for &case in cases {
-            copy(&self.trajectory_path(case), &there.trajectory_path(case))?;
-            for run in (0..).take_while(|run| self.run_path(case, *run).exists()) {
-                copy(&self.run_path(case, run), &there.run_path(case, run))?;
-            }
-            for again in 0..self.read_reruns(case)?.len() {
-                copy(&self.rerun_path(case, again), &there.rerun_path(case, again))?;
-            }
+            let known = self.part_with(TRAJECTORIES, case)?.map(|part| part.piece((case, 0))).transpose()?.flatten();
+            let piece = match known {
+                Some(piece) => piece,
+                None => track::planned(case, &self.read_planned(case)?)
+                    .map_err(|cause| there.no_room(TRAJECTORIES, cause))?,
+            };
+            planned.push((case, piece));
         }
+        there.write_planned(planned)?;
+        self.copy_runs(cases, there)?;
         // What is proven of the first program is of no use without it.
         let optimum = cases.contains(&CaseNumber(0)).then_some(OPTIMUM);
         for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter().chain(optimum) {
             copy(&self.file(name), &there.file(name))?;
         }
         Ok(())
+    }
+
+    fn copy_runs(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
+        let mut keys = Vec::new();
+        for &case in cases {
+            let known = self.facts_of(case)?.into_iter().map(|facts| facts.run);
+            let in_files = (0..).take_while(|run| self.run_path(case, *run).exists());
+            keys.extend(known.chain(in_files).collect::<BTreeSet<usize>>().into_iter().map(|run| (case, run)));
+        }
+        let repeat = keys.iter().map(|(_, run)| run + 1).max().unwrap_or_default();
+        let writer = there.write_runs(repeat, keys.iter().copied());
+        for (case, run) in keys {
+            let known = self.facts_of(case)?.into_iter().find(|facts| facts.run == run);
+            let landed = match known.filter(|_| !self.run_path(case, run).exists()) {
+                Some(facts) => self.landed(EXECUTIONS, facts)?,
+                None => match self.read_run(case, run)? {
+                    Some(run) => {
+                        Landed::of(&run, &BTreeSet::new()).map_err(|cause| there.no_room(EXECUTIONS, cause))?
+                    }
+                    None => continue,
+                },
+            };
+            writer.land(landed)?;
+        }
+        writer.finish()?;
+        self.copy_reruns(cases, there)
+    }
+
+    fn copy_reruns(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
+        let mut all = Vec::new();
+        for &case in cases {
+            let known = self.rerun_facts_of(case)?;
+            if known.is_empty() {
+                for (again, run) in self.read_reruns(case)?.iter().enumerate() {
+                    let landed = Landed::again(run, again, &BTreeSet::new());
+                    all.push(((case, again), landed.map_err(|cause| there.no_room(RERUNS, cause))?));
+                }
+            }
+            for facts in known {
+                all.push(((case, facts.run), self.landed(RERUNS, facts)?));
+            }
+        }
+        let repeat = all.iter().map(|((_, again), _)| again + 1).max().unwrap_or_default();
+        let writer = there.write_reruns(repeat, all.iter().map(|(key, _)| *key));
+        all.into_iter().try_for_each(|(_, landed)| writer.land(landed))?;
+        writer.finish()
+    }
+
+    /// A run that is known by `facts`, with its motion as it stands in `table`.
+    fn landed(&self, table: &str, facts: RunFacts) -> Result<Landed, FolderError> {
+        let key = (facts.case, facts.run);
+        let motion = self.part_with(table, facts.case)?.map(|part| part.piece(key)).transpose()?.flatten();
+        Ok(Landed::known(facts, motion))
     }
 }
 

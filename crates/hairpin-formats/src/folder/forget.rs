@@ -5,11 +5,15 @@ use std::io;
 
 use hairpin::campaign::learn::NAME;
 
+use super::names::ALL_RUNS;
 use super::{
     ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
-    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
+    MOVES, OPTIMUM, RESULTS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
+
+/// Folders of tables about runs.
+const OF_RUNS: [&str; 4] = ["runs", "executions", "rerun-runs", "reruns"];
 
 impl CampaignFolder {
     pub(super) fn remove_leftovers(&self) {
@@ -25,8 +29,8 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
         let [coverage, table] = COVERAGE;
-        let made = [RUNS, BY_CHANCE, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
-        self.remove(&made, &["executions", "reruns"])
+        let made = [ALL_RUNS, BY_CHANCE, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
+        self.remove(&made, &OF_RUNS)
     }
 
     /// Removes the campaign's products, the ones first whose presence says that others are complete.
@@ -37,7 +41,7 @@ impl CampaignFolder {
         let [coverage, table] = COVERAGE;
         let names = [
             RESULTS,
-            RUNS,
+            ALL_RUNS,
             BY_CHANCE,
             INFLUENCE,
             MOVES,
@@ -51,7 +55,7 @@ impl CampaignFolder {
             "junit.xml",
             "report.html",
         ];
-        self.remove(&names, &["trajectories", "profiles", "programs", "executions", "reruns"])
+        self.remove(&names, &[&["trajectories", "profiles", "programs"][..], &OF_RUNS[..]].concat())
     }
 
     /// Removes the cases by chance: they were measured otherwise than the campaign's now are.
@@ -94,12 +98,17 @@ impl CampaignFolder {
             }
         }
         for folder in folders {
-            for path in entries(&self.path.join(folder))? {
+            let place = self.path.join(folder);
+            let inside = if place.is_dir() { entries(&place)? } else { Vec::new() };
+            for path in inside {
                 if path.extension().is_some_and(|extension| extension == "parquet" || extension == "mod") {
                     remove(&format!("{folder}/{}", path.file_name().unwrap_or_default().to_string_lossy()))?;
                 }
             }
+            // One with other things in it stays.
+            let _ = fs::remove_dir(place);
         }
+        self.close_tables();
         Ok(())
     }
 }

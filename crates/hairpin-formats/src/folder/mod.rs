@@ -7,15 +7,15 @@
 //! | `generation.json` | what the search did, in numbers |
 //! | `results.parquet` | one row per case: seed, score, evidence; once judged, its worst run |
 //! | `waypoints.parquet` | one row per waypoint of every case, with the planned leg times |
-//! | `profiles/CASE.parquet` | the control witness, polynomials |
+//! | `profiles/` | the control witness, polynomials or a drive's segments |
 //! | `programs/CASE.mod` | what an arm runs, as RAPID |
-//! | `trajectories/CASE.parquet` | the planned motion, sampled |
-//! | `executions/CASE-RUN.parquet` | one flight: poses, velocities, rotor speeds |
-//! | `runs.parquet` | one row per flight: why it ended, when waypoints were reached, drawn values |
+//! | `trajectories/` | the planned motion, the rows where it bends |
+//! | `executions/` | flights: poses, velocities, rotor speeds, the rows where they bend |
+//! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured of all samples, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
 //! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
-//! | `reruns/CASE-K.parquet` | a violation run again with other noise, for the time number K |
+//! | `reruns/`, `rerun-runs/` | the same of violations run again with other noise, `run` numbering the times |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
 //! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move, for later campaigns |
@@ -25,6 +25,10 @@
 //! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `.hairpin` | the names in the folder that are hairpin's own: nothing else in it is replaced or removed |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
+//!
+//! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or run
+//! (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file for each
+//! case or run, `NAME/CASE.parquet` and `NAME/CASE-RUN.parquet`, and are read, not written.
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the
 //! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
@@ -41,6 +45,8 @@ mod json;
 mod judged;
 mod list;
 mod names;
+mod parts;
+mod run_writer;
 mod runs;
 mod scenario;
 
@@ -62,9 +68,13 @@ use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
 use names::{COVERAGE, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
 pub(crate) use names::{SCENARIO, is_written_to};
+use parts::OpenParts;
+pub use run_writer::{Landed, RunWriter};
+use runs::HeldFacts;
 
 const LOCK: &str = ".lock";
-const FOLDERS: [&str; 7] = ["trajectories", "profiles", "programs", "executions", "reruns", "missions", "repro"];
+const FOLDERS: [&str; 9] =
+    ["trajectories", "profiles", "programs", "executions", "runs", "reruns", "rerun-runs", "missions", "repro"];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,6 +92,8 @@ pub struct CampaignFolder {
     _lock: Option<File>,
     /// What its programs find on the controller, once somebody asked.
     frames: OnceLock<Frames>,
+    open_parts: OpenParts,
+    facts: HeldFacts,
 }
 
 impl CampaignFolder {
@@ -98,13 +110,10 @@ impl CampaignFolder {
         refuse_links(path, &FOLDERS)?;
         Self::refuse_anothers(path)?;
         let list = List::read(path)?;
-        let folder = Self { path: path.into(), _lock: lock(path)?, frames: OnceLock::new() };
+        let folder = Self::at(path, lock(path)?);
         match list {
             None if is_campaign(path) => List::adopt(path)?,
             list => list.unwrap_or_default().take_in(path, &all())?,
-        }
-        for name in FOLDERS {
-            atomic::make_folder(&path.join(name))?;
         }
         folder.remove_leftovers();
         if existing == Existing::Replace {
@@ -135,7 +144,12 @@ impl CampaignFolder {
         }
         refuse_links(path, &FOLDERS)?;
         List::read(path)?;
-        Ok(Self { path: path.into(), _lock: None, frames: OnceLock::new() })
+        Ok(Self::at(path, None))
+    }
+
+    fn at(path: &Path, lock: Option<File>) -> Self {
+        let (open_parts, facts) = (OpenParts::default(), HeldFacts::default());
+        Self { path: path.into(), _lock: lock, frames: OnceLock::new(), open_parts, facts }
     }
 
     /// Opens a campaign to read it and to add to it.

@@ -4,7 +4,9 @@ pub(crate) const SCENARIO: &str = "scenario.toml";
 pub(super) const GENERATION: &str = "generation.json";
 pub(super) const RESULTS: &str = "results.parquet";
 pub(super) const WAYPOINTS: &str = "waypoints.parquet";
-pub(super) const RUNS: &str = "runs.parquet";
+pub(super) const RUNS: &str = "runs";
+/// The table of runs of earlier versions.
+pub(super) const ALL_RUNS: &str = "runs.parquet";
 pub(super) const INFLUENCE: &str = "influence.json";
 /// The proof that an arm's first program is the heaviest.
 pub const OPTIMUM: &str = "optimum.json";
@@ -30,13 +32,13 @@ pub(super) const LOG: &str = "executor-CASE-RUN.log";
 pub(super) const LIST: &str = ".hairpin";
 
 /// Every name that a campaign's folder gives, `CASE` and `RUN` standing for numbers. The files that a scenario names
-/// come in addition, by the names of their copies.
+/// come in addition, by the names of their copies. Those of files for each case and run are of earlier versions.
 pub(super) const OURS: &[&str] = &[
     SCENARIO,
     GENERATION,
     RESULTS,
     WAYPOINTS,
-    RUNS,
+    ALL_RUNS,
     INFLUENCE,
     OPTIMUM,
     GRAPH,
@@ -51,6 +53,12 @@ pub(super) const OURS: &[&str] = &[
     "junit.xml",
     "report.html",
     LOG,
+    "trajectories/part-PART.parquet",
+    "profiles/part-PART.parquet",
+    "executions/part-PART.parquet",
+    "runs/part-PART.parquet",
+    "reruns/part-PART.parquet",
+    "rerun-runs/part-PART.parquet",
     "trajectories/CASE.parquet",
     "profiles/CASE.parquet",
     "programs/CASE.mod",
@@ -80,9 +88,10 @@ pub(crate) fn is_written_to(folder: &std::path::Path) -> bool {
     [LIST, GENERATION, RESULTS].iter().any(|name| folder.join(name).exists())
 }
 
-/// Whether `name` is one that `pattern` stands for: `CASE` is a number of four digits or more, `RUN` one of any.
+/// Whether `name` is one that `pattern` stands for: `PART` is a number of five digits or more, `CASE` one of four, `RUN` one
+/// of any.
 pub(super) fn stands_for(pattern: &str, name: &str) -> bool {
-    for (word, least) in [("CASE", 4), ("RUN", 1)] {
+    for (word, least) in [("PART", 5), ("CASE", 4), ("RUN", 1)] {
         if let Some(rest) = pattern.strip_prefix(word) {
             let digits = name.bytes().take_while(u8::is_ascii_digit).count();
             return digits >= least && stands_for(rest, &name[digits..]);

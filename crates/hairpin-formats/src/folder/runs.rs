@@ -1,64 +1,257 @@
-//! The flights of a campaign folder: what `execute` writes, one file a run, and the table of them all.
+//! The runs of a campaign folder: what is known of each, and its motion. Folders with a file per run are read as well.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use hairpin::campaign::{CaseNumber, Run};
+use hairpin::trajectory::Track;
 
+use super::parts::{EXECUTIONS, RERUN_FACTS, RERUNS, part_with, parts_of};
 use super::{CampaignFolder, FolderError, RUNS};
 use crate::atomic::{self, WriteError};
 use crate::executor::{Failed, was_never_asked};
 use crate::parquet::runs::{self, RunFacts};
+use crate::parquet::track;
+
+type Facts = BTreeMap<(CaseNumber, usize), RunFacts>;
+
+/// Parts of what is known of runs that are held at a time.
+const HELD: usize = 4;
+/// Time between samples where nothing says it any more, s.
+const USUAL_PERIOD: f64 = 0.01;
+
+/// What is known of runs, part by part, the last one asked for first.
+#[derive(Debug, Default)]
+pub(super) struct HeldFacts(Mutex<Vec<(PathBuf, Arc<Facts>)>>);
+
+impl HeldFacts {
+    fn find(&self, wanted: impl Fn(&Path, &Facts) -> bool) -> Option<Arc<Facts>> {
+        let mut held = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = held.iter().position(|(path, facts)| wanted(path, facts))?;
+        let found = held.remove(place);
+        let facts = found.1.clone();
+        held.insert(0, found);
+        Some(facts)
+    }
+
+    pub(super) fn let_go(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+
+    fn read(&self, path: &Path) -> Result<Arc<Facts>, FolderError> {
+        if let Some(facts) = self.find(|known, _| known == path) {
+            return Ok(facts);
+        }
+        let facts = Arc::new(runs::read_facts(path)?);
+        let mut held = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        held.insert(0, (path.into(), facts.clone()));
+        held.truncate(HELD);
+        Ok(facts)
+    }
+}
+
+fn cases_of(facts: &Facts) -> Option<(CaseNumber, CaseNumber)> {
+    Some((facts.first_key_value()?.0.0, facts.last_key_value()?.0.0))
+}
 
 impl CampaignFolder {
-    /// Writes one run.
+    pub(super) fn forget_facts(&self, path: &Path) {
+        self.facts.0.lock().unwrap_or_else(PoisonError::into_inner).retain(|(known, _)| known != path);
+    }
+
+    /// What is known of the runs of all cases around `case`; nothing where none landed.
+    fn facts_around(&self, table: &str, case: CaseNumber) -> Result<Arc<Facts>, FolderError> {
+        let (folder, single) = (self.path.join(table), self.path.join(format!("{table}.parquet")));
+        let is_in = |path: &Path, facts: &Facts| {
+            let ours = path.parent() == Some(&folder) || path == single;
+            ours && cases_of(facts).is_some_and(|(first, last)| (first..=last).contains(&case))
+        };
+        if let Some(facts) = self.facts.find(is_in) {
+            return Ok(facts);
+        }
+        let found = part_with(&parts_of(&self.path, table), case, |path| {
+            let facts = self.facts.read(path)?;
+            let cases = cases_of(&facts);
+            Ok((facts, cases))
+        })?;
+        Ok(found.unwrap_or_default())
+    }
+
+    /// What is known of the runs of `case`, in their order.
     ///
     /// # Errors
-    /// The file cannot be written.
-    pub fn write_run(&self, run: &Run) -> Result<(), FolderError> {
-        Ok(runs::write_run(&self.run_path(run.case, run.run), run)?)
+    /// A file is broken.
+    pub fn facts_of(&self, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
+        self.facts_in(RUNS, case)
+    }
+
+    /// The same of the runs of `case` that were flown again, by the number of the time.
+    pub(super) fn rerun_facts_of(&self, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
+        self.facts_in(RERUN_FACTS, case)
+    }
+
+    fn facts_in(&self, table: &str, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
+        let around = self.facts_around(table, case)?;
+        Ok(around.range((case, 0)..=(case, usize::MAX)).map(|(_, facts)| facts.clone()).collect())
+    }
+
+    /// Whether any run is known.
+    pub fn has_runs(&self) -> bool {
+        !parts_of(&self.path, RUNS).is_empty()
     }
 
     /// Whether this run was executed and can be read: what `--resume` skips. One that no program was asked to fly was
     /// not.
     pub fn has_valid_run(&self, case: CaseNumber, run: usize) -> bool {
-        let found = runs::read_run(&self.run_path(case, run));
         let asked = |facts: &RunFacts| !facts.message.as_deref().is_some_and(was_never_asked);
+        if let Ok(around) = self.facts_around(RUNS, case)
+            && let Some(facts) = around.get(&(case, run))
+            && !self.run_path(case, run).exists()
+        {
+            let moved =
+                || self.part_with(EXECUTIONS, case).is_ok_and(|part| part.is_some_and(|part| part.has((case, run))));
+            return asked(facts) && (!facts.recorded || facts.end_s.is_none() || moved());
+        }
+        let found = runs::read_run(&self.run_path(case, run));
         found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run && asked(&facts)))
     }
 
-    /// Writes a run that was flown again, for the time number `again`.
+    /// Reads the runs of `case`, by number.
     ///
     /// # Errors
-    /// The file cannot be written.
-    pub fn write_rerun(&self, run: &Run, again: usize) -> Result<(), FolderError> {
-        Ok(runs::write_run(&self.rerun_path(run.case, again), run)?)
+    /// As [`Self::read_run`]; a run that is known without its motion.
+    pub fn read_runs(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
+        let known = self.facts_of(case)?;
+        let mut all = Vec::new();
+        while let Some(run) = self.read_run(case, all.len())? {
+            all.push(run);
+        }
+        match known.iter().any(|facts| facts.run >= all.len()) {
+            true => Err(self.missing(case, all.len())),
+            false => Ok(all),
+        }
     }
 
-    /// Reads the runs of `case` that were flown again, as many as there are from number 0 on.
+    /// The runs of `case` with what was measured of them, and without their motion where it was; the others as
+    /// [`Self::read_runs`] has them.
+    ///
+    /// # Errors
+    /// As [`Self::read_runs`].
+    pub fn read_measured(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
+        let known = self.facts_of(case)?;
+        let is_known = |facts: &RunFacts| facts.full_rate.is_some() || facts.message.is_some();
+        let in_files = self.run_path(case, 0).exists() || self.run_path(case, known.len()).exists();
+        if known.is_empty() || in_files || !known.iter().all(is_known) {
+            return self.read_runs(case);
+        }
+        known.into_iter().map(|facts| self.without_track(facts)).collect()
+    }
+
+    fn without_track(&self, facts: RunFacts) -> Result<Run, FolderError> {
+        let (case, run) = (facts.case, facts.run);
+        facts.without_track().ok_or_else(|| self.contradiction(case, run, "ended for an unknown reason"))
+    }
+
+    /// Reads one run, its motion sampled as it was flown; `None` where it was not executed.
+    ///
+    /// # Errors
+    /// The file is broken; nothing is known about the run; it says that it is another one; its motion is not kept.
+    pub fn read_run(&self, case: CaseNumber, run: usize) -> Result<Option<Run>, FolderError> {
+        let known = self.facts_around(RUNS, case)?.get(&(case, run)).cloned();
+        let path = self.run_path(case, run);
+        if path.exists() {
+            return self.read_run_file(&path, (case, run), known).map(Some);
+        }
+        let Some(facts) = known else { return Ok(None) };
+        self.with_motion(EXECUTIONS, facts).map(Some)
+    }
+
+    /// The run that is known by `facts`, with its motion in `table`.
+    fn with_motion(&self, table: &str, facts: RunFacts) -> Result<Run, FolderError> {
+        let (case, run) = (facts.case, facts.run);
+        let track = match (facts.message.is_none(), self.part_with(table, case)?) {
+            (false, _) => Track::default(),
+            (true, None) if facts.end_s.is_none() && facts.recorded => Track::default(),
+            (true, None) => return Err(self.missing(case, run)),
+            (true, Some(part)) => match part.table((case, run))? {
+                Some(rows) => {
+                    let track = track::from_table(&rows)?;
+                    // Of what was measured only the rows are there where it bends.
+                    let period = facts.full_rate.as_ref().map(|_| part.period().unwrap_or(USUAL_PERIOD));
+                    period.map_or(track.clone(), |period| track.at_period(period))
+                }
+                None if facts.end_s.is_none() => Track::default(),
+                None => return Err(self.missing(case, run)),
+            },
+        };
+        facts.with_track(track).ok_or_else(|| self.contradiction(case, run, "ended for an unknown reason"))
+    }
+
+    /// A run from a file of its own; `known` fills in for one that another program rewrote.
+    fn read_run_file(
+        &self,
+        path: &Path,
+        (case, run): (CaseNumber, usize),
+        known: Option<RunFacts>,
+    ) -> Result<Run, FolderError> {
+        let (track, facts) = runs::read_run(path)?;
+        let facts = facts.or(known);
+        let refuse = |what| self.contradiction(case, run, what);
+        let facts = facts.ok_or_else(|| refuse("has lost its metadata and is not in runs.parquet"))?;
+        if (facts.case, facts.run) != (case, run) {
+            return Err(refuse("holds another run than its name says"));
+        }
+        facts.with_track(track).ok_or_else(|| refuse("ended for an unknown reason"))
+    }
+
+    fn missing(&self, case: CaseNumber, run: usize) -> FolderError {
+        self.contradiction(
+            case,
+            run,
+            "has a run in the table of runs, and its motion is missing: hairpin execute --resume",
+        )
+    }
+
+    fn contradiction(&self, case: CaseNumber, run: usize, what: &'static str) -> FolderError {
+        let own = Some(self.run_path(case, run)).filter(|path| path.exists());
+        FolderError::Contradiction { path: own.unwrap_or_else(|| self.path.join(EXECUTIONS)), case, what }
+    }
+
+    /// The runs of `case` that were flown again, in their order, as [`Self::read_measured`] has runs.
+    ///
+    /// # Errors
+    /// A file is broken.
+    pub fn read_measured_reruns(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
+        let known = self.facts_in(RERUN_FACTS, case)?;
+        let is_known = |facts: &RunFacts| facts.full_rate.is_some() || facts.message.is_some();
+        if known.is_empty() || !known.iter().all(is_known) {
+            return self.read_reruns(case);
+        }
+        known.into_iter().map(|facts| self.without_track(facts)).collect()
+    }
+
+    /// Reads the runs of `case` that were flown again, in their order.
     ///
     /// # Errors
     /// A file is broken.
     pub fn read_reruns(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
-        let mut all = Vec::new();
-        loop {
-            let path = self.rerun_path(case, all.len());
-            if !path.exists() {
-                return Ok(all);
-            }
-            let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
-            let (track, facts) = runs::read_run(&path)?;
-            let facts = facts.filter(|facts| facts.case == case);
-            let run = facts.ok_or_else(|| contradiction("holds another run than its name says"))?.with_track(track);
-            all.push(run.ok_or_else(|| contradiction("ended for an unknown reason"))?);
+        let known = self.facts_in(RERUN_FACTS, case)?;
+        if !known.is_empty() {
+            return known.into_iter().map(|facts| self.with_motion(RERUNS, facts)).collect();
         }
-    }
-
-    /// `reruns/CASE-K.parquet`.
-    pub fn rerun_path(&self, case: CaseNumber, again: usize) -> PathBuf {
-        self.path.join("reruns").join(format!("{case}-{again}.parquet"))
+        let path = |again: usize| self.path.join(RERUNS).join(format!("{case}-{again}.parquet"));
+        let mut all = Vec::new();
+        while path(all.len()).exists() {
+            let (track, facts) = runs::read_run(&path(all.len()))?;
+            let refuse = |what| FolderError::Contradiction { path: path(all.len()), case, what };
+            let facts = facts.filter(|facts| facts.case == case);
+            let run = facts.ok_or_else(|| refuse("holds another run than its name says"))?.with_track(track);
+            all.push(run.ok_or_else(|| refuse("ended for an unknown reason"))?);
+        }
+        Ok(all)
     }
 
     /// Writes `executor-CASE-RUN.log`: why a program of the user's failed to fly a run, and the end of its stderr.
@@ -83,74 +276,9 @@ impl CampaignFolder {
         }
     }
 
-    /// Writes `runs.parquet`, once all runs are executed.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn write_runs_table(&self, facts: &[RunFacts]) -> Result<(), FolderError> {
-        Ok(runs::write_facts(&self.file(RUNS), facts)?)
-    }
-
-    /// Reads the runs of `case`, by number, as many as there are files `executions/CASE-RUN.parquet` from run 0 on.
-    /// `table` is [`Self::read_runs_table`]'s: it fills in for files that another program rewrote.
-    ///
-    /// # Errors
-    /// As [`Self::read_run`]; a run of the table without its file.
-    pub fn read_runs(
-        &self,
-        case: CaseNumber,
-        table: &BTreeMap<(CaseNumber, usize), RunFacts>,
-    ) -> Result<Vec<Run>, FolderError> {
-        let mut all = Vec::new();
-        while let Some(run) = self.read_run(case, all.len(), table)? {
-            all.push(run);
-        }
-        if table.range((case, all.len())..=(case, usize::MAX)).next().is_some() {
-            let what = "is missing, and runs.parquet has it: hairpin execute --resume";
-            return Err(FolderError::Contradiction { path: self.run_path(case, all.len()), case, what });
-        }
-        Ok(all)
-    }
-
-    /// Reads one run; `None` where it was not executed.
-    ///
-    /// # Errors
-    /// The file is broken; nothing is known about the run; it says that it is another one.
-    pub fn read_run(
-        &self,
-        case: CaseNumber,
-        run: usize,
-        table: &BTreeMap<(CaseNumber, usize), RunFacts>,
-    ) -> Result<Option<Run>, FolderError> {
-        let path = self.run_path(case, run);
-        if !path.exists() {
-            return Ok(None);
-        }
-        let (track, facts) = runs::read_run(&path)?;
-        let contradiction = |what| FolderError::Contradiction { path: path.clone(), case, what };
-        let facts = facts.or_else(|| table.get(&(case, run)).cloned());
-        let facts = facts.ok_or_else(|| contradiction("has lost its metadata and is not in runs.parquet"))?;
-        if (facts.case, facts.run) != (case, run) {
-            return Err(contradiction("holds another run than its name says"));
-        }
-        facts.with_track(track).map(Some).ok_or_else(|| contradiction("ended for an unknown reason"))
-    }
-
-    /// Reads `runs.parquet`; empty where there is none.
-    ///
-    /// # Errors
-    /// The file is broken.
-    pub fn read_runs_table(&self) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>, FolderError> {
-        let path = self.file(RUNS);
-        if !path.exists() {
-            return Ok(BTreeMap::new());
-        }
-        Ok(runs::read_facts(&path)?.into_iter().map(|facts| ((facts.case, facts.run), facts)).collect())
-    }
-
-    /// `executions/CASE-RUN.parquet`.
-    pub fn run_path(&self, case: CaseNumber, run: usize) -> PathBuf {
-        self.path.join("executions").join(format!("{case}-{run}.parquet"))
+    /// `executions/CASE-RUN.parquet`, where a run of earlier versions stands.
+    pub(super) fn run_path(&self, case: CaseNumber, run: usize) -> PathBuf {
+        self.path.join(EXECUTIONS).join(format!("{case}-{run}.parquet"))
     }
 
     /// `CASE-RUN.csv`: the flight as text, exported.

@@ -1,33 +1,36 @@
-//! `profiles/CASE.parquet` of a drive: its commands, one row per segment:
-//! `leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
+//! `profiles/` of drives: their commands, one row per segment:
+//! `case,leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
 //!
 //! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with
 //! `start_speed_m_s`, `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the
 //! direction of travel in the body there, `travel_direction_rad` and `travel_direction_end_rad`. The highest speed and
 //! the turn rate stand in every row.
 
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{Float64Array, Int64Array, StringArray};
+use hairpin::campaign::CaseNumber;
 use hairpin::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, Drive, DriveLeg, SpeedProfile};
 
-use super::table::{Columns, Table, TableError};
-use crate::atomic::WriteError;
+use super::piece::Piece;
+use super::table::{CASE, Columns, Table, TableError};
 
 const ARC: &str = "arc";
 const TURN: &str = "turn";
 
-/// Writes `drive`: curvature of a segment is Σ aᵢ sⁱ (1/m), s from 0 in each; ψ̇ = direction · v · κ.
+/// The rows of `drive`: curvature of a segment is Σ aᵢ sⁱ (1/m), s from 0 in each; ψ̇ = direction · v · κ.
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write(path: &Path, drive: &Drive) -> Result<(), WriteError> {
+/// There is no room for them.
+pub fn piece(case: CaseNumber, drive: &Drive) -> io::Result<Piece> {
     let rows: Vec<(usize, usize, &DriveLeg, &Segment)> = (drive.legs.iter().enumerate())
         .flat_map(|(number, leg)| leg.segments.iter().enumerate().map(move |(i, segment)| (number, i, leg, segment)))
         .collect();
     let mut columns = Columns::default();
+    columns.push(CASE, Arc::new(StringArray::from(vec![case.to_string(); rows.len()])));
     let mut counts = |name: &str, of: fn(&(usize, usize, &DriveLeg, &Segment)) -> i64| {
         columns.push(name, Arc::new(rows.iter().map(of).collect::<Int64Array>()));
     };
@@ -68,7 +71,7 @@ pub fn write(path: &Path, drive: &Drive) -> Result<(), WriteError> {
     numbers("travel_direction_end_rad".into(), &|leg, _| leg.direction.end);
     let profiles = rows.iter().map(|row| Some(profile_word(&row.2.speed))).collect::<StringArray>();
     columns.push("profile", Arc::new(profiles));
-    columns.write(path, "drive")
+    Piece::of(columns)
 }
 
 /// A number of a leg's speeds.
@@ -117,11 +120,8 @@ fn read_speeds(table: &Table) -> Result<Vec<SpeedProfile>, TableError> {
 }
 
 /// Whether a witness is a drive's: it has segments.
-///
-/// # Errors
-/// The file cannot be read.
-pub fn is_drive(path: &Path) -> Result<bool, TableError> {
-    Ok(Table::read(path)?.names().iter().any(|name| name == "segment"))
+pub(crate) fn is_drive(table: &Table) -> bool {
+    table.has("segment")
 }
 
 /// Reads a drive, its rows in any order.
@@ -129,7 +129,10 @@ pub fn is_drive(path: &Path) -> Result<bool, TableError> {
 /// # Errors
 /// Missing columns, values out of bounds, a leg or segment that is missing or twice there.
 pub fn read(path: &Path) -> Result<Drive, TableError> {
-    let table = Table::read(path)?;
+    from_table(&Table::read(path)?)
+}
+
+pub(crate) fn from_table(table: &Table) -> Result<Drive, TableError> {
     let (legs, segments) = (table.counts("leg")?, table.counts("segment")?);
     let (kinds, directions) = (table.texts("kind")?, table.numbers("direction")?);
     let (lengths, turns) = (table.numbers("length_m")?, table.numbers("turn_rad")?);
@@ -145,7 +148,7 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
     // Folders of before directions could turn have the first alone.
     let (travel, travel_end) =
         (table.numbers("travel_direction_rad")?, table.numbers_or_none("travel_direction_end_rad")?);
-    let profiles = read_speeds(&table)?;
+    let profiles = read_speeds(table)?;
     if table.rows() == 0 {
         return Err(table.refuse("leg", 0, "missing", "one row for each segment"));
     }
@@ -194,6 +197,11 @@ pub fn read(path: &Path) -> Result<Drive, TableError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parquet::part_writer::write_one;
+
+    fn write(path: &Path, drive: &Drive) -> io::Result<()> {
+        write_one(path, "drive", piece(CaseNumber(0), drive)?).map_err(|error| error.cause)
+    }
 
     #[test]
     fn a_drive_comes_back_as_it_was() {

@@ -43,14 +43,20 @@ pub(super) fn check_footer(file: &mut File) -> Result<(), String> {
     Ok(())
 }
 
-/// Refuses a file that would decode to more than `most` bytes, as far as it says.
+/// Refuses row groups that would decode to more than `most` bytes, as far as they say.
 pub(super) fn check_sizes(
     file: &mut File,
     metadata: &ParquetMetaData,
+    groups: &[usize],
     schema: &Schema,
     most: u64,
 ) -> Result<(), String> {
-    let rows = u64::try_from(metadata.file_metadata().num_rows()).map_err(|_| "it has less than no rows")?;
+    let groups: Vec<_> = groups.iter().map(|group| metadata.row_group(*group)).collect();
+    let mut rows = 0_u64;
+    for group in &groups {
+        let more = u64::try_from(group.num_rows()).map_err(|_| "it has less than no rows")?;
+        rows = rows.saturating_add(more);
+    }
     let width = |kind: &DataType| match kind {
         DataType::Boolean => 1,
         other => other.primitive_width().unwrap_or(4) as u64,
@@ -60,7 +66,7 @@ pub(super) fn check_sizes(
         return Err(format!("{rows} rows of {} columns are more than its size can hold", schema.fields().len()));
     }
     let mut taken = 0_u64;
-    for group in metadata.row_groups() {
+    for group in groups {
         for column in group.columns() {
             let (start, length) = column.byte_range();
             taken = taken.saturating_add(pages(file, start, length, most - taken)?);

@@ -5,12 +5,21 @@ pub mod cases;
 pub mod drawn;
 pub mod drive;
 mod guard;
+mod measures;
+pub(crate) mod part;
+pub mod part_writer;
+pub mod piece;
 pub mod profile;
 pub mod results;
 pub mod runs;
-mod table;
+pub(crate) mod table;
 mod thrift;
 pub mod track;
 mod values;
 
+use hairpin::campaign::CaseNumber;
+
 pub use table::{SCHEMA_VERSION, TableError};
+
+/// The number of a case, and of its run.
+pub(crate) type Key = (CaseNumber, usize);

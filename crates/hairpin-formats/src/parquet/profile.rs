@@ -1,21 +1,23 @@
-//! `profiles/CASE.parquet`: the control witness, one row per leg and axis: `leg,axis,t0_s,duration_s,c0…c7`.
+//! `profiles/`: the control witness, one row per leg and axis: `case,leg,axis,t0_s,duration_s,c0…c7`.
 
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{Float64Array, Int64Array, StringArray};
+use hairpin::campaign::CaseNumber;
 use hairpin::trajectory::{Profile, ProfileLeg};
 
-use super::table::{Columns, Table, TableError};
-use crate::atomic::WriteError;
+use super::piece::Piece;
+use super::table::{CASE, Columns, Table, TableError};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Writes `profile`: position along `axis` on `leg` is Σ c_i τ^i in m, τ = t − `t0_s` ∈ [0, `duration_s`].
+/// The rows of `profile`: position along `axis` on `leg` is Σ c_i τ^i in m, τ = t − `t0_s` ∈ [0, `duration_s`].
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write(path: &Path, profile: &Profile) -> Result<(), WriteError> {
+/// There is no room for them.
+pub fn piece(case: CaseNumber, profile: &Profile) -> io::Result<Piece> {
     let rows = || profile.legs.iter().enumerate().flat_map(|(number, leg)| (0..3).map(move |axis| (number, leg, axis)));
     let starts: Vec<f64> = profile
         .legs
@@ -27,6 +29,7 @@ pub fn write(path: &Path, profile: &Profile) -> Result<(), WriteError> {
         })
         .collect();
     let mut columns = Columns::default();
+    columns.push(CASE, Arc::new(StringArray::from(vec![case.to_string(); 3 * profile.legs.len()])));
     columns.push("leg", Arc::new(rows().map(|(number, ..)| number as i64).collect::<Int64Array>()));
     columns.push("axis", Arc::new(rows().map(|(_, _, axis)| Some(AXES[axis])).collect::<StringArray>()));
     columns.push("t0_s", Arc::new(rows().map(|(number, ..)| starts[number]).collect::<Float64Array>()));
@@ -35,7 +38,7 @@ pub fn write(path: &Path, profile: &Profile) -> Result<(), WriteError> {
         let values = rows().map(|(_, leg, axis)| leg.coefficients[axis][i]).collect::<Float64Array>();
         columns.push(format!("c{i}"), Arc::new(values));
     }
-    columns.write(path, "profile")
+    Piece::of(columns)
 }
 
 /// Reads a profile, its rows in any order. `t0_s` is derived and not read.
@@ -43,7 +46,10 @@ pub fn write(path: &Path, profile: &Profile) -> Result<(), WriteError> {
 /// # Errors
 /// Missing columns, values out of bounds, a leg or axis that is missing, twice there, or has another duration.
 pub fn read(path: &Path) -> Result<Profile, TableError> {
-    let table = Table::read(path)?;
+    from_table(&Table::read(path)?)
+}
+
+pub(crate) fn from_table(table: &Table) -> Result<Profile, TableError> {
     let legs = table.counts("leg")?;
     let axes = table.texts("axis")?;
     let durations = table.numbers("duration_s")?;

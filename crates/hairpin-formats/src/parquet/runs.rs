@@ -1,19 +1,23 @@
-//! Runs: `executions/CASE-RUN.parquet` holds one flight and what is known about it; `runs.parquet` holds the latter of
-//! all runs in columns, for those who rewrite the former and lose its metadata.
+//! Runs: `runs/` says what is known of each beside its motion, a row a run, and what was measured of all of its
+//! samples; `executions/` has the motion, the rows where it bends.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::builder::{Float64Builder, ListBuilder};
-use arrow_array::{Float64Array, Int64Array, ListArray, StringArray};
-use hairpin::campaign::{CaseNumber, Run};
-use hairpin::trajectory::{Ended, Flight, Track};
-use serde::{Deserialize, Serialize};
+use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray};
+use hairpin::campaign::scenario::DeviationFrom;
+use hairpin::campaign::{CaseNumber, FullRate, Run};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
+use nalgebra::Isometry3;
+use serde::Deserialize;
 use serde_json::Value;
 
-use super::drawn;
+use super::piece::Piece;
 use super::table::{Columns, Table, TableError};
-use super::track;
+use super::{drawn, measures, track};
 use crate::atomic::WriteError;
 
 const FACTS_KEY: &str = "hairpin.run";
@@ -21,7 +25,7 @@ const FACTS_KEY: &str = "hairpin.run";
 pub const EXECUTOR_FAILED: &str = "executor-failed";
 
 /// What is known about a run beside its track.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RunFacts {
     /// Number of the case.
     pub case: CaseNumber,
@@ -31,26 +35,51 @@ pub struct RunFacts {
     pub ended: String,
     /// Why the executor failed.
     pub message: Option<String>,
-    /// First time outside the world, s.
+    /// First time outside the world's volume, s.
     pub left_world_s: Option<f64>,
     /// Time at which each waypoint was reached, s.
     pub reached_s: Vec<Option<f64>>,
     /// Values drawn for `[vary]`.
     pub drawn: Vec<(String, Value)>,
+    /// The last stamp of its track, s.
+    pub end_s: Option<f64>,
+    /// The leg that the executor told last, and the one when it left the world.
+    pub end_leg: Option<usize>,
+    /// See `end_leg`.
+    pub left_leg: Option<usize>,
+    /// Whether the executor sent no attitudes.
+    pub attitude_unknown: bool,
+    /// Whether its motion is kept.
+    pub recorded: bool,
+    /// What was measured of all of its samples.
+    pub full_rate: Option<Box<FullRate>>,
 }
 
 impl RunFacts {
-    /// The facts of `run`.
+    /// The facts of `run`, whose motion is kept.
     pub fn of(run: &Run) -> Self {
         let flight = run.outcome.as_ref().ok();
+        let track = flight.map(|flight| &flight.track);
+        let left = flight.and_then(|flight| flight.left_world);
+        let leg_at = |time: f64| {
+            let (track, legs) = (track?, track?.channel("leg")?);
+            let row = track.times().partition_point(|stamp| *stamp < time).min(legs.len().checked_sub(1)?);
+            Some(legs[row].max(0.0) as usize)
+        };
         Self {
             case: run.case,
             run: run.run,
             ended: flight.map_or(EXECUTOR_FAILED, |flight| flight.ended.word()).into(),
             message: run.outcome.as_ref().err().cloned(),
-            left_world_s: flight.and_then(|flight| flight.left_world),
+            left_world_s: left,
             reached_s: flight.map_or_else(Vec::new, |flight| flight.reached.clone()),
             drawn: run.drawn.clone(),
+            end_s: track.and_then(|track| track.times().last().copied()),
+            end_leg: leg_at(f64::INFINITY),
+            left_leg: left.and_then(leg_at),
+            attitude_unknown: track.is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some()),
+            recorded: true,
+            full_rate: run.full_rate.clone(),
         }
     }
 
@@ -62,54 +91,134 @@ impl RunFacts {
             let ended = Ended::from_word(&self.ended)?;
             Ok(Flight { track, ended, left_world: self.left_world_s, reached: self.reached_s })
         };
-        Some(Run { case: self.case, run: self.run, drawn: self.drawn, outcome })
+        Some(Run { case: self.case, run: self.run, drawn: self.drawn, outcome, full_rate: self.full_rate })
+    }
+
+    /// The run with no more of its motion than a judge needs who takes what was measured: when and on what leg it left
+    /// the world and ended. `None` where `ended` is no known word.
+    pub fn without_track(self) -> Option<Run> {
+        let mut stamps: Vec<(f64, Option<usize>)> = Vec::new();
+        if let Some(end) = self.end_s {
+            let left = self.left_world_s.filter(|left| *left < end);
+            stamps.extend(left.map(|left| (left, self.left_leg)));
+            stamps.push((end, self.end_leg));
+        }
+        let leg = |leg: Option<usize>| leg.unwrap_or_default() as f64;
+        let channel = |name: &str, values: Vec<f64>| Channel { name: name.into(), values };
+        let legs = self.end_leg.map(|_| channel("leg", stamps.iter().map(|(_, told)| leg(*told)).collect()));
+        let level = self.attitude_unknown.then(|| channel(ATTITUDE_UNKNOWN, vec![1.0; stamps.len()]));
+        let times: Vec<f64> = stamps.iter().map(|(time, _)| *time).collect();
+        let poses = vec![Isometry3::identity(); times.len()];
+        let track = Track::new(times, poses, legs.into_iter().chain(level).collect()).ok()?;
+        self.with_track(track)
     }
 }
 
-/// Writes one run; a failed executor leaves a table without rows.
+/// The motion of a run: all rows or, once it was measured, those where it bends and those in `marked`. `None` where it
+/// has none.
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write_run(path: &Path, run: &Run) -> Result<(), WriteError> {
-    let nothing = Track::default();
-    let mut columns = track::columns(run.outcome.as_ref().map_or(&nothing, |flight| &flight.track));
-    let facts = serde_json::to_string(&RunFacts::of(run)).expect("facts are plain data with text keys");
-    columns.note(FACTS_KEY, facts);
-    columns.write(path, "execution")
+/// There is no room for it.
+pub fn piece(run: &Run, marked: &BTreeSet<usize>) -> io::Result<Option<Piece>> {
+    motion(run, run.run, marked)
 }
 
-/// Reads the track of one run, and its facts if the last writer of the file kept the metadata.
+/// The same of a run that is kept under the number `kept`.
+pub(crate) fn motion(run: &Run, kept: usize, marked: &BTreeSet<usize>) -> io::Result<Option<Piece>> {
+    let Some(flight) = run.outcome.as_ref().ok().filter(|flight| !flight.track.is_empty()) else { return Ok(None) };
+    let key = (run.case, Some(kept));
+    match run.full_rate {
+        Some(_) => track::thinned(key, &flight.track, marked),
+        None => Piece::of(track::columns(key, &flight.track)),
+    }
+    .map(Some)
+}
+
+/// What the file of one run says of it in its metadata, as folders of a file per run have it.
+#[derive(Deserialize)]
+struct InOneFile {
+    case: CaseNumber,
+    run: usize,
+    ended: String,
+    message: Option<String>,
+    left_world_s: Option<f64>,
+    reached_s: Vec<Option<f64>>,
+    drawn: Vec<(String, Value)>,
+}
+
+/// Reads the track of one run from a file of its own, and its facts if the last writer of the file kept the metadata.
 ///
 /// # Errors
 /// As [`track::read`].
 pub fn read_run(path: &Path) -> Result<(Track, Option<RunFacts>), TableError> {
     let table = Table::read(path)?;
     let facts = table.note(FACTS_KEY).and_then(|text| serde_json::from_str(text).ok());
+    let facts = facts.map(|InOneFile { case, run, ended, message, left_world_s, reached_s, drawn }| RunFacts {
+        case,
+        run,
+        ended,
+        message,
+        left_world_s,
+        reached_s,
+        drawn,
+        end_s: None,
+        end_leg: None,
+        left_leg: None,
+        attitude_unknown: table.has(ATTITUDE_UNKNOWN),
+        recorded: true,
+        full_rate: None,
+    });
     Ok((track::from_table(&table)?, facts))
 }
 
-/// Writes `runs.parquet`: `case,run,ended,message,left_world_s,reached_s,vary:…`.
+/// Writes the facts of runs: `case,run,ended,message,left_world_s,reached_s,…`, what was measured of them, `vary:…`.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
     let mut columns = Columns::default();
+    let counts = |value: fn(&RunFacts) -> Option<usize>| -> ArrayRef {
+        Arc::new(runs.iter().map(|run| value(run).map(|v| v as i64)).collect::<Int64Array>())
+    };
+    let numbers = |value: fn(&RunFacts) -> Option<f64>| -> ArrayRef {
+        Arc::new(runs.iter().map(value).collect::<Float64Array>())
+    };
+    let flags = |value: fn(&RunFacts) -> bool| -> ArrayRef {
+        Arc::new(runs.iter().map(|run| Some(value(run))).collect::<BooleanArray>())
+    };
     let ids = runs.iter().map(|run| Some(run.case.to_string()));
     columns.push("case", Arc::new(ids.collect::<StringArray>()));
-    columns.push("run", Arc::new(runs.iter().map(|run| run.run as i64).collect::<Int64Array>()));
+    columns.push("run", counts(|run| Some(run.run)));
     columns.push("ended", Arc::new(runs.iter().map(|run| Some(run.ended.as_str())).collect::<StringArray>()));
     columns.push("message", Arc::new(runs.iter().map(|run| run.message.as_deref()).collect::<StringArray>()));
-    columns.push("left_world_s", Arc::new(runs.iter().map(|run| run.left_world_s).collect::<Float64Array>()));
+    columns.push("left_world_s", numbers(|run| run.left_world_s));
     columns.push("reached_s", Arc::new(reached(runs)));
+    columns.push("end_s", numbers(|run| run.end_s));
+    columns.push("end_leg", counts(|run| run.end_leg));
+    columns.push("left_leg", counts(|run| run.left_leg));
+    columns.push("attitude_unknown", flags(|run| run.attitude_unknown));
+    columns.push("recorded", flags(|run| run.recorded));
+    let measured: Vec<Option<&FullRate>> = runs.iter().map(|run| run.full_rate.as_deref()).collect();
+    if measured.iter().any(Option::is_some) {
+        let from = measured.iter().map(|found| found.map(|found| from_word(found.from)));
+        columns.push("measured_from", Arc::new(from.collect::<StringArray>()));
+        let corner = measured.iter().map(|found| found.map(|found| found.corner));
+        columns.push("measured_corner_m", Arc::new(corner.collect::<Float64Array>()));
+        let mut met = ListBuilder::new(Int64Builder::new());
+        measured.iter().for_each(|found| met.append_option(found.map(|f| f.met.iter().map(|cell| Some(*cell as i64)))));
+        columns.push("cells_met", Arc::new(met.finish()));
+        let rows: Vec<_> = measured.iter().map(|found| found.map(|found| &found.measures)).collect();
+        measures::columns(&rows).into_iter().for_each(|(name, column)| columns.push(name, column));
+    }
     drawn::push(&mut columns, &runs.iter().map(|run| run.drawn.as_slice()).collect::<Vec<_>>());
     columns.write(path, "runs")
 }
 
-/// Reads `runs.parquet`.
+/// Reads the facts of runs.
 ///
 /// # Errors
 /// Missing columns, values of another type.
-pub fn read_facts(path: &Path) -> Result<Vec<RunFacts>, TableError> {
+pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>, TableError> {
     let table = Table::read(path)?;
     let cases = table.cases()?;
     let runs = table.counts("run")?;
@@ -118,12 +227,24 @@ pub fn read_facts(path: &Path) -> Result<Vec<RunFacts>, TableError> {
     let left = table.optional_numbers("left_world_s")?;
     let reached = table.number_lists("reached_s")?;
     let drawn = drawn::read(&table)?;
-    let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).enumerate();
-    rows.map(|(row, (((ended, message), reached), drawn))| {
+    // Older tables know none of these.
+    let counts = |column: &str| match table.has(column) {
+        true => table.optional_counts(column),
+        false => Ok(vec![None; table.rows()]),
+    };
+    let flags = |column: &str, otherwise: bool| match table.has(column) {
+        true => Ok(table.optional_integers(column)?.into_iter().map(|v| v.map_or(otherwise, |v| v != 0)).collect()),
+        false => Ok::<_, TableError>(vec![otherwise; table.rows()]),
+    };
+    let (end, end_leg, left_leg) = (table.numbers_or_none("end_s")?, counts("end_leg")?, counts("left_leg")?);
+    let (unknown, recorded) = (flags("attitude_unknown", false)?, flags("recorded", true)?);
+    let full_rate = read_full_rate(&table)?;
+    let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).zip(full_rate).enumerate();
+    rows.map(|(row, ((((ended, message), reached), drawn), full_rate))| {
         if ended != EXECUTOR_FAILED && Ended::from_word(&ended).is_none() {
             return Err(table.refuse("ended", row, format!("`{ended}`"), "done, time, ground, obstacle, wall, …"));
         }
-        Ok(RunFacts {
+        let facts = RunFacts {
             case: cases[row],
             run: runs[row],
             ended,
@@ -131,12 +252,48 @@ pub fn read_facts(path: &Path) -> Result<Vec<RunFacts>, TableError> {
             left_world_s: left[row],
             reached_s: reached.unwrap_or_default(),
             drawn,
-        })
+            end_s: end[row],
+            end_leg: end_leg[row],
+            left_leg: left_leg[row],
+            attitude_unknown: unknown[row],
+            recorded: recorded[row],
+            full_rate: full_rate.map(Box::new),
+        };
+        Ok(((facts.case, facts.run), facts))
     })
     .collect()
 }
 
-fn reached(runs: &[RunFacts]) -> ListArray {
+fn read_full_rate(table: &Table) -> Result<Vec<Option<FullRate>>, TableError> {
+    if !table.has("measured_from") {
+        return Ok(vec![None; table.rows()]);
+    }
+    let from = table.optional_texts("measured_from")?;
+    let corner = table.optional_numbers("measured_corner_m")?;
+    let met = table.number_lists("cells_met")?;
+    let rows = measures::read(table)?.into_iter().zip(from).zip(met).enumerate();
+    rows.map(|(row, ((measures, from), met))| {
+        let (Some(measures), Some(from)) = (measures, from) else { return Ok(None) };
+        let bound = "leg, nearest-leg or path";
+        let from = WORDS.into_iter().find(|word| from_word(*word) == from);
+        let from = from.ok_or_else(|| table.refuse("measured_from", row, "another word", bound))?;
+        let met = met.unwrap_or_default().into_iter().flatten().map(|cell| cell.max(0.0) as usize).collect();
+        Ok(Some(FullRate { from, corner: corner[row].unwrap_or_default(), measures, met }))
+    })
+    .collect()
+}
+
+const WORDS: [DeviationFrom; 3] = [DeviationFrom::Leg, DeviationFrom::NearestLeg, DeviationFrom::Path];
+
+fn from_word(from: DeviationFrom) -> &'static str {
+    match from {
+        DeviationFrom::Leg => "leg",
+        DeviationFrom::NearestLeg => "nearest-leg",
+        DeviationFrom::Path => "path",
+    }
+}
+
+fn reached(runs: &[RunFacts]) -> arrow_array::ListArray {
     let mut lists = ListBuilder::new(Float64Builder::new());
     for run in runs {
         lists.append_value(run.reached_s.iter().copied());

@@ -6,14 +6,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ::parquet::arrow::ArrowWriter;
-use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::file::metadata::KeyValue;
-use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
+use ::parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
 use ::parquet::schema::types::ColumnPath;
-use arrow_array::{ArrayRef, RecordBatch};
-use arrow_schema::{DataType, Field, Schema};
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch};
+use arrow_schema::{Field, Schema};
 use arrow_select::concat::concat_batches;
+use bytes::Bytes;
 use thiserror::Error;
 
 use super::guard::{check_footer, check_sizes, most_decoded};
@@ -25,6 +28,12 @@ use crate::foreign;
 pub const SCHEMA_VERSION: &str = "1";
 const SCHEMA_KEY: &str = "hairpin.schema";
 const VERSION_KEY: &str = "hairpin.schema_version";
+/// Note: the time between samples of which only some rows are there, s.
+pub(super) const PERIOD: &str = "hairpin.sample_s";
+/// Column: what the rows are of.
+pub(super) const CASE: &str = "case";
+/// Column: the number of the run that they are of.
+pub(super) const RUN: &str = "run";
 
 /// Why a Parquet file is not the table it should be.
 #[derive(Debug, Error)]
@@ -78,7 +87,6 @@ pub enum TableError {
 pub(crate) struct Columns {
     fields: Vec<Field>,
     arrays: Vec<ArrayRef>,
-    metadata: Vec<(String, String)>,
 }
 
 impl Columns {
@@ -88,16 +96,32 @@ impl Columns {
         self.arrays.push(array);
     }
 
-    /// Adds a note to the file's metadata. Other writers drop it, so nothing may depend on it alone.
-    pub(crate) fn note(&mut self, key: &str, value: String) {
-        self.metadata.push((key.into(), value));
+    /// The same with every column of numbers as `map` has it.
+    pub(super) fn map_numbers(mut self, map: impl Fn(&str, &Float64Array) -> ArrayRef) -> Self {
+        for (field, array) in self.fields.iter_mut().zip(&mut self.arrays) {
+            if let Some(values) = array.as_primitive_opt::<Float64Type>() {
+                let mapped = map(field.name(), values);
+                *field = Field::new(field.name(), mapped.data_type().clone(), true);
+                *array = mapped;
+            }
+        }
+        self
+    }
+
+    /// The rows, to be written as one group of a part.
+    pub(super) fn into_batch(self) -> RecordBatch {
+        let schema = Arc::new(Schema::new(self.fields));
+        RecordBatch::try_new(schema, self.arrays).expect("columns of one table have equal lengths")
     }
 
     /// Writes the table: snappy, schema name and version in the metadata, the same bytes for the same columns.
     pub(crate) fn write(self, path: &Path, schema_name: &str) -> Result<(), WriteError> {
-        let schema = Arc::new(Schema::new(self.fields));
-        let batch = RecordBatch::try_new(schema.clone(), self.arrays).expect("columns of one table have equal lengths");
-        let properties = properties(&schema, schema_name, self.metadata);
+        let batch = self.into_batch();
+        let schema = batch.schema();
+        let properties = properties(&schema)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_key_value_metadata(Some(notes(schema_name, &[])))
+            .build();
         atomic::write_with(path, |file| {
             let mut writer = ArrowWriter::try_new(file, schema.clone(), Some(properties)).map_err(io_error)?;
             writer.write(&batch).map_err(io_error)?;
@@ -107,30 +131,29 @@ impl Columns {
     }
 }
 
-fn properties(schema: &Schema, schema_name: &str, notes: Vec<(String, String)>) -> WriterProperties {
-    let mut metadata = vec![
-        KeyValue::new(SCHEMA_KEY.into(), schema_name.to_string()),
-        KeyValue::new(VERSION_KEY.into(), SCHEMA_VERSION.to_string()),
-    ];
-    metadata.extend(notes.into_iter().map(|(key, value)| KeyValue::new(key, value)));
-    let mut builder = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_created_by("hairpin".into())
-        .set_statistics_enabled(EnabledStatistics::Chunk)
-        .set_key_value_metadata(Some(metadata));
+/// What stands in the metadata of a file: its schema, and `more`.
+pub(super) fn notes(schema_name: &str, more: &[(String, String)]) -> Vec<KeyValue> {
+    let own = [(SCHEMA_KEY, schema_name), (VERSION_KEY, SCHEMA_VERSION)];
+    let more = more.iter().map(|(key, value)| (key.as_str(), value.as_str()));
+    own.into_iter().chain(more).map(|(key, value)| KeyValue::new(key.into(), value.to_string())).collect()
+}
+
+/// How columns are packed.
+pub(super) fn properties(schema: &Schema) -> WriterPropertiesBuilder {
+    let mut builder = WriterProperties::builder().set_compression(Compression::SNAPPY).set_created_by("hairpin".into());
     for field in schema.fields() {
         // Measured numbers hardly repeat: their bytes side by side compress better than a dictionary.
-        if field.data_type() == &DataType::Float64 {
+        if field.data_type().is_floating() {
             let column = ColumnPath::new(vec![field.name().clone()]);
             builder = builder
                 .set_column_dictionary_enabled(column.clone(), false)
                 .set_column_encoding(column, Encoding::BYTE_STREAM_SPLIT);
         }
     }
-    builder.build()
+    builder
 }
 
-fn io_error(error: ::parquet::errors::ParquetError) -> io::Error {
+pub(super) fn io_error(error: ::parquet::errors::ParquetError) -> io::Error {
     match error {
         ::parquet::errors::ParquetError::External(inner) => match inner.downcast::<io::Error>() {
             Ok(cause) => *cause,
@@ -149,6 +172,11 @@ pub(crate) struct Table {
 }
 
 impl Table {
+    /// Rows that were read by themselves.
+    pub(super) fn of(path: &Path, batch: RecordBatch) -> Self {
+        Self { path: path.into(), batch, metadata: Vec::new() }
+    }
+
     /// Reads the whole file, however its rows are grouped and compressed.
     pub(crate) fn read(path: &Path) -> Result<Self, TableError> {
         let unreadable = |cause| TableError::Unreadable { path: path.into(), cause };
@@ -158,6 +186,19 @@ impl Table {
         let (batch, metadata) =
             decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into())).map_err(broken)?;
         Ok(Self { path: path.into(), batch, metadata })
+    }
+
+    /// Whether there is such a column.
+    pub(crate) fn has(&self, column: &str) -> bool {
+        self.batch.column_by_name(column).is_some()
+    }
+
+    /// The rows in those columns that are not empty throughout.
+    pub(super) fn without_empty_columns(&self) -> RecordBatch {
+        let columns = self.batch.columns().iter().enumerate();
+        let full = columns.filter(|(_, column)| column.null_count() < column.len() || column.is_empty());
+        let places: Vec<usize> = full.map(|(place, _)| place).collect();
+        self.batch.project(&places).expect("columns are chosen among those that are there")
     }
 
     /// Number of rows.
@@ -198,14 +239,40 @@ type Decoded = (RecordBatch, Vec<(String, String)>);
 fn decode(mut file: File) -> Result<Decoded, String> {
     let most = most_decoded(file.metadata().map_err(|error| error.to_string())?.len());
     check_footer(&mut file)?;
-    let mut other = file.try_clone().map_err(|error| error.to_string())?;
-    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| error.to_string())?;
-    let metadata = builder.metadata().file_metadata().key_value_metadata().map_or_else(Vec::new, |pairs| {
+    let other = file.try_clone().map_err(|error| error.to_string())?;
+    let metadata = ArrowReaderMetadata::load(&other, ArrowReaderOptions::new()).map_err(|error| error.to_string())?;
+    let groups: Vec<usize> = (0..metadata.metadata().num_row_groups()).collect();
+    let batch = decode_groups(file, &metadata, &groups, most)?;
+    Ok((batch, notes_of(&metadata)))
+}
+
+/// The notes in a file's metadata.
+pub(super) fn notes_of(metadata: &ArrowReaderMetadata) -> Vec<(String, String)> {
+    metadata.metadata().file_metadata().key_value_metadata().map_or_else(Vec::new, |pairs| {
         pairs.iter().map(|pair| (pair.key.clone(), pair.value.clone().unwrap_or_default())).collect()
-    });
-    let schema = builder.schema().clone();
-    check_sizes(&mut other, builder.metadata(), &schema, most)?;
+    })
+}
+
+/// The rows of a file of our own in memory.
+pub(super) fn decode_groups_of(bytes: &Bytes, metadata: &ArrowReaderMetadata) -> Result<RecordBatch, String> {
+    let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(bytes.clone(), metadata.clone());
     let reader = builder.build().map_err(|error| error.to_string())?;
+    let batches = reader.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
+    concat_batches(metadata.schema(), &batches).map_err(|error| error.to_string())
+}
+
+/// The rows of `groups`, which may come to `most` bytes.
+pub(super) fn decode_groups(
+    file: File,
+    metadata: &ArrowReaderMetadata,
+    groups: &[usize],
+    most: u64,
+) -> Result<RecordBatch, String> {
+    let mut other = file.try_clone().map_err(|error| error.to_string())?;
+    let schema = metadata.schema().clone();
+    check_sizes(&mut other, metadata.metadata(), groups, &schema, most)?;
+    let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone());
+    let reader = builder.with_row_groups(groups.to_vec()).build().map_err(|error| error.to_string())?;
     let (mut batches, mut taken) = (Vec::new(), 0);
     for batch in reader {
         let batch = batch.map_err(|error| error.to_string())?;
@@ -216,6 +283,5 @@ fn decode(mut file: File) -> Result<Decoded, String> {
         }
         batches.push(batch);
     }
-    let batch = concat_batches(&schema, &batches).map_err(|error| error.to_string())?;
-    Ok((batch, metadata))
+    concat_batches(&schema, &batches).map_err(|error| error.to_string())
 }

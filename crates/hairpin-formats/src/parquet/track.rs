@@ -1,15 +1,23 @@
-//! `trajectories/CASE.parquet` and `executions/CASE-RUN.parquet`: poses in time with their channels,
-//! `t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,…`, world frame, quaternion w first.
+//! `trajectories/` and `executions/`: poses in time with their channels,
+//! `case,run,t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,…`, world frame, quaternion w first.
+//!
+//! Of what was measured at its full rate only the rows are written where it bends; between them positions and velocities
+//! follow the cubic (Hermite), everything else the line, within the tolerances that stand in the file's metadata.
 
+use std::collections::BTreeSet;
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array};
-use hairpin::trajectory::{Channel, Track};
+use arrow_array::types::{Float32Type, Float64Type};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
+use hairpin::campaign::CaseNumber;
+use hairpin::trajectory::bends::period;
+use hairpin::trajectory::{Channel, Tolerances, Track, bends};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use super::table::{Columns, Table, TableError};
-use crate::atomic::WriteError;
+use super::piece::Piece;
+use super::table::{CASE, Columns, RUN, Table, TableError};
 
 const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 /// Channels that stand right after the pose, whatever the track's order.
@@ -17,12 +25,54 @@ const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 /// A quaternion rewritten in single precision is off by 1e-7; one that is off by more than this is another thing.
 const NORM_TOLERANCE: f64 = 1e-3;
 
-/// Writes a planned track.
+/// How far the motion between rows is from what was left out, at most.
+pub(super) const TOLERANCES: Tolerances = Tolerances { position: 1e-4, attitude: 1e-3, share: 0.01 };
+/// The same less what rounding takes of it.
+const WITHIN: Tolerances = Tolerances { position: 9e-5, attitude: 0.98e-3, share: 0.009 };
+/// Steps of positions, m, and of quaternions, and of velocities, m/s: powers of two, so that the last bytes are zeros.
+const STEP: f64 = 1.0 / 131_072.0;
+const VELOCITY_STEP: f64 = 1.0 / 16_384.0;
+/// Steps in what every other channel may be off.
+const STEPS: f64 = 8.0;
+
+/// A planned motion, the rows where it bends.
 ///
 /// # Errors
-/// The file cannot be written.
-pub fn write(path: &Path, track: &Track) -> Result<(), WriteError> {
-    columns(track).write(path, "trajectory")
+/// There is no room for it.
+pub fn planned(case: CaseNumber, track: &Track) -> io::Result<Piece> {
+    thinned((case, None), track, &BTreeSet::new())
+}
+
+/// The motion of a run, or a plan, the rows where it bends and those in `marked`.
+pub(super) fn thinned(key: (CaseNumber, Option<usize>), track: &Track, marked: &BTreeSet<usize>) -> io::Result<Piece> {
+    let Some(period) = period(track) else { return Piece::of(columns(key, track)) };
+    Piece::thinned(rounded(columns(key, &track.picked(&bends(track, marked, &WITHIN)))), Some(period))
+}
+
+/// Times as they are, everything else in steps; in single precision but for positions, which may lie anywhere in the
+/// world.
+fn rounded(columns: Columns) -> Columns {
+    let in_steps = |value: f64, step: f64| if step > 0.0 { (value / step).round() * step } else { value };
+    columns.map_numbers(|name, values| match name {
+        "t_s" => Arc::new(values.clone()),
+        _ if POSE[..3].contains(&name) => Arc::new(values.unary::<_, Float64Type>(|value| in_steps(value, STEP))),
+        _ => {
+            let step = match name {
+                _ if POSE.contains(&name) => STEP,
+                _ if VELOCITY.contains(&name) => VELOCITY_STEP,
+                _ => step_of(values.values()),
+            };
+            Arc::new(values.unary::<_, Float32Type>(|value| in_steps(value, step) as f32))
+        }
+    })
+}
+
+/// The power of two that is a small part of what a channel may be off; 0 of one that does not change.
+fn step_of(values: &[f64]) -> f64 {
+    let (low, high) = values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    let most = TOLERANCES.share * (high - low) / STEPS;
+    // Its exponent alone.
+    if most.is_normal() && most > 0.0 { f64::from_bits(most.to_bits() & (0x7ff << 52)) } else { 0.0 }
 }
 
 /// Reads a track: every further column of numbers becomes a channel.
@@ -33,8 +83,13 @@ pub fn read(path: &Path) -> Result<Track, TableError> {
     from_table(&Table::read(path)?)
 }
 
-pub(super) fn columns(track: &Track) -> Columns {
+/// All rows as they are.
+pub(super) fn columns((case, run): (CaseNumber, Option<usize>), track: &Track) -> Columns {
     let mut columns = Columns::default();
+    columns.push(CASE, Arc::new(StringArray::from(vec![case.to_string(); track.len()])));
+    if let Some(run) = run {
+        columns.push(RUN, Arc::new(Int64Array::from(vec![run as i64; track.len()])));
+    }
     columns.push("t_s", number_column(track.times().iter().copied()));
     if let Some(legs) = track.channel("leg") {
         columns.push("leg", leg_column(legs));
@@ -50,14 +105,16 @@ pub(super) fn columns(track: &Track) -> Columns {
     columns
 }
 
-pub(super) fn from_table(table: &Table) -> Result<Track, TableError> {
+pub(crate) fn from_table(table: &Table) -> Result<Track, TableError> {
     let times = table.numbers("t_s")?;
     let pose = POSE.iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let poses = (0..times.len()).map(|row| isometry(table, row, std::array::from_fn(|i| pose[i][row])));
     let poses = poses.collect::<Result<Vec<_>, _>>()?;
     let mut channels = Vec::new();
     for name in table.names() {
-        if name != "t_s" && !POSE.contains(&name.as_str()) && !table.is_text(&name) {
+        let is_channel = ![CASE, RUN, "t_s"].contains(&name.as_str()) && !POSE.contains(&name.as_str());
+        // What only other runs of the table have is empty.
+        if is_channel && !table.is_text(&name) && !table.is_empty(&name) {
             channels.push(Channel { values: table.numbers(&name)?, name });
         }
     }

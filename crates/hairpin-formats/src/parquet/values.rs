@@ -20,6 +20,11 @@ impl Table {
         self.column(column).is_ok_and(|array| array.data_type().is_integer())
     }
 
+    /// Whether nothing stands in the column, while there are rows.
+    pub(crate) fn is_empty(&self, column: &str) -> bool {
+        self.column(column).is_ok_and(|array| !array.is_empty() && array.null_count() == array.len())
+    }
+
     /// Whether the column holds texts.
     pub(crate) fn is_text(&self, column: &str) -> bool {
         self.column(column).is_ok_and(|array| is_text(array.data_type()))

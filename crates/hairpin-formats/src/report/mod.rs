@@ -62,12 +62,11 @@ pub fn from_folder(
     let results = folder.read_results()?;
     // Older parts of the folder may have been deleted by hand: the tally only adds two numbers.
     let tally = folder.read_tally().unwrap_or_else(|_| Tally { solved: cases.len() as u64, ..Tally::default() });
-    let table = folder.read_runs_table()?;
     let mut in_full = Vec::new();
     for result in worst_first(&results).into_iter().take(SHOWN) {
         let Some(case) = cases.iter().find(|case| case.number == result.case) else { continue };
         let planned = folder.read_planned(case.number)?;
-        let run = folder.read_run(case.number, result.run, &table)?;
+        let run = folder.read_run(case.number, result.run)?;
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
         in_full.push(shown(setup, case, result, planned, run.as_ref()).map_err(flight)?);
     }

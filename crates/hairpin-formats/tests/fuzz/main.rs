@@ -6,11 +6,14 @@ mod mutate;
 mod out_campaign;
 mod samples;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::bounds::FARTHEST_M;
+use hairpin::campaign::{Case, Run};
 use hairpin_formats::executor::FromExecutor;
 use hairpin_formats::library;
+use hairpin_formats::parquet::part_writer::write_one;
 use hairpin_formats::parquet::{cases, profile, results, runs, track};
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario::{arm_for, read_setup, rover_for, setup_for};
@@ -200,6 +203,14 @@ fn repro_files() {
     });
 }
 
+fn write_profile(path: &Path, case: &Case) {
+    write_one(path, "profile", profile::piece(case.number, case.profile().unwrap()).unwrap()).unwrap();
+}
+
+fn write_run(path: &Path, run: &Run) {
+    write_one(path, "execution", runs::piece(run, &BTreeSet::new()).unwrap().unwrap()).unwrap();
+}
+
 /// One reader after the other on every table: another's columns are missing.
 fn tables(path: &Path) {
     drop(cases::read(path));
@@ -214,9 +225,9 @@ fn parquet_tables() {
     let campaign = campaign();
     let samples = [
         written(|path| cases::write(path, &campaign.cases).unwrap()),
-        written(|path| profile::write(path, campaign.cases[0].profile().unwrap()).unwrap()),
+        written(|path| write_profile(path, &campaign.cases[0])),
         written(|path| results::write(path, &campaign.cases, &campaign.results).unwrap()),
-        written(|path| runs::write_run(path, &campaign.runs[0]).unwrap()),
+        written(|path| write_run(path, &campaign.runs[0])),
     ];
     // A decoder that panics is caught, and told as a broken file; here its message would be noise.
     std::panic::set_hook(Box::new(|_| ()));

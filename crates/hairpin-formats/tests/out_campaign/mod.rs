@@ -22,15 +22,28 @@ pub(crate) fn campaign() -> Campaign {
     let mut runs = Vec::new();
     for run in 0..3 {
         let drawn = if run == 0 { vec![] } else { drawn(run) };
-        runs.push(Run { case: CaseNumber(0), run, drawn, outcome: Ok(flight(&cases[0], 0.1 * run as f64)) });
+        runs.push(Run {
+            case: CaseNumber(0),
+            run,
+            drawn,
+            outcome: Ok(flight(&cases[0], 0.1 * run as f64)),
+            full_rate: None,
+        });
     }
     runs.push(Run {
         case: CaseNumber(1),
         run: 0,
         drawn: vec![],
         outcome: Err("timed out after 60 s\nlog line".into()),
+        full_rate: None,
     });
-    runs.push(Run { case: CaseNumber(2), run: 0, drawn: vec![], outcome: Ok(flight(&cases[2], 0.05)) });
+    runs.push(Run {
+        case: CaseNumber(2),
+        run: 0,
+        drawn: vec![],
+        outcome: Ok(flight(&cases[2], 0.05)),
+        full_rate: None,
+    });
     let results = vec![failed(), executor_failed(), passed()];
     let tally = Tally { graphs: 7, solved: 3, expansions: 12345, complete: false, ..Tally::default() };
     Campaign { cases, runs, results, tally }

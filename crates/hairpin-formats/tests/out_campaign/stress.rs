@@ -60,7 +60,7 @@ pub(crate) fn judged(setup: &Setup, count: usize) -> Campaign {
         let (flight, result) = fly(setup, case);
         results.push(result);
         let drawn = vec![("world.wind_m_s".into(), json!([1.25, -0.5, 0.0]))];
-        runs.push(Run { case: case.number, run: 0, drawn, outcome: flight });
+        runs.push(Run { case: case.number, run: 0, drawn, outcome: flight, full_rate: None });
     }
     let tally = Tally { graphs: count as u64 + 3, solved: count as u64, complete: true, ..Tally::default() };
     Campaign { cases, runs, results, tally }

@@ -6,15 +6,16 @@ use std::time::Duration;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{
-    self, Case, Mission, Mistake, Run, Setup, Status, execute_again, execute_run, mission, mission_again,
+    self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
 };
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin_formats::atomic::WriteError;
 use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
-use hairpin_formats::folder::{CampaignFolder, FolderError};
-use hairpin_formats::parquet::runs::RunFacts;
+use hairpin_formats::folder::{FolderError, Landed, RunWriter};
 use rayon::prelude::*;
 
 use super::recorded;
+use super::to_judge::runs_to_judge;
 use crate::watch::Steps;
 use crate::work::Work;
 use crate::{Problem, Watch};
@@ -59,17 +60,17 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
     let repeat = work.setup.scenario.executor().repeat as usize;
     if let (Some(arm), Some(pattern)) = (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
         recorded::take_in(work, arm, pattern, cases)?;
-        return write_table(&work.folder, cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run))));
+        return count(work, cases, repeat);
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
     let missing: Vec<Job> = all()
         .filter(|(case, run)| !work.folder.has_valid_run(case.number, *run))
         .map(|(case, run)| Job { case, run, again: None })
         .collect();
-    fly(work, &missing, all().count(), watch)?;
-    let flown = write_table(&work.folder, all())?;
-    let again = violations_again(work, cases)?;
-    fly(work, &again, again.len(), watch)?;
+    let writer = work.folder.write_runs(repeat, all().map(|(case, run)| (case.number, run)));
+    fly(work, &missing, (all().count(), writer), watch)?;
+    let flown = count(work, cases, repeat)?;
+    fly_again(work, cases, watch)?;
     if flown.attitude_unknown > 0 {
         watch.warn(&format!(
             "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
@@ -79,35 +80,46 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
     Ok(flown)
 }
 
-/// The worst run of every violating case, as often as it is to be flown again and was not yet.
-fn violations_again<'a>(work: &Work, cases: &'a [Case]) -> Result<Vec<Job<'a>>, Problem> {
+/// Flies the worst run of every violating case as often again as the scenario asks for, where it was not yet.
+fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Problem> {
     let wanted = work.setup.scenario.executor().reruns as usize;
     if wanted == 0 {
-        return Ok(Vec::new());
+        return Ok(());
     }
-    let table = work.folder.read_runs_table()?;
-    let jobs: Result<Vec<Vec<Job>>, Problem> = cases
+    let violating: Result<Vec<Option<(&Case, usize, usize)>>, Problem> = cases
         .par_iter()
         .map(|case| {
-            let result = campaign::judge(&work.setup, case, &work.folder.read_runs(case.number, &table)?)?;
-            let known =
-                if result.status == Status::Fail { work.folder.read_reruns(case.number)?.len() } else { wanted };
-            Ok((known..wanted).map(|again| Job { case, run: result.run, again: Some(again) }).collect())
+            let result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
+            let is_violation = result.status == Status::Fail;
+            let known = if is_violation { work.folder.read_measured_reruns(case.number)?.len() } else { 0 };
+            Ok(is_violation.then_some((case, result.run, known)))
         })
         .collect();
-    Ok(jobs?.into_iter().flatten().collect())
+    let violating: Vec<(&Case, usize, usize)> = violating?.into_iter().flatten().collect();
+    let all = violating.iter().flat_map(|(case, ..)| (0..wanted).map(|again| (case.number, again)));
+    let writer = work.folder.write_reruns(wanted, all);
+    let jobs = violating
+        .iter()
+        .flat_map(|(case, run, known)| (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) }));
+    let jobs: Vec<Job> = jobs.collect();
+    fly(work, &jobs, (jobs.len(), writer), watch)
 }
 
 /// Flies `missing`, the rest of `of` runs.
-fn fly(work: &Work, missing: &[Job], of: usize, watch: &dyn Watch) -> Result<(), Problem> {
+fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &dyn Watch) -> Result<(), Problem> {
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
-    let landed = |job: &Job, run: Run| {
-        let written = match job.again {
-            None => work.folder.write_run(&run),
-            Some(again) => work.folder.write_rerun(&run, again),
+    let landed = |job: &Job, mut run: Run| {
+        // Measured while all of its rows are there: only those where it bends are kept.
+        let (full_rate, marked) = at_full_rate(&work.setup, job.case, &run).unzip();
+        run.full_rate = full_rate.map(Box::new);
+        let marked = marked.unwrap_or_default();
+        let packed = match job.again {
+            None => Landed::of(&run, &marked),
+            Some(again) => Landed::again(&run, again, &marked),
         };
-        if let Err(error) = written {
+        let no_room = |cause| FolderError::Write(WriteError { path: work.folder.path().into(), cause });
+        if let Err(error) = packed.map_err(no_room).and_then(|packed| writer.land(packed)) {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
         steps.step();
@@ -115,41 +127,41 @@ fn fly(work: &Work, missing: &[Job], of: usize, watch: &dyn Watch) -> Result<(),
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || watch.stopped() || broken();
     match command_of(&work.setup)? {
-        None => missing.par_iter().for_each(|job| {
-            if !stop() {
-                landed(job, job.simulate(&work.setup));
-            }
-        }),
+        // Part by part, so that few are open at a time.
+        None => {
+            missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(|part| {
+                part.par_iter().for_each(|job| {
+                    if !stop() {
+                        landed(job, job.simulate(&work.setup));
+                    }
+                });
+            })
+        }
         Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
     }
     drop(steps);
+    let kept = writer.finish();
     if let Some(error) = trouble.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
         return Err(error.into());
     }
+    kept?;
     if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
 }
 
-/// The table of all runs, in order; it says that execution is complete.
-fn write_table<'a>(folder: &CampaignFolder, all: impl Iterator<Item = (&'a Case, usize)>) -> Result<Flown, Problem> {
-    let jobs: Vec<_> = all.collect();
-    let none = Default::default();
-    let read: Result<Vec<Option<(RunFacts, bool)>>, FolderError> = jobs
-        .par_iter()
-        .map(|(case, run)| {
-            let run = folder.read_run(case.number, *run, &none)?;
-            Ok(run.map(|run| (RunFacts::of(&run), attitude_unknown(&run))))
-        })
-        .collect();
-    let (facts, unknown): (Vec<_>, Vec<_>) = read?.into_iter().flatten().unzip();
-    folder.write_runs_table(&facts)?;
-    Ok(Flown {
-        runs: facts.len(),
-        failed: facts.iter().filter(|facts| facts.message.is_some()).count(),
-        attitude_unknown: unknown.into_iter().filter(|unknown| *unknown).count(),
-    })
+/// What the runs of `cases` came to.
+fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
+    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0 };
+    for case in cases {
+        for run in work.folder.read_measured(case.number)?.iter().filter(|run| run.run < repeat) {
+            flown.runs += 1;
+            flown.failed += usize::from(run.outcome.is_err());
+            flown.attitude_unknown += usize::from(attitude_unknown(run));
+        }
+    }
+    Ok(flown)
 }
 
 /// Whether the executor flew and sent no attitudes.
@@ -203,6 +215,7 @@ pub(super) fn as_run(
         run: number,
         drawn: hairpin::campaign::vary::draw(&setup.scenario, case.seed, number),
         outcome: result.map_err(|failed| failed.to_string()),
+        full_rate: None,
     }
 }
 

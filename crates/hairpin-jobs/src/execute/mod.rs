@@ -4,6 +4,7 @@ mod by_case;
 mod fly;
 mod in_loop;
 mod recorded;
+mod to_judge;
 
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,7 @@ pub(crate) use by_case::fly_by_case;
 pub use fly::{Flown, fly_each};
 pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
 pub(crate) use in_loop::{Asked, in_the_loop};
+pub(crate) use to_judge::{ToJudge, reruns_to_judge, runs_to_judge};
 
 /// What is executed, and how.
 #[derive(Debug, Clone, Default)]

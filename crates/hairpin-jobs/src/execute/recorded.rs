@@ -1,9 +1,12 @@
 //! Where an arm ran elsewhere, its logs become the campaign's runs.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{Case, CaseNumber, Run};
+use hairpin_formats::atomic::WriteError;
+use hairpin_formats::folder::{FolderError, Landed};
 use hairpin_formats::recordings::{self, RecordingError};
 use rayon::prelude::*;
 
@@ -26,10 +29,15 @@ pub(super) fn check(work: &Work, cases: &[Case]) -> Result<(), Problem> {
 
 /// Reads the logs that `pattern` names and writes them as runs: all of them, or none where one cannot be used.
 pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<(), Problem> {
-    for run in read(work, arm, pattern, cases)? {
-        work.folder.write_run(&run)?;
+    let runs = read(work, arm, pattern, cases)?;
+    let repeat = work.setup.scenario.executor().repeat as usize;
+    let writer = work.folder.write_runs(repeat, runs.iter().map(|run| (run.case, run.run)));
+    for run in &runs {
+        let landed = Landed::of(run, &BTreeSet::new());
+        let path = work.folder.path().into();
+        writer.land(landed.map_err(|cause| FolderError::Write(WriteError { path, cause }))?)?;
     }
-    Ok(())
+    Ok(writer.finish()?)
 }
 
 fn read(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<Vec<Run>, Problem> {

@@ -113,7 +113,6 @@ fn write_geodetic(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
 /// `CASE.planned.csv` and `CASE-RUN.csv`.
 fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let folder = &work.folder;
-    let table = folder.read_runs_table()?;
     let mut written = Written::default();
     let mut write = |path: PathBuf, track: &Track, level: bool| -> Result<(), Problem> {
         csv::write(&path, track)?;
@@ -123,7 +122,7 @@ fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     };
     for case in cases {
         write(folder.planned_csv_path(case.number), &folder.read_planned(case.number)?, !is_planned(case))?;
-        for run in folder.read_runs(case.number, &table)? {
+        for run in folder.read_runs(case.number)? {
             if let Ok(flight) = &run.outcome {
                 write(folder.run_csv_path(case.number, run.run), &flight.track, is_level(&flight.track))?;
             }
@@ -136,13 +135,12 @@ fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
 /// judging).
 fn write_tum(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let folder = &work.folder;
-    let table = folder.read_runs_table()?;
     let results = folder.read_results()?;
     let mut written = Written::default();
     for case in cases {
         let mut miss = |why: &str| written.missing.push(format!("case {} has no .tum: {why}", case.id()));
         let worst = results.iter().find(|result| result.case == case.number).map_or(0, |result| result.run);
-        let Some(run) = folder.read_run(case.number, worst, &table)? else {
+        let Some(run) = folder.read_run(case.number, worst)? else {
             miss("it has not been flown");
             continue;
         };

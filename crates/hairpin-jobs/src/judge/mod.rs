@@ -2,33 +2,32 @@
 
 mod suite;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
-    self, Baseline, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, vary,
+    self, Baseline, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
-use hairpin_formats::junit;
-use hairpin_formats::parquet::runs::RunFacts;
 use hairpin_formats::repro::Repro;
+use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
 
 use crate::Problem;
 use crate::baseline::read_baseline;
 use crate::differences::differences;
-use crate::execute::attitude_unknown;
+use crate::execute::{ToJudge, attitude_unknown, reruns_to_judge, runs_to_judge};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
 use suite::suite;
 
-/// Violating cases that get a `repro/CASE.json`, the worst ones.
-const REPROS: usize = 20;
+/// Violating cases that get a `repro/CASE.json`, the worst ones; of every other `hairpin replay OUT --case` makes one.
+const REPROS: usize = 10;
 
 /// What judging came to.
 #[derive(Debug)]
@@ -41,6 +40,8 @@ pub struct Judgement {
     pub influences: Vec<Influence>,
     /// Cases of which a flight came without attitudes.
     pub attitude_unknown: usize,
+    /// Cases that are measured otherwise than when they were executed: of the rows that are kept.
+    pub from_rows: usize,
     /// Of arms: what every run did on every move.
     pub moves: Moves,
     /// Of arms with a baseline.
@@ -83,6 +84,14 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
         keep_changes(&work)?;
     }
     let judgement = judge_cases(&work, &cases, &tally, &[])?;
+    if judgement.from_rows > 0 {
+        told.push(format!(
+            "{} of {} cases were executed with another reference of deviations: they are measured of the rows that are kept, \
+             0.1 mm from what was flown",
+            judgement.from_rows,
+            cases.len()
+        ));
+    }
     Ok(Judged { work, cases, tally, judgement, told })
 }
 
@@ -106,6 +115,8 @@ struct JudgedCase {
     met: BTreeSet<usize>,
     /// Whether a flight came without attitudes.
     lacks_attitude: bool,
+    /// Whether it was measured of the rows that are kept.
+    from_rows: bool,
 }
 
 /// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did
@@ -116,11 +127,11 @@ pub(crate) fn judge_cases(
     tally: &Tally,
     replayed: &[Replayed],
 ) -> Result<Judgement, Problem> {
-    let table = work.folder.read_runs_table()?;
     let grid = Grid::of(&work.setup);
-    let judged = cases.par_iter().map(|case| judge_case(work, case, tally, (&grid, &table)));
+    let judged = cases.par_iter().map(|case| judge_case(work, case, tally, &grid));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
+    let from_rows = judged.iter().filter(|case| case.from_rows).count();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
     for case in judged {
         results.push(case.result);
@@ -141,16 +152,11 @@ pub(crate) fn judge_cases(
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
-    Ok(Judgement { results, verdict, influences, attitude_unknown, moves, regression, baseline })
+    Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline })
 }
 
-fn judge_case(
-    work: &Work,
-    case: &Case,
-    tally: &Tally,
-    (grid, table): (&Grid, &BTreeMap<(CaseNumber, usize), RunFacts>),
-) -> Result<JudgedCase, Problem> {
-    let runs = work.folder.read_runs(case.number, table)?;
+fn judge_case(work: &Work, case: &Case, tally: &Tally, grid: &Grid) -> Result<JudgedCase, Problem> {
+    let ToJudge { runs, from_rows } = runs_to_judge(work, case)?;
     if runs.is_empty() {
         return Err(Problem::input(format!(
             "case {} has not been executed: hairpin execute {}",
@@ -169,13 +175,13 @@ fn judge_case(
         result.reruns = reruns(work, case)?;
     }
     let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown) })
+    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown), from_rows })
 }
 
 /// How often the violation of `case` came again; `None` where it was not run again.
 fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
     let mut counted = Reruns { violated: 0, of: 0 };
-    let again = work.folder.read_reruns(case.number)?;
+    let again = reruns_to_judge(work, case)?;
     for run in &again {
         match campaign::judge(&work.setup, case, std::slice::from_ref(run))?.status {
             Status::Fail => (counted.violated, counted.of) = (counted.violated + 1, counted.of + 1),
@@ -218,6 +224,7 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
     }
     let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
     for result in violating.take(REPROS) {
+        atomic::make_folder(&folder)?;
         if let Some(case) = cases.iter().find(|case| case.number == result.case) {
             Repro::of(&work.setup, case, result).write(&folder.join(format!("{}.json", case.id())))?;
         }

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::report::violation;
 use hairpin::campaign::{Case, CaseResult, Shrunk};
+use hairpin_formats::atomic;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
 use crate::consent::Wish;
@@ -67,6 +68,7 @@ impl Shrinking {
         let Self { work, settings, began, case, result } = self;
         let of_folder = || work.folder.file(&format!("repro/{}-shrunk.json", case.id()));
         let target = settings.out.clone().unwrap_or_else(of_folder);
+        atomic::make_folder(&work.folder.file("repro"))?;
         let mut answers = Answers::take_up(work, case, result, settings, watch);
         let shrunk = answers.search(&work.setup, case, result)?;
         self.repro(&shrunk, answers.runs())?.write(&target)?;

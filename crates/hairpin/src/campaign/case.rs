@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::digits::percent_digits;
-use super::{CaseNumber, Environment};
+use super::{CaseNumber, Environment, FullRate};
 use crate::feasibility::reach::LegFeatures;
 use crate::judgement::{Measures, Share, Violation, share};
 use crate::trajectory::Drive;
@@ -252,6 +252,8 @@ pub struct Run {
     pub drawn: Vec<(String, serde_json::Value)>,
     /// What happened, or why the executor failed.
     pub outcome: Result<Flight, String>,
+    /// What was measured of it before rows were left out; `None` while all of its rows are there.
+    pub full_rate: Option<Box<FullRate>>,
 }
 
 /// The verdict on a case or run.

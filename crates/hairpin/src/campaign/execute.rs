@@ -54,8 +54,10 @@ pub(super) fn run_of(
     match mission {
         Ok(mission) => {
             let outcome = executor.fly(setup, case, &mission);
-            Run { case: case.number, run, drawn: mission.drawn, outcome }
+            Run { case: case.number, run, drawn: mission.drawn, outcome, full_rate: None }
         }
-        Err(mistake) => Run { case: case.number, run, drawn: Vec::new(), outcome: Err(mistake.to_string()) },
+        Err(mistake) => {
+            Run { case: case.number, run, drawn: Vec::new(), outcome: Err(mistake.to_string()), full_rate: None }
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! From runs to a case's result: measures, violations, and the worst run.
 
+use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::influence::RunDeviation;
-use super::scenario::{Asked, DeviationFrom};
+use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
-use crate::judgement::{self, JudgementError, Late, Measures, Reference, Settings, Violation};
+use crate::judgement::{self, Clearance, JudgementError, Late, Measures, Reference, Settings, Violation};
 use crate::trajectory::{Flight, PlannedPath, Track};
 
 /// The result of a case: its worst run. A run with a violation is worse than one without, a crash is worse than any
@@ -162,32 +163,25 @@ fn judge_run(
 ) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
     let around = setup.around(case)?;
     let setup = around.as_ref();
-    let drawn;
-    let own = if run.drawn.is_empty() {
-        setup
-    } else {
-        drawn = setup.drawn(&run.drawn)?;
-        &drawn
-    };
-    let mut terms = own.scenario.head().terms;
-    // Who asks for nothing does not ask for missions that are finished either.
-    terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
+    let Drawn { own, terms } = Drawn::of(setup, run)?;
     let programmed = plan.programmed.get_or_init(|| setup.kind().programs()?.programmed(case)).as_ref();
+    // Rows may have been left out since it was measured so; what is asked for otherwise is measured of those that stand.
+    let known = run.full_rate.as_ref().filter(|known| known.is_by(&terms));
     let path = match terms.from {
-        DeviationFrom::Path => plan.reference.get_or_init(|| reference(setup, case, programmed)).as_ref(),
-        DeviationFrom::Leg | DeviationFrom::NearestLeg => None,
+        DeviationFrom::Path if known.is_none() => {
+            plan.reference.get_or_init(|| reference(setup, case, programmed)).as_ref()
+        }
+        _ => None,
     };
-    let clearance = own.kind().clearance();
-    let settings = Settings {
-        reference: match (terms.from, path) {
-            (DeviationFrom::Path, Some(path)) => Reference::Path(path),
-            (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
-            _ => Reference::Leg,
-        },
-        corner: terms.corner,
-        clearance: clearance.as_deref(),
+    let measured = match known {
+        Some(known) => Ok(known.measures.clone()),
+        None => {
+            let clearance = own.kind().clearance();
+            let settings = settings(&terms, path, clearance.as_deref());
+            judgement::measure(&flight.track, &case.waypoints, &settings)
+        }
     };
-    Ok(judgement::measure(&flight.track, &case.waypoints, &settings).map(|mut measures| {
+    Ok(measured.map(|mut measures| {
         let programs = setup.kind().programs();
         let moves = programs.and_then(|programs| programs.measured(programmed?, &flight.track, path));
         measures.latest = moves.as_ref().and_then(latest);
@@ -216,8 +210,52 @@ fn judge_run(
     }))
 }
 
+/// What a run is judged by, with what was drawn for it.
+pub(super) struct Drawn<'a> {
+    /// The scenario that it was flown in.
+    pub(super) own: Cow<'a, Setup>,
+    pub(super) terms: Terms,
+}
+
+impl<'a> Drawn<'a> {
+    pub(super) fn of(setup: &'a Setup, run: &Run) -> Result<Self, Mistake> {
+        let own = match run.drawn.is_empty() {
+            true => Cow::Borrowed(setup),
+            false => Cow::Owned(setup.drawn(&run.drawn)?),
+        };
+        let mut terms = own.scenario.head().terms;
+        // Who asks for nothing does not ask for missions that are finished either.
+        terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
+        Ok(Self { own, terms })
+    }
+}
+
+/// Whether `run` is judged by what was measured of all of its rows, and not of those that were kept.
+///
+/// # Errors
+/// As [`judge`].
+pub fn is_at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Result<bool, Mistake> {
+    let Some(known) = &run.full_rate else { return Ok(false) };
+    let around = setup.around(case)?;
+    Ok(known.is_by(&Drawn::of(&around, run)?.terms))
+}
+
+/// How a run is measured by `terms`, from the `path` where they ask for it.
+pub(super) fn settings<'a>(
+    terms: &Terms,
+    path: Option<&'a Track>,
+    clearance: Option<&'a Clearance<'a>>,
+) -> Settings<'a> {
+    let reference = match (terms.from, path) {
+        (DeviationFrom::Path, Some(path)) => Reference::Path(path),
+        (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
+        _ => Reference::Leg,
+    };
+    Settings { reference, corner: terms.corner, clearance }
+}
+
 /// The motion that deviations from the path are measured from.
-fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
+pub(super) fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
     match setup.kind().programs() {
         Some(programs) => programs.reference(case, programmed),
         None => setup.kind().followed(case).ok(),

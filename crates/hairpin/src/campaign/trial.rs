@@ -174,7 +174,13 @@ impl Trials<'_> {
         if whole {
             flying.finish(&mut airborne).map_err(|_| flown)?;
         }
-        let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(airborne.so_far()) };
+        let run = Run {
+            case: CaseNumber::default(),
+            run: 0,
+            drawn: Vec::new(),
+            outcome: Ok(airborne.so_far()),
+            full_rate: None,
+        };
         let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
         Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
     }

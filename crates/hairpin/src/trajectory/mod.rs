@@ -14,6 +14,7 @@
 //! Everything is in SI and rad, poses are `world_from_body` (of arms `base_from_tcp`), waypoints and legs are numbered
 //! from 0 = start, leg k joins waypoints k and k + 1.
 
+pub mod bends;
 pub mod direction;
 pub mod drive;
 pub mod flight;
@@ -27,6 +28,7 @@ pub mod start_table;
 pub mod timing;
 pub mod track;
 
+pub use bends::{Tolerances, bends};
 pub use direction::Direction;
 pub use flight::{Ended, Flight};
 pub use legs::{Drive, DriveLeg, Passing};

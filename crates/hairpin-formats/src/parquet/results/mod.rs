@@ -5,7 +5,6 @@ mod read;
 mod write;
 
 use hairpin::campaign::{Case, CaseResult};
-use hairpin::judgement::measures::{AccelerationSource, LegSource};
 
 pub use read::read;
 pub use write::write;
@@ -25,18 +24,4 @@ pub struct Row {
     pub length: usize,
     /// `None`: generated, not judged.
     pub result: Option<CaseResult>,
-}
-
-fn leg_source_word(source: LegSource) -> &'static str {
-    match source {
-        LegSource::Executor => "executor",
-        LegSource::Assigned => "assigned",
-    }
-}
-
-fn acceleration_source_word(source: AccelerationSource) -> &'static str {
-    match source {
-        AccelerationSource::Velocity => "velocity",
-        AccelerationSource::Position => "position",
-    }
 }

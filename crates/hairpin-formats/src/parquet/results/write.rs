@@ -1,17 +1,19 @@
 //! The columns of `results.parquet`, in their order.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray, UInt64Array};
 use hairpin::campaign::{Case, CaseResult, Draws, Reruns};
+use hairpin::judgement::Share;
 use hairpin::judgement::Violation;
-use hairpin::judgement::{LegMeasures, Measures, Share};
 
 use super::super::drawn;
+use super::super::measures;
 use super::super::table::Columns;
-use super::{CONFIDENCE, GENERATED, acceleration_source_word, leg_source_word};
+use super::{CONFIDENCE, GENERATED};
 use crate::atomic::WriteError;
 
 /// Writes one row per case; `results` may be missing for cases that were not judged, and stands in any order.
@@ -19,12 +21,17 @@ use crate::atomic::WriteError;
 /// # Errors
 /// The file cannot be written.
 pub fn write(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), WriteError> {
+    let results: BTreeMap<_, _> = results.iter().rev().map(|result| (result.case, result)).collect();
     let rows: Vec<(&Case, Option<&CaseResult>)> =
-        cases.iter().map(|case| (case, results.iter().find(|result| result.case == case.number))).collect();
+        cases.iter().map(|case| (case, results.get(&case.number).copied())).collect();
+    let measured: Vec<_> = rows.iter().map(|(_, result)| result.and_then(|r| r.measures.as_ref())).collect();
+    let measured = measures::columns(&measured);
     let mut columns = Columns::default();
-    push_contract(&mut columns, &rows);
-    push_rest(&mut columns, &rows);
-    push_legs(&mut columns, &rows);
+    push_contract(&mut columns, &rows, &measured);
+    push_rest(&mut columns, &rows, &measured);
+    for name in OF_LEGS {
+        push_measured(&mut columns, &measured, name);
+    }
     push_violations(&mut columns, &rows);
     let drawn: Vec<_> = rows.iter().map(|(_, result)| result.map_or(&[][..], |r| r.drawn.as_slice())).collect();
     drawn::push(&mut columns, &drawn);
@@ -33,57 +40,47 @@ pub fn write(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), 
 
 type Rows<'a> = [(&'a Case, Option<&'a CaseResult>)];
 
-fn push_contract(columns: &mut Columns, rows: &Rows) {
+fn push_contract(columns: &mut Columns, rows: &Rows, measured: &Measured) {
     let case_texts = |value: &dyn Fn(&Case) -> String| texts(rows.iter().map(|(case, _)| Some(value(case))));
-    let measured = |value: &dyn Fn(&Measures) -> Option<f64>| measured(rows, value);
     columns.push("case", case_texts(&Case::id));
     columns.push("seed", Arc::new(rows.iter().map(|(case, _)| case.seed).collect::<UInt64Array>()));
     columns.push("status", texts(rows.iter().map(|(_, r)| Some(r.map_or(GENERATED, |r| r.status.word()).into()))));
     columns.push("evidence", case_texts(&|case| case.evidence.word().into()));
     columns.push("length", integers(rows.iter().map(|(case, _)| Some(case.waypoints.len()))));
     columns.push("score", numbers(rows.iter().map(|(case, _)| Some(case.score))));
-    columns.push("max_deviation_m", measured(&|m| Some(m.max_deviation)));
-    columns.push("mean_deviation_m", measured(&|m| Some(m.mean_deviation)));
-    columns.push("t_worst_s", measured(&|m| Some(m.t_worst)));
-    let leg_worst = |(_, result): &(_, Option<&CaseResult>)| result.and_then(|r| Some(r.measures.as_ref()?.leg_worst));
-    columns.push("leg_worst", integers(rows.iter().map(leg_worst)));
-    columns.push("max_acceleration_m_s2", measured(&|m| Some(m.max_acceleration)));
-    columns.push("total_time_s", measured(&|m| Some(m.total_time)));
-    columns.push("min_clearance_m", measured(&|m| m.min_clearance));
-    columns.push("saturation_share", measured(&|m| m.saturation_share));
+    push_measured(columns, measured, "max_deviation_m");
+    push_measured(columns, measured, "mean_deviation_m");
+    push_measured(columns, measured, "t_worst_s");
+    push_measured(columns, measured, "leg_worst");
+    push_measured(columns, measured, "max_acceleration_m_s2");
+    push_measured(columns, measured, "total_time_s");
+    push_measured(columns, measured, "min_clearance_m");
+    push_measured(columns, measured, "saturation_share");
     columns.push("ended", texts(rows.iter().map(|(_, result)| result.map(|r| r.ended.clone()))));
 }
 
-fn push_rest(columns: &mut Columns, rows: &Rows) {
+fn push_rest(columns: &mut Columns, rows: &Rows, measured: &Measured) {
     let gap =
         |case: &Case| case.bound.filter(|_| case.score != 0.0).map(|b| 100.0 * (b - case.score) / case.score.abs());
     columns.push("run", integers(rows.iter().map(|(_, result)| result.map(|r| r.run))));
     columns.push("bound", numbers(rows.iter().map(|(case, _)| case.bound)));
     columns.push("gap_percent", numbers(rows.iter().map(|(case, _)| gap(case))));
     columns.push("certified", texts(rows.iter().map(|(case, _)| case.certified.map(str::to_owned))));
-    columns.push("max_overshoot_m", measured(rows, &|m| Some(m.max_overshoot())));
-    columns.push("max_speed_rate_m_s2", measured(rows, &|m| Some(m.max_speed_rate)));
-    columns.push("t_acceleration_s", measured(rows, &|m| Some(m.t_acceleration)));
-    columns.push("t_overshoot_s", measured(rows, &|m| Some(m.t_overshoot)));
-    columns.push("t_clearance_s", measured(rows, &|m| Some(m.t_clearance)));
-    columns.push("min_tip_over_margin_deg", measured(rows, &|m| m.min_tip_over_margin));
-    let when = |m: &Measures| m.min_tip_over_margin.map(|_| m.t_tip_over_margin);
-    columns.push("t_tip_over_margin_s", measured(rows, &when));
-    columns.push("max_tilt_deg", measured(rows, &|m| m.max_tilt));
-    columns.push("t_tilt_s", measured(rows, &|m| m.max_tilt.map(|_| m.t_tilt)));
-    if has_joints(rows) {
-        columns.push("joint_effort_rad2_s3", measured(rows, &|m| m.joint_effort));
+    push_measured(columns, measured, "max_overshoot_m");
+    push_measured(columns, measured, "max_speed_rate_m_s2");
+    push_measured(columns, measured, "t_acceleration_s");
+    push_measured(columns, measured, "t_overshoot_s");
+    push_measured(columns, measured, "t_clearance_s");
+    push_measured(columns, measured, "min_tip_over_margin_deg");
+    push_measured(columns, measured, "t_tip_over_margin_s");
+    push_measured(columns, measured, "max_tilt_deg");
+    push_measured(columns, measured, "t_tilt_s");
+    push_measured(columns, measured, "joint_effort_rad2_s3");
+    push_measured(columns, measured, "max_late_s");
+    push_measured(columns, measured, "t_late_s");
+    for name in ["leg_late", "leg_source", "acceleration_source"] {
+        push_measured(columns, measured, name);
     }
-    columns.push("max_late_s", measured(rows, &|m| m.latest.map(|late| late.by)));
-    columns.push("t_late_s", measured(rows, &|m| m.latest.map(|late| late.at)));
-    let leg_late = rows.iter().map(|(_, result)| Some(result.as_ref()?.measures.as_ref()?.latest?.leg));
-    columns.push("leg_late", integers(leg_late));
-    let measures = |result: Option<&CaseResult>| result.and_then(|r| r.measures.clone());
-    let words = |word: fn(&Measures) -> &'static str| {
-        texts(rows.iter().map(|(_, result)| measures(*result).map(|m| word(&m).into())))
-    };
-    columns.push("leg_source", words(|m| leg_source_word(m.leg_source)));
-    columns.push("acceleration_source", words(|m| acceleration_source_word(m.acceleration_source)));
     columns.push("left_world_s", numbers(rows.iter().map(|(_, result)| result.and_then(|r| r.left_world))));
     columns.push("graph", Arc::new(rows.iter().map(|(case, _)| case.graph).collect::<UInt64Array>()));
     let again = |value: fn(&Reruns) -> usize| {
@@ -114,28 +111,28 @@ fn push_rest(columns: &mut Columns, rows: &Rows) {
     columns.push("message", texts(rows.iter().map(|(_, result)| result.and_then(|r| r.message.clone()))));
 }
 
-/// Whether any run told its joints.
-fn has_joints(rows: &Rows) -> bool {
-    let told = |result: &CaseResult| result.measures.as_ref().is_some_and(|m| m.joint_effort.is_some());
-    rows.iter().any(|(_, result)| result.is_some_and(told))
-}
+/// What was measured, leg by leg.
+const OF_LEGS: [&str; 11] = [
+    "overshoots_m",
+    "leg_max_deviation_m",
+    "leg_mean_deviation_m",
+    "leg_max_acceleration_m_s2",
+    "leg_time_s",
+    "leg_overshoot_m",
+    "leg_min_clearance_m",
+    "leg_min_tip_over_margin_deg",
+    "leg_max_tilt_deg",
+    "leg_saturation_share",
+    "leg_joint_effort_rad2_s3",
+];
 
-fn push_legs(columns: &mut Columns, rows: &Rows) {
-    let per_leg = |value: fn(&LegMeasures) -> Option<f64>| {
-        lists(rows, &move |m: &Measures| m.legs.iter().map(value).collect::<Vec<_>>())
-    };
-    columns.push("overshoots_m", lists(rows, &|m: &Measures| m.overshoots.iter().copied().map(Some).collect()));
-    columns.push("leg_max_deviation_m", per_leg(|leg| Some(leg.max_deviation)));
-    columns.push("leg_mean_deviation_m", per_leg(|leg| Some(leg.mean_deviation)));
-    columns.push("leg_max_acceleration_m_s2", per_leg(|leg| Some(leg.max_acceleration)));
-    columns.push("leg_time_s", per_leg(|leg| Some(leg.time)));
-    columns.push("leg_overshoot_m", per_leg(|leg| Some(leg.overshoot)));
-    columns.push("leg_min_clearance_m", per_leg(|leg| leg.min_clearance));
-    columns.push("leg_min_tip_over_margin_deg", per_leg(|leg| leg.min_tip_over_margin));
-    columns.push("leg_max_tilt_deg", per_leg(|leg| leg.max_tilt));
-    columns.push("leg_saturation_share", per_leg(|leg| leg.saturation_share));
-    if has_joints(rows) {
-        columns.push("leg_joint_effort_rad2_s3", per_leg(|leg| leg.joint_effort));
+/// Columns of what was measured, by name.
+type Measured = [(&'static str, ArrayRef)];
+
+/// Appends one of them, where it is there.
+fn push_measured(columns: &mut Columns, measured: &Measured, name: &str) {
+    if let Some((name, column)) = measured.iter().find(|(known, _)| *known == name) {
+        columns.push(*name, column.clone());
     }
 }
 
@@ -163,10 +160,6 @@ fn violations_text(result: &CaseResult) -> String {
     result.violations.iter().map(hairpin::campaign::report::violation).collect::<Vec<_>>().join("; ")
 }
 
-fn measured(rows: &Rows, value: &dyn Fn(&Measures) -> Option<f64>) -> ArrayRef {
-    numbers(rows.iter().map(|(_, result)| result.and_then(|r| r.measures.as_ref()).and_then(value)))
-}
-
 fn numbers(values: impl Iterator<Item = Option<f64>>) -> ArrayRef {
     Arc::new(values.collect::<Float64Array>())
 }
@@ -177,10 +170,6 @@ fn integers(values: impl Iterator<Item = Option<usize>>) -> ArrayRef {
 
 fn texts(values: impl Iterator<Item = Option<String>>) -> ArrayRef {
     Arc::new(values.collect::<StringArray>())
-}
-
-fn lists(rows: &Rows, value: &dyn Fn(&Measures) -> Vec<Option<f64>>) -> ArrayRef {
-    number_lists(rows.iter().map(|(_, result)| result.and_then(|r| r.measures.as_ref()).map(value)))
 }
 
 fn number_lists(lists: impl Iterator<Item = Option<Vec<Option<f64>>>>) -> ArrayRef {

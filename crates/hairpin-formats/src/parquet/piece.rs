@@ -1,0 +1,102 @@
+//! A piece: the rows of one case or run, packed as they will stand in a part of a table, a row group of its own.
+
+use std::io;
+use std::sync::Arc;
+
+use ::parquet::arrow::ArrowWriter;
+use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
+use ::parquet::basic::{Compression, ZstdLevel};
+use ::parquet::file::properties::EnabledStatistics;
+use ::parquet::schema::types::ColumnPath;
+use arrow_array::{RecordBatch, new_null_array};
+use arrow_cast::cast;
+use arrow_schema::{DataType, Field, Schema};
+use bytes::Bytes;
+
+use super::table::{CASE, Columns, RUN, decode_groups_of, io_error, properties};
+
+/// The rows of one case or run, packed.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// A Parquet file of one row group.
+    pub(super) bytes: Bytes,
+    /// Its columns.
+    pub(super) fields: Arc<[Field]>,
+    /// Time between the samples of which only some rows are there, s.
+    pub(super) period: Option<f64>,
+}
+
+impl Piece {
+    pub(super) fn of(columns: Columns) -> io::Result<Self> {
+        Self::of_batch(&columns.into_batch(), None)
+    }
+
+    /// The rows of a motion, sampled every `period` s, of which only some are there.
+    pub(super) fn thinned(columns: Columns, period: Option<f64>) -> io::Result<Self> {
+        Self::of_batch(&columns.into_batch(), period)
+    }
+
+    pub(super) fn of_batch(batch: &RecordBatch, period: Option<f64>) -> io::Result<Self> {
+        let schema = batch.schema();
+        let mut builder = properties(&schema)
+            .set_statistics_enabled(EnabledStatistics::None)
+            .set_compression(Compression::ZSTD(ZstdLevel::default()));
+        for key in [CASE, RUN] {
+            // What tells one piece from another without reading it.
+            builder =
+                builder.set_column_statistics_enabled(ColumnPath::new(vec![key.into()]), EnabledStatistics::Chunk);
+        }
+        let builder = builder.set_offset_index_disabled(true);
+        let mut writer = ArrowWriter::try_new(Vec::new(), schema.clone(), Some(builder.build())).map_err(io_error)?;
+        writer.write(batch).map_err(io_error)?;
+        let bytes = writer.into_inner().map_err(io_error)?.into();
+        let fields = schema.fields().iter().map(|field| field.as_ref().clone()).collect();
+        Ok(Self { bytes, fields, period })
+    }
+
+    pub(super) fn metadata(&self) -> io::Result<ArrowReaderMetadata> {
+        ArrowReaderMetadata::load(&self.bytes, ArrowReaderOptions::new()).map_err(io_error)
+    }
+
+    /// The same with the columns `fields`: numbers in other widths, and columns that it has not empty.
+    pub(super) fn with_fields(&self, fields: &Arc<[Field]>) -> io::Result<Self> {
+        if self.fields == *fields {
+            return Ok(self.clone());
+        }
+        let batch = decode_groups_of(&self.bytes, &self.metadata()?).map_err(io::Error::other)?;
+        let column = |field: &Field| match batch.column_by_name(field.name()) {
+            Some(column) => cast(column, field.data_type()).map_err(io::Error::other),
+            None => Ok(new_null_array(field.data_type(), batch.num_rows())),
+        };
+        let columns = fields.iter().map(column).collect::<io::Result<Vec<_>>>()?;
+        let schema = Arc::new(Schema::new(fields.to_vec()));
+        let batch = RecordBatch::try_new(schema, columns).map_err(io::Error::other)?;
+        Self::of_batch(&batch, self.period)
+    }
+}
+
+/// The columns of all that `pieces` have, by first appearance; where their types differ, floating-point numbers.
+pub(super) fn union<'a>(pieces: impl Iterator<Item = &'a Arc<[Field]>>) -> Arc<[Field]> {
+    let mut all: Option<Vec<Field>> = None;
+    let mut before: Option<&Arc<[Field]>> = None;
+    for fields in pieces {
+        if before.is_some_and(|before| Arc::ptr_eq(before, fields) || before == fields) {
+            continue;
+        }
+        before = Some(fields);
+        let Some(all) = &mut all else {
+            all = Some(fields.to_vec());
+            continue;
+        };
+        for field in fields.iter() {
+            match all.iter_mut().find(|known| known.name() == field.name()) {
+                None => all.push(field.clone()),
+                Some(known) if known.data_type() != field.data_type() && known.data_type().is_numeric() => {
+                    *known = Field::new(known.name(), DataType::Float64, true);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    all.unwrap_or_default().into()
+}
