@@ -1,11 +1,10 @@
 //! A few of many cases, in a campaign folder of their own.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
-use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
 
 use crate::consent::{Consent, Wish};

@@ -227,7 +227,7 @@ impl Flatness {
         let [d0, d1, d2] = self.drag(&flat.velocity, &flat.acceleration, &flat.jerk, speed);
         let m = self.mass;
         let [fx, fy, fz] =
-            unrolled!(|i| { flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 }) });
+            unrolled!(|i| flat.acceleration[i] * m + d0[i] + N::constant(if i == 2 { self.weight() } else { 0.0 }));
         let [dx, dy, dz] = unrolled!(|i| flat.jerk[i] * m + d1[i]);
         let [ddx, ddy, ddz] = unrolled!(|i| flat.snap[i] * m + d2[i]);
 
