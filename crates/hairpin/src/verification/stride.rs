@@ -278,6 +278,10 @@ impl<T: Terrain> Stretch<'_, T> {
             return Ok(());
         }
         let middle = self.look_between([from, to], 0.5 * (from.s + to.s), taken)?;
+        // Looks that are out of turn may find rests that the way does not lead to.
+        if foreseen(&[from.clone(), to.clone()], middle.s).apart(&middle.rest) > FELL {
+            return Ok(());
+        }
         let between = tilt(&middle.rest);
         followed.max_tilt = followed.max_tilt.max(between);
         let changes = (between - first).abs().max((last - between).abs());
