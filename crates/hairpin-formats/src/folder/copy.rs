@@ -43,9 +43,7 @@ impl CampaignFolder {
     fn copy_runs(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
         let mut keys = Vec::new();
         for &case in cases {
-            let known = self.facts_of(case)?.into_iter().map(|facts| facts.run);
-            let in_files = (0..).take_while(|run| self.run_path(case, *run).exists());
-            keys.extend(known.chain(in_files).collect::<BTreeSet<usize>>().into_iter().map(|run| (case, run)));
+            keys.extend(self.facts_of(case)?.into_iter().map(|facts| (case, facts.run)));
         }
         let repeat = keys.iter().map(|(_, run)| run + 1).max().unwrap_or_default();
         let writer = there.write_runs(repeat, keys.iter().copied());

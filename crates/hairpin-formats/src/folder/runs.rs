@@ -85,7 +85,14 @@ impl CampaignFolder {
     /// # Errors
     /// A file is broken.
     pub fn facts_of(&self, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
-        self.facts_in(RUNS, case)
+        let mut known = self.facts_in(RUNS, case)?;
+        // A file per run says it of its own.
+        let in_files = (0..).take_while(|run| self.run_path(case, *run).exists());
+        for run in in_files.filter(|run| known.iter().all(|facts| facts.run != *run)).collect::<Vec<usize>>() {
+            known.extend(runs::read_run(&self.run_path(case, run))?.1);
+        }
+        known.sort_by_key(|facts| facts.run);
+        Ok(known)
     }
 
     /// The same of the runs of `case` that were flown again, by the number of the time.
@@ -141,7 +148,7 @@ impl CampaignFolder {
     /// # Errors
     /// As [`Self::read_runs`].
     pub fn read_measured(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
-        let known = self.facts_of(case)?;
+        let known = self.facts_in(RUNS, case)?;
         let is_known = |facts: &RunFacts| facts.full_rate.is_some() || facts.message.is_some();
         let in_files = self.run_path(case, 0).exists() || self.run_path(case, known.len()).exists();
         if known.is_empty() || in_files || !known.iter().all(is_known) {

@@ -155,10 +155,10 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
 fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
     let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0 };
     for case in cases {
-        for run in work.folder.read_measured(case.number)?.iter().filter(|run| run.run < repeat) {
+        for facts in work.folder.facts_of(case.number)?.iter().filter(|facts| facts.run < repeat) {
             flown.runs += 1;
-            flown.failed += usize::from(run.outcome.is_err());
-            flown.attitude_unknown += usize::from(attitude_unknown(run));
+            flown.failed += usize::from(facts.message.is_some());
+            flown.attitude_unknown += usize::from(facts.attitude_unknown);
         }
     }
     Ok(flown)
