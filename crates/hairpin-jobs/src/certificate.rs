@@ -3,7 +3,7 @@
 //!
 //! `{"kind","points","start","end","path","cost","scale","directed","steps","sha256"}`: costs in whole numbers (a
 //! table's times the power of ten that makes them whole); a step is `[multipliers, out, into, next]`, next `[]`
-//! (closed), `[step]` or `[choice, step with it out, step with it in]`. Where points may come several times `visits`
+//! (closed), `[step]` or `[choice, step with it out, step with it in]`; where it prices cuts, `[[price, except, points], …]` is its fifth part. Where points may come several times `visits`
 //! stands in the place of scale and directed, and a step is `[prices]`, whose bound closes it, or `[prices, points,
 //! without, [[from, to, step], …]]`: a path meets none of the points (step `without`, `null` where it must), or one of
 //! the arcs leads it out of them, to number `points` where it ends. sha256 is of the object without it. Where moves may
@@ -12,7 +12,7 @@
 
 use hairpin::search::heaviest::{Ends, Heaviest, Next, Step, WalkProof, WalkStep};
 use hairpin::verification::{
-    HeaviestClaim, NextClaim, SplitClaim, StepClaim, TreeClaim, TriplesClaim, WalkClaim, WalkStepClaim,
+    CutClaim, HeaviestClaim, NextClaim, SplitClaim, StepClaim, TreeClaim, TriplesClaim, WalkClaim, WalkStepClaim,
     verify_heaviest, verify_triples, verify_walk,
 };
 use hairpin_formats::checksum;
@@ -103,7 +103,11 @@ fn path_step(step: &Step) -> Value {
         Next::Again(step) => json!([step]),
         Next::Branch { choice, out, into } => json!([choice, out, into]),
     };
-    json!([step.multipliers, step.out, step.into, next])
+    let mut parts = json!([step.multipliers, step.out, step.into, next]);
+    if let (Value::Array(parts), false) = (&mut parts, step.cuts.is_empty()) {
+        parts.push(step.cuts.iter().map(|cut| json!([cut.price, cut.except, cut.points])).collect());
+    }
+    parts
 }
 
 fn walk_step(step: &WalkStep) -> Value {
@@ -116,8 +120,16 @@ fn walk_step(step: &WalkStep) -> Value {
 fn path_claim(object: &Value, costs: Vec<Option<i64>>) -> Option<HeaviestClaim> {
     let step = |value: &Value| {
         let numbers = |value: &Value| value.as_array()?.iter().map(Value::as_u64).collect::<Option<Vec<_>>>();
+        let cut = |cut: &Value| {
+            Some(CutClaim { price: cut[0].as_i64()?, except: index(&cut[1])?, points: indices(&cut[2])? })
+        };
+        let cuts = match value.get(4) {
+            Some(cuts) => cuts.as_array()?.iter().map(cut).collect::<Option<_>>()?,
+            None => Vec::new(),
+        };
         Some(StepClaim {
             multipliers: integers(&value[0])?,
+            cuts,
             out: numbers(&value[1])?,
             into: numbers(&value[2])?,
             next: match indices(&value[3])?[..] {

@@ -1,8 +1,8 @@
 //! Proofs of heaviest paths hold for another program, and break when anything of them is changed.
 
 use hairpin::math::random::{named_seed, stream, unit};
-use hairpin::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Method, Next, Workspace, heaviest};
-use hairpin::verification::{HeaviestClaim, NextClaim, StepClaim, TreeClaim, verify_heaviest};
+use hairpin::search::heaviest::{Arcs, Ends, Heaviest, HeaviestSettings, Method, Next, PricedCut, Workspace, heaviest};
+use hairpin::verification::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim, verify_heaviest};
 
 /// A random table: sparse to dense, directed or not.
 fn table(seed: u64, n: usize, density: f64, directed: bool) -> Arcs {
@@ -28,6 +28,10 @@ fn claim(arcs: &Arcs, found: &Heaviest) -> HeaviestClaim {
         Next::Again(step) => NextClaim::Again(step),
         Next::Branch { choice, out, into } => NextClaim::Branch { choice, out, into },
     };
+    let cut = |cut: &PricedCut| {
+        let PricedCut { points, except, price } = cut.clone();
+        CutClaim { points, except, price }
+    };
     let tree = found.proof.as_ref().map(|proof| TreeClaim {
         scale: proof.scale,
         directed: proof.directed,
@@ -36,6 +40,7 @@ fn claim(arcs: &Arcs, found: &Heaviest) -> HeaviestClaim {
             .iter()
             .map(|step| StepClaim {
                 multipliers: step.multipliers.clone(),
+                cuts: step.cuts.iter().map(cut).collect(),
                 out: step.out.clone(),
                 into: step.into.clone(),
                 next: next(&step.next),
@@ -142,4 +147,37 @@ fn clusters_are_proven_with_few_splits_and_the_proof_holds() {
         assert!(found.proven, "{index}: {:?}", found.gap_percent());
         assert_eq!(verify_heaviest(&claim(&arcs, &found)), [], "{index}");
     }
+}
+
+/// Clusters of which two reach each other only past others: trees alone take half of one and half of another path for more than
+/// either.
+#[test]
+fn what_cuts_prove_holds_and_fails_with_a_cut_changed() {
+    let mut cut = 0;
+    for index in 0..12 {
+        let workspace = Workspace::PUBLISHED;
+        let arcs = workspace.arcs(&workspace.clustered(24, 4, 0.01, named_seed(5, "cut", index))).unwrap();
+        let found =
+            heaviest(&arcs, &HeaviestSettings { proof: true, most_nodes: Some(200), ..Default::default() }, &|| false);
+        let found = found.unwrap();
+        if !found.proven {
+            continue;
+        }
+        let claim = claim(&arcs, &found);
+        assert_eq!(verify_heaviest(&claim), [], "{index}");
+        let tree = claim.tree.as_ref().unwrap();
+        let Some(step) = tree.steps.iter().rposition(|step| !step.cuts.is_empty()) else { continue };
+        cut += 1;
+        let wrong = |change: &dyn Fn(&mut CutClaim)| {
+            let mut claim = claim.clone();
+            change(&mut claim.tree.as_mut().unwrap().steps[step].cuts[0]);
+            assert!(!verify_heaviest(&claim).is_empty(), "{index}");
+        };
+        wrong(&|cut| cut.price = -1);
+        wrong(&|cut| cut.points.push(24));
+        wrong(&|cut| cut.points.push(cut.points[0]));
+        wrong(&|cut| cut.points.retain(|point| *point != cut.except));
+        wrong(&|cut| cut.price += 1 << 45);
+    }
+    assert!(cut > 0, "no proof needed a cut");
 }

@@ -5,6 +5,7 @@
 //! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again.
 //! Where there is no tree of steps, the heaviest path is searched again, backwards over subsets.
 
+use super::heaviest_bound::Prices;
 use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
 
 /// A path and what proves it.
@@ -60,12 +61,27 @@ pub struct TreeClaim {
 pub struct StepClaim {
     /// One a point, and one for starts.
     pub multipliers: Vec<i64>,
+    /// Priced cuts; of undirected arcs alone.
+    pub cuts: Vec<CutClaim>,
     /// Must be out: with it in, the bound is too small.
     pub out: Vec<u64>,
     /// Must be in: with it out, the bound is too small.
     pub into: Vec<u64>,
     /// What follows.
     pub next: NextClaim,
+}
+
+/// A price for: of a set of points and one of them, arcs inside the set and points of it that are left out, that one aside, are together
+/// fewer than the set's points. Every path keeps to it: one that meets the point has fewer arcs there than points that it meets; of
+/// one that does not, the point itself is left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CutClaim {
+    /// The set.
+    pub points: Vec<usize>,
+    /// The point of it that does not count as left out.
+    pub except: usize,
+    /// At least 0, in units of cost / scale.
+    pub price: i64,
 }
 
 /// What follows a step.
@@ -233,14 +249,11 @@ fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
 
 /// What a step leaves of a problem; `None` if nothing.
 fn check_step(layout: &Layout<'_>, cost: i64, step: &StepClaim, chosen: Chosen) -> Result<Option<Chosen>, String> {
-    let n = layout.points;
-    if step.multipliers.len() != n + 1 || step.multipliers.iter().any(|m| m.unsigned_abs() > 1 << 60) {
-        return Err(format!("{} multipliers, or one beyond 60 bits", step.multipliers.len()));
-    }
+    let prices = Prices::of(layout, step)?;
     let threshold = (i128::from(cost) + 1) * i128::from(layout.scale);
     let Some(mut chosen) = chosen.closed(layout) else { return Ok(None) };
     let below = |probe: Option<(usize, u8)>| {
-        super::heaviest_bound::bound(layout, &chosen, &step.multipliers, probe).is_none_or(|bound| bound < threshold)
+        super::heaviest_bound::bound(layout, &chosen, &prices, probe).is_none_or(|bound| bound < threshold)
     };
     if below(None) {
         return Ok(None);

@@ -5,7 +5,54 @@
 //! Slow on purpose: O(n²) for a tree, O(n³) for an arborescence, whatever the table, without the search's keys, orders
 //! or warm starts.
 
+use super::heaviest::{CutClaim, StepClaim};
 use super::heaviest_choices::{Chosen, IN, Layout, OUT};
+
+/// What a step prices: degrees, and cuts.
+pub(super) struct Prices<'a> {
+    multipliers: &'a [i64],
+    /// What cuts take from each choice, by number; nothing where there are none.
+    taken: Vec<i128>,
+    /// What they add.
+    room: i128,
+}
+
+impl<'a> Prices<'a> {
+    /// In words what is wrong with them.
+    pub(super) fn of(layout: &Layout<'_>, step: &'a StepClaim) -> Result<Self, String> {
+        let (n, multipliers) = (layout.points, &step.multipliers[..]);
+        if multipliers.len() != n + 1 || multipliers.iter().any(|m| m.unsigned_abs() > 1 << 60) {
+            return Err(format!("{} multipliers, or one beyond 60 bits", multipliers.len()));
+        }
+        let (mut taken, mut room) = (Vec::new(), 0);
+        for CutClaim { points, except, price } in &step.cuts {
+            let increasing = points.windows(2).all(|pair| pair[0] < pair[1]);
+            let those_there_are = points.last().is_some_and(|last| *last < n);
+            if layout.directed
+                || !(0..=1 << 60).contains(price)
+                || !increasing
+                || !those_there_are
+                || !points.contains(except)
+            {
+                return Err(format!("a cut of {} points at {price} is none", points.len()));
+            }
+            let price = i128::from(*price);
+            taken.resize(layout.len(), 0);
+            room += price * (points.len() as i128 - 1);
+            for (at, point) in points.iter().enumerate() {
+                points[at + 1..].iter().for_each(|other| taken[layout.arc(*point, *other)] += price);
+                if point != except {
+                    taken[layout.looped(*point)] += price;
+                }
+            }
+        }
+        Ok(Self { multipliers, taken, room })
+    }
+
+    fn taken(&self, choice: usize) -> i128 {
+        self.taken.get(choice).copied().unwrap_or(0)
+    }
+}
 
 /// No path that keeps the choices (and the probe) costs more, scaled; `None` if there is none.
 ///
@@ -14,10 +61,10 @@ use super::heaviest_choices::{Chosen, IN, Layout, OUT};
 pub(super) fn bound(
     layout: &Layout<'_>,
     chosen: &Chosen,
-    multipliers: &[i64],
+    prices: &Prices<'_>,
     probe: Option<(usize, u8)>,
 ) -> Option<i128> {
-    let n = layout.points;
+    let (n, multipliers) = (layout.points, prices.multipliers);
     let state = |choice: usize| match probe {
         Some((probed, state)) if probed == choice => state,
         _ => chosen.state[choice],
@@ -31,31 +78,29 @@ pub(super) fn bound(
     }?;
     let times = if layout.directed { 1 } else { 2 };
     let constant: i128 = (0..n).map(|point| times * price(point)).sum::<i128>() + price(n);
-    let hung = if layout.directed {
-        arborescence(layout, multipliers, &state, probe)?
-    } else {
-        tree(layout, multipliers, &state)?
-    };
-    Some(constant + hung + end)
+    let hung =
+        if layout.directed { arborescence(layout, multipliers, &state, probe)? } else { tree(layout, prices, &state)? };
+    Some(constant + prices.room + hung + end)
 }
 
 /// The heaviest spanning tree with all that is in.
 ///
 /// Prim over n + 1 points, the dummy being n: what is in comes first, then the heaviest. `None` where the points do not
 /// hang together, or what is in closes a circle. O(n²).
-fn tree(layout: &Layout<'_>, multipliers: &[i64], state: &dyn Fn(usize) -> u8) -> Option<i128> {
+fn tree(layout: &Layout<'_>, prices: &Prices<'_>, state: &dyn Fn(usize) -> u8) -> Option<i128> {
     let n = layout.points;
-    let price = |point: usize| i128::from(multipliers[point]);
+    let price = |point: usize| i128::from(prices.multipliers[point]);
     // Chosen ones first, then by weight.
     let weigh = |choice: usize, weight: i128| (state(choice) != OUT).then(|| (state(choice) == IN, weight));
     let between = |a: usize, b: usize| {
         let (a, b) = (a.min(b), a.max(b));
         if b == n {
             let start = weigh(layout.start(a), -price(a) - price(n));
-            return start.max(weigh(layout.looped(a), -2 * price(a)));
+            let looped = layout.looped(a);
+            return start.max(weigh(looped, -2 * price(a) - prices.taken(looped)));
         }
         let arc = layout.arc(a, b);
-        weigh(arc, layout.cost(arc)? - price(a) - price(b))
+        weigh(arc, layout.cost(arc)? - price(a) - price(b) - prices.taken(arc))
     };
     let mut reach: Vec<Option<(bool, i128)>> = (0..n).map(|point| between(point, n)).collect();
     let mut inside = vec![false; n];

@@ -71,7 +71,9 @@ pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
 pub use ground::{GroundReplay, Stopped, replay_ground};
 pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
-pub use heaviest::{HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest};
+pub use heaviest::{
+    CutClaim, HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest,
+};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;

@@ -15,9 +15,12 @@ const MOMENTUM: f64 = 0.3;
 /// Choices looked at between two questions whether to stop.
 const LOOKED_AT: usize = 1 << 17;
 
+/// Limits below leave room for the sums of all prices, whose number `cuts` bounds.
+const SMALL: i64 = 1 << 35;
+
 /// Multipliers, the best so far, and what relaxed solutions had in common.
 ///
-/// One λ a point and one for the start, all in units of the scaled costs.
+/// One λ a point and one for the start, then a price for each cut, all in units of the scaled costs.
 pub(super) struct Ascent {
     /// The best multipliers, and their bound.
     pub(super) best: Vec<i64>,
@@ -26,6 +29,8 @@ pub(super) struct Ascent {
     /// How often each choice was in the late relaxed solutions.
     pub(super) often: Vec<f64>,
     weight: f64,
+    /// Share of each choice in a mean of relaxed solutions, where one is formed ([`Ascent::mean`]).
+    pub(super) shares: Vec<f64>,
     /// Where the multipliers are now: points, then the start.
     pub(super) at: Vec<i64>,
     /// Arcs too many at `at`, of each point and the start: a subgradient of L.
@@ -71,6 +76,7 @@ impl Ascent {
             bound: i64::MAX,
             often: vec![0.0; choices.len()],
             weight: 1.0,
+            shares: Vec::new(),
             at: vec![0; choices.points + 1],
             excess: vec![0; choices.points + 1],
             step: vec![0.0; choices.points + 1],
@@ -123,21 +129,25 @@ impl Ascent {
             for ((at, step), excess) in self.at.iter_mut().zip(&mut self.step).zip(&self.excess) {
                 *step = MOMENTUM * *step + f64::from(*excess) * (1.0 - MOMENTUM);
                 let moved = (*step * length + 0.5).floor() as i64;
-                *at = at.saturating_add(moved).clamp(-self.limit, self.limit);
+                *at = at.saturating_add(moved);
             }
+            self.confine(choices);
         }
         Ended::Open
     }
 
     /// Begins at multipliers of which nothing is known.
     pub(super) fn begin(&mut self, choices: &Choices, begin: &[i64]) {
-        self.at.copy_from_slice(begin);
-        self.best.copy_from_slice(begin);
+        self.at.clear();
+        self.at.extend_from_slice(begin);
+        self.best.clone_from(&self.at);
+        self.excess.resize(begin.len(), 0);
+        self.step.clear();
+        self.step.resize(begin.len(), 0.0);
         self.bound = i64::MAX;
         self.often.resize(choices.len(), 0.0);
         self.often.fill(0.0);
         self.weight = 1.0;
-        self.step.fill(0.0);
     }
 
     /// The bound where the multipliers are, with what is in its solution counted and its excess; `None` if nothing
@@ -154,7 +164,18 @@ impl Ascent {
         }
         self.weight *= 1.1;
         relaxation.excess(choices, &mut self.excess);
+        // A price that is 0 cannot fall.
+        let prices = self.at[choices.points + 1..].iter().zip(&mut self.excess[choices.points + 1..]);
+        prices.filter(|(price, _)| **price == 0).for_each(|(_, excess)| *excess = (*excess).max(0));
         Some(bound)
+    }
+
+    /// Keeps multipliers where sums stay in their numbers, and prices of cuts at least 0.
+    pub(super) fn confine(&mut self, choices: &Choices) {
+        let (degrees, prices) = self.at.split_at_mut(choices.points + 1);
+        degrees.iter_mut().for_each(|at| *at = (*at).clamp(-self.limit, self.limit));
+        let most = if self.limit < SMALL { self.limit } else { self.limit / prices.len().max(1) as i64 };
+        prices.iter_mut().for_each(|at| *at = (*at).clamp(0, most));
     }
 
     /// Keeps the multipliers where they are as the best.

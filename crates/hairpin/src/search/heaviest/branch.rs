@@ -200,7 +200,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
             least = least.min(self.ascent.bound);
             let decided = if closed { Some(0) } else { self.decide(&mut made, &multipliers) };
             let (out, into) = self.numbers(closed);
-            let step = self.record.step(&multipliers, out, into);
+            let step = self.record.step(choices, &multipliers, out, into);
             match last_step {
                 None => hang(&mut self.record, parent, step),
                 Some(before) => self.record.follow(before, Next::Again(step)),
@@ -226,7 +226,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
                 if holds {
                     open.push(Open { made: child, multipliers: multipliers.clone(), bound: least, parent });
                 } else if self.record.wanted {
-                    let leaf = self.record.step(&multipliers, Vec::new(), Vec::new());
+                    let leaf = self.record.step(choices, &multipliers, Vec::new(), Vec::new());
                     hang(&mut self.record, parent, leaf);
                 }
             }

@@ -8,6 +8,7 @@
 //! is out, what it cannot do without is in; of each chain of chosen arcs the other end is kept, so that no arc closes a
 //! circle.
 
+use super::cuts::Cut;
 use super::problem::{Arcs, Ends};
 
 /// Whether a choice is made.
@@ -33,6 +34,8 @@ pub(super) struct Choices {
     pub(super) directed: bool,
     /// In the order of their numbers, which are those of their choices.
     pub(super) arcs: Vec<Arc>,
+    /// What no path violates and relaxed solutions may; priced by the multipliers behind those of points and starts.
+    pub(super) cuts: Vec<Cut>,
     /// Choices of each rule, rules one after another: of each point (its arcs out, where directed, then its arcs in),
     /// then of starts and ends.
     members: Vec<u32>,
@@ -58,7 +61,8 @@ impl Choices {
     /// m arcs give m + 3n choices: arcs, then n starts, n loops, n ends. Rules are held as rows of members, O(m + n)
     /// memory.
     pub(super) fn new(points: usize, directed: bool, arcs: Vec<Arc>) -> Self {
-        let mut choices = Self { points, directed, arcs, members: Vec::new(), first: Vec::new(), starts_rule: 0 };
+        let (members, first) = (Vec::new(), Vec::new());
+        let mut choices = Self { points, directed, arcs, cuts: Vec::new(), members, first, starts_rule: 0 };
         choices.starts_rule = if directed { 2 * points } else { points };
         let mut rules = vec![Vec::new(); choices.starts_rule + 2];
         for id in 0..choices.len() {
@@ -113,6 +117,11 @@ impl Choices {
         kept.dedup();
         let cost = |from: u32, to: u32| arcs.raw(from as usize, to as usize) * scale;
         Self::new(n, directed, kept.into_iter().map(|(from, to)| Arc { from, to, cost: cost(from, to) }).collect())
+    }
+
+    /// One of each point, one of starts, one of each cut.
+    pub(super) fn multipliers(&self) -> usize {
+        self.points + 1 + self.cuts.len()
     }
 
     /// m + 3n.

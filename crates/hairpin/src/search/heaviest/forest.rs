@@ -77,6 +77,10 @@ pub(super) struct Forest<K> {
     sizes: Vec<u32>,
     /// The joins of the choices that are made, where every run begins.
     begun: Vec<Link>,
+    /// What priced cuts take from each choice.
+    taken: Vec<i64>,
+    /// The choices of each cut.
+    in_cuts: Vec<Vec<u32>>,
     begun_sizes: Vec<u32>,
     begun_joins: u32,
     /// Weight and choice of each join.
@@ -252,6 +256,8 @@ impl<K: Key> Relaxation for Forest<K> {
             links: vec![none; n],
             sizes: vec![1; n],
             begun: vec![none; n],
+            taken: vec![0; choices.len()],
+            in_cuts: choices.cuts.iter().map(|cut| cut.members(choices)).collect(),
             begun_sizes: vec![1; n],
             begun_joins: 0,
             joins: Vec::with_capacity(n),
@@ -274,8 +280,18 @@ impl<K: Key> Relaxation for Forest<K> {
         self.joins.truncate(self.begun_joins as usize);
         let n = choices.points;
         let mut bound = multipliers[n] + 2 * multipliers[..n].iter().sum::<i64>();
+        if !self.in_cuts.is_empty() {
+            self.taken.fill(0);
+            for ((price, cut), members) in multipliers[n + 1..].iter().zip(&choices.cuts).zip(&self.in_cuts) {
+                if *price > 0 {
+                    bound += price * cut.room;
+                    members.iter().for_each(|id| self.taken[*id as usize] += price);
+                }
+            }
+        }
         for key in &mut self.keys {
-            *key = K::pack(weight(choices, key.id() as usize, multipliers), key.id());
+            let id = key.id();
+            *key = K::pack(weight(choices, id as usize, multipliers) - self.taken[id as usize], id);
         }
         // The order of the last run is nearly that of this one, which the stable sort is quick with.
         self.keys.sort();
@@ -283,7 +299,7 @@ impl<K: Key> Relaxation for Forest<K> {
         for id in &self.forced {
             self.used.push(*id);
             if joined(choices, *id as usize).is_some() {
-                bound += weight(choices, *id as usize, multipliers);
+                bound += weight(choices, *id as usize, multipliers) - self.taken[*id as usize];
             }
         }
         for at in 0..self.keys.len() {
@@ -314,6 +330,9 @@ impl<K: Key> Relaxation for Forest<K> {
     fn excess(&self, choices: &Choices, excess: &mut [i32]) {
         excess.fill(-2);
         excess[choices.points] = -1;
+        for (excess, cut) in excess[choices.points + 1..].iter_mut().zip(&choices.cuts) {
+            *excess = self.used.iter().filter(|id| cut.has(choices, **id as usize)).count() as i32 - cut.room as i32;
+        }
         for id in &self.used {
             match choices.kind(*id as usize) {
                 Choice::Arc(arc) => {

@@ -28,6 +28,7 @@ mod best;
 mod branch;
 mod choices;
 mod circulation;
+mod cuts;
 mod dfs;
 mod first_multipliers;
 mod forest;
@@ -54,7 +55,7 @@ mod tests;
 
 pub use problem::{Arcs, ArcsMistake, Ends, MOST_POINTS};
 pub use question::{Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome};
-pub use record::{Next, Proof, Step};
+pub use record::{Next, PricedCut, Proof, Step};
 pub use solve::heaviest;
 pub use subsets::{MOST_SUBSET_POINTS, subset_bytes};
 pub use triples::{MOST_EXACT_POINTS, MOST_TRIPLE_POINTS, Triples, TriplesMistake, heaviest_with_triples};

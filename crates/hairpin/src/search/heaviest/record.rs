@@ -1,5 +1,7 @@
 //! The branching tree as it was searched: what a certificate says.
 
+use super::choices::Choices;
+
 /// One look at a problem: the multipliers, what their bound decides, and what was done then.
 ///
 /// Multipliers alone fix the bound: whoever has the costs computes it again. `out` and `into` are claims that the bound
@@ -8,12 +10,25 @@
 pub struct Step {
     /// One integer a point, and one for starts, in units of cost / [`Proof::scale`].
     pub multipliers: Vec<i64>,
+    /// Cuts with a price above 0.
+    pub cuts: Vec<PricedCut>,
     /// Choices whose opposite has too small a bound: out.
     pub out: Vec<u64>,
     /// Likewise: in.
     pub into: Vec<u64>,
     /// What follows.
     pub next: Next,
+}
+
+/// A price for: arcs inside a set of points, and points of it left out but one of them, are together less than the set's points.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PricedCut {
+    /// The set.
+    pub points: Vec<usize>,
+    /// The point of it that does not count as left out.
+    pub except: usize,
+    /// At least 0, in units of cost / [`Proof::scale`].
+    pub price: i64,
 }
 
 /// What follows a [`Step`].
@@ -66,9 +81,16 @@ impl Recorder {
     }
 
     /// A step that is closed until [`Recorder::follow`] says otherwise; its number.
-    pub(super) fn step(&mut self, multipliers: &[i64], out: Vec<u64>, into: Vec<u64>) -> usize {
+    pub(super) fn step(&mut self, choices: &Choices, multipliers: &[i64], out: Vec<u64>, into: Vec<u64>) -> usize {
         if self.wanted {
-            self.steps.push(Step { multipliers: multipliers.to_vec(), out, into, next: Next::Closed });
+            let (multipliers, prices) = multipliers.split_at(choices.points + 1);
+            let priced = choices.cuts.iter().zip(prices).filter(|(_, price)| **price > 0);
+            let cuts = priced.map(|(cut, price)| {
+                let (points, except) = cut.named();
+                PricedCut { points, except, price: *price }
+            });
+            let (multipliers, cuts) = (multipliers.to_vec(), cuts.collect());
+            self.steps.push(Step { multipliers, cuts, out, into, next: Next::Closed });
         }
         self.steps.len().saturating_sub(1)
     }

@@ -7,6 +7,7 @@ use super::ascent::{Ascent, Ended, Pace};
 use super::best::Best;
 use super::branch::{Ground, Open, Searched, branch};
 use super::choices::{Arc, Choices, IN, Made, OPEN, OUT};
+use super::cuts::violated;
 use super::first_multipliers::first_multipliers;
 use super::local::Local;
 use super::problem::{Arcs, Ends};
@@ -26,8 +27,10 @@ const ROUNDS: usize = 8;
 /// Rounds without a better path before branching begins.
 const PATIENCE: usize = 2;
 /// Steps along means of relaxed solutions, where so many arcs a point are left open that branching would be long.
-const MEAN_STEPS: usize = 2000;
+const MEAN_STEPS: usize = 20000;
 const MANY_OPEN: usize = 5;
+/// Rounds of cuts, each along means of relaxed solutions again.
+const CUT_ROUNDS: usize = 8;
 /// Costs times the scale are about so many bits long, so that multipliers are finer than costs.
 const BITS: u32 = 33;
 
@@ -267,9 +270,32 @@ impl<'a, R: Relaxation> Root<'a, R> {
         ended
     }
 
-    /// Arcs that are neither in nor out: what branching has to decide.
-    fn open_arcs(&self) -> usize {
-        self.made.state[..self.choices.arcs.len()].iter().filter(|state| **state == OPEN).count()
+    /// Prices cuts that the mean of relaxed solutions violates, at first with 0; whether there is one.
+    fn cut(&mut self) -> bool {
+        if !self.arcs.symmetric() {
+            return false;
+        }
+        let cuts = violated(&self.choices, &self.ascent.shares);
+        let any = !cuts.is_empty();
+        self.choices.cuts.extend(cuts);
+        self.multipliers.resize(self.choices.multipliers(), 0);
+        self.relaxation = R::new(&self.choices);
+        any
+    }
+
+    /// Whether a round took a twentieth of what was left between the bound and the best.
+    fn nearer(&self, before: i64) -> bool {
+        let best = self.best.cost().max(0) * self.scale;
+        ((self.ascent.bound - best) as f64) < 0.95 * (before - best) as f64
+    }
+
+    /// Whether branching would be long: more than [`MANY_OPEN`] arcs a point are neither in nor out, or of more than half of all points
+    /// it is open whether they are met.
+    fn many_open(&self) -> bool {
+        let n = self.arcs.points();
+        let open = |from: usize, to: usize| self.made.state[from..to].iter().filter(|state| **state == OPEN).count();
+        let loops = self.choices.looped(0);
+        open(0, self.choices.arcs.len()) > MANY_OPEN * n || 2 * open(loops, loops + n) > n
     }
 
     /// Least scaled bound of interest: that of a path heavier than the best.
@@ -283,18 +309,21 @@ impl<'a, R: Relaxation> Root<'a, R> {
         let points = self.arcs.points() as u64;
         let kicks = settings.kicks.unwrap_or(points * (1 + points / 60));
         self.polish(2 * kicks);
-        let (mut waited, mut averaged) = (0, false);
+        let (mut waited, mut averaged, mut rounds) = (0, false, 0);
         loop {
             if self.decide() {
                 return true;
             }
             let patient = waited < PATIENCE;
-            if (self.stop)() || !patient && (averaged || self.open_arcs() <= MANY_OPEN * self.arcs.points()) {
+            if (self.stop)() || !patient && (averaged || !self.many_open()) {
                 return false;
             }
-            averaged = !patient;
-            let ended = if averaged {
-                self.average()
+            let ended = if !patient {
+                let before = self.bound;
+                let ended = self.average();
+                rounds += 1;
+                averaged = rounds > CUT_ROUNDS || ended != Ended::Open || !self.cut() && !self.nearer(before);
+                ended
             } else {
                 waited = if self.polish(kicks) { 0 } else { waited + 1 };
                 self.ascend(self.threshold())
@@ -321,7 +350,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
     /// A step of the proof at the multipliers, after the last one.
     fn look(&mut self, out: Vec<u64>, into: Vec<u64>) {
         let first = self.record.next_number() == 0;
-        let step = self.record.step(&self.multipliers, out, into);
+        let step = self.record.step(&self.choices, &self.multipliers, out, into);
         if !first {
             self.record.follow(self.step, Next::Again(step));
         }
@@ -373,7 +402,8 @@ fn unscaled(multipliers: &[i64], scale: i64) -> Vec<i64> {
 /// The same problem without the arcs that are out.
 fn forget(choices: &Choices, made: &Made) -> Option<(Choices, Made)> {
     let kept: Vec<usize> = (0..choices.arcs.len()).filter(|id| made.state[*id] != OUT).collect();
-    let few = Choices::new(choices.points, choices.directed, kept.iter().map(|id| choices.arcs[*id]).collect());
+    let mut few = Choices::new(choices.points, choices.directed, kept.iter().map(|id| choices.arcs[*id]).collect());
+    few.cuts.clone_from(&choices.cuts);
     let mut small = Made::nothing(&few);
     let others = |choices: &Choices| choices.arcs.len()..choices.len();
     for (old, new) in kept.into_iter().chain(others(choices)).zip(0..few.len()) {

@@ -14,6 +14,9 @@ const SHARE: f64 = 0.2;
 /// Steps after which the gap must be smaller by [`SHRINKING`], else the share is halved.
 const PERIOD: usize = 50;
 const SHRINKING: f64 = 0.98;
+/// Steps after which the gap must be smaller by [`STALLING`], else more of them are in vain.
+const STALLED: usize = 1000;
+const STALLING: f64 = 0.95;
 /// First factor of Polyak's step; it grows while the bound falls along the mean, and shrinks after [`PATIENCE`] steps
 /// in vain.
 const FACTOR: f64 = 0.2;
@@ -35,8 +38,11 @@ impl Ascent {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Ended {
         self.begin(problem.0, begin);
+        self.shares.clear();
+        self.shares.resize(problem.0.len(), 0.0);
         let (mut factor, mut share, mut waited, mut gap) = (FACTOR, SHARE, 0, f64::INFINITY);
         let every = asked_every(problem.0);
+        let mut stalled = f64::INFINITY;
         for iteration in 0..iterations {
             if iteration % every == every - 1 && stop() {
                 return Ended::Open;
@@ -65,6 +71,13 @@ impl Ascent {
                     (factor, waited) = ((factor * 0.66).max(5e-4), 0);
                 }
             }
+            if iteration % STALLED == STALLED - 1 {
+                let left = self.bound as f64 - target;
+                if left > STALLING * stalled {
+                    return Ended::Open;
+                }
+                stalled = left;
+            }
             if iteration % PERIOD == PERIOD - 1 {
                 let left = self.bound as f64 - target;
                 if left > SHRINKING * gap {
@@ -84,11 +97,14 @@ impl Ascent {
                 *v = alpha * f64::from(*d) + (1.0 - alpha) * *v;
                 norm += *v * *v;
             }
+            self.shares.iter_mut().for_each(|share| *share *= 1.0 - alpha);
+            relaxation.used().iter().for_each(|id| self.shares[*id as usize] += alpha);
             let length = factor * (self.bound as f64 - target) / norm.max(1e-9);
             for ((at, best), v) in self.at.iter_mut().zip(&self.best).zip(&self.step) {
                 let moved = (*v * length + 0.5).floor() as i64;
-                *at = best.saturating_add(moved).clamp(-self.limit, self.limit);
+                *at = best.saturating_add(moved);
             }
+            self.confine(problem.0);
         }
         Ended::Open
     }
