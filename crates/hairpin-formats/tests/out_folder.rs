@@ -133,6 +133,7 @@ fn another_writers_table_is_read() {
     use arrow_select::concat::concat_batches;
     use parquet::arrow::ArrowWriter;
     use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+    use parquet::file::properties::WriterProperties;
     let place = tempfile::tempdir().unwrap();
     drop(written(place.path()));
     let campaign = campaign();
@@ -142,14 +143,18 @@ fn another_writers_table_is_read() {
     let schema = reader.schema().clone();
     let batches: Vec<_> = reader.build().unwrap().map(Result::unwrap).collect();
     let whole = concat_batches(&schema, &batches).unwrap();
-    let single = fs::File::create(place.path().join("executions.parquet")).unwrap();
-    let mut writer = ArrowWriter::try_new(single, schema, None).unwrap();
-    writer.write(&whole).unwrap();
-    writer.close().unwrap();
     fs::remove_file(&part).unwrap();
-    let folder = CampaignFolder::open(place.path()).unwrap();
-    for run in campaign.runs.iter().filter(|run| run.outcome.is_ok()) {
-        assert_eq!(folder.read_run(run.case, run.run).unwrap().as_ref(), Some(run));
+    // All rows in one group; groups that run over from one run to the next; several groups a run.
+    for rows in [1_000_000, 7, 5] {
+        let properties = WriterProperties::builder().set_max_row_group_row_count(Some(rows)).build();
+        let single = fs::File::create(place.path().join("executions.parquet")).unwrap();
+        let mut writer = ArrowWriter::try_new(single, schema.clone(), Some(properties)).unwrap();
+        writer.write(&whole).unwrap();
+        writer.close().unwrap();
+        let folder = CampaignFolder::open(place.path()).unwrap();
+        for run in campaign.runs.iter().filter(|run| run.outcome.is_ok()) {
+            assert_eq!(folder.read_run(run.case, run.run).unwrap().as_ref(), Some(run), "{rows} rows a group");
+        }
     }
 }
 

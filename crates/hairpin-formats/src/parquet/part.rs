@@ -27,9 +27,9 @@ const MOST_BYTES: u64 = 64_000_000_000;
 pub(crate) struct Part {
     path: PathBuf,
     metadata: ArrowReaderMetadata,
-    /// Row groups of one case and run each.
-    groups: BTreeMap<Key, usize>,
-    /// All other rows.
+    /// Row groups of one case and run each; none where others are.
+    groups: BTreeMap<Key, Vec<usize>>,
+    /// All rows, where groups mix them.
     loose: Option<(Table, BTreeMap<Key, Vec<usize>>)>,
     /// Time between the samples of which only some rows are there, s.
     period: Option<f64>,
@@ -49,20 +49,16 @@ impl Part {
         };
         let loaded = foreign::call(load).unwrap_or_else(|_| Err("its bytes contradict each other".into()));
         let metadata = loaded.map_err(broken)?;
-        let (mut groups, mut others) = (BTreeMap::new(), Vec::new());
-        for (number, group) in metadata.metadata().row_groups().iter().enumerate() {
-            match key_of(group) {
-                Some(key) if !groups.contains_key(&key) => {
-                    groups.insert(key, number);
-                }
-                _ => others.push(number),
-            }
-        }
+        let count = metadata.metadata().num_row_groups();
+        let keys: Option<Vec<Key>> = metadata.metadata().row_groups().iter().map(key_of).collect();
+        let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+        let is_mixed = keys.is_none();
+        keys.into_iter().flatten().enumerate().for_each(|(group, key)| groups.entry(key).or_default().push(group));
         let period = notes_of(&metadata).into_iter().find(|(key, _)| key == PERIOD);
         let period = period.and_then(|(_, value)| value.parse().ok()).filter(|period: &f64| *period > 0.0);
         let mut part = Self { path: path.into(), metadata, groups, loose: None, period };
-        if !others.is_empty() {
-            let table = part.decoded(&others)?;
+        if is_mixed {
+            let table = part.decoded(&(0..count).collect::<Vec<_>>())?;
             let cases = table.cases()?;
             let runs = if table.has(RUN) { table.counts(RUN)? } else { vec![0; table.rows()] };
             let mut rows: BTreeMap<_, Vec<usize>> = BTreeMap::new();
@@ -101,8 +97,8 @@ impl Part {
     /// # Errors
     /// They cannot be read.
     pub(crate) fn table(&self, key: Key) -> Result<Option<Table>, TableError> {
-        if let Some(group) = self.groups.get(&key) {
-            return self.decoded(&[*group]).map(Some);
+        if let Some(groups) = self.groups.get(&key) {
+            return self.decoded(groups).map(Some);
         }
         let Some((table, rows)) = &self.loose else { return Ok(None) };
         let Some(rows) = rows.get(&key) else { return Ok(None) };
