@@ -160,7 +160,7 @@ pub fn rows(answers: &[Answer]) -> String {
 pub fn kept_answers(table: impl io::Read) -> io::Result<Vec<KeptAnswer>> {
     let mut reader = csv::Reader::from_reader(table);
     let refuse = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
-    if reader.headers()? != &COLUMNS[..] {
+    if !reader.headers()?.iter().eq(COLUMNS) {
         return Err(refuse("line 1: these are no columns of answers".into()));
     }
     let mut kept = Vec::new();

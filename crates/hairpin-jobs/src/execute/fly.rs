@@ -86,9 +86,10 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
     if wanted == 0 {
         return Ok(());
     }
-    let violating: Result<Vec<Option<(&Case, usize, usize)>>, Problem> = cases
+    // A case, its worst run, and how many of that are there.
+    let violating: Result<Vec<_>, Problem> = cases
         .par_iter()
-        .map(|case| {
+        .map(|case: &Case| {
             let result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
             let is_violation = result.status == Status::Fail;
             let known = if is_violation { work.folder.read_measured_reruns(case.number)?.len() } else { 0 };

@@ -79,7 +79,7 @@ impl Vehicle {
         let most_drawn = if drawn { MOST_DRAWN } else { 0 };
         let run = Run { vehicle: self, path, columns: &columns, kept: &kept, most_drawn, steps: &steps, watch };
         let batch = match answers {
-            Answers::File(out) | Answers::Resumed(out) => run.into_file(blocks, out),
+            Answers::File(out) | Answers::Resumed(out) => run.write_into(blocks, out),
             Answers::Shown(show) => {
                 show(&steering::head());
                 run.all(blocks, &mut |text| {
@@ -136,7 +136,7 @@ struct Done {
 impl Run<'_> {
     /// Answers all of `blocks` into the file `out`, which appears when they are, or with those there were when it was
     /// stopped.
-    fn into_file(&self, blocks: Blocks<File>, out: &Path) -> Result<Batch, Problem> {
+    fn write_into(&self, blocks: Blocks<File>, out: &Path) -> Result<Batch, Problem> {
         let mut came = None;
         let written = atomic::write_with(out, |file| {
             if self.kept.is_empty() {
