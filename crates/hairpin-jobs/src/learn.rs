@@ -180,7 +180,7 @@ mod tests {
         let mut union = Vec::new();
         for (work, before) in works.iter().zip([0, 7]) {
             for mut case in work.folder.read_cases().unwrap() {
-                let runs = runs_to_judge(&work, &case).unwrap().runs;
+                let runs = runs_to_judge(work, &case).unwrap().runs;
                 case.number.0 += before;
                 union.extend(leg_samples(&work.setup, &case, &runs, Stress::MaxDeviation));
             }
