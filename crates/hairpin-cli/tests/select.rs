@@ -145,7 +145,8 @@ fn a_choice_replaces_nothing_by_way_of_a_folder_that_is_not_there() {
         refused(here, typed, &["new/../all", "there is no folder new"]);
     }
     assert!(before == contents(&here.join("all")));
-    // A motion that the table of runs has and the folder has not is missed, not passed over; what was measured of it stands.
+    // A motion that the table of runs has and the folder has not is missed, not passed over; what was measured of it
+    // stands.
     let judged = json(here, &["judge", "all"]);
     fs::remove_file(here.join("all/executions/part-00000.parquet")).unwrap();
     assert_eq!(json(here, &["judge", "all"]), judged);

@@ -161,8 +161,8 @@ impl CampaignFolder {
         self.path.join(PROGRAMS).join(format!("{case}.mod"))
     }
 
-    /// Writes the planned motions of cases, in their order, the rows where they bend; what is in the folder of the first
-    /// of these cases or of later ones goes.
+    /// Writes the planned motions of cases, in their order, the rows where they bend; what is in the folder of the
+    /// first of these cases or of later ones goes.
     ///
     /// # Errors
     /// The file cannot be written.

@@ -11,7 +11,7 @@
 //! | `programs/CASE.mod` | what an arm runs, as RAPID |
 //! | `trajectories/` | the planned motion, the rows where it bends |
 //! | `executions/` | flights: poses, velocities, rotor speeds, the rows where they bend |
-//! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured of all samples, drawn values |
+//! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
 //! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
@@ -26,9 +26,9 @@
 //! | `.hairpin` | the names in the folder that are hairpin's own: nothing else in it is replaced or removed |
 //! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
-//! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or run
-//! (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file for each
-//! case or run, `NAME/CASE.parquet` and `NAME/CASE-RUN.parquet`, and are read, not written.
+//! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or
+//! run (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file
+//! for each case or run, `NAME/CASE.parquet` and `NAME/CASE-RUN.parquet`, and are read, not written.
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the
 //! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.

@@ -88,8 +88,8 @@ pub(crate) fn is_written_to(folder: &std::path::Path) -> bool {
     [LIST, GENERATION, RESULTS].iter().any(|name| folder.join(name).exists())
 }
 
-/// Whether `name` is one that `pattern` stands for: `PART` is a number of five digits or more, `CASE` one of four, `RUN` one
-/// of any.
+/// Whether `name` is one that `pattern` stands for: `PART` is a number of five digits or more, `CASE` one of four,
+/// `RUN` one of any.
 pub(super) fn stands_for(pattern: &str, name: &str) -> bool {
     for (word, least) in [("PART", 5), ("CASE", 4), ("RUN", 1)] {
         if let Some(rest) = pattern.strip_prefix(word) {

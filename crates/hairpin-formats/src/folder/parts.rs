@@ -1,5 +1,6 @@
-//! Tables of a campaign in parts: `NAME/part-00000.parquet` and so on, blocks of whole cases in their order, a row group
-//! a case or run; or one file `NAME.parquet`. A case is found by looking into few parts, and read without the rest.
+//! Tables of a campaign in parts: `NAME/part-00000.parquet` and so on, blocks of whole cases in their order, a row
+//! group a case or run; or one file `NAME.parquet`. A case is found by looking into few parts, and read without the
+//! rest.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};

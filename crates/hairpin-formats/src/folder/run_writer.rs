@@ -1,5 +1,6 @@
-//! Runs on their way into a campaign's folder: gathered part by part, each written when its last run has landed, and now
-//! and then before, so that a kill costs little. Runs come in any order and from any thread; the parts are the same.
+//! Runs on their way into a campaign's folder: gathered part by part, each written when its last run has landed, and
+//! now and then before, so that a kill costs little. Runs come in any order and from any thread; the parts are the
+//! same.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};

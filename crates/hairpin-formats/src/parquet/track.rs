@@ -1,8 +1,9 @@
 //! `trajectories/` and `executions/`: poses in time with their channels,
 //! `case,run,t_s,leg,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,…`, world frame, quaternion w first.
 //!
-//! Of what was measured at its full rate only the rows are written where it bends; between them positions and velocities
-//! follow the cubic (Hermite), everything else the line, within the tolerances that stand in the file's metadata.
+//! Of what was measured at its full rate only the rows are written where it bends; between them positions and
+//! velocities follow the cubic (Hermite), everything else the line, within the tolerances that stand in the file's
+//! metadata.
 
 use std::collections::BTreeSet;
 use std::io;

@@ -9,8 +9,8 @@ use crate::work::Work;
 /// The runs of a case.
 pub(crate) struct ToJudge {
     pub(crate) runs: Vec<Run>,
-    /// Whether the scenario measures otherwise than it did when they were flown, so that they are measured of the rows that
-    /// are kept.
+    /// Whether the scenario measures otherwise than it did when they were flown, so that they are measured of the
+    /// rows that are kept.
     pub(crate) from_rows: bool,
 }
 

@@ -165,7 +165,8 @@ fn judge_run(
     let setup = around.as_ref();
     let Drawn { own, terms } = Drawn::of(setup, run)?;
     let programmed = plan.programmed.get_or_init(|| setup.kind().programs()?.programmed(case)).as_ref();
-    // Rows may have been left out since it was measured so; what is asked for otherwise is measured of those that stand.
+    // Rows may have been left out since it was measured so; what is asked for otherwise is measured of those that
+    // stand.
     let known = run.full_rate.as_ref().filter(|known| known.is_by(&terms));
     let path = match terms.from {
         DeviationFrom::Path if known.is_none() => {
