@@ -173,28 +173,28 @@ impl Run<'_> {
         let mut read =
             || -> io::Result<Vec<Block>> { (0..round).map_while(|_| blocks.take(BLOCK).transpose()).collect() };
         let (mut asked, mut done) = (read().map_err(unreadable)?, Vec::new());
-        let mut write = |done: Vec<Done>, batch: &mut Batch| -> io::Result<()> {
+        let mut write = |done: Vec<Done>, batch: &mut Batch| -> io::Result<bool> {
             for done in done {
                 sink(&done.rows)?;
                 batch.add(done.batch, self.most_drawn);
-                // What is behind a block that was stopped is not kept: answers stand in the order of queries.
                 if !done.whole {
-                    break;
+                    return Ok(false);
                 }
             }
-            Ok(())
+            Ok(true)
         };
         while !asked.is_empty() {
             let before = std::mem::take(&mut done);
             let (filed, answered) = rayon::join(
                 || {
-                    write(before, &mut batch).map_err(unwritten)?;
-                    read().map_err(unreadable)
+                    let more = write(before, &mut batch).map_err(unwritten)?;
+                    Ok::<_, Problem>((more, read().map_err(unreadable)?))
                 },
                 || asked.par_iter().with_max_len(1).map(|block| self.block(block)).collect::<Result<Vec<Done>, _>>(),
             );
-            let next = filed?;
+            let (_, next) = filed?;
             done = answered.map_err(|error| Problem::of_file(self.path, error))?;
+            // What is behind a block that was stopped is not kept: answers stand in the order of queries.
             asked = if done.iter().all(|done| done.whole) { next } else { Vec::new() };
         }
         write(done, &mut batch).map_err(unwritten)?;

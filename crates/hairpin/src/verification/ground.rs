@@ -38,15 +38,14 @@ pub struct Stopped {
 /// Steps in which the steering of a whole drive is followed.
 const STEERED: f64 = 2000.0;
 
-/// Integrates ẋ, ẏ and ψ̇ stride by stride, the body at rest on its wheels wherever it is looked at; an exact vehicle
-/// is carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was,
-/// and the last τ of the commands never act; before a drive that begins in reverse or in place it stands, and all of
-/// them act. Where the speed is none and the direction changes, or after a turn in place, the wheels swing to what
-/// comes.
+/// Integrates ẋ, ẏ and ψ̇ stride by stride, the body at rest on its wheels wherever it is looked at; an exact vehicle is
+/// carried from rest to rest by the twist between them. With latency τ the vehicle first goes on for τ as it was, and
+/// the last τ of the commands never act; before a drive that begins in reverse or in place it stands, and all of them
+/// act. Where the speed is none and the direction changes, or after a turn in place, the wheels swing to what comes.
 ///
 /// Each stride is taken whole and as two halves by a method of second order, and the two are extrapolated. What they
-/// differ by bounds the stride: it is halved until its share of 10⁻⁴ m and rad m of the whole drive holds. The
-/// steering, which does not ask where the vehicle is, is followed before.
+/// differ by bounds the stride: it is halved until its share of 10⁻⁴ m and rad m of the whole drive holds. The steering, which does not ask
+/// where the vehicle is, is followed before.
 ///
 /// ẋ, ẏ, ψ̇ are Howard and Kelly's (IJRR 26(2), 2007) of the commanded twist after slip; with `exact` they are not
 /// rates at all, but the rest whose screw from the last one has that twist.
@@ -70,8 +69,7 @@ pub fn replay_ground<T: Terrain>(
     follow_ground(pieces, vehicle, terrain, claim, None)
 }
 
-/// [`replay_ground`]; `pass`, where there is one, is shown x, y (m) and ψ (rad) along the way, two thousand places or
-/// more.
+/// [`replay_ground`]; `pass`, where there is one, is shown x, y (m) and ψ (rad) along the way, two thousand places or more.
 ///
 /// # Errors
 /// As [`replay_ground`].

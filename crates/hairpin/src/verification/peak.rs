@@ -9,8 +9,8 @@ const CLOSED: f64 = 1e-10;
 
 /// Largest |p| on [0, length], p(s) = Σ aᵢ sⁱ; no number where one of them is none.
 ///
-/// Between two neighbouring turns of p⁽ᵏ⁺¹⁾'s sign p⁽ᵏ⁾ is monotone and has one root at most: from the highest
-/// derivative down, each gives the next one's intervals.
+/// Between two neighbouring turns of p⁽ᵏ⁺¹⁾'s sign p⁽ᵏ⁾ is monotone and has one root at most: from the highest derivative
+/// down, each gives the next one's intervals.
 pub(super) fn peak(p: &[f64; MOST], length: f64) -> f64 {
     let degree = p.iter().rposition(|a| *a != 0.0).unwrap_or(0);
     let mut derivatives = [[0.0; MOST]; MOST];

@@ -205,10 +205,9 @@ impl Rest {
     /// Newton's method for F(q) = 0 from where the last place came to rest: q ← q − J⁺ F(q).
     ///
     /// First the neighbour's J⁺ is used again and learns from each step by Broyden's update, as long as each is at most
-    /// half of the one before (not on four wheels, whose gaps end at a least that depends on it). Then a J of its own
-    /// is taken at each iteration, by central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖
-    /// falls; every other [`LEAPS`] iterations take it whole, which leads out of corners. At rest where a step is below
-    /// [`CLOSED`] (m and rad).
+    /// half of the one before (not on four wheels, whose gaps end at a least that depends on it). Then a J of its own is taken at each iteration, by
+    /// central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`]
+    /// iterations take it whole, which leads out of corners. At rest where a step is below [`CLOSED`] (m and rad).
     fn approach<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         if *stand == Stand::Level {
             return Ok(());

@@ -121,9 +121,8 @@ impl<T: Terrain> Stretch<'_, T> {
             };
             // A difference that is not a number is as large as can be; its root is that of third-order terms.
             let longer = 0.9 * (allowed / tried.off).sqrt();
-            let close = tried.off <= allowed && !tried.fell;
-            if h > shortest && !close {
-                let shorter = if tried.fell { 0.25 } else { bounded(longer, 0.2, 0.7) };
+            if h > shortest && (tried.fell || !(tried.off <= allowed)) {
+                let shorter = if tried.fell { 0.25 } else { longer.max(0.2).min(0.7) };
                 stride = shortest.max(h * shorter);
                 continue;
             }
@@ -139,7 +138,7 @@ impl<T: Terrain> Stretch<'_, T> {
             looks.extend(tried.looks);
             done = if last { length } else { done + h };
             station = self.station(done.copysign(self.length), tried.end, tried.rest);
-            stride = shortest.max(LONGEST.min(h * bounded(longer, 0.5, 2.0)));
+            stride = LONGEST.min(h * longer.max(0.5).min(2.0)).max(shortest);
         }
         let end = self.look(&looks, self.length, station.pose).map_err(|no| (self.length, no))?;
         *at = (station.pose, end.rest.clone());
@@ -278,10 +277,6 @@ impl<T: Terrain> Stretch<'_, T> {
             return Ok(());
         }
         let middle = self.look_between([from, to], 0.5 * (from.s + to.s), taken)?;
-        // Looks that are out of turn may find rests that the way does not lead to.
-        if foreseen(&[from.clone(), to.clone()], middle.s).apart(&middle.rest) > FELL {
-            return Ok(());
-        }
         let between = tilt(&middle.rest);
         followed.max_tilt = followed.max_tilt.max(between);
         let changes = (between - first).abs().max((last - between).abs());
@@ -315,11 +310,6 @@ fn foreseen(looks: &[Look], s: f64) -> Rest {
         [.., last] => last.rest.clone(),
         [] => unreachable!("a piece begins with a look"),
     }
-}
-
-/// `x` within bounds; the lower one if it is no number.
-fn bounded(x: f64, low: f64, high: f64) -> f64 {
-    if x > low { x.min(high) } else { low }
 }
 
 /// pose + h · rates.

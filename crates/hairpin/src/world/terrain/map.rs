@@ -322,8 +322,7 @@ fn check(grid: &Grid, heights: usize) -> Result<(), MapError> {
     Ok(())
 }
 
-/// The cells of `lines`, rows from the south, with a ring around them, continued linearly: the slope at the border is
-/// that of the outermost cells.
+/// The cells of `lines`, rows from the south, with a ring around them, continued linearly: the slope at the border is that of the outermost cells.
 fn pad<'a>(lines: impl Iterator<Item = &'a [f32]>, columns: usize, rows: usize) -> (Vec<f32>, usize) {
     let stride = columns + 2;
     let mut padded = vec![0.0; stride * (rows + 2)];
