@@ -1,8 +1,6 @@
 //! Answers as CSV: a row for each segment of each drive, in the frame of the query.
 
-use std::borrow::Cow;
-use std::fmt::{self, Write as _};
-use std::io;
+use std::fmt;
 
 use serde::Serialize;
 
@@ -22,11 +20,6 @@ pub enum Status {
     TimeLimit,
     /// The row is no query; `limit` names the column.
     Invalid,
-}
-
-impl Status {
-    /// All of them, the good one first.
-    pub const ALL: [Self; 5] = [Self::Ok, Self::Infeasible, Self::NotConverged, Self::TimeLimit, Self::Invalid];
 }
 
 impl fmt::Display for Status {
@@ -103,19 +96,6 @@ pub struct Answer {
     pub limit: Option<(String, Option<f64>)>,
 }
 
-/// An answer that a file has already.
-#[derive(Debug, Clone, PartialEq)]
-pub struct KeptAnswer {
-    /// The query's.
-    pub id: Box<str>,
-    /// What came of it.
-    pub status: Status,
-    /// Solving alone.
-    pub time_us: f64,
-    /// Whether there is a drive.
-    pub driven: bool,
-}
-
 const COLUMNS: [&str; 22] = [
     "id",
     "segment",
@@ -141,116 +121,61 @@ const COLUMNS: [&str; 22] = [
     "excess",
 ];
 
-/// The line of columns that a table begins with.
-pub fn head() -> String {
-    COLUMNS.join(",") + "\n"
-}
-
-/// The rows of `answers`, in their order: one a segment, and one where there is none.
-pub fn rows(answers: &[Answer]) -> String {
-    let mut table = String::new();
-    answers.iter().for_each(|answer| add_rows(&mut table, answer));
-    table
-}
-
-/// The answers of a table as [`head()`] and [`rows`] write it, in their order.
+/// The table of `answers`, in their order.
 ///
 /// # Errors
-/// It is none.
-pub fn kept_answers(table: impl io::Read) -> io::Result<Vec<KeptAnswer>> {
-    let mut reader = csv::Reader::from_reader(table);
-    let refuse = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
-    if !reader.headers()?.iter().eq(COLUMNS) {
-        return Err(refuse("line 1: these are no columns of answers".into()));
+/// Memory that cannot be had.
+pub fn table(answers: &[Answer]) -> csv::Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(COLUMNS)?;
+    for answer in answers {
+        write_rows(&mut table, answer)?;
     }
-    let mut kept = Vec::new();
-    let mut row = csv::StringRecord::new();
-    while reader.read_record(&mut row)? {
-        let cell = |column: &str| COLUMNS.iter().position(|name| *name == column).and_then(|place| row.get(place));
-        if cell("segment") != Some("0") {
-            continue;
-        }
-        let line = row.position().map_or(0, csv::Position::line);
-        let status = Status::ALL.into_iter().find(|status| cell("status") == Some(&status.to_string()));
-        let status = status.ok_or_else(|| refuse(format!("line {line}: no status of an answer")))?;
-        let time_us = cell("time_us").and_then(|text| text.parse().ok());
-        let time_us = time_us.ok_or_else(|| refuse(format!("line {line}: time_us is no number")))?;
-        let (id, driven) = (cell("id").unwrap_or_default().into(), cell("kind") != Some(""));
-        kept.push(KeptAnswer { id, status, time_us, driven });
-    }
-    Ok(kept)
+    table.into_inner().map_err(|error| error.into_error().into())
 }
 
-fn add_rows(table: &mut String, answer: &Answer) {
+/// The rows of one answer: one a segment, and one where there is none.
+fn write_rows(table: &mut csv::Writer<Vec<u8>>, answer: &Answer) -> csv::Result<()> {
     let left = answer.frame.left();
     let pieces = answer.drive.as_ref().map_or(&[][..], |drive| &drive.pieces);
-    let id = quoted(&answer.id);
-    // What all rows of the answer have in their middle, and what they end in.
-    let (mut middle, mut end) = (String::new(), String::new());
-    // Writing to a string does not fail.
-    let _ = write!(middle, ",{},{},{:.3}", answer.status, answer.iterations, answer.time_us);
-    match &answer.drive {
-        Some(Drive { errors, max_curvature_1_m, .. }) => {
-            let turned = [errors.y_m, errors.yaw_rad, errors.curvature_1_m].map(|error| left * error);
-            [errors.x_m]
-                .iter()
-                .chain(&turned)
-                .chain([max_curvature_1_m])
-                .for_each(|number| add_number(&mut end, *number));
-        }
-        None => end.push_str(",,,,,"),
-    }
-    let (limit, excess) = answer.limit.as_ref().map_or(("", None), |(limit, excess)| (limit, *excess));
-    end.push(',');
-    end.push_str(&quoted(limit));
-    match excess {
-        Some(excess) => add_number(&mut end, excess),
-        None => end.push(','),
-    }
+    let whole =
+        |value: &dyn Fn(&Drive) -> f64| answer.drive.as_ref().map_or(String::new(), |drive| number(value(drive)));
     for segment in 0..pieces.len().max(1) {
-        let _ = write!(table, "{id},{segment},");
-        let numbers = match pieces.get(segment) {
-            Some(Piece::Arc { length_m, curvature, direction }) => {
-                let _ = write!(table, "arc,{direction}");
-                Some((*length_m, 0.0, curvature.map(|a| left * a)))
+        let (mut kind, mut direction, mut length, mut turn) = ("", String::new(), String::new(), String::new());
+        let mut bends: [String; 6] = Default::default();
+        match pieces.get(segment) {
+            Some(Piece::Arc { length_m, curvature, direction: way }) => {
+                (kind, direction, length, turn) = ("arc", way.to_string(), number(*length_m), number(0.0));
+                bends = curvature.map(|a| number(left * a));
             }
             Some(Piece::Turn { angle_rad }) => {
-                table.push_str("turn,1");
-                Some((0.0, left * angle_rad, [0.0; 6]))
+                (kind, direction, length, turn) = ("turn", "1".into(), number(0.0), number(left * angle_rad));
+                bends = [0.0; 6].map(number);
             }
-            None => {
-                table.push(',');
-                None
-            }
-        };
-        table.push_str(&middle);
-        match numbers {
-            Some((length, turn, bends)) => {
-                [length, turn].iter().chain(&bends).for_each(|number| add_number(table, *number));
-            }
-            None => table.push_str(",,,,,,,,"),
+            None => {}
         }
-        table.push_str(&end);
-        table.push('\n');
+        let (status, iterations) = (answer.status.to_string(), answer.iterations.to_string());
+        let time = format!("{:.3}", answer.time_us);
+        let (limit, excess) = answer.limit.clone().map_or((String::new(), None), |(limit, excess)| (limit, excess));
+        let begin =
+            [answer.id.clone(), segment.to_string(), kind.into(), direction, status, iterations, time, length, turn];
+        let end = [
+            whole(&|drive| drive.errors.x_m),
+            whole(&|drive| left * drive.errors.y_m),
+            whole(&|drive| left * drive.errors.yaw_rad),
+            whole(&|drive| left * drive.errors.curvature_1_m),
+            whole(&|drive| drive.max_curvature_1_m),
+            limit,
+            excess.map_or(String::new(), number),
+        ];
+        table.write_record(begin.iter().chain(&bends).chain(&end))?;
     }
+    Ok(())
 }
 
-/// A comma, and digits that read back to the same bits; no minus before zero.
-fn add_number(text: &mut String, number: f64) {
-    if number == 0.0 {
-        text.push_str(",0");
-    } else {
-        let _ = write!(text, ",{number}");
-    }
-}
-
-/// A cell as tables have it: in quotes where it would be more than one, or begin a line.
-fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.contains(['"', ',', '\r', '\n']) {
-        format!("\"{}\"", cell.replace('"', "\"\"")).into()
-    } else {
-        cell.into()
-    }
+/// Digits that read back to the same bits; no minus before zero.
+fn number(value: f64) -> String {
+    (value + 0.0).to_string()
 }
 
 #[cfg(test)]
@@ -258,7 +183,7 @@ mod tests {
     use super::*;
 
     fn lines(answers: &[Answer]) -> Vec<String> {
-        (head() + &rows(answers)).lines().map(str::to_owned).collect()
+        String::from_utf8(table(answers).unwrap()).unwrap().lines().map(str::to_owned).collect()
     }
 
     #[test]
@@ -288,30 +213,6 @@ mod tests {
         let ned = lines(&[answer]);
         assert!(ned[1].contains(",1.5,0,-0.25,0.5,0,0,0,0,0.000000001,-0.000000002,0.000000003,0,0.5,,"), "{}", ned[1]);
         assert!(ned[2].contains(",turn,1,ok,3,1.250,0,-0.5,"), "{}", ned[2]);
-    }
-
-    #[test]
-    fn what_a_file_has_already_is_read_back() {
-        let arc = Piece::Arc { length_m: 1.0, curvature: [0.0; 6], direction: 1 };
-        let errors = Errors { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0, curvature_1_m: 0.0 };
-        let drive = Drive { pieces: vec![arc, arc], errors, max_curvature_1_m: 0.0 };
-        let of = |id: &str, status, drive: Option<Drive>| Answer {
-            id: id.into(),
-            frame: Frame::Enu,
-            status,
-            iterations: 1,
-            time_us: 2.5,
-            drive,
-            limit: None,
-        };
-        let answers = [of("a,\"\n", Status::Ok, Some(drive)), of("b", Status::TimeLimit, None)];
-        let table = head() + &rows(&answers);
-        let kept = kept_answers(table.as_bytes()).unwrap();
-        let wanted = |id: &str, status, driven| KeptAnswer { id: id.into(), status, time_us: 2.5, driven };
-        assert_eq!(kept, [wanted("a,\"\n", Status::Ok, true), wanted("b", Status::TimeLimit, false)]);
-        assert!(kept_answers(&b"id,x\n"[..]).unwrap_err().to_string().contains("columns"));
-        let broken = head() + "a,0,arc,1,fine" + &",".repeat(17) + "\n";
-        assert!(kept_answers(broken.as_bytes()).unwrap_err().to_string().contains("line 2: no status"));
     }
 
     #[test]

@@ -1,15 +1,12 @@
 //! Queries as CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong is told
 //! as such and its neighbours stand; a file that is no table of queries is refused as a whole.
 
-use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, Read, Seek};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::blocks::{Block, Blocks, Cursor};
-use crate::bounds::{self, TableCheck};
+use crate::bounds;
 use crate::delimited::line_of;
 use crate::frames;
 use crate::quote;
@@ -86,7 +83,7 @@ pub struct Row {
     pub asked: Result<Asked, Wrong>,
 }
 
-/// A table of queries.
+/// A file of queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Queries {
     /// In their order.
@@ -128,50 +125,13 @@ const NUMBER: &str = "a finite number";
 const POSITIVE: &str = "a finite number > 0";
 const SPEED: &str = "a finite number of m/s ≥ 0";
 
-/// A file of queries that is read while they are answered.
-#[derive(Debug)]
-pub struct QueryFile {
-    /// What its columns mean.
-    pub columns: Columns,
-    /// Its rows.
-    pub blocks: Blocks<File>,
-    /// How many they are.
-    pub count: usize,
-}
-
-impl QueryFile {
-    /// Opens the file at `path`, once it has been looked through.
-    ///
-    /// # Errors
-    /// It cannot be read, or is no table of queries.
-    pub fn open(path: &Path) -> Result<Self, BrokenFile> {
-        let unreadable = |cause| BrokenFile::Unreadable { path: path.into(), cause };
-        let file = bounds::open(path, bounds::MOST_BYTES).map_err(unreadable)?;
-        let count = survey(&file).map_err(unreadable)?.ok_or(BrokenFile::Quotes)?;
-        (&file).rewind().map_err(unreadable)?;
-        let mut blocks = Blocks::new(file).map_err(unreadable)?;
-        let head = blocks.take(1).map_err(unreadable)?;
-        let columns = Columns::new(head.as_ref().map_or(&[][..], |head| &head.bytes))?;
-        Ok(Self { columns, blocks, count: count.saturating_sub(1) })
-    }
-}
-
-/// Counts the records of a table; `None` where its quotes do not pair up.
-fn survey(mut file: &File) -> io::Result<Option<usize>> {
-    let (mut check, mut cursor, mut records, mut quotes) = (TableCheck::default(), Cursor::default(), 0, 0);
-    let mut piece = vec![0; 1 << 16];
-    loop {
-        let read = file.read(&mut piece)?;
-        if read == 0 {
-            return Ok((quotes % 2 == 0).then_some(records));
-        }
-        let bytes = &piece[..read];
-        check.go_on(bytes).map_err(|what| io::Error::new(io::ErrorKind::InvalidData, what))?;
-        for byte in bytes {
-            quotes += usize::from(*byte == b'"');
-            records += usize::from(cursor.begins(*byte));
-        }
-    }
+/// Reads a file.
+///
+/// # Errors
+/// It cannot be read, or is no table of queries.
+pub fn read(path: &Path) -> Result<Queries, BrokenFile> {
+    let bytes = bounds::read_table(path).map_err(|cause| BrokenFile::Unreadable { path: path.into(), cause })?;
+    parse(&bytes)
 }
 
 /// Reads a table: a byte order mark, any line ends, quoted cells, blanks around cells, columns in any order.
@@ -179,153 +139,113 @@ fn survey(mut file: &File) -> io::Result<Option<usize>> {
 /// # Errors
 /// Columns are missing or named twice; quotes do not pair up.
 pub fn parse(bytes: &[u8]) -> Result<Queries, BrokenFile> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.iter().filter(|byte| **byte == b'"').count() % 2 == 1 {
         return Err(BrokenFile::Quotes);
     }
-    let unreadable = |cause| BrokenFile::Table(csv::Error::from(cause));
-    let mut blocks = Blocks::new(bytes).map_err(unreadable)?;
-    let head = blocks.take(1).map_err(unreadable)?;
-    let columns = Columns::new(head.as_ref().map_or(&[][..], |head| &head.bytes))?;
-    let rows = blocks.take(usize::MAX - bytes.len()).map_err(unreadable)?;
-    let rows = rows.map_or(Ok(Vec::new()), |block| columns.rows(&block))?;
-    Ok(Queries { rows, ignored: columns.ignored })
+    let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let names: Vec<String> = reader.byte_headers()?.iter().map(text).collect();
+    let columns = Columns::new(&names)?;
+    let mut rows = Vec::new();
+    for record in reader.byte_records() {
+        let record = record?;
+        let line = record.position().map_or(0, |from| line_of(bytes, None, from)) as u64;
+        let cells: Vec<String> = record.iter().map(text).collect();
+        let id = columns.cell(&cells, "id").unwrap_or_default().to_owned();
+        let asked = if cells.len() == names.len() {
+            columns.asked(&cells)
+        } else {
+            let value = format!("{} cells", cells.len());
+            Err(Wrong { column: "row".into(), value, bound: "as many cells as the header has" })
+        };
+        rows.push(Row { line, id, asked });
+    }
+    let known = |name: &String| NEEDED.iter().chain(&START).chain(&OPTIONAL).any(|column| column == name);
+    Ok(Queries { rows, ignored: names.into_iter().filter(|name| !known(name)).collect() })
+}
+
+/// Bytes that are no UTF-8 stay visible in what is told of their cell.
+fn text(cell: &[u8]) -> String {
+    String::from_utf8_lossy(cell).into_owned()
 }
 
 /// Where the columns stand.
-#[derive(Debug, Clone)]
-pub struct Columns {
-    /// How many.
-    cells: usize,
-    needed: [usize; NEEDED.len()],
-    start: Option<[usize; START.len()]>,
-    optional: [Option<usize>; OPTIONAL.len()],
-    /// Columns that mean nothing here.
-    pub ignored: Vec<String>,
+struct Columns<'n> {
+    names: &'n [String],
+    with_start: bool,
 }
 
-/// A reader of records in memory, none of them a head.
-fn records(bytes: &[u8]) -> csv::Reader<&[u8]> {
-    // Cells are short; the reader's buffer as large as its text.
-    let capacity = bytes.len().clamp(64, 1 << 13);
-    let mut reader = csv::ReaderBuilder::new();
-    reader.has_headers(false).flexible(true).trim(csv::Trim::All).buffer_capacity(capacity).from_reader(bytes)
-}
-
-impl Columns {
-    /// The columns that `head`, the table's first record, names.
-    fn new(head: &[u8]) -> Result<Self, BrokenFile> {
-        let mut record = csv::ByteRecord::new();
-        records(head).read_byte_record(&mut record)?;
-        let names: Vec<Cow<'_, str>> = record.iter().map(String::from_utf8_lossy).collect();
-        let place = |column: &str| names.iter().position(|name| name == column);
+impl<'n> Columns<'n> {
+    fn new(names: &'n [String]) -> Result<Self, BrokenFile> {
         let times = |column: &str| names.iter().filter(|name| *name == column).count();
         let refuse = |what: String| Err(BrokenFile::Header { what });
         if let Some(column) = NEEDED.iter().chain(&START).chain(&OPTIONAL).find(|column| times(column) > 1) {
             return refuse(format!("the column `{column}` stands there twice"));
         }
-        let mut needed = [0; NEEDED.len()];
-        for (at, column) in needed.iter_mut().zip(NEEDED) {
-            let Some(place) = place(column) else { return refuse(format!("no column `{column}`")) };
-            *at = place;
+        if let Some(column) = NEEDED.iter().find(|column| times(column) == 0) {
+            return refuse(format!("no column `{column}`"));
         }
-        let start = match START.map(place) {
-            [Some(x), Some(y), Some(yaw)] => Some([x, y, yaw]),
-            [None, None, None] => None,
-            _ => return refuse("sx, sy and syaw belong together".into()),
-        };
-        let known = |name: &str| NEEDED.iter().chain(&START).chain(&OPTIONAL).any(|column| *column == name);
-        let ignored = names.iter().filter(|name| !known(name)).map(ToString::to_string).collect();
-        Ok(Self { cells: names.len(), needed, start, optional: OPTIONAL.map(place), ignored })
-    }
-
-    /// The rows of `block`.
-    ///
-    /// # Errors
-    /// The reader gives up.
-    pub fn rows(&self, block: &Block) -> csv::Result<Vec<Row>> {
-        let (mut reader, mut record) = (records(&block.bytes), csv::ByteRecord::new());
-        let mut rows = Vec::new();
-        while reader.read_byte_record(&mut record)? {
-            let line = record.position().map_or(0, |from| line_of(&block.bytes, None, from)) as u64;
-            let cells = Cells { columns: self, record: &record };
-            let asked = if record.len() == self.cells {
-                cells.asked()
-            } else {
-                let value = format!("{} cells", record.len());
-                Err(Wrong { column: "row".into(), value, bound: "as many cells as the header has" })
-            };
-            // Bytes that are no UTF-8 stay visible.
-            rows.push(Row { line: block.line + line - 1, id: cells.text(self.needed[0]).into_owned(), asked });
+        let given = START.iter().filter(|column| times(column) == 1).count();
+        if given != 0 && given != START.len() {
+            return refuse("sx, sy and syaw belong together".into());
         }
-        Ok(rows)
-    }
-}
-
-/// One record.
-struct Cells<'r> {
-    columns: &'r Columns,
-    record: &'r csv::ByteRecord,
-}
-
-impl<'r> Cells<'r> {
-    fn text(&self, place: usize) -> Cow<'r, str> {
-        String::from_utf8_lossy(self.record.get(place).unwrap_or_default())
+        Ok(Self { names, with_start: given > 0 })
     }
 
-    fn number(&self, place: usize) -> Option<f64> {
-        let cell = std::str::from_utf8(self.record.get(place)?).ok()?;
-        cell.parse().ok().filter(|number: &f64| number.is_finite())
+    fn cell<'c>(&self, cells: &'c [String], column: &str) -> Option<&'c str> {
+        let place = self.names.iter().position(|name| name == column)?;
+        cells.get(place).map(String::as_str)
     }
 
-    fn asked(&self) -> Result<Asked, Wrong> {
-        let Columns { needed, start, optional, .. } = self.columns;
-        let wrong = |place: usize, column: &str, bound| {
-            let value = quote::cell(&self.text(place));
+    fn asked(&self, cells: &[String]) -> Result<Asked, Wrong> {
+        let wrong = |column: &str, bound| {
+            let value = quote::cell(self.cell(cells, column).unwrap_or_default());
             Wrong { column: column.to_owned(), value, bound }
         };
-        let number = |place: usize, column: &str| self.number(place).ok_or_else(|| wrong(place, column, NUMBER));
-        let given = |i: usize| optional[i].filter(|place| self.record.get(*place).is_some_and(|cell| !cell.is_empty()));
-        let optional = |i: usize, bound: &'static str, good: &dyn Fn(f64) -> bool| match given(i) {
+        let number = |column: &str| {
+            let cell = self.cell(cells, column).and_then(|cell| cell.parse::<f64>().ok());
+            cell.filter(|number| number.is_finite()).ok_or_else(|| wrong(column, NUMBER))
+        };
+        let optional = |column: &str, bound: &'static str, good: &dyn Fn(f64) -> bool| match self
+            .cell(cells, column)
+            .filter(|cell| !cell.is_empty())
+        {
             None => Ok(None),
-            Some(place) => {
-                let found = self.number(place).filter(|number| good(*number));
-                found.map(Some).ok_or_else(|| wrong(place, OPTIONAL[i], bound))
-            }
+            Some(cell) => match cell.parse::<f64>() {
+                Ok(number) if number.is_finite() && good(number) => Ok(Some(number)),
+                _ => Err(wrong(column, bound)),
+            },
         };
-        let frame = match given(4).map(|place| (place, self.text(place))) {
-            None => Frame::Enu,
-            Some((_, text)) if matches!(&*text, "enu" | "ENU") => Frame::Enu,
-            Some((_, text)) if matches!(&*text, "ned" | "NED") => Frame::Ned,
-            Some((place, _)) => return Err(wrong(place, OPTIONAL[4], "enu or ned")),
+        let frame = match self.cell(cells, "frame").unwrap_or_default() {
+            "" | "enu" | "ENU" => Frame::Enu,
+            "ned" | "NED" => Frame::Ned,
+            _ => return Err(wrong("frame", "enu or ned")),
         };
-        if self.record.get(needed[0]).is_none_or(<[u8]>::is_empty) {
-            return Err(wrong(needed[0], NEEDED[0], "a name for the query"));
+        if self.cell(cells, "id").is_none_or(str::is_empty) {
+            return Err(wrong("id", "a name for the query"));
         }
         let left = frame.left();
-        let start = match (start, frame) {
-            (None, _) => None,
-            (Some([x, y, yaw]), Frame::Enu) => {
-                Some([number(*x, START[0])?, number(*y, START[1])?, number(*yaw, START[2])?])
-            }
-            (Some([x, y, yaw]), Frame::Ned) => {
-                let (north, east, yaw) = (number(*x, START[0])?, number(*y, START[1])?, number(*yaw, START[2])?);
+        let start = match (self.with_start, frame) {
+            (false, _) => None,
+            (true, Frame::Enu) => Some([number("sx")?, number("sy")?, number("syaw")?]),
+            (true, Frame::Ned) => {
+                let (north, east, yaw) = (number("sx")?, number("sy")?, number("syaw")?);
                 Some([east, north, frames::other_yaw(yaw)])
             }
         };
-        let needed = |i: usize| number(needed[i], NEEDED[i]);
         Ok(Asked {
             start,
-            goal: [needed(1)?, left * needed(2)?, left * needed(3)?],
-            k0: left * needed(4)?,
-            kf: left * needed(5)?,
+            goal: [number("x")?, left * number("y")?, left * number("yaw")?],
+            k0: left * number("k0")?,
+            kf: left * number("kf")?,
             free_end: false,
-            v0: optional(0, SPEED, &|v| v >= 0.0)?,
-            vf: optional(1, SPEED, &|v| v >= 0.0)?,
-            direction: left * optional(2, NUMBER, &|_| true)?.unwrap_or(0.0),
-            direction_end: optional(3, NUMBER, &|_| true)?.map(|direction| left * direction),
+            v0: optional("v0", SPEED, &|v| v >= 0.0)?,
+            vf: optional("vf", SPEED, &|v| v >= 0.0)?,
+            direction: left * optional("direction", NUMBER, &|_| true)?.unwrap_or(0.0),
+            direction_end: optional("direction_end", NUMBER, &|_| true)?.map(|direction| left * direction),
             frame,
-            max_curvature: optional(5, POSITIVE, &|k| k > 0.0)?,
-            tolerance_m: optional(6, POSITIVE, &|m| m > 0.0)?,
+            max_curvature: optional("max_curvature", POSITIVE, &|k| k > 0.0)?,
+            tolerance_m: optional("tolerance_m", POSITIVE, &|m| m > 0.0)?,
         })
     }
 }
@@ -405,6 +325,6 @@ mod tests {
             let found = parse(text.as_bytes()).unwrap_err().to_string();
             assert!(found.contains(told), "{text:?}: {found}");
         }
-        assert!(QueryFile::open(Path::new("no-such.csv")).unwrap_err().to_string().contains("no-such.csv"));
+        assert!(read(Path::new("no-such.csv")).unwrap_err().to_string().contains("no-such.csv"));
     }
 }

@@ -20,7 +20,7 @@ mod trace;
 mod vehicle;
 
 pub use answered::{Answered, Near, limit_name};
-pub use batch::{Answers, Batch};
+pub use batch::Batch;
 pub use pace::{Pace, Rows};
 pub use question::{Question, goal_in_the_map, in_frame, pieces, seen_from, stretches};
 pub use remedy::Remedies;

@@ -27,14 +27,12 @@ mod body;
 mod claim;
 mod clear;
 mod clear_ground;
-mod course;
 mod demand;
 mod drive;
 mod drives;
 mod finding;
 mod gauss;
 mod ground;
-mod ground_claim;
 mod heaviest;
 mod heaviest_bound;
 mod heaviest_choices;
@@ -42,18 +40,13 @@ mod heaviest_triples;
 mod jet;
 mod knots;
 mod pace;
-mod peak;
 mod proof;
-mod quadrature;
 mod replay;
 mod rotors;
 mod stand;
-mod stride;
 mod twist;
 mod walk;
 
-#[cfg(test)]
-mod midpoint;
 #[cfg(test)]
 mod tests;
 
@@ -66,11 +59,10 @@ pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
 pub use clear::{ClearClaim, ClearSolid, verify_clear};
 pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_ground};
-pub use drive::{DriveClaim, DrivePiece, DriveReplay, replay_drive, trace_drive};
+pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
-pub use ground::{GroundReplay, Stopped, replay_ground};
-pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
+pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
 pub use heaviest::{
     CutClaim, HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest,
 };

@@ -69,9 +69,6 @@ pub(crate) struct Steer {
     /// Where the answers to --queries go; stdout if not given
     #[arg(long, value_name = "R.csv", requires = "queries")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on behind the answers that --out has, of a run with the same arguments that was stopped
-    #[arg(long, requires = "out")]
-    pub(crate) resume: bool,
     /// Elevation map to drive on
     #[arg(long, value_name = "DEM")]
     pub(crate) terrain: Option<PathBuf>,
