@@ -27,9 +27,9 @@ def test_rotorpy_flies_a_campaign(tmp_path):
     assert done.returncode == 0, (answer, logs, done.stderr)
     assert answer["counts"]["cases"] == answer["counts"]["pass"] == 2
     for case in range(2):
-        flight = pq.read_table(out / "executions" / f"{case:04}-0.parquet").to_pydict()
+        flight = pq.read_table(out / "executions", filters=[("case", "=", f"{case:04}"), ("run", "=", 0)]).to_pydict()
         times, legs = flight["t_s"], flight["leg"]
-        assert len(times) > 200 and times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
+        assert len(times) > 20 and times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
         assert legs[0] == 0 and legs[-1] == 2 and all(b >= a for a, b in zip(legs, legs[1:]))
         assert abs(flight["x_m"][-1] - 9) + abs(flight["y_m"][-1] - 7) + abs(flight["z_m"][-1] - 6) < 1.0
     # A tracking controller in calm air neither stands still nor is perfect.

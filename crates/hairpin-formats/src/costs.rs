@@ -246,8 +246,8 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
     Ok(Costs { points, costs, decimals })
 }
 
-/// A table of nothing but digits, points, commas and line ends, without a mistake; of another, which [`parse`] reads by its rows,
-/// or says what is wrong with it, `None`.
+/// A table of nothing but digits, points, commas and line ends, without a mistake; of another, which [`parse`] reads by
+/// its rows, or says what is wrong with it, `None`.
 ///
 /// Millions of cells that programs wrote are read in one pass over their bytes, in a tenth of the time.
 fn plain(text: &str, least: usize) -> Option<Costs> {
@@ -282,8 +282,8 @@ fn plain(text: &str, least: usize) -> Option<Costs> {
     (most <= MOST_DECIMALS).then_some(Costs { points, costs, decimals: most })
 }
 
-/// Digits without their point, and how many of them are behind it but for zeros at the end; `Some(None)` of an empty cell, `None` of
-/// what is no such number or has too many digits to be sure that it fits.
+/// Digits without their point, and how many of them are behind it but for zeros at the end; `Some(None)` of an empty
+/// cell, `None` of what is no such number or has too many digits to be sure that it fits.
 fn plain_cell(cell: &[u8]) -> Option<Option<(i64, u8)>> {
     if cell.is_empty() {
         return Some(None);

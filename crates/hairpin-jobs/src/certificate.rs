@@ -3,12 +3,12 @@
 //!
 //! `{"kind","points","start","end","path","cost","scale","directed","steps","sha256"}`: costs in whole numbers (a
 //! table's times the power of ten that makes them whole); a step is `[multipliers, out, into, next]`, next `[]`
-//! (closed), `[step]` or `[choice, step with it out, step with it in]`; where it prices cuts, `[[price, except, points], …]` is its fifth part. Where points may come several times `visits`
-//! stands in the place of scale and directed, and a step is `[prices]`, whose bound closes it, or `[prices, points,
-//! without, [[from, to, step], …]]`: a path meets none of the points (step `without`, `null` where it must), or one of
-//! the arcs leads it out of them, to number `points` where it ends. sha256 is of the object without it. Where moves may
-//! pass points, `passed` stands in the place of scale, directed and steps: the points of the path that are passed; it
-//! is searched again.
+//! (closed), `[step]` or `[choice, step with it out, step with it in]`; where it prices cuts, `[[price, except,
+//! points], …]` is its fifth part. Where points may come several times `visits` stands in the place of scale and
+//! directed, and a step is `[prices]`, whose bound closes it, or `[prices, points, without, [[from, to, step], …]]`: a
+//! path meets none of the points (step `without`, `null` where it must), or one of the arcs leads it out of them, to
+//! number `points` where it ends. sha256 is of the object without it. Where moves may pass points, `passed` stands in
+//! the place of scale, directed and steps: the points of the path that are passed; it is searched again.
 
 use hairpin::search::heaviest::{Ends, Heaviest, Next, Step, WalkProof, WalkStep};
 use hairpin::verification::{

@@ -83,8 +83,8 @@ pub struct Violation {
     /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished or
     /// stalled run the number of waypoints reached.
     pub value: f64,
-    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished or stalled run the number
-    /// of waypoints.
+    /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished or stalled run the
+    /// number of waypoints.
     pub limit: f64,
     /// Unit, as printed: `m`, `m/s²`, `s`, `°`, empty.
     pub unit: String,

@@ -195,8 +195,8 @@ impl Smooth for Enclosure {
     }
 }
 
-/// `[body at i = 0, body at i = 1, …]`, written out. `array::from_fn` and `array::map` leave calls where the body is as large
-/// as sums of enclosures are, with their arguments in memory: a quarter of the time of judging a leg.
+/// `[body at i = 0, body at i = 1, …]`, written out. `array::from_fn` and `array::map` leave calls where the body is as
+/// large as sums of enclosures are, with their arguments in memory: a quarter of the time of judging a leg.
 macro_rules! unrolled {
     (|$i:ident| $body:expr) => {
         $crate::math::interval::unrolled!([0, 1, 2], |$i| $body)

@@ -5,8 +5,8 @@
 //! Slow on purpose: O(n²) for a tree, O(n³) for an arborescence, whatever the table, without the search's keys, orders
 //! or warm starts.
 
-use super::heaviest::{CutClaim, StepClaim};
 use super::heaviest_choices::{Chosen, IN, Layout, OUT};
+use super::heaviest_claim::{CutClaim, StepClaim};
 
 /// What a step prices: degrees, and cuts.
 pub(super) struct Prices<'a> {

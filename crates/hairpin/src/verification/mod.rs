@@ -36,6 +36,7 @@ mod ground;
 mod heaviest;
 mod heaviest_bound;
 mod heaviest_choices;
+mod heaviest_claim;
 mod heaviest_triples;
 mod jet;
 mod knots;
@@ -63,9 +64,8 @@ pub use drive::{DriveClaim, DrivePiece, DriveReplay, LEAST_STEPS, replay_drive, 
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
 pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
-pub use heaviest::{
-    CutClaim, HeaviestClaim, MOST_SEARCHED_AGAIN, NextClaim, PathFinding, StepClaim, TreeClaim, verify_heaviest,
-};
+pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
+pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
 pub use proof::{open_loop_with_lag, verify};
 pub use stand::Stand;

@@ -18,6 +18,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["user_code"],
     &["vary", "user_score", "user_target", "baseline"],
     // What a case and its runs are.
+    &["full_rate"],
     &["case"],
     &["clock", "learn", "influence", "placement", "own_controller"],
     // What files hold beside the keys.
@@ -34,6 +35,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["chance", "coverage", "goals", "states"],
     // The jobs.
     &["mission", "judge"],
+    &["landed"],
     &["executor", "samples"],
     &["execute"],
     &["calibrate", "trial", "verify", "verdict", "select", "compare", "shrink"],

@@ -57,7 +57,8 @@ impl<'a> FlightSolver<'a> {
         plan
     }
 
-    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a witness
+    /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a
+    /// witness
     /// `rewitnessed` makes the new one.
     ///
     /// Start and end stay where they are; what is in between keeps the margin from the walls and the robot's radius

@@ -61,7 +61,8 @@ impl Plan {
         }
     }
 
-    /// Waypoints up to the first one of leg `leg`, and those of `other` after as many; `None` where one of both has none.
+    /// Waypoints up to the first one of leg `leg`, and those of `other` after as many; `None` where one of both has
+    /// none.
     pub(in crate::campaign) fn spliced(&self, other: &Self, leg: usize) -> Option<Vec<Point3<f64>>> {
         Some([self.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?].concat())
     }

@@ -31,7 +31,8 @@ pub fn leg(leg: usize) -> String {
     format!("{leg}→{}", leg + 1)
 }
 
-/// `deviation 0.65 m > 0.50 m at t=12.34 s`; events (`crash`, `left-world`, `stalled`, `unfinished`) say what happened instead.
+/// `deviation 0.65 m > 0.50 m at t=12.34 s`; events (`crash`, `left-world`, `stalled`, `unfinished`) say what happened
+/// instead.
 pub fn violation(violation: &Violation) -> String {
     let finding = violation.event().unwrap_or_else(|| {
         let sign = if violation.is_lower_limit() { '<' } else { '>' };

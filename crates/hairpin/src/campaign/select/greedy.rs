@@ -42,8 +42,9 @@ pub(super) fn dispersed(weights: &[f64], distances: impl Fn(usize) -> Vec<f64>, 
 /// 1/e of what the best choice covers (Nemhauser, Wolsey, Fisher: An analysis of approximations for maximizing
 /// submodular set functions, 1978).
 ///
-/// Weights 0 … 1. What a set covers that is new only falls: sets wait with what they last had, and only those that could
-/// be the best are looked at again (Minoux: Accelerated greedy algorithms for maximizing submodular set functions, 1978).
+/// Weights 0 … 1. What a set covers that is new only falls: sets wait with what they last had, and only those that
+/// could be the best are looked at again (Minoux: Accelerated greedy algorithms for maximizing submodular set
+/// functions, 1978).
 pub(super) fn covering(sets: &[&BTreeSet<usize>], weights: &[f64], count: usize) -> Vec<usize> {
     let mut covered: BTreeSet<usize> = BTreeSet::new();
     // Weights are 0 … 1: they decide between equals alone. Of equals the first is the greatest here.

@@ -85,9 +85,9 @@ fn old_leg<'a>(profile: &'a Profile, before: &[Point3<f64>], points: &[Point3<f6
     }
 }
 
-/// The witness over other `points` in the places of `before`, the waypoints of `profile`: what did not change is kept, and
-/// where velocities are in the way other ones are chosen at what changed, and then beside it. `None` where no choice is
-/// proven.
+/// The witness over other `points` in the places of `before`, the waypoints of `profile`: what did not change is kept,
+/// and where velocities are in the way other ones are chosen at what changed, and then beside it. `None` where no
+/// choice is proven.
 pub(crate) fn mend_over<J: ProveLegs>(
     judge: &J,
     timing: &LegTiming,

@@ -190,7 +190,8 @@ impl Flatness {
         })
     }
 
-    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m g).
+    /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m
+    /// g).
     #[inline]
     pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();

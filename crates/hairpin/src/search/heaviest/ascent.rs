@@ -88,8 +88,8 @@ impl Ascent {
     ///
     /// Each look is one spanning tree or arborescence. `threshold` and `target` are scaled costs: a bound below the
     /// first closes the problem, since nothing in it is wanted, and the second is where Polyak's step aims. `stop` is
-    /// asked every 32 looks, of many arcs at each. Rounding to whole multipliers costs nothing but a slightly different step: L is a bound at
-    /// any λ.
+    /// asked every 32 looks, of many arcs at each. Rounding to whole multipliers costs nothing but a slightly different
+    /// step: L is a bound at any λ.
     pub(super) fn run<R: Relaxation>(
         &mut self,
         relaxation: &mut R,

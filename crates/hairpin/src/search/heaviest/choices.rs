@@ -8,7 +8,7 @@
 //! is out, what it cannot do without is in; of each chain of chosen arcs the other end is kept, so that no arc closes a
 //! circle.
 
-use super::cuts::Cut;
+use super::cut::Cut;
 use super::problem::{Arcs, Ends};
 
 /// Whether a choice is made.
@@ -58,6 +58,20 @@ pub(super) enum Choice {
 }
 
 impl Choices {
+    /// Whether a choice counts in a cut.
+    pub(super) fn counts(&self, cut: &Cut, id: usize) -> bool {
+        match self.kind(id) {
+            Choice::Arc(arc) => cut.has_arc(self.arcs[arc].from, self.arcs[arc].to),
+            Choice::Loop(point) => cut.has_loop(point),
+            Choice::Start(_) | Choice::End(_) => false,
+        }
+    }
+
+    /// The choices that count in a cut.
+    pub(super) fn counted(&self, cut: &Cut) -> Vec<u32> {
+        (0..self.len()).filter(|id| self.counts(cut, *id)).map(|id| id as u32).collect()
+    }
+
     /// m arcs give m + 3n choices: arcs, then n starts, n loops, n ends. Rules are held as rows of members, O(m + n)
     /// memory.
     pub(super) fn new(points: usize, directed: bool, arcs: Vec<Arc>) -> Self {
@@ -91,9 +105,11 @@ impl Choices {
         Self::new(n, directed, list)
     }
 
-    /// With only the arcs that are among the `most` best of either of their points, by what multipliers leave of their costs.
+    /// With only the arcs that are among the `most` best of either of their points, by what multipliers leave of their
+    /// costs.
     ///
-    /// A smaller problem whose paths are paths of the whole, so good for finding; its bounds are none of the whole. O(n²).
+    /// A smaller problem whose paths are paths of the whole, so good for finding; its bounds are none of the whole.
+    /// O(n²).
     pub(super) fn near(arcs: &Arcs, scale: i64, multipliers: &[i64], most: usize) -> Self {
         let n = arcs.points();
         let directed = !arcs.symmetric();

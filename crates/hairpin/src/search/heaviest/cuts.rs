@@ -1,16 +1,17 @@
 //! Cuts that the relaxed problem lacks where points may be left out.
 //!
-//! Of a set S and one of its points k, a path that meets k has in S at most as many arcs as it meets points there, less one; one that
-//! does not meet k leaves it out. So in both cases
+//! Of a set S and one of its points k, a path that meets k has in S at most as many arcs as it meets points there, less
+//! one; one that does not meet k leaves it out. So in both cases
 //!
 //! Σ arcs inside S + Σ loops of S but k's ≤ |S| − 1.
 //!
-//! A tree alone keeps to this without the loops. Two far clusters can each be half of a path then, with half a point left out in each, and be
-//! worth the sum of both. A price π ≥ 0 for each cut takes π from what is inside, and adds π (|S| − 1). Subtour elimination for tours that
-//! choose their points: Fischetti, Salazar & Toth, "A branch-and-cut algorithm for the symmetric generalized traveling salesman problem"
-//! (Operations Research 45, 1997).
+//! A tree alone keeps to this without the loops. Two far clusters can each be half of a path then, with half a point
+//! left out in each, and be worth the sum of both. A price π ≥ 0 for each cut takes π from what is inside, and adds π
+//! (|S| − 1). Subtour elimination for tours that choose their points: Fischetti, Salazar & Toth, "A branch-and-cut
+//! algorithm for the symmetric generalized traveling salesman problem" (Operations Research 45, 1997).
 
-use super::choices::{Choice, Choices};
+use super::choices::Choices;
+use super::cut::Cut;
 
 /// More are not priced at once: steps with many are slow and go nowhere.
 const MOST: usize = 128;
@@ -21,42 +22,6 @@ const VIOLATED: f64 = 0.03;
 /// What is in a smaller share of the relaxed solutions joins no sets.
 const JOINS: f64 = 0.02;
 
-/// S and k.
-#[derive(Clone, PartialEq, Eq)]
-pub(super) struct Cut {
-    /// Whether a point is in S.
-    inside: Vec<bool>,
-    /// k.
-    except: u32,
-    /// |S| − 1.
-    pub(super) room: i64,
-}
-
-impl Cut {
-    /// Whether a choice counts.
-    pub(super) fn has(&self, choices: &Choices, id: usize) -> bool {
-        match choices.kind(id) {
-            Choice::Arc(arc) => {
-                let arc = &choices.arcs[arc];
-                self.inside[arc.from as usize] && self.inside[arc.to as usize]
-            }
-            Choice::Loop(point) => point as u32 != self.except && self.inside[point],
-            Choice::Start(_) | Choice::End(_) => false,
-        }
-    }
-
-    /// The choices that count.
-    pub(super) fn members(&self, choices: &Choices) -> Vec<u32> {
-        (0..choices.len()).filter(|id| self.has(choices, *id)).map(|id| id as u32).collect()
-    }
-
-    /// S in the order of its points, and k.
-    pub(super) fn named(&self) -> (Vec<usize>, usize) {
-        let points = (0..self.inside.len()).filter(|point| self.inside[*point]).collect();
-        (points, self.except as usize)
-    }
-}
-
 /// Points that arcs join, the ones in most relaxed solutions first.
 struct Set {
     points: Vec<u32>,
@@ -66,7 +31,8 @@ struct Set {
 
 /// Cuts that a mean of relaxed solutions violates, those that are priced already aside; none where there are enough.
 ///
-/// Sets are those that arise as arcs are joined by their shares in the mean: clusters, and what hangs together. O(n²) beside sorting.
+/// Sets are those that arise as arcs are joined by their shares in the mean: clusters, and what hangs together. O(n²)
+/// beside sorting.
 pub(super) fn violated(choices: &Choices, shares: &[f64]) -> Vec<Cut> {
     let n = choices.points;
     let mut between = vec![0.0; n * n];

@@ -257,7 +257,7 @@ impl<K: Key> Relaxation for Forest<K> {
             sizes: vec![1; n],
             begun: vec![none; n],
             taken: vec![0; choices.len()],
-            in_cuts: choices.cuts.iter().map(|cut| cut.members(choices)).collect(),
+            in_cuts: choices.cuts.iter().map(|cut| choices.counted(cut)).collect(),
             begun_sizes: vec![1; n],
             begun_joins: 0,
             joins: Vec::with_capacity(n),
@@ -331,7 +331,7 @@ impl<K: Key> Relaxation for Forest<K> {
         excess.fill(-2);
         excess[choices.points] = -1;
         for (excess, cut) in excess[choices.points + 1..].iter_mut().zip(&choices.cuts) {
-            *excess = self.used.iter().filter(|id| cut.has(choices, **id as usize)).count() as i32 - cut.room as i32;
+            *excess = self.used.iter().filter(|id| choices.counts(cut, **id as usize)).count() as i32 - cut.room as i32;
         }
         for id in &self.used {
             match choices.kind(*id as usize) {

@@ -28,6 +28,7 @@ mod best;
 mod branch;
 mod choices;
 mod circulation;
+mod cut;
 mod cuts;
 mod dfs;
 mod first_multipliers;

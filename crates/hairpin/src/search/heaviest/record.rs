@@ -20,7 +20,8 @@ pub struct Step {
     pub next: Next,
 }
 
-/// A price for: arcs inside a set of points, and points of it left out but one of them, are together less than the set's points.
+/// A price for: arcs inside a set of points, and points of it left out but one of them, are together less than the
+/// set's points.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PricedCut {
     /// The set.

@@ -153,10 +153,11 @@ impl<'a, R: Relaxation> Root<'a, R> {
         root
     }
 
-    /// From few arcs to all that may be in a heavier path; whether that closes the problem, `None` if it was stopped before.
+    /// From few arcs to all that may be in a heavier path; whether that closes the problem, `None` if it was stopped
+    /// before.
     ///
-    /// Steps go along few arcs, to which those come that the heaviest tree of the whole has beside them, until its bound leaves few
-    /// open. Where costs are directed all arcs come at once.
+    /// Steps go along few arcs, to which those come that the heaviest tree of the whole has beside them, until its
+    /// bound leaves few open. Where costs are directed all arcs come at once.
     fn widen(&mut self) -> Option<bool> {
         if !self.arcs.symmetric() {
             self.take_up(Choices::all(self.arcs, self.scale));
@@ -289,8 +290,8 @@ impl<'a, R: Relaxation> Root<'a, R> {
         ((self.ascent.bound - best) as f64) < 0.95 * (before - best) as f64
     }
 
-    /// Whether branching would be long: more than [`MANY_OPEN`] arcs a point are neither in nor out, or of more than half of all points
-    /// it is open whether they are met.
+    /// Whether branching would be long: more than [`MANY_OPEN`] arcs a point are neither in nor out, or of more than
+    /// half of all points it is open whether they are met.
     fn many_open(&self) -> bool {
         let n = self.arcs.points();
         let open = |from: usize, to: usize| self.made.state[from..to].iter().filter(|state| **state == OPEN).count();

@@ -1,9 +1,11 @@
 //! The whole table of a symmetric problem, looked at without a list of its arcs.
 //!
-//! Of thousands of points the arcs are millions, of which steps of the multipliers need a few for each point: they go along those, and
-//! the whole is asked now and then for its bound, for the arcs that the few lack, and in the end for those that may be in a heavier path.
+//! Of thousands of points the arcs are millions, of which steps of the multipliers need a few for each point: they go
+//! along those, and the whole is asked now and then for its bound, for the arcs that the few lack, and in the end for
+//! those that may be in a heavier path.
 //!
-//! The heaviest tree of the whole is that of its own arcs: Prim's algorithm finds them in O(n²), and [`Forest`] bounds them alone.
+//! The heaviest tree of the whole is that of its own arcs: Prim's algorithm finds them in O(n²), and [`Forest`] bounds
+//! them alone.
 
 use super::choices::{Arc, Choices, Made, OUT};
 use super::forest::Forest;

@@ -59,7 +59,8 @@ impl Lanes {
         pairs.iter().flat_map(|pairs| pairs[one % ROWS]).take(self.count).collect()
     }
 
-    /// The largest ‖x − y‖² + (`left` of x + `left` of y)² of the vectors of a block with those of it and of all before.
+    /// The largest ‖x − y‖² + (`left` of x + `left` of y)² of the vectors of a block with those of it and of all
+    /// before.
     fn most_of(&self, own: usize, left: &[f64]) -> f64 {
         let mut pairs = vec![[[0.0; LANES]; ROWS]; own + 1];
         let mut most = [0.0; LANES];
