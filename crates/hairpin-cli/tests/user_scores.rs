@@ -176,5 +176,5 @@ fn the_worst_is_searched_by_a_target_of_the_users() {
     with_target(here, "def score(leg):\n    return 1\n");
     refused(here, &["generate", "q.toml", "--out", "e"], &["it defines no function target(run)"]);
     let unknown = ["generate", "q.toml", "--out", "f", "--set", "generate.search.target=\"deviations\""];
-    refused(here, &unknown, &["deviation", "python:FILE"]);
+    refused(here, &unknown, &["did you mean `deviation`?"]);
 }

@@ -46,6 +46,7 @@ mod judged;
 mod list;
 mod names;
 mod parts;
+mod recent;
 mod run_writer;
 mod runs;
 mod scenario;
@@ -58,6 +59,8 @@ use hairpin::campaign::{Curve, Tally};
 
 use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_TEXT_BYTES};
+use crate::parquet::part::Part;
+use crate::parquet::runs::Facts;
 use crate::rapid::Frames;
 
 pub use error::FolderError;
@@ -68,9 +71,8 @@ use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
 use names::{COVERAGE, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
 pub(crate) use names::{SCENARIO, is_written_to};
-use parts::OpenParts;
+use recent::Recent;
 pub use run_writer::{Landed, RunWriter};
-use runs::HeldFacts;
 
 const LOCK: &str = ".lock";
 const FOLDERS: [&str; 9] =
@@ -92,8 +94,8 @@ pub struct CampaignFolder {
     _lock: Option<File>,
     /// What its programs find on the controller, once somebody asked.
     frames: OnceLock<Frames>,
-    open_parts: OpenParts,
-    facts: HeldFacts,
+    open_parts: Recent<Part>,
+    facts: Recent<Facts>,
 }
 
 impl CampaignFolder {
@@ -148,7 +150,7 @@ impl CampaignFolder {
     }
 
     fn at(path: &Path, lock: Option<File>) -> Self {
-        let (open_parts, facts) = (OpenParts::default(), HeldFacts::default());
+        let (open_parts, facts) = (Recent::default(), Recent::default());
         Self { path: path.into(), _lock: lock, frames: OnceLock::new(), open_parts, facts }
     }
 

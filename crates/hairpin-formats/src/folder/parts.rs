@@ -3,7 +3,7 @@
 //! rest.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use hairpin::campaign::CaseNumber;
 
@@ -23,8 +23,6 @@ pub(super) const RERUN_FACTS: &str = "rerun-runs";
 
 /// Cases of a part.
 pub(super) const CASES_PER_PART: usize = 1000;
-/// Parts that are open at a time.
-const OPEN: usize = 6;
 
 /// What schema the rows of a table have, as their files say it.
 fn schema_of(table: &str) -> &'static str {
@@ -33,40 +31,6 @@ fn schema_of(table: &str) -> &'static str {
         PROFILES => "profile",
         PROGRAMS => "program",
         _ => "execution",
-    }
-}
-
-/// Parts that are open, the last one asked for first.
-#[derive(Debug, Default)]
-pub(super) struct OpenParts(Mutex<Vec<(PathBuf, Arc<Part>)>>);
-
-impl OpenParts {
-    fn find(&self, wanted: impl Fn(&Path, &Part) -> bool) -> Option<Arc<Part>> {
-        let mut open = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let place = open.iter().position(|(path, part)| wanted(path, part))?;
-        let found = open.remove(place);
-        let part = found.1.clone();
-        open.insert(0, found);
-        Some(part)
-    }
-
-    fn open(&self, path: &Path) -> Result<Arc<Part>, FolderError> {
-        if let Some(part) = self.find(|known, _| known == path) {
-            return Ok(part);
-        }
-        let part = Arc::new(Part::open(path)?);
-        let mut open = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        open.insert(0, (path.into(), part.clone()));
-        open.truncate(OPEN);
-        Ok(part)
-    }
-
-    fn close_all(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
-    }
-
-    fn close(&self, path: &Path) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).retain(|(known, _)| known != path);
     }
 }
 
@@ -113,8 +77,8 @@ pub(super) fn part_with<T>(
 impl CampaignFolder {
     /// Lets go of all parts that are open: files are removed.
     pub(super) fn close_tables(&self) {
-        self.open_parts.close_all();
-        self.facts.let_go();
+        self.open_parts.forget_all();
+        self.facts.forget_all();
     }
 
     /// The part of `table` that has `case`; `None` where none has.
@@ -128,7 +92,7 @@ impl CampaignFolder {
             return Ok(Some(part));
         }
         part_with(&parts_of(&self.path, table), case, |path| {
-            let part = self.open_parts.open(path)?;
+            let part = self.open_parts.or_read(path, Part::open)?;
             let cases = part.cases();
             Ok((part, cases))
         })
@@ -146,7 +110,7 @@ impl CampaignFolder {
             return Ok(());
         }
         atomic::make_folder(&self.path.join(table))?;
-        self.open_parts.close(&path);
+        self.open_parts.forget(&path);
         Ok(part.save(&path, schema_of(table))?)
     }
 
@@ -160,7 +124,7 @@ impl CampaignFolder {
         let mut part = PartWriter::in_folder(&self.path);
         let path = self.part_path(table, number);
         if path.is_file() {
-            let old = self.open_parts.open(&path)?;
+            let old = self.open_parts.or_read(&path, Part::open)?;
             for (case, run) in old.keys().filter(|(case, run)| stay(*case, *run)) {
                 if let Some(piece) = old.piece((case, run))? {
                     self.put(&mut part, table, ((case, run), piece))?;

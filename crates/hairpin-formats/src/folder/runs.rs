@@ -1,10 +1,9 @@
 //! The runs of a campaign folder: what is known of each, and its motion. Folders with a file per run are read as well.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use hairpin::campaign::{CaseNumber, Run};
 use hairpin::trajectory::Track;
@@ -13,45 +12,11 @@ use super::parts::{EXECUTIONS, RERUN_FACTS, RERUNS, part_with, parts_of};
 use super::{CampaignFolder, FolderError, RUNS};
 use crate::atomic::{self, WriteError};
 use crate::executor::{Failed, was_never_asked};
-use crate::parquet::runs::{self, RunFacts};
+use crate::parquet::runs::{self, Facts, RunFacts};
 use crate::parquet::track;
 
-type Facts = BTreeMap<(CaseNumber, usize), RunFacts>;
-
-/// Parts of what is known of runs that are held at a time.
-const HELD: usize = 4;
 /// Time between samples where nothing says it any more, s.
 const USUAL_PERIOD: f64 = 0.01;
-
-/// What is known of runs, part by part, the last one asked for first.
-#[derive(Debug, Default)]
-pub(super) struct HeldFacts(Mutex<Vec<(PathBuf, Arc<Facts>)>>);
-
-impl HeldFacts {
-    fn find(&self, wanted: impl Fn(&Path, &Facts) -> bool) -> Option<Arc<Facts>> {
-        let mut held = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let place = held.iter().position(|(path, facts)| wanted(path, facts))?;
-        let found = held.remove(place);
-        let facts = found.1.clone();
-        held.insert(0, found);
-        Some(facts)
-    }
-
-    pub(super) fn let_go(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
-    }
-
-    fn read(&self, path: &Path) -> Result<Arc<Facts>, FolderError> {
-        if let Some(facts) = self.find(|known, _| known == path) {
-            return Ok(facts);
-        }
-        let facts = Arc::new(runs::read_facts(path)?);
-        let mut held = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        held.insert(0, (path.into(), facts.clone()));
-        held.truncate(HELD);
-        Ok(facts)
-    }
-}
 
 fn cases_of(facts: &Facts) -> Option<(CaseNumber, CaseNumber)> {
     Some((facts.first_key_value()?.0.0, facts.last_key_value()?.0.0))
@@ -59,7 +24,7 @@ fn cases_of(facts: &Facts) -> Option<(CaseNumber, CaseNumber)> {
 
 impl CampaignFolder {
     pub(super) fn forget_facts(&self, path: &Path) {
-        self.facts.0.lock().unwrap_or_else(PoisonError::into_inner).retain(|(known, _)| known != path);
+        self.facts.forget(path);
     }
 
     /// What is known of the runs of all cases around `case`; nothing where none landed.
@@ -73,7 +38,7 @@ impl CampaignFolder {
             return Ok(facts);
         }
         let found = part_with(&parts_of(&self.path, table), case, |path| {
-            let facts = self.facts.read(path)?;
+            let facts = self.facts.or_read(path, runs::read_facts)?;
             let cases = cases_of(&facts);
             Ok((facts, cases))
         })?;

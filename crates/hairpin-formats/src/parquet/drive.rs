@@ -1,5 +1,6 @@
 //! `profiles/` of drives: their commands, one row per segment:
-//! `case,leg,segment,kind,direction,length_m,turn_rad,a0…a5,from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m,to_x_m,…`.
+//! `case,leg,segment,kind,direction,length_m,turn_rad,a0…a5`, `from_x_m,from_y_m,from_yaw_rad,from_curvature_1_m`,
+//! `to_x_m,…`.
 //!
 //! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with
 //! `start_speed_m_s`, `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the

@@ -24,6 +24,9 @@ const FACTS_KEY: &str = "hairpin.run";
 /// The word in `ended` for a run whose executor failed.
 pub const EXECUTOR_FAILED: &str = "executor-failed";
 
+/// What is known of runs, by case and run.
+pub(crate) type Facts = BTreeMap<(CaseNumber, usize), RunFacts>;
+
 /// What is known about a run beside its track.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunFacts {
