@@ -114,13 +114,18 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     chosen.sort_by_key(|case| case.number);
     chosen.iter_mut().try_for_each(|case| work.folder.read_witness(case))?;
     let folder = write(&work, settings, (&all, &results), &chosen)?;
+    // What was read to choose by is not read again.
+    let cells = |places: &[usize]| match by {
+        By::Coverage => Ok(together(places.iter().map(|place| candidates[*place].cells.clone()))),
+        _ => met.by_case(places).map(|each| together(each.into_iter())),
+    };
     Ok(Selected {
         folder,
         names: places.iter().map(|place| cases[*place].id()).collect(),
         of: cases.len(),
-        selected: choice.measure(&places, met.together(&places)?),
-        most_stressful: choice.measure(&stressful, met.together(&stressful)?),
-        all: choice.measure(&of_all, met.by_all(&of_all)?),
+        selected: choice.measure(&places, cells(&places)?),
+        most_stressful: choice.measure(&stressful, cells(&stressful)?),
+        all: choice.measure(&of_all, met.judged.map_or_else(|| cells(&of_all), Ok)?),
         cells: met.grid.cells(),
         stress: StressUnit::of(&work, &candidates),
     })
@@ -173,15 +178,11 @@ impl<'a> Met<'a> {
         };
         places.par_iter().map(met).collect()
     }
+}
 
-    /// How many they met together.
-    fn together(&self, places: &[usize]) -> Result<usize, Problem> {
-        Ok(self.by_case(places)?.into_iter().flatten().collect::<BTreeSet<_>>().len())
-    }
-
-    fn by_all(&self, all: &[usize]) -> Result<usize, Problem> {
-        self.judged.map_or_else(|| self.together(all), Ok)
-    }
+/// How many cells cases met together.
+fn together(each: impl Iterator<Item = BTreeSet<usize>>) -> usize {
+    each.flatten().collect::<BTreeSet<_>>().len()
 }
 
 /// The new folder: the chosen cases with their plans and runs, judged if the old one was.

@@ -178,8 +178,7 @@ impl CampaignFolder {
         let path = self.path.join(TRAJECTORIES);
         let found = self.read_rows_of(TRAJECTORIES, case)?;
         let (rows, period) = found.ok_or(FolderError::Contradiction { path, case, what: "has no planned motion" })?;
-        let track = track::from_table(&rows)?;
-        Ok(period.map_or(track.clone(), |period| track.at_period(period)))
+        Ok(track::sampled(&rows, period)?)
     }
 
     /// The rows of a case in `table` and, where only some are there, the time between its samples; from a file of its

@@ -41,22 +41,17 @@ impl CampaignFolder {
     }
 
     fn copy_runs(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
-        let mut keys = Vec::new();
-        for &case in cases {
-            keys.extend(self.facts_of(case)?.into_iter().map(|facts| (case, facts.run)));
-        }
-        let repeat = keys.iter().map(|(_, run)| run + 1).max().unwrap_or_default();
-        let writer = there.write_runs(repeat, keys.iter().copied());
-        for (case, run) in keys {
-            let known = self.facts_of(case)?.into_iter().find(|facts| facts.run == run);
-            let landed = match known.filter(|_| !self.run_path(case, run).exists()) {
-                Some(facts) => self.landed(EXECUTIONS, facts)?,
-                None => match self.read_run(case, run)? {
-                    Some(run) => {
-                        Landed::of(&run, &BTreeSet::new()).map_err(|cause| there.no_room(EXECUTIONS, cause))?
-                    }
-                    None => continue,
-                },
+        let known: Result<Vec<Vec<RunFacts>>, FolderError> = cases.iter().map(|case| self.facts_of(*case)).collect();
+        let known: Vec<RunFacts> = known?.into_iter().flatten().collect();
+        let repeat = known.iter().map(|facts| facts.run + 1).max().unwrap_or_default();
+        let writer = there.write_runs(repeat, known.iter().map(|facts| (facts.case, facts.run)));
+        for facts in known {
+            let (case, run) = (facts.case, facts.run);
+            let landed = if self.run_path(case, run).exists() {
+                let Some(run) = self.read_run(case, run)? else { continue };
+                Landed::of(&run, &BTreeSet::new()).map_err(|cause| writer.no_room(cause))?
+            } else {
+                self.landed(EXECUTIONS, facts)?
             };
             writer.land(landed)?;
         }

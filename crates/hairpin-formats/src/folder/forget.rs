@@ -6,14 +6,15 @@ use std::io;
 use hairpin::campaign::learn::NAME;
 
 use super::names::ALL_RUNS;
+use super::parts::{EXECUTIONS, PROFILES, PROGRAMS, RERUN_FACTS, RERUNS, TRAJECTORIES};
 use super::{
     ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
-    MOVES, OPTIMUM, RESULTS, WAYPOINTS, entries, exports, stands_for,
+    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
 /// Folders of tables about runs.
-const OF_RUNS: [&str; 4] = ["runs", "executions", "rerun-runs", "reruns"];
+const OF_RUNS: [&str; 4] = [RUNS, EXECUTIONS, RERUN_FACTS, RERUNS];
 
 impl CampaignFolder {
     pub(super) fn remove_leftovers(&self) {
@@ -55,7 +56,7 @@ impl CampaignFolder {
             "junit.xml",
             "report.html",
         ];
-        self.remove(&names, &[&["trajectories", "profiles", "programs"][..], &OF_RUNS[..]].concat())
+        self.remove(&names, &[&[TRAJECTORIES, PROFILES, PROGRAMS][..], &OF_RUNS[..]].concat())
     }
 
     /// Removes the cases by chance: they were measured otherwise than the campaign's now are.

@@ -29,9 +29,12 @@ fn schema_of(table: &str) -> &'static str {
     match table {
         TRAJECTORIES => "trajectory",
         PROFILES => "profile",
-        PROGRAMS => "program",
         _ => "execution",
     }
+}
+
+fn single_file(folder: &Path, table: &str) -> PathBuf {
+    folder.join(format!("{table}.parquet"))
 }
 
 /// Parts of a table in order; of one in a single file, that.
@@ -43,7 +46,7 @@ pub(super) fn parts_of(folder: &Path, table: &str) -> Vec<PathBuf> {
     };
     let mut parts: Vec<PathBuf> = entries.filter(is_part).collect();
     parts.sort();
-    let single = folder.join(format!("{table}.parquet"));
+    let single = single_file(folder, table);
     if parts.is_empty() && single.is_file() {
         parts.push(single);
     }
@@ -83,12 +86,7 @@ impl CampaignFolder {
 
     /// The part of `table` that has `case`; `None` where none has.
     pub(super) fn part_with(&self, table: &str, case: CaseNumber) -> Result<Option<Arc<Part>>, FolderError> {
-        let (folder, single) = (self.path.join(table), self.path.join(format!("{table}.parquet")));
-        let is_in = |path: &Path, part: &Part| {
-            let ours = path.parent() == Some(&folder) || path == single;
-            ours && part.cases().is_some_and(|(first, last)| (first..=last).contains(&case))
-        };
-        if let Some(part) = self.open_parts.find(is_in) {
+        if let Some(part) = self.open_parts.find(|path, part| self.is_around(table, case, (path, part.cases()))) {
             return Ok(Some(part));
         }
         part_with(&parts_of(&self.path, table), case, |path| {
@@ -96,6 +94,17 @@ impl CampaignFolder {
             let cases = part.cases();
             Ok((part, cases))
         })
+    }
+
+    /// Whether a file is one of `table` whose cases, the first and the last of them, have `case` between them.
+    pub(super) fn is_around(
+        &self,
+        table: &str,
+        case: CaseNumber,
+        (path, cases): (&Path, Option<(CaseNumber, CaseNumber)>),
+    ) -> bool {
+        let is_of = path.parent() == Some(&self.path.join(table)) || path == single_file(&self.path, table);
+        is_of && cases.is_some_and(|(first, last)| (first..=last).contains(&case))
     }
 
     /// `NAME/part-NNNNN.parquet`.
@@ -140,8 +149,7 @@ impl CampaignFolder {
         table: &str,
         (key, piece): ((CaseNumber, usize), Piece),
     ) -> Result<(), FolderError> {
-        let refuse = |cause| FolderError::Write(atomic::WriteError { path: self.path.join(table), cause });
-        part.put(key, piece).map_err(refuse)
+        part.put(key, piece).map_err(|cause| self.no_room(table, cause))
     }
 
     /// Adds `pieces`, in the order of their cases, to `table`; what it has from the first of these cases on goes.

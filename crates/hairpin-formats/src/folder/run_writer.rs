@@ -104,6 +104,11 @@ impl<'f> RunWriter<'f> {
         Self { folder, tables, cases_per_part, whole, open: Mutex::default() }
     }
 
+    /// That there is no room for what is to land.
+    pub fn no_room(&self, cause: io::Error) -> FolderError {
+        self.folder.no_room(self.tables.motion, cause)
+    }
+
     /// The number of the part that a case belongs to.
     pub fn part_of(&self, case: CaseNumber) -> usize {
         case.0 / self.cases_per_part
@@ -155,9 +160,7 @@ impl<'f> RunWriter<'f> {
         let motion = self.folder.begun_part(motion, number, &|case, run| facts.contains_key(&(case, run)));
         let motion = motion.unwrap_or_else(|_| PartWriter::in_folder(self.folder.path()));
         let moved: BTreeSet<_> = motion.keys().collect();
-        let sound = |key: &(CaseNumber, usize), facts: &RunFacts| {
-            !facts.recorded || facts.end_s.is_none() || moved.contains(key)
-        };
+        let sound = |key: &(CaseNumber, usize), facts: &RunFacts| !facts.has_motion() || moved.contains(key);
         let facts = facts.into_iter().filter(|(key, facts)| sound(key, facts)).collect();
         Ok(Open { facts, motion, saved: Instant::now(), next: CHECKPOINT })
     }

@@ -29,12 +29,7 @@ impl CampaignFolder {
 
     /// What is known of the runs of all cases around `case`; nothing where none landed.
     fn facts_around(&self, table: &str, case: CaseNumber) -> Result<Arc<Facts>, FolderError> {
-        let (folder, single) = (self.path.join(table), self.path.join(format!("{table}.parquet")));
-        let is_in = |path: &Path, facts: &Facts| {
-            let ours = path.parent() == Some(&folder) || path == single;
-            ours && cases_of(facts).is_some_and(|(first, last)| (first..=last).contains(&case))
-        };
-        if let Some(facts) = self.facts.find(is_in) {
+        if let Some(facts) = self.facts.find(|path, facts| self.is_around(table, case, (path, cases_of(facts)))) {
             return Ok(facts);
         }
         let found = part_with(&parts_of(&self.path, table), case, |path| {
@@ -85,7 +80,7 @@ impl CampaignFolder {
         {
             let moved =
                 || self.part_with(EXECUTIONS, case).is_ok_and(|part| part.is_some_and(|part| part.has((case, run))));
-            return asked(facts) && (!facts.recorded || facts.end_s.is_none() || moved());
+            return asked(facts) && (!facts.has_motion() || moved());
         }
         let found = runs::read_run(&self.run_path(case, run));
         found.is_ok_and(|(_, facts)| facts.is_some_and(|facts| facts.case == case && facts.run == run && asked(&facts)))
@@ -114,9 +109,8 @@ impl CampaignFolder {
     /// As [`Self::read_runs`].
     pub fn read_measured(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
         let known = self.facts_in(RUNS, case)?;
-        let is_known = |facts: &RunFacts| facts.full_rate.is_some() || facts.message.is_some();
         let in_files = self.run_path(case, 0).exists() || self.run_path(case, known.len()).exists();
-        if known.is_empty() || in_files || !known.iter().all(is_known) {
+        if known.is_empty() || in_files || !known.iter().all(RunFacts::is_measured) {
             return self.read_runs(case);
         }
         known.into_iter().map(|facts| self.without_track(facts)).collect()
@@ -150,10 +144,9 @@ impl CampaignFolder {
             (true, None) => return Err(self.missing(case, run)),
             (true, Some(part)) => match part.table((case, run))? {
                 Some(rows) => {
-                    let track = track::from_table(&rows)?;
                     // Of what was measured only the rows are there where it bends.
                     let period = facts.full_rate.as_ref().map(|_| part.period().unwrap_or(USUAL_PERIOD));
-                    period.map_or(track.clone(), |period| track.at_period(period))
+                    track::sampled(&rows, period)?
                 }
                 None if facts.end_s.is_none() => Track::default(),
                 None => return Err(self.missing(case, run)),
@@ -198,8 +191,7 @@ impl CampaignFolder {
     /// A file is broken.
     pub fn read_measured_reruns(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
         let known = self.facts_in(RERUN_FACTS, case)?;
-        let is_known = |facts: &RunFacts| facts.full_rate.is_some() || facts.message.is_some();
-        if known.is_empty() || !known.iter().all(is_known) {
+        if known.is_empty() || !known.iter().all(RunFacts::is_measured) {
             return self.read_reruns(case);
         }
         known.into_iter().map(|facts| self.without_track(facts)).collect()

@@ -59,6 +59,16 @@ pub struct RunFacts {
 }
 
 impl RunFacts {
+    /// Whether rows of it stand in the table of motions.
+    pub(crate) fn has_motion(&self) -> bool {
+        self.recorded && self.end_s.is_some()
+    }
+
+    /// Whether it can be judged without its motion: it was measured, or there was none.
+    pub(crate) fn is_measured(&self) -> bool {
+        self.full_rate.is_some() || self.message.is_some()
+    }
+
     /// The facts of `run`, whose motion is kept.
     pub fn of(run: &Run) -> Self {
         let flight = run.outcome.as_ref().ok();

@@ -106,6 +106,15 @@ pub(super) fn columns((case, run): (CaseNumber, Option<usize>), track: &Track) -
     columns
 }
 
+/// Every `period` s, where only the rows are in `table` that stand for such samples.
+pub(crate) fn sampled(table: &Table, period: Option<f64>) -> Result<Track, TableError> {
+    let track = from_table(table)?;
+    Ok(match period {
+        Some(period) => track.at_period(period),
+        None => track,
+    })
+}
+
 pub(crate) fn from_table(table: &Table) -> Result<Track, TableError> {
     let times = table.numbers("t_s")?;
     let pose = POSE.iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;

@@ -9,9 +9,8 @@ use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
 };
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
-use hairpin_formats::atomic::WriteError;
 use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
-use hairpin_formats::folder::{FolderError, Landed, RunWriter};
+use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
 use super::recorded;
@@ -119,8 +118,7 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
             None => Landed::of(&run, &marked),
             Some(again) => Landed::again(&run, again, &marked),
         };
-        let no_room = |cause| FolderError::Write(WriteError { path: work.folder.path().into(), cause });
-        if let Err(error) = packed.map_err(no_room).and_then(|packed| writer.land(packed)) {
+        if let Err(error) = packed.map_err(|cause| writer.no_room(cause)).and_then(|packed| writer.land(packed)) {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
         steps.step();

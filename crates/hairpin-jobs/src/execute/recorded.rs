@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{Case, CaseNumber, Run};
-use hairpin_formats::atomic::WriteError;
-use hairpin_formats::folder::{FolderError, Landed};
+use hairpin_formats::folder::Landed;
 use hairpin_formats::recordings::{self, RecordingError};
 use rayon::prelude::*;
 
@@ -34,8 +33,7 @@ pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]
     let writer = work.folder.write_runs(repeat, runs.iter().map(|run| (run.case, run.run)));
     for run in &runs {
         let landed = Landed::of(run, &BTreeSet::new());
-        let path = work.folder.path().into();
-        writer.land(landed.map_err(|cause| FolderError::Write(WriteError { path, cause }))?)?;
+        writer.land(landed.map_err(|cause| writer.no_room(cause))?)?;
     }
     Ok(writer.finish()?)
 }

@@ -66,9 +66,13 @@ impl Shrinking {
     /// The executor failed; a file cannot be written; nothing of the case can be planned anew.
     pub fn search(&self, watch: &dyn Watch) -> Result<ShrunkCase, Problem> {
         let Self { work, settings, began, case, result } = self;
-        let of_folder = || work.folder.file(&format!("repro/{}-shrunk.json", case.id()));
-        let target = settings.out.clone().unwrap_or_else(of_folder);
-        atomic::make_folder(&work.folder.file("repro"))?;
+        let target = match &settings.out {
+            Some(out) => out.clone(),
+            None => {
+                atomic::make_folder(&work.folder.file("repro"))?;
+                work.folder.file(&format!("repro/{}-shrunk.json", case.id()))
+            }
+        };
         let mut answers = Answers::take_up(work, case, result, settings, watch);
         let shrunk = answers.search(&work.setup, case, result)?;
         self.repro(&shrunk, answers.runs())?.write(&target)?;

@@ -142,7 +142,8 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
     };
     let search = setup.scenario.search();
     if search.method == SearchMethod::Worst {
-        let pool = worst::pool(&graphs, 1, [search.executions, case * GRAPHS_OF_A_CASE], stop);
+        let executions = setup.scenario.searched_executions() / search.cases;
+        let pool = worst::pool(&graphs, 1, [executions, case * GRAPHS_OF_A_CASE], stop);
         let plans = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
         let (graphs, expansions) = (pool.drawn, pool.curve.executions);
         return Outcome {
