@@ -231,6 +231,12 @@ mod tests {
     use crate::testing::violating;
 
     #[test]
+    fn cells_that_several_met_count_once() {
+        let met = [[0, 1, 2], [2, 3, 0]].map(BTreeSet::from);
+        assert_eq!((together(met.into_iter()), together([].into_iter())), (4, 0));
+    }
+
+    #[test]
     fn chosen_cases_are_a_judged_campaign_of_their_own() {
         let (place, folder) = violating();
         let out = place.path().join("few");
