@@ -1,6 +1,8 @@
 //! The command line of hairpin: what was typed becomes the settings of a job, and what came of it words and an exit
 //! code.
 
+#![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+
 mod args;
 mod commands;
 mod console;

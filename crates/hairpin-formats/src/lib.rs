@@ -1,5 +1,7 @@
 //! The doors of hairpin: scenario and robot files in; Parquet, JUnit, TUM, CSV and HTML out.
 
+#![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+
 pub mod arcs;
 pub mod atomic;
 pub mod banner;

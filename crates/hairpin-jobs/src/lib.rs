@@ -2,6 +2,8 @@
 //! terminal, ends the process or keeps a global of its own: what stops a job and who sees how far it is comes in as a
 //! [`Watch`].
 
+#![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+
 mod baseline;
 pub mod calibrate;
 pub mod certificate;

@@ -15,6 +15,8 @@
 //!
 //! Inside, everything is SI and radians, z up, body frame x forward, y left, z up.
 
+#![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+
 pub mod campaign;
 pub mod feasibility;
 pub mod judgement;

@@ -275,10 +275,15 @@ fn words(schema: &Value) -> Vec<&str> {
 /// The candidate that a slip of the finger would have turned into `word`.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     let part = |a: &str, b: &str| b.len() >= 3 && a.contains(b);
+    let characters = word.chars().count();
+    let slip = 1 + characters / 4;
     let scored = candidates.map(|candidate| {
         let contained = part(candidate, word) || part(word, candidate);
-        (!contained, strsim::osa_distance(word, candidate), candidate)
+        // What is contained is that far, and the rest no nearer: a word of megabytes is not aligned to tell that.
+        let longer = characters.abs_diff(candidate.chars().count());
+        let distance = if contained || longer > slip { longer } else { strsim::osa_distance(word, candidate) };
+        (!contained, distance, candidate)
     });
     let (is_no_part, distance, candidate) = scored.min_by_key(|(is_no_part, distance, _)| (*is_no_part, *distance))?;
-    (!is_no_part || distance <= 1 + word.chars().count() / 4).then_some(candidate)
+    (!is_no_part || distance <= slip).then_some(candidate)
 }

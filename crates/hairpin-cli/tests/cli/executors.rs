@@ -1,0 +1,51 @@
+//! A program of the user's flies, and what it does wrong costs its own missions alone.
+
+use std::fs;
+
+use crate::commands::{SMALL, json, run};
+use serde_json::Value;
+
+#[test]
+fn an_executor_of_the_users_flies_and_fails_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let good = format!("python3 '{minimal}'");
+    let object = json(folder.path(), &[&SMALL[..], &["--executor", &good, "--out", "good"]].concat());
+    assert_eq!(object["exit_code"], 0, "{object}");
+    // It flies exactly on the legs.
+    assert!(object["worst"]["max_deviation_m"].as_f64().unwrap() < 1e-9, "{object}");
+
+    let broken = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    if mission['case'] == '0001':\n        raise SystemExit('rotor 3 is gone')");
+    assert!(broken.contains("rotor 3"));
+    fs::write(folder.path().join("broken.py"), broken).unwrap();
+    let object = json(folder.path(), &[&SMALL[..], &["--executor", "python3 broken.py", "--out", "bad"]].concat());
+    assert_eq!(
+        (&object["exit_code"], &object["counts"]["executor_failed"]),
+        (&Value::from(4), &Value::from(1)),
+        "{object}"
+    );
+    assert!(object["verdict"].as_str().unwrap().starts_with("EXECUTOR FAILED 1/4"), "{object}");
+    let log = fs::read_to_string(folder.path().join("bad/executor-0001-0.log")).unwrap();
+    assert!(log.contains("rotor 3 is gone"), "{log}");
+    // Done at once, without attitudes: judged by what was flown, which is nothing.
+    let idle = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    say(type='pose', t_s=0, p_m=[1, 1, 1])\n    return say(type='end', reason='done')");
+    fs::write(folder.path().join("idle.py"), idle).unwrap();
+    let (code, out, error) = run(folder.path(), &["execute", "bad", "--executor", "python3 idle.py"]);
+    assert!(code == 0 && error.contains("4 runs came without q_wxyz"), "{out}{error}");
+    let verdict = json(folder.path(), &["judge", "bad", "--set", "spec.deviation.max_m=100"]);
+    assert!(verdict["verdict"].as_str().unwrap().starts_with("FAIL 4/4"), "{verdict}");
+    assert_eq!(verdict["worst"]["ended"], "done", "{verdict}");
+    assert!(
+        verdict["worst"]["violations"][0].as_str().unwrap().starts_with("stopped at 1 of 8 waypoints"),
+        "{verdict}"
+    );
+    assert_eq!(run(folder.path(), &["report", "bad"]).0, 0);
+    assert!(fs::read_to_string(folder.path().join("bad/report.html")).unwrap().contains("sent no attitudes"));
+
+    let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
+    assert_eq!(
+        (&object["exit_code"], &object["counts"]["executor_failed"]),
+        (&Value::from(4), &Value::from(4)),
+        "{object}"
+    );
+}

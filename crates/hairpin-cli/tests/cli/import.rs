@@ -1,0 +1,229 @@
+//! Programs from elsewhere: read, checked by line, and told apart by exit code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::commands::{json, refused, run};
+
+const DATA: &str = "MODULE Cell
+CONST jointtarget home:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST jointtarget far:=[[0,0,0,163.1,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST robtarget away:=[[2000,0,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST robtarget p10:=[[350,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+MoveAbsJ home,v200,fine,tool0;
+";
+
+fn module(folder: &std::path::Path, body: &str) -> String {
+    let name = "cell.mod";
+    fs::write(folder.join(name), format!("{DATA}{body}\nENDPROC\nENDMODULE\n").replace('\n', "\r\n")).unwrap();
+    name.into()
+}
+
+#[test]
+fn findings_are_told_by_line_and_exit_code() {
+    let folder = tempfile::tempdir().unwrap();
+    let go = "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,50,0),v100,z5,tool0;";
+    for (body, code, words) in [
+        (go, 0, "PASS: 0 findings in 3 moves"),
+        (
+            "MoveAbsJ far,v200,fine,tool0;",
+            1,
+            "line 8: UNREACHABLE home→far: axis 4 at 163.1° > 160.0° at 100 % of the move",
+        ),
+        ("ConfL\\Off;\nMoveJ p10,v100,fine,tool0;\nMoveL away,v100,fine,tool0;", 1, "line 10: UNREACHABLE p10→away: "),
+        ("MoveL p10,v100,fine,tool0;\nMoveC p10,p10,v100,fine,tool0;", 1, "NOT EXECUTABLE line 9 (to p10): "),
+        (
+            "VelSet 50,800;\nMoveAbsJ far,v200,fine,tool0;",
+            5,
+            "INCONCLUSIVE: 0 findings in the 1 of 2 moves before line 8",
+        ),
+        ("MoveAbsJ far,v200,fine,tool0;\nWeld;", 1, "line 9: NOT UNDERSTOOD `Weld` is not in this file"),
+    ] {
+        let file = module(folder.path(), body);
+        let (found, out, error) = run(folder.path(), &["import", &file, "--check"]);
+        assert!(found == code && out.contains(words), "{body}: {found}\n{out}{error}");
+        assert!(out.contains("irb120") && out.contains("obstacles are not looked at"), "{out}");
+    }
+}
+
+#[test]
+fn machines_get_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = module(folder.path(), "MoveAbsJ far,v200,fine,tool0;\nSoftAct 3,20;\nMoveAbsJ home,v200,fine,tool0;");
+    let object = json(folder.path(), &["import", &file, "--check", "--robot", "irb120", "--lines"]);
+    assert_eq!((object["exit_code"].as_i64(), object["moves"].as_i64()), (Some(1), Some(3)));
+    assert_eq!((object["certain_moves"].as_i64(), object["certain_up_to_line"].as_i64()), (Some(2), Some(9)));
+    let finding = &object["findings"][0];
+    assert_eq!(
+        (finding["line"].as_i64(), finding["kind"].as_str(), finding["to"].as_str()),
+        (Some(8), Some("limit"), Some("far"))
+    );
+    assert_eq!(object["not_understood"][0]["line"], 9);
+    assert_eq!(object["lines"].as_array().unwrap().iter().filter(|line| line["class"] == "understood").count(), 8);
+    let read = json(folder.path(), &["import", &file]);
+    assert_eq!((read["exit_code"].as_i64(), read["robot"].is_null()), (Some(5), true));
+}
+
+#[test]
+fn what_cannot_be_read_at_all_is_wrong_input() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("no.mod"), "hello\n").unwrap();
+    let file = module(folder.path(), "");
+    refused(folder.path(), &["import", "no.mod", "--check"], &["no.mod", "no RAPID module"]);
+    refused(folder.path(), &["import", "nowhere.mod"], &["nowhere.mod"]);
+    refused(folder.path(), &["import", &file, "--check", "--robot", "anafi"], &["anafi"]);
+    refused(folder.path(), &["import", &file, "--procedure", "Path_30"], &["Path_30", "main"]);
+}
+
+#[test]
+fn collisions_with_a_cell_are_told_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let cell = "hairpin = 1\nrobot = \"irb120\"\n[world]\ntool = { radius_mm = 10 }\n\
+        obstacles = [{ name = \"rod\", capsule = { a_mm = [200, 60, 300], b_mm = [500, 60, 300], radius_mm = 2 } }]\n\
+        keep_out_mm = [\"z < 100\"]\n[task]\npoints = [[350, 0, 400]]\n";
+    fs::write(folder.path().join("cell.toml"), cell).unwrap();
+    let file = module(folder.path(), "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,120,0),v100,z5,tool0;");
+    assert_eq!(run(folder.path(), &["import", &file, "--check"]).0, 0);
+    let (code, out, error) = run(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);
+    assert!(code == 1 && out.contains("held against 2 obstacles and keep-outs"), "{out}{error}");
+    assert!(out.contains("line 9: COLLISION p10→"), "{out}");
+    assert!(out.contains(" meets rod at ") && out.contains("FAIL: 1 finding in 3 moves"), "{out}");
+    let object = json(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);
+    assert_eq!(
+        (object["findings"][0]["kind"].as_str(), object["findings"][0]["line"].as_i64()),
+        (Some("collision"), Some(9))
+    );
+    let low = module(folder.path(), "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,0,-250),v100,z5,tool0;");
+    let (code, out, _) = run(folder.path(), &["import", &low, "--check", "--cell", "cell.toml"]);
+    assert!(code == 1 && out.contains("the tool ") && out.contains("keep-out z < 100"), "{out}");
+    refused(folder.path(), &["import", &file, "--check", "--cell", "anafi"], &["no arm's"]);
+    refused(folder.path(), &["import", &file, "--check", "--cell", "nowhere.toml"], &["nowhere.toml"]);
+}
+
+/// Inputs on which something wrong was said once.
+fn cases() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/rapid")
+}
+
+#[test]
+fn an_axis_beside_the_arm_is_named_line_by_line() {
+    let (code, out, error) = run(&cases(), &["import", "track_false_pass.mod", "--check"]);
+    assert_eq!(code, 5, "{out}{error}");
+    for line in 4..=7 {
+        assert!(out.contains(&format!("line {line}: NOT MODELLED external axes: eax_a = ")), "{out}");
+    }
+    assert!(out.contains("\nINCONCLUSIVE: 0 findings in the 0 of 4 moves before line 4, estimated: "), "{out}");
+    let object = json(&cases(), &["import", "track_false_pass.mod", "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["certain_moves"].as_i64()), (Some(5), Some(0)));
+    let named = object["not_understood"].as_array().unwrap();
+    assert_eq!(named.len(), 4);
+    assert!(named.iter().all(|line| line["kind"] == "external-axes" && line["file"] == "track_false_pass.mod"));
+}
+
+/// What is proven before the first line that is not modelled is proven.
+#[test]
+fn a_finding_before_what_is_not_modelled_is_a_finding() {
+    let folder = tempfile::tempdir().unwrap();
+    let track = "MoveAbsJ [[0,0,0,0,30,0],[900,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;";
+    let before = module(folder.path(), &format!("MoveAbsJ far,v200,fine,tool0;\n{track}"));
+    let object = json(folder.path(), &["import", &before, "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["findings"][0]["line"].as_i64()), (Some(1), Some(8)));
+    assert_eq!(
+        (&object["not_understood"][0]["line"], &object["not_understood"][0]["kind"]),
+        (&9.into(), &"external-axes".into())
+    );
+    let after = module(folder.path(), &format!("{track}\nMoveAbsJ far,v200,fine,tool0;"));
+    let object = json(folder.path(), &["import", &after, "--check"]);
+    assert_eq!((object["exit_code"].as_i64(), object["findings"].as_array().unwrap().len()), (Some(5), 0));
+}
+
+#[test]
+fn predefined_data_and_the_state_of_the_program_are_followed() {
+    let (code, out, error) = run(&cases(), &["import", "alias_speed.mod", "--check"]);
+    // Followed to its end: the tool is turned by −30° about its axis, and axis 6 with it, which is no cf6 of 0.
+    assert!(code == 1 && !out.contains("not known") && !out.contains("NOT "), "{out}{error}");
+    assert!(out.ends_with("FAIL: 3 findings in 7 moves\n") && out.matches("[0,0,0,0]").count() == 3, "{out}");
+    let (code, out, error) = run(&cases(), &["import", "conf_off_after.mod", "--check"]);
+    assert_eq!(code, 1, "{out}{error}");
+    assert!(out.contains("line 10: UNREACHABLE pA→pFar") && out.ends_with("FAIL: 1 finding in 4 moves\n"), "{out}");
+}
+
+#[test]
+fn several_modules_are_one_program() {
+    for files in
+        [&["cell.pgf"][..], &["cell_main.mod", "cell_data.sys"], &["cell_data.sys", "cell_main.mod", "cell.pgf"]]
+    {
+        let arguments: Vec<&str> = ["import"].iter().chain(files).chain(&["--check"]).copied().collect();
+        let (code, out, error) = run(&cases(), &arguments);
+        assert!(out.contains("module MainModule, procedure main, 3 moves"), "{files:?}: {out}{error}");
+        assert!(code == 0 && out.contains("\nPASS: 0 findings in 3 moves, estimated: "), "{files:?}: {out}{error}");
+    }
+    let alone = run(&cases(), &["import", "cell_main.mod", "--check"]);
+    assert_eq!(alone.0, 5, "{}", alone.1);
+}
+
+#[test]
+fn mistakes_in_modules_name_their_file_and_program_files_stay_in_their_folder() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("cell");
+    fs::create_dir(&folder).unwrap();
+    for name in ["cell_main.mod", "cell_data.sys"] {
+        fs::copy(cases().join(name), folder.join(name)).unwrap();
+    }
+    let data = fs::read_to_string(folder.join("cell_data.sys")).unwrap();
+    fs::write(folder.join("cell_data.sys"), data.replace("[[350,-120,200]", "[[3500,-120,200]")).unwrap();
+    let pgf = |module: &str| {
+        let text = format!("<Program>\n<Module>cell_main.mod</Module>\n<Module>{module}</Module>\n</Program>");
+        fs::write(folder.join("cell.pgf"), text).unwrap();
+    };
+    pgf("cell_data.sys");
+    let (code, out, _) = run(&folder, &["import", "cell.pgf", "--check"]);
+    assert!(code == 1 && out.contains("cell_main.mod line 5: UNREACHABLE pHome→"), "{out}");
+    let object = json(&folder, &["import", "cell.pgf", "--check"]);
+    assert_eq!((&object["findings"][0]["file"], &object["findings"][0]["line"]), (&"cell_main.mod".into(), &5.into()));
+    fs::write(folder.join("cell_data.sys"), data.replace("ConfJ \\On;", "ConfJ \\;")).unwrap();
+    let (code, out, error) = run(&folder, &["import", "cell.pgf", "--check"]);
+    assert!(code == 5 && out.contains("cell_data.sys line 7: NOT UNDERSTOOD expected"), "{out}{error}");
+    assert!(error.contains("cell_data.sys line 7, column "), "{error}");
+    pgf("../cell_data.sys");
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: line 3: `../cell_data.sys`", "in the folder"]);
+    pgf("nowhere.mod");
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: module `nowhere.mod` cannot be read"]);
+    fs::write(place.path().join("secret.mod"), "MODULE S\nENDMODULE\n").unwrap();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../secret.mod", folder.join("link.mod")).unwrap();
+        pgf("link.mod");
+        refused(&folder, &["import", "cell.pgf"], &["link.mod", "leads out of the folder"]);
+    }
+    fs::write(folder.join("cell.pgf"), "hello").unwrap();
+    refused(&folder, &["import", "cell.pgf"], &["cell.pgf: is no XML"]);
+}
+
+/// What `export` writes in any language, `import` follows move by move.
+#[test]
+fn what_is_exported_is_read_back() {
+    let place = tempfile::tempdir().unwrap();
+    let text = "hairpin = 1\nrobot = \"irb120\"\nseed = 3\n[world]\ntool = { tcp_mm = [0, 0, 100], radius_mm = 20 }\n\
+        [task]\npoints = [[300, 100, 400], [350, -100, 300], [400, 50, 350], [250, 200, 450]]\n\
+        [generate]\nmoves = { speeds = [\"v500\"], zones = [\"fine\", \"z10\"] }\nsearch = { programs = 1 }\n\
+        [spec]\npath = { max_mm = 20 }\n";
+    fs::write(place.path().join("arm.toml"), text).unwrap();
+    let (code, out, error) = run(place.path(), &["generate", "arm.toml", "--out", "A"]);
+    assert_eq!(code, 0, "{out}{error}");
+    let mut counts = Vec::new();
+    for (language, file) in
+        [("rapid", "A/0000.mod"), ("rapid", "A/0000.pgf"), ("krl", "A/0000.src"), ("urscript", "A/0000.script")]
+    {
+        let (code, out, error) = run(place.path(), &["export", "A", "--to", language]);
+        assert_eq!(code, 0, "{out}{error}");
+        let (code, out, error) = run(place.path(), &["import", file, "--check"]);
+        assert!(code == 0 && out.contains("PASS: 0 findings in "), "{file}: {out}{error}");
+        counts.push(json(place.path(), &["import", file])["certain_moves"].as_i64().unwrap());
+    }
+    assert!(counts[0] > 4 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
+    fs::remove_file(place.path().join("A/0000.dat")).unwrap();
+    let (code, out, _) = run(place.path(), &["import", "A/0000.src", "--check"]);
+    assert!(code == 5 && out.contains("NOT UNDERSTOOD `X") && out.contains("is not declared in this program"), "{out}");
+}

@@ -1,0 +1,43 @@
+//! The command line as a user types it: one program for all its tests, so that it is linked once and both cores are busy.
+
+mod commands;
+
+mod adaptive;
+mod agreement;
+mod arm_nightly;
+mod arms;
+mod baseline;
+mod campaign;
+mod compare;
+mod contract;
+mod disk;
+mod drives;
+mod environment;
+mod executor_in_loop;
+mod executors;
+mod experiment;
+mod explain;
+mod flaky;
+mod grammar;
+mod guests;
+mod import;
+mod interruptions;
+mod learn;
+mod maps;
+mod max_load;
+mod missing_data;
+mod missions;
+mod nonsense;
+mod portable;
+mod quoted;
+mod requirements;
+mod select;
+mod shipped;
+mod shrink;
+mod steer;
+mod steer_controls;
+mod steer_ground;
+mod strange_executors;
+mod unjudged;
+mod urdf;
+mod user_scores;
