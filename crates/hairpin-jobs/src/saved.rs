@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{self, Case, CaseResult, Run, Setup, Status};
+use hairpin::campaign::{self, Attachments, Case, CaseResult, Run, Setup, Status};
 use hairpin::judgement::Verdict;
 use hairpin_formats::quote::on_one_line;
 use hairpin_formats::repro::Repro;
@@ -99,7 +99,9 @@ impl Saved {
         let case = repro.case().map_err(refuse)?;
         let mut saved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
         let setup = if saved.scenario.adopt(&*now.scenario).is_some() {
-            saved.attachments.baseline = now.attachments.baseline.clone();
+            let Attachments { user_controller, baseline, .. } = &*now.attachments;
+            (saved.attachments.user_controller, saved.attachments.baseline) =
+                (user_controller.clone(), baseline.clone());
             let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
             Some(setup.with_simd(now.simd))
         } else {

@@ -72,7 +72,7 @@ pub struct Planned {
 ///
 /// # Errors
 /// A scenario with mistakes; one of a campaign's folder that asks to run what its user has not allowed; a folder that
-/// holds something else; a score of the user's that does not load.
+/// holds something else; code of the user's that does not load.
 pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, Problem> {
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
@@ -86,7 +86,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let search = setup.scenario.search();
     tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
     may_make(&path, &setup, settings.if_there)?;
-    for (key, user) in setup.user_code() {
+    for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {
         let deadline = Deadline::after(settings.time_limit_s);
         let tried = not_waiting_for(&[(key, user)], watch, deadline, || user.try_out());
         tried.map_err(|why| match watch.stopped() {

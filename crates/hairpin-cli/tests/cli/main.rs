@@ -10,6 +10,7 @@ mod baseline;
 mod campaign;
 mod compare;
 mod contract;
+mod controllers;
 mod disk;
 mod drives;
 mod environment;

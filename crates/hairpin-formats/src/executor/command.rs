@@ -27,6 +27,14 @@ impl Command {
     }
 }
 
+impl From<&Command> for std::process::Command {
+    fn from(command: &Command) -> Self {
+        let mut started = Self::new(&command.program);
+        started.args(&command.arguments);
+        started
+    }
+}
+
 impl std::str::FromStr for Command {
     type Err = CommandError;
 

@@ -173,7 +173,7 @@ pub(crate) fn was_never_asked(sentence: &str) -> bool {
 }
 
 /// Room for a stranger's words in one line of a table: no control characters, at most `limit` characters.
-pub(super) fn excerpt(text: &str, limit: usize) -> String {
+pub(crate) fn excerpt(text: &str, limit: usize) -> String {
     let mut clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(limit).collect();
     if text.chars().nth(limit).is_some() {
         clean.push('…');

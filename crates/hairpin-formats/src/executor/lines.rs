@@ -15,7 +15,7 @@ const TAIL: usize = 64 << 10;
 
 /// What came from stdout.
 #[derive(Debug)]
-pub(super) enum Line {
+pub(crate) enum Line {
     /// A line without its end.
     Text(Vec<u8>),
     /// More than [`LONGEST_LINE`] bytes without an end.
@@ -23,7 +23,7 @@ pub(super) enum Line {
 }
 
 /// Lines of `stdout`, read by a thread of their own; the channel closes with the stream or after a line too long.
-pub(super) fn read_lines(stdout: impl Read + Send + 'static) -> Receiver<Line> {
+pub(crate) fn read_lines(stdout: impl Read + Send + 'static) -> Receiver<Line> {
     let (sender, receiver) = sync_channel(WAITING);
     thread::spawn(move || send_lines(BufReader::new(stdout), &sender));
     receiver

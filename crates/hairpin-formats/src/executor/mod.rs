@@ -50,10 +50,11 @@ mod worker;
 
 pub use answer::Answer;
 pub use command::{Command, CommandError};
+pub(crate) use failure::excerpt;
 pub(crate) use failure::was_never_asked;
 pub use failure::{Failed, Failure};
 pub use in_loop::{InLoop, Told};
-pub(crate) use lines::Tail;
+pub(crate) use lines::{Line, Tail, read_lines};
 pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
 pub use process::kill_all;
 pub(crate) use process::{end, start};

@@ -10,7 +10,7 @@ use super::attached::{Wrong, ending};
 use super::guest::Guest;
 use super::report::Report;
 use super::whole::read_file;
-use super::{baseline, cell, learned, terrain, user_score, user_target};
+use super::{baseline, cell, learned, terrain, user_controller, user_score, user_target};
 use crate::bounds::MOST_MESH_PARTS;
 use crate::folder::inside;
 use crate::mesh::read_mesh;
@@ -26,7 +26,8 @@ pub(super) fn read(
     if !wrong.is_empty() {
         return (Attachments::default(), wrong);
     }
-    let Named { map, cloud, costs, meshes, score, target, baseline } = scenario.named();
+    let terms = user_controller::Terms::of(&scenario.executor());
+    let Named { map, cloud, costs, meshes, score, target, controller, baseline } = scenario.named();
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
     let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
     let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
@@ -42,6 +43,10 @@ pub(super) fn read(
     }
     if let Some(target) = target {
         attachments.user_target = noting(user_target::read(target, find, guest.is_some()), &mut wrong).flatten();
+    }
+    if let Some(steering) = controller {
+        attachments.user_controller =
+            noting(user_controller::read(steering, &terms, find, guest.is_some()), &mut wrong);
     }
     (attachments, wrong)
 }

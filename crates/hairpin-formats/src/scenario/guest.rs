@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::scenario::{LEARNED, Named, PYTHON, TARGET_KEY, Target};
+use hairpin::campaign::scenario::{CONTROLLER_KEY, LEARNED, Named, PYTHON, TARGET_KEY, Target};
 
 use super::attached::Wrong;
 use super::tree::{Node, NodeKind};
@@ -69,7 +69,7 @@ pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
 
 /// Every file that a scenario names, by its key.
 fn names(named: &Named<'_>) -> Vec<(String, String)> {
-    let Named { map, cloud, costs, meshes, score, target, baseline } = named;
+    let Named { map, cloud, costs, meshes, score, target, controller, baseline } = named;
     let mut all: Vec<(String, String)> = Vec::new();
     let mut add = |key: &str, name: &str| all.push((key.to_owned(), name.to_owned()));
     if let Some(file) = map.as_ref().and_then(|map| map.file.as_ref()) {
@@ -93,6 +93,9 @@ fn names(named: &Named<'_>) -> Vec<(String, String)> {
     }
     if let Some(Target::Python(file)) = target {
         add(TARGET_KEY, file);
+    }
+    if let Some(file) = controller.as_ref().and_then(|steering| steering.file()) {
+        add(CONTROLLER_KEY, file);
     }
     if let Some(baseline) = baseline {
         add("spec.regression.baseline", &baseline.baseline);

@@ -1,27 +1,19 @@
 //! A Python file of the user's that answers questions: Python runs beside hairpin, one process for each thread that
 //! asks; nothing of the file runs but where something is asked.
 
-use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread;
-use std::time::Duration;
 
 use hairpin::campaign::UserCode;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::executor::{self, Tail};
+use crate::lockstep::{Lockstep, Silence};
 
 /// Asks the user's functions.
 const DRIVER: &str = include_str!("user.py");
-/// What its last words are waited for, and what it is given to end.
-const AFTERMATH: Duration = Duration::from_millis(300);
-/// Between two looks at whether an answer is still wanted.
-const LOOK: Duration = Duration::from_millis(20);
 
 /// A file, and the Pythons that run it.
 pub(super) struct Python {
@@ -105,41 +97,15 @@ enum Unanswered {
 }
 
 /// A running Python.
-struct Worker {
-    child: Child,
-    asked: ChildStdin,
-    answers: Receiver<String>,
-    log: Tail,
-    log_closed: Receiver<()>,
-}
-
-impl Drop for Worker {
-    fn drop(&mut self) {
-        let _ = executor::end(&mut self.child, Duration::ZERO, AFTERMATH);
-    }
-}
+struct Worker(Lockstep);
 
 impl Worker {
     /// When its functions are there.
     fn start((path, alone): (&Path, bool), what: &str, stopped: &AtomicBool) -> Result<Self, Unanswered> {
-        let mut python = Command::new("python3");
-        python.args(["-c", DRIVER]).arg(path).args([if alone { "alone" } else { "beside" }, what]);
-        python.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = executor::start(&mut python)
-            .map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?;
-        let (Some(asked), Some(answers), Some(log)) = (child.stdin.take(), child.stdout.take(), child.stderr.take())
-        else {
-            unreachable!("all three streams were asked to be pipes")
-        };
-        let (log, log_closed) = Tail::follow(log);
-        let (said, heard) = sync_channel(1);
-        // Ends with the stream, or when nobody listens any more.
-        thread::spawn(move || {
-            BufReader::new(answers).lines().map_while(Result::ok).try_for_each(|line| said.send(line))
-        });
-        let mut worker = Self { child, asked, answers: heard, log, log_closed };
-        match worker.answer(stopped)?.as_str() {
-            "ready" => Ok(worker),
+        let started = Lockstep::start(&mut driver(path, alone, what));
+        let worker = Self(started.map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?);
+        match &*worker.answer(stopped)? {
+            b"ready" => Ok(worker),
             _ => Err(worker.last_words()),
         }
     }
@@ -150,42 +116,36 @@ impl Worker {
         count: usize,
         stopped: &AtomicBool,
     ) -> Result<Vec<A>, Unanswered> {
-        // A line at once: a pipe takes every write for itself.
-        let spoken = serde_json::to_vec(question).map_err(std::io::Error::from).and_then(|mut question| {
-            question.push(b'\n');
-            self.asked.write_all(&question)?;
-            self.asked.flush()
-        });
-        let line = if spoken.is_ok() { self.answer(stopped)? } else { String::new() };
-        match serde_json::from_str::<Vec<A>>(&line) {
+        let line = if self.0.tell(question).is_ok() { self.answer(stopped)? } else { Vec::new() };
+        match serde_json::from_slice::<Vec<A>>(&line) {
             Ok(parts) if parts.len() == count => Ok(parts),
             _ => Err(self.last_words()),
         }
     }
 
     /// Its next line; an empty one where it ended.
-    fn answer(&self, stopped: &AtomicBool) -> Result<String, Unanswered> {
-        while !stopped.load(Ordering::Relaxed) {
-            match self.answers.recv_timeout(LOOK) {
-                Ok(line) => return Ok(line),
-                Err(RecvTimeoutError::Disconnected) => return Ok(String::new()),
-                Err(RecvTimeoutError::Timeout) => {}
-            }
+    fn answer(&self, stopped: &AtomicBool) -> Result<Vec<u8>, Unanswered> {
+        match self.0.hear(stopped, None) {
+            Err(Silence::Stopped) => Err(Unanswered::Stopped),
+            answer => Ok(answer.unwrap_or_default()),
         }
-        Err(Unanswered::Stopped)
     }
 
     /// What it wrote to stderr before it ended.
-    fn last_words(&mut self) -> Unanswered {
-        // It closes when all is read, or the process is not going to end.
-        let _ = self.log_closed.recv_timeout(AFTERMATH);
-        let text = self.log.text();
-        let last = text.lines().next_back().unwrap_or_default().replace(|c: char| c.is_control(), " ");
+    fn last_words(&self) -> Unanswered {
+        let last = self.0.last_words();
         Unanswered::Failed(if last.is_empty() { "it ended without an answer".into() } else { last })
     }
 }
 
+/// Python with the file at `path`, of which it asks `what`; one that stands `alone` finds no others beside it.
+pub(crate) fn driver(path: &Path, alone: bool, what: &str) -> Command {
+    let mut python = Command::new("python3");
+    python.args(["-c", DRIVER]).arg(path).args([if alone { "alone" } else { "beside" }, what]);
+    python
+}
+
 /// What a lock holds, whatever befell who held it last.
-pub(super) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(crate) fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

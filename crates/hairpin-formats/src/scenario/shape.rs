@@ -34,15 +34,13 @@ impl<'s> Shape<'s> {
         // What may be a word may be a table, too, such as a cost.
         let is_table = matches!(node.kind, NodeKind::Table(_)) && alternatives.iter().any(|schema| fits(&schema));
         // So may what only begins like one, such as a model's file.
-        let is_begun = |text: &str| {
-            let mut starts = alternatives.iter().filter_map(|schema| schema["pattern"].as_str()?.strip_prefix('^'));
-            starts.any(|start| text.starts_with(start))
-        };
-        if matches!(&node.kind, NodeKind::Text(text) if is_begun(text)) {
+        let starts: Vec<&str> =
+            alternatives.iter().filter_map(|schema| schema["pattern"].as_str()?.strip_prefix('^')).collect();
+        if matches!(&node.kind, NodeKind::Text(text) if starts.iter().any(|start| text.starts_with(start))) {
             return;
         }
         if !words.is_empty() && !is_table {
-            return self.check_word(&words, node, path);
+            return self.check_word((&words, &starts), node, path);
         }
         let Some(schema) = alternatives.iter().find(fits) else {
             let expected: Vec<String> = alternatives.iter().map(|schema| self.describe(schema)).collect();
@@ -85,8 +83,10 @@ impl<'s> Shape<'s> {
         if schema["type"].as_str() == Some("null") || schema.is_null() { Vec::new() } else { vec![schema] }
     }
 
-    fn check_word(&mut self, words: &[&str], node: &Node, path: &str) {
-        let list = words.join(", ");
+    /// One of `words`, or what begins as one of `starts`.
+    fn check_word(&mut self, (words, starts): (&[&str], &[&str]), node: &Node, path: &str) {
+        let begun = starts.iter().map(|start| format!("{start}…"));
+        let list = words.iter().map(|word| (*word).to_owned()).chain(begun).collect::<Vec<_>>().join(", ");
         let NodeKind::Text(word) = &node.kind else {
             return self.complain(node, path, &format!("expected one of {list}"));
         };
@@ -129,7 +129,7 @@ impl<'s> Shape<'s> {
         };
         match chosen {
             Some(schema) => self.check_table(schema, node, path),
-            None => self.check_word(&words, said, &key),
+            None => self.check_word((&words, &[]), said, &key),
         }
     }
 

@@ -1,5 +1,5 @@
-# Scores legs, or measures runs, with the functions of a file: a line when they are there, then for every line of JSON with legs or
-# runs a line with their numbers.
+# Scores legs, measures runs, or steers, with the functions of a file: a line when they are there, then for every line of JSON with
+# legs or runs a line with their numbers, or for every turn of a controller a line with its command.
 import sys
 
 # Whatever lies where hairpin was started is none of its modules.
@@ -42,6 +42,37 @@ def targets(space):
     return measured
 
 
+def plain(value):
+    # Arrays and numbers of NumPy and the like.
+    return value.tolist()
+
+
+def steer(load, questions, say):
+    space, fresh = load(), True
+    say("ready")
+    for line in questions:
+        asked = json.loads(line)
+        if asked["type"] == "reset":
+            mission = asked["mission"]
+            if callable(space.get("reset")):
+                space["reset"](mission)
+            elif not fresh:
+                # What a run leaves in the file's variables is none of the next one's.
+                space = load()
+            fresh, control, waypoints = False, space["control"], mission["waypoints_m"]
+            say("{}")
+            continue
+        t_s, reference = asked["t_s"], asked["reference"]
+        reference["waypoints_m"] = waypoints
+        answer = control(t_s, asked["state"], reference)
+        if not isinstance(answer, dict):
+            raise TypeError(f"{answer!r} is no dictionary, of control(t_s = {t_s})")
+        try:
+            say(json.dumps(answer, allow_nan=False, default=plain))
+        except ValueError:
+            raise ValueError(f"{answer!r} has numbers that are not finite, of control(t_s = {t_s})") from None
+
+
 def main(path, alone, what):
     questions, answers = os.fdopen(os.dup(0), encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
     # What the file prints is its log, and it has nothing to read.
@@ -50,13 +81,24 @@ def main(path, alone, what):
     sys.stdin, sys.stdout = open(0, encoding="utf-8", closefd=False), sys.stderr
     if not alone:
         sys.path.insert(0, os.path.dirname(os.path.abspath(path)))
-    with open(path, encoding="utf-8-sig") as file:
-        space = {"__name__": f"hairpin_{what}", "__file__": path}
-        exec(compile(file.read(), path, "exec"), space)
-    answer = {"score": scores, "target": targets}[what](space)
-    print("ready", file=answers, flush=True)
+
+    def load():
+        with open(path, encoding="utf-8-sig") as file:
+            space = {"__name__": f"hairpin_{what}", "__file__": path}
+            exec(compile(file.read(), path, "exec"), space)
+        if what == "controller" and not callable(space.get("control")):
+            raise TypeError("it defines no function control(t_s, state, reference)")
+        return space
+
+    def say(line):
+        print(line, file=answers, flush=True)
+
+    if what == "controller":
+        return steer(load, questions, say)
+    answer = {"score": scores, "target": targets}[what](load())
+    say("ready")
     for line in questions:
-        print(json.dumps([answer(asked) for asked in json.loads(line)]), file=answers, flush=True)
+        say(json.dumps([answer(asked) for asked in json.loads(line)]))
 
 
 if __name__ == "__main__":

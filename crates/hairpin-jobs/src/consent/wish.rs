@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use hairpin::campaign::Setup;
-use hairpin::campaign::scenario::TARGET_KEY;
+use hairpin::campaign::scenario::{COMMAND, CONTROLLER_KEY, TARGET_KEY};
 use hairpin_formats::bounds::{self, MOST_RASTER_BYTES};
 use hairpin_formats::executor::Command;
 use hairpin_formats::recordings::leads_out;
@@ -39,7 +39,17 @@ impl Wish {
         let command = setup.scenario.executor().command.map(Self::command);
         let outside = setup.recordings().filter(|logs| leads_out(logs));
         let logs = outside.map(|logs| Self { key: "execute.logs".into(), what: What::Logs(logs.into()) });
-        command.into_iter().chain(logs).collect()
+        command.into_iter().chain(Self::of_controller(setup)).chain(logs).collect()
+    }
+
+    /// What steering asks for.
+    fn of_controller(setup: &Setup) -> Option<Self> {
+        let user = setup.user_controller()?;
+        let what = match (&user.file, user.word.strip_prefix(COMMAND)) {
+            (Some((_, bytes)), _) => What::Python { file: user.given.clone(), hash: blake3::hash(bytes).into() },
+            (None, command) => What::Command(command.unwrap_or_default().into()),
+        };
+        Some(Self { key: CONTROLLER_KEY.into(), what })
     }
 
     /// What searching asks for.

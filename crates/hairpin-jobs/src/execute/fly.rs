@@ -15,9 +15,9 @@ use rayon::prelude::*;
 
 use super::recorded;
 use super::to_judge::runs_to_judge;
-use crate::watch::Steps;
+use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
-use crate::{Problem, Watch};
+use crate::{Deadline, Problem, Watch};
 
 /// What the runs of a campaign are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,15 +126,20 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || watch.stopped() || broken();
     match command_of(&work.setup)? {
-        // Part by part, so that few are open at a time.
         None => {
-            missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(|part| {
+            let steers: Vec<_> = work.setup.steering_code().into_iter().collect();
+            // Part by part, so that few are open at a time.
+            let fly = |part: &[Job]| {
                 part.par_iter().for_each(|job| {
                     if !stop() {
                         landed(job, job.simulate(&work.setup));
                     }
                 });
-            })
+            };
+            let in_parts = || {
+                missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(fly);
+            };
+            not_waiting_for(&steers, watch, Deadline::after(None), in_parts);
         }
         Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
     }

@@ -30,7 +30,11 @@ pub(crate) fn in_the_loop<T: Send>(
 ) -> Result<(T, Option<Problem>), Problem> {
     let program = if setup.scenario.executes() { command_of(setup)? } else { None };
     let Some((command, limits)) = program else {
-        return Ok((search(Asked { executor: &OwnSimulator, stop: stopped }), None));
+        let steers = setup.steering_code();
+        let trouble = || steers.and_then(|(_, code)| code.trouble());
+        let stop = || stopped() || trouble().is_some();
+        let found = search(Asked { executor: &OwnSimulator, stop: &stop });
+        return Ok((found, trouble().map(Problem::Executor)));
     };
     let processes = processes(setup);
     let program = InLoop::new(&command, limits, processes, stopped);

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::baseline::Baseline;
 use super::learn::ScoreModel;
 use super::scenario::{CostTable, LEARNED, PYTHON, PointsSource, RegressionLimit, Scenario, Target, TerrainSection};
+use super::user_controller::UserController;
 use super::user_score::LegScorer;
 use super::user_target::RunMeter;
 use crate::world::terrain::ElevationMap;
@@ -74,6 +75,8 @@ pub struct Attachments {
     pub user_score: Option<Attached<dyn LegScorer>>,
     /// The target of the user's own, `python:FILE`.
     pub user_target: Option<Attached<dyn RunMeter>>,
+    /// The controller of the user's own.
+    pub user_controller: Option<Arc<UserController>>,
     /// `spec.regression.baseline`.
     pub baseline: Option<Attached<Baseline>>,
 }
@@ -84,7 +87,8 @@ impl Attachments {
         fn kept<T: ?Sized>(attached: Option<&Attached<T>>) -> Option<(&str, &[u8])> {
             attached.map(|attached| (attached.name.as_str(), &*attached.bytes))
         }
-        let Self { map, cloud, costs, model, user_score, user_target, baseline } = self;
+        let Self { map, cloud, costs, model, user_score, user_target, user_controller, baseline } = self;
+        let controller = user_controller.as_ref().and_then(|user| user.file.as_ref());
         let map = map.as_ref().map(|(_, map)| map);
         let all = [
             kept(map),
@@ -93,6 +97,7 @@ impl Attachments {
             kept(model.as_ref()),
             kept(user_score.as_ref()),
             kept(user_target.as_ref()),
+            controller.map(|(name, bytes)| (name.as_str(), &**bytes)),
             kept(baseline.as_ref()),
         ];
         all.into_iter().flatten().collect()
@@ -128,6 +133,11 @@ impl Attachments {
     pub fn user_target(&self, target: Option<&Target>) -> Option<&Attached<dyn RunMeter>> {
         let Some(Target::Python(file)) = target else { return None };
         self.user_target.as_ref().filter(|user| user.name == *file)
+    }
+
+    /// The controller of the user's own that `word` names.
+    pub fn user_controller(&self, word: Option<&str>) -> Option<&UserController> {
+        self.user_controller.as_deref().filter(|user| Some(user.word.as_str()) == word)
     }
 
     /// What earlier releases did.

@@ -3,12 +3,12 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::scenario::{Mistake, Scenario};
+use super::scenario::{CONTROLLER_KEY, Mistake, Scenario};
 use crate::simulation::{Controlled, OwnController};
 
 /// Keys that say of our controllers what no other knows.
 const OF_OURS: [&str; 4] =
-    ["execute.controller", "execute.fixed_velocity_m_s", "execute.segment_times", "execute.goto_speed_m_s"];
+    [CONTROLLER_KEY, "execute.fixed_velocity_m_s", "execute.segment_times", "execute.goto_speed_m_s"];
 
 /// A controller of the caller's own, for whatever kind of robot.
 #[derive(Debug, Clone)]
@@ -16,12 +16,17 @@ pub struct AnyController {
     name: String,
     /// What its robots do.
     does: &'static str,
+    /// What of ours carries its commands out.
+    loops: Option<&'static str>,
+    /// Whether it came with the scenario that names it.
+    named: bool,
     controller: Arc<dyn Any + Send + Sync>,
 }
 
 impl<R: Controlled + 'static> From<OwnController<R>> for AnyController {
     fn from(controller: OwnController<R>) -> Self {
-        Self { name: controller.name().into(), does: R::DOES, controller: Arc::new(controller) }
+        let (name, loops) = (controller.name().into(), R::LOOPS);
+        Self { name, does: R::DOES, loops, named: false, controller: Arc::new(controller) }
     }
 }
 
@@ -29,6 +34,21 @@ impl AnyController {
     /// Its name in reports.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Itself as what a scenario names: where that names another, it goes.
+    pub(super) fn named(&self) -> Self {
+        Self { named: true, ..self.clone() }
+    }
+
+    /// Whether it came with the scenario that names it.
+    pub(super) fn is_named(&self) -> bool {
+        self.named
+    }
+
+    /// What of ours carries its commands out.
+    pub(super) fn loops(&self) -> Option<&'static str> {
+        self.loops
     }
 
     /// Itself, if it is for robots of the kind `R`.
@@ -57,6 +77,6 @@ impl AnyController {
     }
 
     fn refused(&self, bound: &str) -> Mistake {
-        Mistake { key: "execute.controller".into(), value: format!("\"{}\"", self.name), bound: bound.into() }
+        Mistake { key: CONTROLLER_KEY.into(), value: format!("\"{}\"", self.name), bound: bound.into() }
     }
 }

@@ -13,13 +13,14 @@ use super::case::Case;
 use super::check::check_vary;
 use super::kind::{Build, Given, Handed, Kind, Programs, RobotWords};
 use super::own_controller::AnyController;
-use super::scenario::TARGET_KEY;
-use super::scenario::{Environment, Mistake, Scenario, kinds_of_robots};
+use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
 use super::user_code::UserCode;
 use super::user_score::LegScorer;
 use super::user_target::RunMeter;
 use super::vary;
 use crate::math::simd::Simd;
+
+mod steered;
 
 /// A resolved scenario and what it describes. What draws leave as it is they share.
 #[derive(Debug, Clone)]
@@ -86,7 +87,7 @@ impl Setup {
         let Resolved { scenario, attachments } = resolved;
         let attachments = attachments.into();
         let kind = built(&scenario, &attachments, None, Look::All)?;
-        Self { scenario, attachments, simd: Simd::default(), kind, own_controller: None }.checked()
+        Self { scenario, attachments, simd: Simd::default(), kind, own_controller: None }.steered()?.checked()
     }
 
     /// The same, which tells the first mistake alone.
@@ -118,29 +119,6 @@ impl Setup {
     pub fn with_simd(self, simd: Simd) -> Self {
         let kind = self.kind.with(simd, self.own_controller.as_ref()).unwrap_or_else(|| self.kind.clone());
         Self { simd, kind, ..self }
-    }
-
-    /// The same executed by a controller of the caller's own, wherever the scenario's would execute: runs, searches
-    /// that execute, re-runs, candidates of a shrinking. What is told of the campaign names it.
-    ///
-    /// The scenario's own keys stay as they are. A folder keeps a scenario and no code, so one that is written of this
-    /// names the controller in its report and verdict only, and is resumed and replayed by those who have the code.
-    ///
-    /// # Errors
-    /// A controller of another kind of robot, or without a name; a scenario that has a command executed, or varies what
-    /// only ours have.
-    pub fn with_controller(self, controller: impl Into<AnyController>) -> Result<Self, Mistake> {
-        let controller = controller.into();
-        if let Some(mistake) = controller.mistake(&self.scenario) {
-            return Err(mistake);
-        }
-        let kind = self.kind.with(self.simd, Some(&controller)).ok_or_else(|| controller.foreign())?;
-        Ok(Self { kind, own_controller: Some(controller), ..self })
-    }
-
-    /// The controller of the caller's own.
-    pub(super) fn own_controller(&self) -> Option<&AnyController> {
-        self.own_controller.as_ref()
     }
 
     /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay
@@ -195,7 +173,7 @@ impl Setup {
 
     fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {
         let kind = built(&scenario, &self.attachments, Some(self.kind()), Look::All)?;
-        self.with(scenario, kind).checked()
+        self.with(scenario, kind).steered()?.checked()
     }
 
     /// Itself, once `[vary]` was looked at.
@@ -257,11 +235,6 @@ impl Setup {
         let score = self.user_score().map(|score| (self.scenario.score_key(), score as &dyn UserCode));
         let target = self.user_target().map(|target| (TARGET_KEY, target as &dyn UserCode));
         score.into_iter().chain(target).collect()
-    }
-
-    /// The word of the controller that executes, the caller's or ours; `None` where a command does.
-    pub fn controller(&self) -> Option<&str> {
-        self.own_controller().map(AnyController::name).or(self.scenario.controller())
     }
 
     /// The robot's name.

@@ -111,7 +111,10 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
     let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
     let who = match (setup.scenario.executor().command, setup.controller()) {
         (Some(command), None) => format!("executor `{command}`"),
-        (_, Some(controller)) => controller.into(),
+        (_, Some(controller)) => match setup.loops() {
+            Some(loops) => format!("{controller} on {loops}"),
+            None => controller.into(),
+        },
         (None, None) => "no controller".into(),
     };
     vec!["simulated".into(), stand_in, who]

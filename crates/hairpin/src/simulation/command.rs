@@ -53,6 +53,7 @@ pub enum FlightCommand {
 
 impl Controlled for Quadrotor {
     const DOES: &'static str = "it flies";
+    const LOOPS: Option<&'static str> = Some("hairpin's inner loops");
     type State = FlightState;
     type Plan = Profile;
     type Command = FlightCommand;

@@ -23,6 +23,8 @@ pub trait Controlled: Sized {
     ///
     /// It names the kind to whom a controller of another kind is offered.
     const DOES: &'static str;
+    /// What of ours carries its commands out, in a few words; `None`: actuators alone.
+    const LOOPS: Option<&'static str> = None;
     /// What is measured, stamped.
     type State;
     /// The planned motion in time.

@@ -130,7 +130,7 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
 }
 
 fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Findings) {
-    found.who(execute.controller.is_some(), execute.command.as_deref());
+    found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
     found.count("execute.repeat", execute.repeat, 1, 100_000);
     found.flaky(execute.flaky);
     found.baseline(execute.baseline);

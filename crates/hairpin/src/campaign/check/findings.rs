@@ -3,7 +3,8 @@
 use crate::campaign::attachments::Attachments;
 use crate::campaign::digits::grouped;
 use crate::campaign::scenario::{
-    FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Subject, TARGET_KEY, Target,
+    CONTROLLER_KEY, FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Steering, Subject,
+    TARGET_KEY, Target,
 };
 use crate::judgement::Stress;
 
@@ -67,11 +68,27 @@ impl Findings {
         self.from("world.origin.x_axis_heading_deg", origin.x_axis_heading_deg, 0.0, 360.0, "°");
     }
 
-    /// Who executes: hairpin's own controller or `execute.command`, not both.
-    pub(in crate::campaign) fn who(&mut self, controller: bool, command: Option<&str>) {
+    /// Who executes: a controller or `execute.command`, not both; and how often one of the user's is asked.
+    pub(in crate::campaign) fn who<K>(
+        &mut self,
+        controller: Option<&Steering<K>>,
+        rate: Option<f64>,
+        command: Option<&str>,
+    ) {
+        let users = Steering::users(controller);
+        if let Some(rate) = rate {
+            let (key, bound) = ("execute.control_rate_hz", "left out where no controller of yours steers");
+            self.require(users.is_some(), key, rate, bound);
+            self.from(key, rate, 1.0, 1000.0, " Hz");
+        }
+        if let Some(users) = users {
+            let what = users.file().or(users.command()).unwrap_or_default();
+            let (given, bound) = (format!("\"{}\"", users.word()), "python:FILE or command:CMD");
+            self.require(!what.trim().is_empty(), CONTROLLER_KEY, given, bound);
+        }
         let Some(command) = command else { return };
         let (key, given) = ("execute.command", format!("\"{command}\""));
-        self.require(!controller, key, &given, "left out where `controller` is given: one of the two");
+        self.require(controller.is_none(), key, &given, "left out where `controller` is given: one of the two");
         self.require(!command.trim().is_empty(), key, &given, "a program and its arguments");
     }
 

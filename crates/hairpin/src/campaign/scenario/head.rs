@@ -17,8 +17,10 @@ pub struct Executor<'a> {
     pub command: Option<&'a str>,
     /// Runs per case.
     pub repeat: u64,
-    /// Wall-clock limit per mission of `command`, s.
+    /// Wall-clock limit per mission of `command` or of a controller of the user's, s.
     pub timeout: f64,
+    /// Turns of a controller of the user's in a second, where it is given.
+    pub control_rate: Option<f64>,
     /// Processes of `command`.
     pub processes: Option<u64>,
     /// A waypoint counts as reached inside this radius, m.
@@ -73,8 +75,8 @@ pub struct Head<'a> {
     pub reach: &'static str,
     /// Who executes, and how often.
     pub executor: Executor<'a>,
-    /// The word of the controller of ours that executes; `None` where a command does.
-    pub controller: Option<&'static str>,
+    /// The word of the controller that executes, ours or the user's; `None` where a command does.
+    pub controller: Option<&'a str>,
     /// Where on Earth the world stands.
     pub origin: Option<Origin>,
     /// Distributions, by key.
@@ -196,8 +198,8 @@ pub trait Keys: Any {
         self.executor().command.is_some() && search.method == SearchMethod::Worst && search.seconds.is_none()
     }
 
-    /// The word of the controller of ours that executes; `None` where a command does.
-    fn controller(&self) -> Option<&'static str> {
+    /// The word of the controller that executes, ours or the user's; `None` where a command does.
+    fn controller(&self) -> Option<&str> {
         self.head().controller
     }
 

@@ -20,6 +20,7 @@ mod robot_source;
 mod search;
 mod sections;
 mod spec;
+mod steering;
 mod subject;
 mod terms;
 
@@ -40,6 +41,7 @@ pub use robot_source::RobotSource;
 pub use search::*;
 pub(super) use sections::{SECTIONS, sections};
 pub use spec::{Asked, Spec};
+pub use steering::{COMMAND, CONTROLLER_KEY, Steering, UserSteering};
 pub use subject::{ARM_MOVES, Subject};
 pub use terms::Terms;
 

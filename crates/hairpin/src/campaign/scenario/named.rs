@@ -1,7 +1,7 @@
 //! The keys of a scenario that name files, whatever moves in it: what the door reads, and renames to the copies of a
 //! campaign's folder.
 
-use super::{CostTable, RegressionLimit, Target, TerrainSection};
+use super::{CostTable, RegressionLimit, Target, TerrainSection, UserSteering};
 
 /// Keys that name files.
 #[derive(Debug, Default)]
@@ -18,6 +18,8 @@ pub struct Named<'a> {
     pub score: Option<(&'static str, &'a mut String)>,
     /// `generate.search.target`.
     pub target: Option<&'a mut Target>,
+    /// `execute.controller`, where it is the user's.
+    pub controller: Option<&'a mut UserSteering>,
     /// `spec.regression`.
     pub baseline: Option<&'a mut RegressionLimit>,
 }

@@ -3,16 +3,19 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::FlakySection;
+use crate::campaign::scenario::{FlakySection, Steering, UserSteering};
 use crate::simulation::boat::BoatControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BoatExecute {
-    /// line-of-sight | tracking.
+    /// line-of-sight | tracking, or yours: python:FILE | command:CMD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<BoatControllerKind>,
+    pub controller: Option<Steering<BoatControllerKind>>,
+    /// Turns of a controller of yours in a second; 100 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_rate_hz: Option<f64>,
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
@@ -33,7 +36,7 @@ pub struct BoatExecute {
     pub noise: bool,
     /// Whether leaving the waters is a crash.
     pub walls: bool,
-    /// Wall-clock limit per mission of `command`.
+    /// Wall-clock limit per mission of `command`, and of a controller of yours.
     pub timeout_s: f64,
     /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +56,7 @@ impl Default for BoatExecute {
     fn default() -> Self {
         Self {
             controller: None,
+            control_rate_hz: None,
             command: None,
             repeat: 1,
             accept_m: 1.0,
@@ -71,11 +75,19 @@ impl Default for BoatExecute {
 }
 
 impl BoatExecute {
-    /// Who sails: the controller as given, `line-of-sight` where nothing is, `None` where a command does.
+    /// Who sails: as given, `line-of-sight` where nothing is, `None` where a command does.
+    pub(in crate::campaign::boat) fn steering_in_force(&self) -> Option<Steering<BoatControllerKind>> {
+        Steering::in_force(self.controller.as_ref(), self.command.as_deref(), BoatControllerKind::LineOfSight)
+    }
+
+    /// The one of ours that sails.
     pub(in crate::campaign::boat) fn controller_in_force(&self) -> Option<BoatControllerKind> {
-        match (self.controller, &self.command) {
-            (None, Some(_)) => None,
-            (controller, _) => Some(controller.unwrap_or(BoatControllerKind::LineOfSight)),
-        }
+        self.steering_in_force()?.ours()
+    }
+
+    /// The word of who sails.
+    pub(in crate::campaign::boat) fn controller_word(&self) -> Option<&str> {
+        let users = Steering::users(self.controller.as_ref()).map(UserSteering::word);
+        users.or_else(|| self.controller_in_force().map(|controller| controller.word()))
     }
 }

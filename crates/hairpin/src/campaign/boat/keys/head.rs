@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::{BoatExecute, BoatScenario};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Subject, Terms, sections,
+    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Steering, Subject, Terms, sections,
 };
 
 /// A trip is given up after this multiple of its planned duration …
@@ -29,13 +29,14 @@ impl Keys for BoatScenario {
                 command: command.as_deref(),
                 repeat: *repeat,
                 timeout: *timeout_s,
+                control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },
-            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            controller: self.execute.controller_word(),
             origin: self.world.origin,
             vary: &self.vary,
             violation_share: self.spec.violation_share,
@@ -50,7 +51,7 @@ impl Keys for BoatScenario {
     }
 
     fn subject(&self) -> Subject {
-        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        let controller = self.execute.controller_word();
         Subject::of(&self.robot, |robot| &robot.name, true, controller)
     }
 
@@ -75,12 +76,13 @@ impl Keys for BoatScenario {
 
     fn write_defaults(&mut self) {
         self.generate.search.move_waypoints = Some(self.generate.search.moves_waypoints());
-        self.execute.controller = self.execute.controller_in_force();
+        self.execute.controller = self.execute.steering_in_force();
     }
 
     fn named(&mut self) -> Named<'_> {
+        let controller = Steering::users_mut(self.execute.controller.as_mut());
         let score = Some(("generate.score", &mut self.generate.score));
-        Named { score, target: self.generate.search.target.as_mut(), ..Named::default() }
+        Named { score, target: self.generate.search.target.as_mut(), controller, ..Named::default() }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

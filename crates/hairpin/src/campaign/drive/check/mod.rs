@@ -264,7 +264,7 @@ fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings
 
 /// Hairpin's own controller or a command, not both.
 fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
-    found.who(execute.controller.is_some(), execute.command.as_deref());
+    found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
     if let Some(repeat) = execute.repeat {
         found.count("execute.repeat", repeat, 1, 100_000);
     }

@@ -31,5 +31,5 @@ fn check_who(execute: &ExecuteSection, found: &mut Findings) {
         found.require(false, "execute.logs", format!("\"{logs}\""), bound);
         return;
     }
-    found.who(execute.controller.is_some(), execute.command.as_deref());
+    found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
 }

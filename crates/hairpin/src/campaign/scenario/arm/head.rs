@@ -39,6 +39,7 @@ impl Keys for ArmScenario {
                 command: None,
                 repeat: execute.repeat,
                 timeout: f64::INFINITY,
+                control_rate: None,
                 processes: None,
                 accept: ARRIVED,
                 baseline: execute.baseline.unwrap_or(BASELINE),
@@ -116,7 +117,7 @@ impl Keys for ArmScenario {
             PointsSource::List(_) | PointsSource::Drawn(_) => None,
         };
         let (target, baseline) = (self.generate.search.target.as_mut(), self.spec.regression.as_mut());
-        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, baseline }
+        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, controller: None, baseline }
     }
 
     fn frames(&self) -> Option<(Tool, WorkObject)> {

@@ -3,16 +3,19 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::FlakySection;
+use crate::campaign::scenario::{FlakySection, Steering, UserSteering};
 use crate::simulation::ground::GroundControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DriveExecute {
-    /// pure-pursuit | stanley | predictive.
+    /// pure-pursuit | stanley | predictive, or yours: python:FILE | command:CMD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<GroundControllerKind>,
+    pub controller: Option<Steering<GroundControllerKind>>,
+    /// Turns of a controller of yours in a second; 100 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_rate_hz: Option<f64>,
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
@@ -33,7 +36,7 @@ pub struct DriveExecute {
     pub external_force_n: Option<[f64; 3]>,
     /// Whether controllers see a noisy pose: 1 cm along each axis and 0.3° of yaw.
     pub noise: bool,
-    /// Wall-clock limit per mission of `command`.
+    /// Wall-clock limit per mission of `command`, and of a controller of yours.
     pub timeout_s: f64,
     /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +56,7 @@ impl Default for DriveExecute {
     fn default() -> Self {
         Self {
             controller: None,
+            control_rate_hz: None,
             command: None,
             repeat: None,
             accept_m: 0.5,
@@ -70,11 +74,19 @@ impl Default for DriveExecute {
 }
 
 impl DriveExecute {
-    /// Who drives: the controller as given, `predictive` where nothing is, `None` where a command does.
+    /// Who drives: as given, `predictive` where nothing is, `None` where a command does.
+    pub fn steering_in_force(&self) -> Option<Steering<GroundControllerKind>> {
+        Steering::in_force(self.controller.as_ref(), self.command.as_deref(), GroundControllerKind::Predictive)
+    }
+
+    /// The one of ours that drives.
     pub fn controller_in_force(&self) -> Option<GroundControllerKind> {
-        match (self.controller, &self.command) {
-            (None, Some(_)) => None,
-            (controller, _) => Some(controller.unwrap_or(GroundControllerKind::Predictive)),
-        }
+        self.steering_in_force()?.ours()
+    }
+
+    /// The word of who drives.
+    pub fn controller_word(&self) -> Option<&str> {
+        let users = Steering::users(self.controller.as_ref()).map(UserSteering::word);
+        users.or_else(|| self.controller_in_force().map(|controller| controller.word()))
     }
 }

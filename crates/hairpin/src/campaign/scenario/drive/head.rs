@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{DriveExecute, DriveScenario, GroundReach};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Subject,
-    Terms, sections,
+    BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Steering,
+    Subject, Terms, sections,
 };
 use crate::judgement::Limits;
 
@@ -47,13 +47,14 @@ impl Keys for DriveScenario {
                 command: command.as_deref(),
                 repeat: repeat.unwrap_or(if self.vary.is_empty() { 1 } else { 2 }),
                 timeout: *timeout_s,
+                control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },
-            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            controller: self.execute.controller_word(),
             origin: self.world.origin,
             vary: &self.vary,
             violation_share: limits.violation_share,
@@ -74,7 +75,7 @@ impl Keys for DriveScenario {
 
     fn subject(&self) -> Subject {
         let at_ends = self.generate.reach == GroundReach::Witness;
-        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        let controller = self.execute.controller_word();
         Subject::of(&self.robot, |robot| robot.name(), at_ends, controller)
     }
 
@@ -102,14 +103,15 @@ impl Keys for DriveScenario {
 
     fn write_defaults(&mut self) {
         self.generate.search.move_waypoints = Some(self.generate.search.section().moves_waypoints());
-        self.execute.controller = self.execute.controller_in_force();
+        self.execute.controller = self.execute.steering_in_force();
     }
 
     fn named(&mut self) -> Named<'_> {
+        let controller = Steering::users_mut(self.execute.controller.as_mut());
         let terrain = &mut self.world.terrain;
         let map = (terrain.file.is_some() && terrain.generator.is_none()).then_some(terrain);
         let score = Some(("generate.search.score", &mut self.generate.search.score));
-        Named { map, score, target: self.generate.search.target.as_mut(), ..Named::default() }
+        Named { map, score, target: self.generate.search.target.as_mut(), controller, ..Named::default() }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

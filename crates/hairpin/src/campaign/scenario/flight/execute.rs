@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::FlakySection;
+use crate::campaign::scenario::{FlakySection, Steering, UserSteering};
 use crate::simulation::{ControllerKind, SegmentTimes};
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -11,9 +11,12 @@ use crate::simulation::{ControllerKind, SegmentTimes};
 #[serde(deny_unknown_fields, default)]
 pub struct ExecuteSection {
     /// unstable-waypoint | stable-waypoint | fixed-velocity | minimum-snap | geometric | anafi | px4-mission |
-    /// crazyflie-goto.
+    /// crazyflie-goto, or yours: python:FILE | command:CMD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<ControllerKind>,
+    pub controller: Option<Steering<ControllerKind>>,
+    /// Turns of a controller of yours in a second; 100 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_rate_hz: Option<f64>,
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
@@ -40,7 +43,7 @@ pub struct ExecuteSection {
     /// Mean speed of crazyflie-goto; a tenth of the robot's top speed if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goto_speed_m_s: Option<f64>,
-    /// Wall-clock limit per mission of `command`.
+    /// Wall-clock limit per mission of `command`, and of a controller of yours.
     pub timeout_s: f64,
     /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -60,6 +63,7 @@ impl Default for ExecuteSection {
     fn default() -> Self {
         Self {
             controller: None,
+            control_rate_hz: None,
             command: None,
             logs: None,
             repeat: 1,
@@ -81,11 +85,19 @@ impl Default for ExecuteSection {
 }
 
 impl ExecuteSection {
-    /// Who flies: the controller as given, `stable-waypoint` where nothing is, `None` where a command does.
+    /// Who flies: as given, `stable-waypoint` where nothing is, `None` where a command does.
+    pub fn steering_in_force(&self) -> Option<Steering<ControllerKind>> {
+        Steering::in_force(self.controller.as_ref(), self.command.as_deref(), ControllerKind::StableWaypoint)
+    }
+
+    /// The one of ours that flies.
     pub fn controller_in_force(&self) -> Option<ControllerKind> {
-        match (self.controller, &self.command) {
-            (None, Some(_)) => None,
-            (controller, _) => Some(controller.unwrap_or(ControllerKind::StableWaypoint)),
-        }
+        self.steering_in_force()?.ours()
+    }
+
+    /// The word of who flies.
+    pub fn controller_word(&self) -> Option<&str> {
+        let users = Steering::users(self.controller.as_ref()).map(UserSteering::word);
+        users.or_else(|| self.controller_in_force().map(|controller| controller.word()))
     }
 }

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use super::{ExecuteSection, FlightScenario, ReachName};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Subject, Terms, sections,
+    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Steering, Subject, Terms,
+    sections,
 };
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -27,6 +28,7 @@ impl Keys for FlightScenario {
                 command: command.as_deref(),
                 repeat: *repeat,
                 timeout: *timeout_s,
+                control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),
                 accept: *accept_m,
                 baseline: baseline.unwrap_or(BASELINE),
@@ -38,7 +40,7 @@ impl Keys for FlightScenario {
                     spare: 0.0,
                 },
             },
-            controller: self.execute.controller_in_force().map(|controller| controller.word()),
+            controller: self.execute.controller_word(),
             origin: self.world.origin,
             vary: &self.vary,
             violation_share: self.spec.violation_share,
@@ -54,7 +56,7 @@ impl Keys for FlightScenario {
 
     fn subject(&self) -> Subject {
         let at_ends = self.generate.reach == ReachName::Witness;
-        let controller = self.execute.controller_in_force().map(|controller| controller.word());
+        let controller = self.execute.controller_word();
         Subject::of(&self.robot, |robot| &robot.name, at_ends, controller)
     }
 
@@ -86,11 +88,12 @@ impl Keys for FlightScenario {
         self.generate.search.move_waypoints = Some(self.generate.search.moves_waypoints());
         self.generate.timing = Some(self.generate.timing_in_force());
         if self.execute.logs.is_none() {
-            self.execute.controller = self.execute.controller_in_force();
+            self.execute.controller = self.execute.steering_in_force();
         }
     }
 
     fn named(&mut self) -> Named<'_> {
+        let controller = Steering::users_mut(self.execute.controller.as_mut());
         let meshes = self.world.obstacles.iter_mut().enumerate().filter_map(|(index, obstacle)| {
             let mesh = obstacle.mesh.as_mut()?;
             Some(NamedMesh {
@@ -103,7 +106,13 @@ impl Keys for FlightScenario {
             })
         });
         let score = Some(("generate.score", &mut self.generate.score));
-        Named { meshes: meshes.collect(), score, target: self.generate.search.target.as_mut(), ..Named::default() }
+        Named {
+            meshes: meshes.collect(),
+            score,
+            target: self.generate.search.target.as_mut(),
+            controller,
+            ..Named::default()
+        }
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);

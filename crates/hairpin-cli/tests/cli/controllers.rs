@@ -1,0 +1,286 @@
+//! Controllers of the user's own on our plants: Python functions and programs steer as ours do, are kept with what they
+//! steered, and what they do wrong costs the run that it befell.
+
+use std::fs;
+use std::path::Path;
+
+use crate::commands::{assert_same, copy, json, refused, run, small_hull};
+use hairpin::campaign::{execute_run, judge};
+use hairpin::robot::quadrotor::Quadrotor;
+use hairpin::simulation::{Controller, Fault, FlightCommand, FlightState, OwnController, Reference};
+use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::scenario::setup_for;
+use serde_json::Value;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/controllers");
+
+/// Trajectories by chance, flown by `controller`.
+fn scenario(controller: &str) -> String {
+    small_hull("{ method = \"uniform\", waypoints = 60, cases = 4 }")
+        .replace("controller = \"minimum-snap\"", &format!("controller = {controller:?}\ntimeout_s = 20.0"))
+}
+
+fn example(name: &str, here: &Path) {
+    fs::copy(Path::new(EXAMPLES).join(name), here.join(name)).unwrap();
+}
+
+fn worst(folder: &Path) -> Vec<f64> {
+    let results = CampaignFolder::open(folder).unwrap().read_results().unwrap();
+    results.iter().map(|result| result.measures.as_ref().unwrap().max_deviation).collect()
+}
+
+/// The example as Rust has it.
+struct Pd;
+
+impl Controller<Quadrotor> for Pd {
+    fn control(&mut self, _dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        let pull = ((to.target() - now.position) * 2.0).cap_magnitude(4.0 * 2.5);
+        Ok(FlightCommand::Acceleration(pull - now.velocity * 2.5))
+    }
+}
+
+#[test]
+fn a_function_a_program_and_rust_fly_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    example("pd.py", here);
+    example("pd_program.py", here);
+    fs::write(here.join("python.toml"), scenario("python:pd.py")).unwrap();
+    fs::write(here.join("program.toml"), scenario("command: python3 pd_program.py")).unwrap();
+    let told = ["python", "program"].map(|name| json(here, &["stress", &format!("{name}.toml"), "--out", name]));
+    let words = ["python:pd.py on hairpin's inner loops", "command: python3 pd_program.py on hairpin's inner loops"];
+    for (told, words) in told.iter().zip(words) {
+        assert!(told["verdict"].as_str().unwrap().contains(words), "{told}");
+    }
+    assert_eq!(fs::read(here.join("python/pd.py")).unwrap(), fs::read(here.join("pd.py")).unwrap());
+    // Rust has the same controller, and nothing in common with Python but the plant.
+    let kept = CampaignFolder::open(&here.join("python")).unwrap();
+    let plain = scenario("stable-waypoint");
+    fs::write(here.join("plain.toml"), plain).unwrap();
+    let setup = setup_for(&here.join("plain.toml").to_string_lossy(), &[]).unwrap();
+    let setup = setup.with_controller(OwnController::new("pd", |_: &Quadrotor| Pd)).unwrap();
+    let rust: Vec<f64> = kept
+        .read_cases()
+        .unwrap()
+        .iter()
+        .map(|case| judge(&setup, case, &[execute_run(&setup, case, 0)]).unwrap().measures.unwrap().max_deviation)
+        .collect();
+    let [python, program] = ["python", "program"].map(|name| worst(&here.join(name)));
+    assert_eq!(python, program);
+    assert!(python.len() == 4 && python.iter().zip(&rust).all(|(a, b)| (a - b).abs() < 1e-9), "{python:?} {rust:?}");
+}
+
+#[test]
+fn a_folder_flies_again_with_what_it_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    example("pd.py", here);
+    fs::write(here.join("q.toml"), scenario("python:pd.py")).unwrap();
+    let search = ["stress", "q.toml", "--set", "spec.deviation.max_m=0.01"];
+    let first = json(here, &[&search[..], &["--out", "a", "--threads", "1"]].concat());
+    json(here, &[&search[..], &["--out", "b", "--threads", "2"]].concat());
+    assert_same(&here.join("a"), &here.join("b"));
+    fs::remove_file(here.join("pd.py")).unwrap();
+    for again in
+        [&["execute", "a"][..], &["judge", "a"], &["verify", "a"], &["report", "a"], &["replay", "a/repro/0000.json"]]
+    {
+        let (code, out, error) = run(here, again);
+        assert!([0, 1].contains(&code), "{again:?}: {out}{error}");
+    }
+    assert_same(&here.join("a"), &here.join("b"));
+    assert_eq!(json(here, &["judge", "a"])["verdict"], first["verdict"]);
+    // Elsewhere, and with another file, it is a stranger's.
+    copy(&here.join("a"), &here.join("theirs"));
+    fs::write(here.join("theirs/pd.py"), "open('here', 'w')\n").unwrap();
+    refused(here, &["execute", "theirs"], &["pd.py", "execute.controller", "--allow-commands"]);
+    assert!(!here.join("here").exists() && !here.join("theirs/here").exists());
+}
+
+#[test]
+fn the_default_search_stresses_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    example("pd.py", here);
+    let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 40 }";
+    let text = small_hull(search).replace("\"minimum-snap\"", "\"python:pd.py\"");
+    fs::write(here.join("q.toml"), text).unwrap();
+    let told = json(here, &["stress", "q.toml", "--out", "a", "--set", "execute.baseline=8"]);
+    let verdict = told["verdict"].as_str().unwrap();
+    assert!(verdict.contains("flown; random feasible ones"), "{verdict}");
+    let kept = CampaignFolder::open(&here.join("a")).unwrap();
+    let chance = kept.read_baseline().unwrap().unwrap();
+    let by_chance: Vec<f64> = chance.iter().map(|one| one.measures.as_ref().unwrap().max_deviation).collect();
+    let mean = by_chance.iter().sum::<f64>() / by_chance.len() as f64;
+    let found = worst(&here.join("a"));
+    assert!(by_chance.len() == 8 && found.iter().all(|one| *one > mean), "{found:?} {by_chance:?}");
+}
+
+/// What one that goes wrong says, in its first runs or all of them.
+#[test]
+fn what_goes_wrong_costs_its_own_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let good = fs::read_to_string(Path::new(EXAMPLES).join("pd.py")).unwrap();
+    // Whether it goes wrong depends on the mission: of four cases some do.
+    let sick = |what: &str| {
+        format!(
+            "{good}\nimport os, sys, time\ngood = control\ndef control(t_s, state, reference):\n    \
+             if t_s > 0.5 and sum(map(sum, reference[\"waypoints_m\"])) % 2.0 < 1.0:\n        {what}\n    \
+             return good(t_s, state, reference)\n"
+        )
+    };
+    for (what, words) in [
+        ("raise ValueError('no thrust left')", "ValueError: no thrust left"),
+        ("os._exit(3)", "it ended without an answer"),
+        ("return {'a_m_s2': [float('nan'), 0.0, 0.0]}", "numbers that are not finite"),
+        ("return {'a_m_s2': [1.0, 2.0]}", "must be one of {\"v_m_s\"}"),
+        ("return {'v_m_s': [0.0, 0.0, 0.0], 'thrust_n': 3.0}", "must be one of {\"v_m_s\"}"),
+        ("return {'speed': [0.0, 0.0, 0.0]}", "unknown field `speed`"),
+        ("return {'thrust_n': 10.0, 'q_wxyz': [1.0, 1.0, 0.0, 0.0]}", "must have the norm 1"),
+        ("return None", "None is no dictionary"),
+        ("os.write(1, b'x' * 100); sys.stdout.write('y' * 3_000_000); raise OSError('flooded')", "OSError: flooded"),
+    ] {
+        fs::write(here.join("sick.py"), sick(what)).unwrap();
+        fs::write(here.join("q.toml"), scenario("python:sick.py")).unwrap();
+        let (code, out, error) = run(here, &["stress", "q.toml", "--out", "a", "--force"]);
+        assert_eq!(code, 4, "{what}: {out}{error}");
+        assert!(out.contains("EXECUTOR FAILED") || error.contains("EXECUTOR FAILED"), "{what}: {out}{error}");
+        let kept = CampaignFolder::open(&here.join("a")).unwrap();
+        let results = kept.read_results().unwrap();
+        let failed: Vec<&str> = results.iter().filter_map(|result| result.message.as_deref()).collect();
+        assert!(!failed.is_empty() && failed.len() < 4, "{what}: {} of {} failed", failed.len(), results.len());
+        let told = |text: &&str| text.contains("controller `python:sick.py` at t = 0.5") && text.contains(words);
+        assert!(failed.iter().all(told), "{what}: {failed:?}");
+    }
+}
+
+#[test]
+fn a_program_that_hangs_is_given_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("hangs.py"), "import time\ndef control(t_s, state, reference):\n    time.sleep(600)\n")
+        .unwrap();
+    let text = scenario("python:hangs.py").replace("timeout_s = 20.0", "timeout_s = 0.3");
+    fs::write(here.join("q.toml"), text).unwrap();
+    let begun = std::time::Instant::now();
+    let (code, out, error) =
+        run(here, &["stress", "q.toml", "--out", "a", "--set", "generate.search.cases=8", "--threads", "1"]);
+    assert!(code == 4 && begun.elapsed().as_secs() < 30, "{out}{error}");
+    let kept = CampaignFolder::open(&here.join("a")).unwrap().read_results().unwrap();
+    let told: Vec<&str> = kept.iter().filter_map(|result| result.message.as_deref()).collect();
+    assert!(told.len() == 8 && told[0].contains("not over after 0.3 s"), "{told:?}");
+    assert!(told[7].contains("3 runs in a row") || told[3].contains("3 runs in a row"), "{told:?}");
+}
+
+#[test]
+fn what_cannot_steer_is_refused_before_anything_flies() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (body, words) in [
+        ("def control(t_s, state, reference)\n    pass\n", &["execute.controller", "SyntaxError"][..]),
+        ("def steer():\n    pass\n", &["no function control(t_s, state, reference)"]),
+        ("import no_such_module_here\n", &["ModuleNotFoundError", "no_such_module_here"]),
+    ] {
+        fs::write(here.join("c.py"), body).unwrap();
+        fs::write(here.join("q.toml"), scenario("python:c.py")).unwrap();
+        refused(here, &["stress", "q.toml", "--out", "a"], words);
+    }
+    example("pd.py", here);
+    let given = |text: String| fs::write(here.join("q.toml"), text).unwrap();
+    for (controller, words) in [
+        ("python:none.py", &["execute.controller", "`none.py` cannot be read"][..]),
+        ("python:", &["execute.controller"]),
+        ("command:", &["execute.controller", "is empty"]),
+        ("command: hairpin-no-such-program", &["`hairpin-no-such-program` cannot be started"]),
+        ("pythn:pd.py", &["execute.controller", "minimum-snap"]),
+    ] {
+        given(scenario(controller));
+        refused(here, &["stress", "q.toml", "--out", "a"], words);
+    }
+    let python = scenario("python:pd.py");
+    let with = |key: &str| python.replace("timeout_s = 20.0", &format!("timeout_s = 20.0\n{key}"));
+    given(with("command = \"sim\""));
+    refused(here, &["stress", "q.toml", "--out", "a"], &["execute.command", "one of the two"]);
+    given(with("control_rate_hz = 5000.0"));
+    refused(here, &["stress", "q.toml", "--out", "a"], &["execute.control_rate_hz", "1000"]);
+    given(format!("{python}\n[vary]\n\"execute.controller\" = {{ choice = [\"anafi\", \"geometric\"] }}\n"));
+    refused(here, &["stress", "q.toml", "--out", "a"], &["execute.controller", "left out"]);
+    given(scenario("minimum-snap").replace("timeout_s = 20.0", "control_rate_hz = 50.0"));
+    refused(here, &["stress", "q.toml", "--out", "a"], &["execute.control_rate_hz", "no controller of yours"]);
+    let arm = ["stress", "demo-arm", "--set", "execute.controller=\"python:pd.py\"", "--out", "a"];
+    refused(here, &arm, &["execute.controller"]);
+    assert!(!here.join("a").exists());
+}
+
+/// What it may remember, and what it is told: with `reset` the file is loaded once, without it anew for each run.
+#[test]
+fn each_run_begins_afresh() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let log = here.join("log");
+    let body = |reset: &str| {
+        format!(
+            "import json\nturns = 0\n{reset}\ndef control(t_s, state, reference):\n    global turns\n    turns += 1\n    \
+             if turns in (1, 2):\n        open({log:?}, 'a').write(json.dumps([turns, t_s, state, reference]) + '\\n')\n    \
+             return {{'v_m_s': [0.0, 0.0, 0.0]}}\n"
+        )
+    };
+    let reset = format!("def reset(mission):\n    open({log:?}, 'a').write(json.dumps([0, mission]) + '\\n')\n");
+    for (text, lines, control_lines) in [(body(""), 8, 8), (body(&reset), 6, 2)] {
+        let _ = fs::remove_file(&log);
+        fs::write(here.join("c.py"), text).unwrap();
+        fs::write(here.join("q.toml"), scenario("python:c.py").replace("[spec]", "time_limit_s = 1.0\n[spec]"))
+            .unwrap();
+        let rate = "execute.control_rate_hz=50";
+        let (code, out, error) =
+            run(here, &["stress", "q.toml", "--out", "a", "--force", "--threads", "1", "--set", rate]);
+        assert!([0, 1].contains(&code), "{out}{error}");
+        let told = fs::read_to_string(&log).unwrap();
+        let told: Vec<Value> = told.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let turns = told.iter().filter(|line| line[0] != 0).count();
+        assert_eq!((told.len(), turns), (lines, control_lines), "{told:?}");
+        let first = told.iter().find(|line| line[0] == 1).unwrap();
+        assert_eq!((first[1].as_f64(), first[2]["p_m"].clone()), (Some(0.0), serde_json::json!([2.0, 2.0, 5.0])));
+        let second = told.iter().find(|line| line[0] == 2).unwrap();
+        assert!((second[1].as_f64().unwrap() - 0.02).abs() < 1e-9, "{second}");
+        let reference = &first[3];
+        assert!(reference["next"].is_u64() && reference["waypoints_m"].as_array().unwrap().len() == 5, "{reference}");
+        if let Some(mission) = told.iter().find(|line| line[0] == 0) {
+            assert_eq!(mission[1]["robot"]["kind"], "quadrotor");
+            assert_eq!(mission[1]["accept_m"], 1.0);
+        }
+    }
+}
+
+#[test]
+fn what_drives_and_what_sails_is_steered_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    example("pursuit.py", here);
+    fs::write(
+        here.join("boat.py"),
+        "import math\ndef control(t_s, state, reference):\n    \
+         c, s = math.cos(state['yaw_rad']), math.sin(state['yaw_rad'])\n    \
+         e = [200 * (p - q) + 200 * (v - w) for p, q, v, w in zip(reference['p_m'], state['p_m'], reference['v_m_s'], state['v_m_s'])]\n    \
+         turn = math.remainder(reference['yaw_rad'] - state['yaw_rad'], 2 * math.pi)\n    \
+         return {'force_n': [c * e[0] + s * e[1], c * e[1] - s * e[0]], 'moment_n_m': 100 * turn - 100 * state['w_rad_s'][2]}\n",
+    )
+    .unwrap();
+    for (scenario, file) in [("demo-rover", "pursuit.py"), ("boat", "boat.py")] {
+        let controller = format!("execute.controller=\"python:{file}\"");
+        let words = [
+            "--set",
+            "generate.search.cases=2",
+            "--set",
+            "generate.search.method=\"uniform\"",
+            "--set",
+            "execute.repeat=1",
+        ];
+        let told = json(here, &[&["stress", scenario, "--out", file, "--set", &controller][..], &words].concat());
+        assert!(told["verdict"].as_str().unwrap().contains(&format!("python:{file}")), "{told}");
+        assert_ne!(told["exit_code"], 4, "{told}");
+        let kept = CampaignFolder::open(&here.join(file)).unwrap();
+        let done = kept.read_results().unwrap().iter().filter(|result| result.message.is_none()).count();
+        assert_eq!(done, 2);
+    }
+}

@@ -1,0 +1,67 @@
+//! What sails.
+
+use hairpin::robot::boat::Boat;
+use hairpin::simulation::boat::{BoatCommand, BoatState};
+use hairpin::trajectory::Profile;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::helm::Steered;
+use super::turn::{Planned, keys};
+
+const WANTED: &str = "{\"force_n\",\"moment_n_m\"}, of finite numbers";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer {
+    force_n: [f64; 2],
+    moment_n_m: f64,
+}
+
+impl Steered for Boat {
+    fn numbers(&self) -> Value {
+        json!({
+            "kind": "boat",
+            "name": self.name,
+            "max_speed_m_s": self.top_speed,
+            "default_speed_m_s": self.default_speed,
+        })
+    }
+
+    fn state(state: &BoatState) -> (f64, Value) {
+        let v = state.over_ground();
+        let state_of = json!({
+            "p_m": [state.position.x, state.position.y, 0.0],
+            "yaw_rad": state.heading,
+            "v_m_s": [v.x, v.y, 0.0],
+            "w_rad_s": [0.0, 0.0, state.velocity.z],
+        });
+        (state.t, state_of)
+    }
+
+    /// Of its plan the third coordinate is the heading.
+    fn planned(plan: &Profile, t: f64) -> Option<Planned> {
+        let (leg, tau) = plan.locate(t)?;
+        let derivative = |order| plan.legs[leg].derivative(tau, order);
+        let moves = t <= plan.duration();
+        let flat = |order| match derivative(order) {
+            _ if order > 0 && !moves => [0.0; 3],
+            found => [found.x, found.y, 0.0],
+        };
+        Some(Planned {
+            p_m: Some(flat(0)),
+            v_m_s: Some(flat(1)),
+            a_m_s2: Some(flat(2)),
+            yaw_rad: Some(derivative(0).z),
+        })
+    }
+
+    fn planned_s(plan: &Profile) -> f64 {
+        plan.duration()
+    }
+
+    fn command(answer: &[u8]) -> Result<BoatCommand, String> {
+        let Answer { force_n: [surge, sway], moment_n_m: yaw } = keys(answer, WANTED)?;
+        Ok(BoatCommand { surge, sway, yaw })
+    }
+}

@@ -1,0 +1,91 @@
+//! What drives.
+
+use hairpin::robot::rover::Rover;
+use hairpin::simulation::ground::{DriveCommand, DriveState};
+use hairpin::trajectory::Track;
+use nalgebra::Vector3;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::helm::Steered;
+use super::turn::{Planned, keys};
+
+const WANTED: &str =
+    "{\"v_m_s\",\"curvature_1_m\"}, with \"turn_rad_s\" and \"direction_rad\" if wanted, of finite numbers";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer {
+    v_m_s: f64,
+    curvature_1_m: f64,
+    #[serde(default)]
+    turn_rad_s: f64,
+    #[serde(default)]
+    direction_rad: f64,
+}
+
+impl Steered for Rover {
+    fn numbers(&self) -> Value {
+        // JSON has no infinity: what has no bound is null.
+        let bound = |value: f64| value.is_finite().then_some(value);
+        json!({
+            "kind": "ground",
+            "name": self.name,
+            "max_speed_m_s": bound(self.limits.speed),
+            "max_acceleration_m_s2": bound(self.limits.acceleration),
+            "max_curvature_1_m": bound(self.limits.curvature),
+            "default_speed_m_s": self.default_speed,
+        })
+    }
+
+    fn state(state: &DriveState) -> (f64, Value) {
+        let [roll, pitch] = state.lean;
+        let state_of = json!({
+            "p_m": [state.at.x, state.at.y, state.height],
+            "yaw_rad": state.at.yaw,
+            "v_m_s": state.speed,
+            "curvature_1_m": state.at.curvature,
+            "roll_rad": roll,
+            "pitch_rad": pitch,
+            "turn_rad_s": state.turn_rate,
+            "direction_rad": state.direction,
+        });
+        (state.t, state_of)
+    }
+
+    /// Velocities and accelerations from the samples next to it.
+    fn planned(plan: &Track, t: f64) -> Option<Planned> {
+        let (times, poses) = (plan.times(), plan.poses());
+        let last = times.len().checked_sub(1)?;
+        let at = times.partition_point(|stamp| *stamp <= t).clamp(1, last.max(1)) - 1;
+        let next = (at + 1).min(last);
+        let span = times[next] - times[at];
+        let share = if span > 0.0 { ((t - times[at]) / span).clamp(0.0, 1.0) } else { 0.0 };
+        let pose = poses[at].try_lerp_slerp(&poses[next], share, 1e-9).unwrap_or(poses[next]);
+        let moves = t <= times[last];
+        let velocity = |from: usize, to: usize| match times[to] - times[from] {
+            span if span > 0.0 => (plan.position(to) - plan.position(from)) / span,
+            _ => Vector3::zeros(),
+        };
+        let v = if moves { velocity(at, next) } else { Vector3::zeros() };
+        let (before, after) = (at.saturating_sub(1), (next + 1).min(last));
+        let around = (times[after] + times[next] - times[at] - times[before]) / 2.0;
+        let change = velocity(next, after) - velocity(before, at);
+        let a = if moves && around > 0.0 && before < at && next < after { change / around } else { Vector3::zeros() };
+        Some(Planned {
+            p_m: Some(pose.translation.vector.into()),
+            v_m_s: Some(v.into()),
+            a_m_s2: Some(a.into()),
+            yaw_rad: Some(pose.rotation.euler_angles().2),
+        })
+    }
+
+    fn planned_s(plan: &Track) -> f64 {
+        plan.times().last().copied().unwrap_or_default()
+    }
+
+    fn command(answer: &[u8]) -> Result<DriveCommand, String> {
+        let Answer { v_m_s, curvature_1_m, turn_rad_s, direction_rad } = keys(answer, WANTED)?;
+        Ok(DriveCommand { speed: v_m_s, curvature: curvature_1_m, turn_rate: turn_rad_s, direction: direction_rad })
+    }
+}

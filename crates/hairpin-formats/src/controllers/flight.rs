@@ -1,0 +1,81 @@
+//! What flies.
+
+use hairpin::robot::quadrotor::Quadrotor;
+use hairpin::simulation::{FlightCommand, FlightState};
+use hairpin::trajectory::Profile;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::helm::Steered;
+use super::turn::{Planned, keys};
+
+const WANTED: &str = "one of {\"v_m_s\"}, {\"a_m_s2\"}, {\"thrust_n\",\"q_wxyz\"}, {\"thrust_n\",\"w_rad_s\"}, of finite \
+                      numbers";
+/// By how much the norm of a quaternion may differ from 1: whoever rounds to three digits is understood.
+const NORM: f64 = 0.01;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer {
+    v_m_s: Option<[f64; 3]>,
+    a_m_s2: Option<[f64; 3]>,
+    thrust_n: Option<f64>,
+    q_wxyz: Option<[f64; 4]>,
+    w_rad_s: Option<[f64; 3]>,
+}
+
+impl Steered for Quadrotor {
+    fn numbers(&self) -> Value {
+        json!({
+            "kind": "quadrotor",
+            "name": self.name,
+            "mass_kg": self.mass,
+            "inertia_kg_m2": <[f64; 3]>::from(self.inertia),
+            "max_thrust_n": self.max_thrust(),
+            "max_speed_m_s": self.max_speed,
+            "gravity_m_s2": self.gravity,
+        })
+    }
+
+    fn state(state: &FlightState) -> (f64, Value) {
+        let q = state.attitude;
+        let state_of = json!({
+            "p_m": <[f64; 3]>::from(state.position),
+            "v_m_s": <[f64; 3]>::from(state.velocity),
+            "q_wxyz": [q.w, q.i, q.j, q.k],
+            "w_rad_s": <[f64; 3]>::from(state.rates),
+        });
+        (state.t, state_of)
+    }
+
+    fn planned(plan: &Profile, t: f64) -> Option<Planned> {
+        let (leg, tau) = plan.locate(t)?;
+        let derivative = |order| <[f64; 3]>::from(plan.legs[leg].derivative(tau, order));
+        // Beyond its end it stands where that is.
+        let moves = t <= plan.duration();
+        let moving = |order| if moves { derivative(order) } else { [0.0; 3] };
+        Some(Planned { p_m: Some(derivative(0)), v_m_s: Some(moving(1)), a_m_s2: Some(moving(2)), yaw_rad: Some(0.0) })
+    }
+
+    fn planned_s(plan: &Profile) -> f64 {
+        plan.duration()
+    }
+
+    fn command(answer: &[u8]) -> Result<FlightCommand, String> {
+        let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys(answer, WANTED)?;
+        match (v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s) {
+            (Some(v), None, None, None, None) => Ok(FlightCommand::Velocity(Vector3::from(v))),
+            (None, Some(a), None, None, None) => Ok(FlightCommand::Acceleration(Vector3::from(a))),
+            (None, None, Some(thrust), Some([w, x, y, z]), None) => {
+                let q = Quaternion::new(w, x, y, z);
+                if (q.norm() - 1.0).abs() <= NORM {
+                    return Ok(FlightCommand::Attitude { thrust, attitude: UnitQuaternion::new_normalize(q) });
+                }
+                Err(format!("q_wxyz must have the norm 1, not {}", q.norm()))
+            }
+            (None, None, Some(thrust), None, Some(w)) => Ok(FlightCommand::Rates { thrust, rates: Vector3::from(w) }),
+            _ => Err(format!("must be {WANTED}")),
+        }
+    }
+}
