@@ -116,12 +116,13 @@ impl Run<'_> {
         let (mut batch, mut answers, mut whole) = (Batch::default(), Vec::with_capacity(rows.len()), true);
         // The head is the record before the first query.
         for (number, row) in (block.before - 1..).zip(rows) {
-            if self.watch.stopped() {
+            let (drawn, kept) = (number < self.most_drawn, self.kept.get(number));
+            // What is kept is gone past in no time.
+            if kept.is_none() && self.watch.stopped() {
                 whole = false;
                 break;
             }
-            let drawn = number < self.most_drawn;
-            match self.kept.get(number) {
+            match kept {
                 Some(kept) if *kept.id != *row.id => {
                     return Err(format!(
                         "line {}: id = {:?}: the answers there are go on with {:?}: --resume needs those of the same queries",

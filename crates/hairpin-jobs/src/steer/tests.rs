@@ -173,9 +173,12 @@ fn a_file_that_is_stopped_keeps_what_is_done_and_goes_on() {
     assert_eq!(all.wrong[1].0, 104, "the line");
     // Nothing is done at once: what stands there stays.
     fs::write(&parts, "mine").unwrap();
+    // One thread asks in the queries' order whether to stop.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let stop = |after: usize, answers: Answers<'_>| {
         let stops = Stops(AtomicUsize::new(0), after);
-        vehicle.answer_file(&queries, answers, false, &stops).expect_err("it is stopped").to_string()
+        let stopped = alone.install(|| vehicle.answer_file(&queries, answers, false, &stops));
+        stopped.expect_err("it is stopped").to_string()
     };
     let told = stop(0, Answers::File(&parts));
     assert!(told.contains("0 of 300") && fs::read_to_string(&parts).unwrap() == "mine", "{told}");
