@@ -42,15 +42,32 @@ pub fn read_table(path: &Path) -> io::Result<Vec<u8>> {
 /// # Errors
 /// What there is too much of.
 pub fn check_table(bytes: &[u8]) -> Result<(), String> {
-    let (mut rows, mut begun) = (0, 0);
-    for (at, byte) in bytes.iter().enumerate() {
-        if matches!(byte, b'\n' | b'\r') {
-            (rows, begun) = (rows + 1, at + 1);
-        } else if at - begun >= LONGEST_ROW {
-            return Err(format!("line {}: longer than {LONGEST_ROW} bytes", rows + 1));
+    TableCheck::default().go_on(bytes)
+}
+
+/// [`check_table`] of a table that comes piece by piece.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct TableCheck {
+    rows: usize,
+    /// Bytes of the row so far.
+    row: usize,
+}
+
+impl TableCheck {
+    /// # Errors
+    /// As of [`check_table`], with the piece in which it is told.
+    pub(crate) fn go_on(&mut self, bytes: &[u8]) -> Result<(), String> {
+        for byte in bytes {
+            if matches!(byte, b'\n' | b'\r') {
+                (self.rows, self.row) = (self.rows + 1, 0);
+            } else if self.row >= LONGEST_ROW {
+                return Err(format!("line {}: longer than {LONGEST_ROW} bytes", self.rows + 1));
+            } else {
+                self.row += 1;
+            }
         }
+        if self.rows <= 2 * MOST_ROWS { Ok(()) } else { Err(format!("more than {MOST_ROWS} rows")) }
     }
-    if rows <= 2 * MOST_ROWS { Ok(()) } else { Err(format!("more than {MOST_ROWS} rows")) }
 }
 
 /// Refuses a TOML text of more than [`MOST_VALUES`] values, told by its signs alone.

@@ -1,5 +1,6 @@
 //! Every drive that is called solved ends in its goal and keeps its bounds, by the replay, whatever was asked.
 
+use hairpin::campaign::goals::{anywhere, flat_goal};
 use hairpin::feasibility::steering::shooting::cc::{self, Gears};
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Query};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Method, Outcome, Solution, solve};
@@ -116,4 +117,64 @@ fn mirrored_queries_have_mirrored_drives() {
             assert!((a.length - b.length).abs() < 1e-9, "{query:?}: {} {}", a.length, b.length);
         }
     }
+}
+
+/// The replay as it was: the classical Runge-Kutta method, two thousand steps and more, no step turning by more than
+/// 0.01 rad of a bound of the coefficients; x, y, yaw at the end.
+fn end_by_steps(segments: &[Segment]) -> [f64; 3] {
+    let metres: f64 = segments.iter().map(Segment::length_m).sum();
+    let mut state = [0.0; 3];
+    for segment in segments {
+        let Motion::Arc { length_m, curvature } = segment.motion else {
+            state[2] += segment.turn_rad();
+            continue;
+        };
+        let most: f64 = curvature.iter().rev().fold(0.0, |sum, a| sum * length_m + a.abs());
+        let steps = (2000.0 * length_m / metres).max(length_m * most / 0.01).ceil().clamp(16.0, 1e6) as usize;
+        let h = length_m / steps as f64;
+        let sign = segment.gear.sign();
+        let rate = |s: f64, yaw: f64| [sign * yaw.cos(), sign * yaw.sin(), sign * segment.curvature_at(s)];
+        for step in 0..steps {
+            let (s, yaw) = (length_m * step as f64 / steps as f64, state[2]);
+            let k1 = rate(s, yaw);
+            let k2 = rate(s + 0.5 * h, yaw + 0.5 * h * k1[2]);
+            let k3 = rate(s + 0.5 * h, yaw + 0.5 * h * k2[2]);
+            let k4 = rate(s + h, yaw + h * k3[2]);
+            for (i, x) in state.iter_mut().enumerate() {
+                *x += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+            }
+        }
+    }
+    state
+}
+
+/// Panels and steps end in one place, of ends of random curves and of goals anywhere, by turns.
+fn compare_replays(queries: usize) {
+    let bounds = Curvatures { most: 1.0, most_rate: 1.0 };
+    let (mut random, choices) = (stream(11), Choices { reversals: true, ..Choices::default() });
+    let mut worst = [0.0_f64; 2];
+    for number in 0..queries {
+        let query = if number % 2 == 0 { flat_goal(&mut random, &bounds) } else { anywhere(&mut random, &bounds, 1.0) };
+        let solution = solve(&query, &bounds, &choices, || false);
+        let (found, end, goal) = (replay(&query, &solution), end_by_steps(&solution.segments), query.goal);
+        let place = (found.error[0] - end[0] + goal.x).hypot(found.error[1] - end[1] + goal.y);
+        let turned = (found.error[2] - end[2] + goal.yaw).sin().abs();
+        worst = [worst[0].max(place), worst[1].max(turned)];
+        // 0.01 rad a step are good for this; panels for 1e-12 m.
+        assert!(place < 1e-9 && turned < 1e-10, "{number}: {query:?}: {place} {turned}");
+        assert!(found.left_out <= 1e-12 && found.steps < 200, "{number}: {query:?}: {found:?}");
+    }
+    println!("{queries} queries: {:.1e} m, {:.1e} rad at most", worst[0], worst[1]);
+}
+
+#[test]
+fn panels_end_where_thousands_of_steps_do() {
+    compare_replays(120);
+}
+
+/// cargo test --release -p hairpin --test steering -- --ignored --nocapture
+#[test]
+#[ignore = "a minute in a release build"]
+fn panels_end_where_thousands_of_steps_do_a_hundred_thousand_times() {
+    compare_replays(100_000);
 }

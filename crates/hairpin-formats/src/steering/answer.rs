@@ -1,6 +1,7 @@
 //! Answers as CSV: a row for each segment of each drive, in the frame of the query.
 
-use std::fmt;
+use std::borrow::Cow;
+use std::fmt::{self, Write as _};
 
 use serde::Serialize;
 
@@ -20,6 +21,11 @@ pub enum Status {
     TimeLimit,
     /// The row is no query; `limit` names the column.
     Invalid,
+}
+
+impl Status {
+    /// All of them, the good one first.
+    pub const ALL: [Self; 5] = [Self::Ok, Self::Infeasible, Self::NotConverged, Self::TimeLimit, Self::Invalid];
 }
 
 impl fmt::Display for Status {
@@ -96,7 +102,7 @@ pub struct Answer {
     pub limit: Option<(String, Option<f64>)>,
 }
 
-const COLUMNS: [&str; 22] = [
+pub(super) const COLUMNS: [&str; 22] = [
     "id",
     "segment",
     "kind",
@@ -121,61 +127,88 @@ const COLUMNS: [&str; 22] = [
     "excess",
 ];
 
-/// The table of `answers`, in their order.
-///
-/// # Errors
-/// Memory that cannot be had.
-pub fn table(answers: &[Answer]) -> csv::Result<Vec<u8>> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(COLUMNS)?;
-    for answer in answers {
-        write_rows(&mut table, answer)?;
-    }
-    table.into_inner().map_err(|error| error.into_error().into())
+/// The line of columns that a table begins with.
+pub fn head() -> String {
+    COLUMNS.join(",") + "\n"
 }
 
-/// The rows of one answer: one a segment, and one where there is none.
-fn write_rows(table: &mut csv::Writer<Vec<u8>>, answer: &Answer) -> csv::Result<()> {
+/// The rows of `answers`, in their order: one a segment, and one where there is none.
+pub fn rows(answers: &[Answer]) -> String {
+    let mut table = String::new();
+    answers.iter().for_each(|answer| add_rows(&mut table, answer));
+    table
+}
+
+fn add_rows(table: &mut String, answer: &Answer) {
     let left = answer.frame.left();
     let pieces = answer.drive.as_ref().map_or(&[][..], |drive| &drive.pieces);
-    let whole =
-        |value: &dyn Fn(&Drive) -> f64| answer.drive.as_ref().map_or(String::new(), |drive| number(value(drive)));
+    let id = quoted(&answer.id);
+    // What all rows of the answer have in their middle, and what they end in.
+    let (mut middle, mut end) = (String::new(), String::new());
+    // Writing to a string does not fail.
+    let _ = write!(middle, ",{},{},{:.3}", answer.status, answer.iterations, answer.time_us);
+    match &answer.drive {
+        Some(Drive { errors, max_curvature_1_m, .. }) => {
+            let turned = [errors.y_m, errors.yaw_rad, errors.curvature_1_m].map(|error| left * error);
+            [errors.x_m]
+                .iter()
+                .chain(&turned)
+                .chain([max_curvature_1_m])
+                .for_each(|number| add_number(&mut end, *number));
+        }
+        None => end.push_str(",,,,,"),
+    }
+    let (limit, excess) = answer.limit.as_ref().map_or(("", None), |(limit, excess)| (limit, *excess));
+    end.push(',');
+    end.push_str(&quoted(limit));
+    match excess {
+        Some(excess) => add_number(&mut end, excess),
+        None => end.push(','),
+    }
     for segment in 0..pieces.len().max(1) {
-        let (mut kind, mut direction, mut length, mut turn) = ("", String::new(), String::new(), String::new());
-        let mut bends: [String; 6] = Default::default();
-        match pieces.get(segment) {
-            Some(Piece::Arc { length_m, curvature, direction: way }) => {
-                (kind, direction, length, turn) = ("arc", way.to_string(), number(*length_m), number(0.0));
-                bends = curvature.map(|a| number(left * a));
+        let _ = write!(table, "{id},{segment},");
+        let numbers = match pieces.get(segment) {
+            Some(Piece::Arc { length_m, curvature, direction }) => {
+                let _ = write!(table, "arc,{direction}");
+                Some((*length_m, 0.0, curvature.map(|a| left * a)))
             }
             Some(Piece::Turn { angle_rad }) => {
-                (kind, direction, length, turn) = ("turn", "1".into(), number(0.0), number(left * angle_rad));
-                bends = [0.0; 6].map(number);
+                table.push_str("turn,1");
+                Some((0.0, left * angle_rad, [0.0; 6]))
             }
-            None => {}
+            None => {
+                table.push(',');
+                None
+            }
+        };
+        table.push_str(&middle);
+        match numbers {
+            Some((length, turn, bends)) => {
+                [length, turn].iter().chain(&bends).for_each(|number| add_number(table, *number));
+            }
+            None => table.push_str(",,,,,,,,"),
         }
-        let (status, iterations) = (answer.status.to_string(), answer.iterations.to_string());
-        let time = format!("{:.3}", answer.time_us);
-        let (limit, excess) = answer.limit.clone().map_or((String::new(), None), |(limit, excess)| (limit, excess));
-        let begin =
-            [answer.id.clone(), segment.to_string(), kind.into(), direction, status, iterations, time, length, turn];
-        let end = [
-            whole(&|drive| drive.errors.x_m),
-            whole(&|drive| left * drive.errors.y_m),
-            whole(&|drive| left * drive.errors.yaw_rad),
-            whole(&|drive| left * drive.errors.curvature_1_m),
-            whole(&|drive| drive.max_curvature_1_m),
-            limit,
-            excess.map_or(String::new(), number),
-        ];
-        table.write_record(begin.iter().chain(&bends).chain(&end))?;
+        table.push_str(&end);
+        table.push('\n');
     }
-    Ok(())
 }
 
-/// Digits that read back to the same bits; no minus before zero.
-fn number(value: f64) -> String {
-    (value + 0.0).to_string()
+/// A comma, and digits that read back to the same bits; no minus before zero.
+fn add_number(text: &mut String, number: f64) {
+    if number == 0.0 {
+        text.push_str(",0");
+    } else {
+        let _ = write!(text, ",{number}");
+    }
+}
+
+/// A cell as tables have it: in quotes where it would be more than one, or begin a line.
+fn quoted(cell: &str) -> Cow<'_, str> {
+    if cell.contains(['"', ',', '\r', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\"")).into()
+    } else {
+        cell.into()
+    }
 }
 
 #[cfg(test)]
@@ -183,7 +216,7 @@ mod tests {
     use super::*;
 
     fn lines(answers: &[Answer]) -> Vec<String> {
-        String::from_utf8(table(answers).unwrap()).unwrap().lines().map(str::to_owned).collect()
+        (head() + &rows(answers)).lines().map(str::to_owned).collect()
     }
 
     #[test]

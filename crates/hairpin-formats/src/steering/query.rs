@@ -1,12 +1,13 @@
-//! Queries as CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong is told
-//! as such and its neighbours stand; a file that is no table of queries is refused as a whole.
+//! A query as a row of CSV: `id,x,y,yaw,k0,kf`, with or without `sx,sy,syaw`, and optional columns. A row that is wrong
+//! is told as such and its neighbours stand.
 
+use std::borrow::Cow;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::bounds;
+use super::blocks::Block;
 use crate::delimited::line_of;
 use crate::frames;
 use crate::quote;
@@ -83,15 +84,6 @@ pub struct Row {
     pub asked: Result<Asked, Wrong>,
 }
 
-/// A file of queries.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Queries {
-    /// In their order.
-    pub rows: Vec<Row>,
-    /// Columns that mean nothing here.
-    pub ignored: Vec<String>,
-}
-
 /// Why a file holds no queries.
 #[derive(Debug, Error)]
 pub enum BrokenFile {
@@ -125,206 +117,141 @@ const NUMBER: &str = "a finite number";
 const POSITIVE: &str = "a finite number > 0";
 const SPEED: &str = "a finite number of m/s ≥ 0";
 
-/// Reads a file.
-///
-/// # Errors
-/// It cannot be read, or is no table of queries.
-pub fn read(path: &Path) -> Result<Queries, BrokenFile> {
-    let bytes = bounds::read_table(path).map_err(|cause| BrokenFile::Unreadable { path: path.into(), cause })?;
-    parse(&bytes)
-}
-
-/// Reads a table: a byte order mark, any line ends, quoted cells, blanks around cells, columns in any order.
-///
-/// # Errors
-/// Columns are missing or named twice; quotes do not pair up.
-pub fn parse(bytes: &[u8]) -> Result<Queries, BrokenFile> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if bytes.iter().filter(|byte| **byte == b'"').count() % 2 == 1 {
-        return Err(BrokenFile::Quotes);
-    }
-    let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let names: Vec<String> = reader.byte_headers()?.iter().map(text).collect();
-    let columns = Columns::new(&names)?;
-    let mut rows = Vec::new();
-    for record in reader.byte_records() {
-        let record = record?;
-        let line = record.position().map_or(0, |from| line_of(bytes, None, from)) as u64;
-        let cells: Vec<String> = record.iter().map(text).collect();
-        let id = columns.cell(&cells, "id").unwrap_or_default().to_owned();
-        let asked = if cells.len() == names.len() {
-            columns.asked(&cells)
-        } else {
-            let value = format!("{} cells", cells.len());
-            Err(Wrong { column: "row".into(), value, bound: "as many cells as the header has" })
-        };
-        rows.push(Row { line, id, asked });
-    }
-    let known = |name: &String| NEEDED.iter().chain(&START).chain(&OPTIONAL).any(|column| column == name);
-    Ok(Queries { rows, ignored: names.into_iter().filter(|name| !known(name)).collect() })
-}
-
-/// Bytes that are no UTF-8 stay visible in what is told of their cell.
-fn text(cell: &[u8]) -> String {
-    String::from_utf8_lossy(cell).into_owned()
-}
-
 /// Where the columns stand.
-struct Columns<'n> {
-    names: &'n [String],
-    with_start: bool,
+#[derive(Debug, Clone)]
+pub struct Columns {
+    /// How many.
+    cells: usize,
+    needed: [usize; NEEDED.len()],
+    start: Option<[usize; START.len()]>,
+    optional: [Option<usize>; OPTIONAL.len()],
+    /// Columns that mean nothing here.
+    pub ignored: Vec<String>,
 }
 
-impl<'n> Columns<'n> {
-    fn new(names: &'n [String]) -> Result<Self, BrokenFile> {
+/// A reader of records in memory, none of them a head.
+fn records(bytes: &[u8]) -> csv::Reader<&[u8]> {
+    // Cells are short; the reader's buffer as large as its text.
+    let capacity = bytes.len().clamp(64, 1 << 13);
+    let mut reader = csv::ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).trim(csv::Trim::All).buffer_capacity(capacity).from_reader(bytes)
+}
+
+impl Columns {
+    /// The columns that `head`, the table's first record, names.
+    pub(super) fn new(head: &[u8]) -> Result<Self, BrokenFile> {
+        let mut record = csv::ByteRecord::new();
+        records(head).read_byte_record(&mut record)?;
+        let names: Vec<Cow<'_, str>> = record.iter().map(String::from_utf8_lossy).collect();
+        let place = |column: &str| names.iter().position(|name| name == column);
         let times = |column: &str| names.iter().filter(|name| *name == column).count();
         let refuse = |what: String| Err(BrokenFile::Header { what });
         if let Some(column) = NEEDED.iter().chain(&START).chain(&OPTIONAL).find(|column| times(column) > 1) {
             return refuse(format!("the column `{column}` stands there twice"));
         }
-        if let Some(column) = NEEDED.iter().find(|column| times(column) == 0) {
-            return refuse(format!("no column `{column}`"));
+        let mut needed = [0; NEEDED.len()];
+        for (at, column) in needed.iter_mut().zip(NEEDED) {
+            let Some(place) = place(column) else { return refuse(format!("no column `{column}`")) };
+            *at = place;
         }
-        let given = START.iter().filter(|column| times(column) == 1).count();
-        if given != 0 && given != START.len() {
-            return refuse("sx, sy and syaw belong together".into());
-        }
-        Ok(Self { names, with_start: given > 0 })
+        let start = match START.map(place) {
+            [Some(x), Some(y), Some(yaw)] => Some([x, y, yaw]),
+            [None, None, None] => None,
+            _ => return refuse("sx, sy and syaw belong together".into()),
+        };
+        let known = |name: &str| NEEDED.iter().chain(&START).chain(&OPTIONAL).any(|column| *column == name);
+        let ignored = names.iter().filter(|name| !known(name)).map(ToString::to_string).collect();
+        Ok(Self { cells: names.len(), needed, start, optional: OPTIONAL.map(place), ignored })
     }
 
-    fn cell<'c>(&self, cells: &'c [String], column: &str) -> Option<&'c str> {
-        let place = self.names.iter().position(|name| name == column)?;
-        cells.get(place).map(String::as_str)
-    }
-
-    fn asked(&self, cells: &[String]) -> Result<Asked, Wrong> {
-        let wrong = |column: &str, bound| {
-            let value = quote::cell(self.cell(cells, column).unwrap_or_default());
-            Wrong { column: column.to_owned(), value, bound }
-        };
-        let number = |column: &str| {
-            let cell = self.cell(cells, column).and_then(|cell| cell.parse::<f64>().ok());
-            cell.filter(|number| number.is_finite()).ok_or_else(|| wrong(column, NUMBER))
-        };
-        let optional = |column: &str, bound: &'static str, good: &dyn Fn(f64) -> bool| match self
-            .cell(cells, column)
-            .filter(|cell| !cell.is_empty())
-        {
-            None => Ok(None),
-            Some(cell) => match cell.parse::<f64>() {
-                Ok(number) if number.is_finite() && good(number) => Ok(Some(number)),
-                _ => Err(wrong(column, bound)),
-            },
-        };
-        let frame = match self.cell(cells, "frame").unwrap_or_default() {
-            "" | "enu" | "ENU" => Frame::Enu,
-            "ned" | "NED" => Frame::Ned,
-            _ => return Err(wrong("frame", "enu or ned")),
-        };
-        if self.cell(cells, "id").is_none_or(str::is_empty) {
-            return Err(wrong("id", "a name for the query"));
+    /// The rows of `block`.
+    ///
+    /// # Errors
+    /// The reader gives up.
+    pub fn rows(&self, block: &Block) -> csv::Result<Vec<Row>> {
+        let (mut reader, mut record) = (records(&block.bytes), csv::ByteRecord::new());
+        let mut rows = Vec::new();
+        while reader.read_byte_record(&mut record)? {
+            let line = record.position().map_or(0, |from| line_of(&block.bytes, None, from)) as u64;
+            let cells = Cells { columns: self, record: &record };
+            let asked = if record.len() == self.cells {
+                cells.asked()
+            } else {
+                let value = format!("{} cells", record.len());
+                Err(Wrong { column: "row".into(), value, bound: "as many cells as the header has" })
+            };
+            // Bytes that are no UTF-8 stay visible.
+            rows.push(Row { line: block.line + line - 1, id: cells.text(self.needed[0]).into_owned(), asked });
         }
-        let left = frame.left();
-        let start = match (self.with_start, frame) {
-            (false, _) => None,
-            (true, Frame::Enu) => Some([number("sx")?, number("sy")?, number("syaw")?]),
-            (true, Frame::Ned) => {
-                let (north, east, yaw) = (number("sx")?, number("sy")?, number("syaw")?);
-                Some([east, north, frames::other_yaw(yaw)])
-            }
-        };
-        Ok(Asked {
-            start,
-            goal: [number("x")?, left * number("y")?, left * number("yaw")?],
-            k0: left * number("k0")?,
-            kf: left * number("kf")?,
-            free_end: false,
-            v0: optional("v0", SPEED, &|v| v >= 0.0)?,
-            vf: optional("vf", SPEED, &|v| v >= 0.0)?,
-            direction: left * optional("direction", NUMBER, &|_| true)?.unwrap_or(0.0),
-            direction_end: optional("direction_end", NUMBER, &|_| true)?.map(|direction| left * direction),
-            frame,
-            max_curvature: optional("max_curvature", POSITIVE, &|k| k > 0.0)?,
-            tolerance_m: optional("tolerance_m", POSITIVE, &|m| m > 0.0)?,
-        })
+        Ok(rows)
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::FRAC_PI_2;
+/// One record.
+struct Cells<'r> {
+    columns: &'r Columns,
+    record: &'r csv::ByteRecord,
+}
 
-    use super::*;
-
-    fn rows(text: &str) -> Vec<Row> {
-        parse(text.as_bytes()).unwrap().rows
+impl<'r> Cells<'r> {
+    fn text(&self, place: usize) -> Cow<'r, str> {
+        String::from_utf8_lossy(self.record.get(place).unwrap_or_default())
     }
 
-    #[test]
-    fn plain_quoted_and_foreign_line_ends() {
-        let plain = rows("id,x,y,yaw,k0,kf\na,1,2,0.5,-0.1,0.2\n");
-        let foreign =
-            rows("\u{feff}kf,\"id\",note,yaw,\"y\",x,k0\r\n0.2,\"a\",\"say \"\"no\"\", please\",0.5, 2 ,1,-0.1\r\n");
-        assert_eq!(plain[0].asked, foreign[0].asked);
-        assert_eq!((plain[0].id.as_str(), foreign[0].id.as_str(), plain[0].line), ("a", "a", 2));
-        let asked = plain[0].asked.clone().unwrap();
-        assert_eq!((asked.goal, asked.k0, asked.kf, asked.start), ([1.0, 2.0, 0.5], -0.1, 0.2, None));
-        assert_eq!(parse(b"id,x,y,yaw,k0,kf,colour\n").unwrap().ignored, ["colour"]);
-        assert!(rows("id,x,y,yaw,k0,kf\n").is_empty());
-        assert_eq!(rows("id,x,y,yaw,k0,kf\r\n\r\n\na,1,2,0.5,-0.1,0.2\n")[0].line, 4);
+    fn number(&self, place: usize) -> Option<f64> {
+        let cell = std::str::from_utf8(self.record.get(place)?).ok()?;
+        cell.parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    #[test]
-    fn optional_columns_may_be_empty() {
-        let head = "id,sx,sy,syaw,x,y,yaw,k0,kf,v0,vf,direction,frame,max_curvature,tolerance_m\n";
-        let all = rows(&format!("{head}q,10,20,1,1,2,3,0,0,0.5,1,0.1,enu,0.8,0.02\nr,0,0,0,1,2,3,0,0,,,,,,\n"));
-        let full = all[0].asked.clone().unwrap();
-        assert_eq!(
-            (full.start, full.v0, full.vf, full.direction),
-            (Some([10.0, 20.0, 1.0]), Some(0.5), Some(1.0), 0.1)
-        );
-        assert_eq!((full.max_curvature, full.tolerance_m), (Some(0.8), Some(0.02)));
-        let empty = all[1].asked.clone().unwrap();
-        assert_eq!((empty.v0, empty.direction, empty.frame, empty.max_curvature), (None, 0.0, Frame::Enu, None));
-    }
-
-    #[test]
-    fn ned_is_turned_over_once() {
-        let head = "id,sx,sy,syaw,x,y,yaw,k0,kf,direction,frame\n";
-        let asked = rows(&format!("{head}q,100,7,0,3,1,0.5,0.1,-0.2,0.3,ned\n"))[0].asked.clone().unwrap();
-        // 100 m north and 7 m east, heading north; the goal is to the right, which is not left.
-        assert_eq!(asked.start.map(|[x, y, _]| [x, y]), Some([7.0, 100.0]));
-        assert!((asked.start.unwrap()[2] - FRAC_PI_2).abs() < 1e-15);
-        assert_eq!((asked.goal, asked.k0, asked.kf, asked.direction), ([3.0, -1.0, -0.5], -0.1, 0.2, -0.3));
-    }
-
-    #[test]
-    fn wrong_rows_are_told_and_their_neighbours_stand() {
-        let head = "id,x,y,yaw,k0,kf,frame,max_curvature,v0\n";
-        let text = "a,1,2,0,0,0,enu,,\nb,one,2,0,0,0,,,\nc,1,NaN,0,0,0,,,\nd,1,2,inf,0,0,,,\ne,1,2,0,,0,,,\nf,1,2,0,0,0,map,,\n\
-                    g,1,2,0,0,0,,-1,\nh,1,2,0,0,0,,,-1\ni,1,2,0\n,1,2,0,0,0,,,\nz,1,2,0,0,0,,,\n";
-        let found: Vec<String> = rows(&format!("{head}{text}"))
-            .iter()
-            .map(|row| row.asked.as_ref().map_or_else(|wrong| wrong.column.clone(), |_| "good".into()))
-            .collect();
-        assert_eq!(found, ["good", "x", "y", "yaw", "k0", "frame", "max_curvature", "v0", "row", "id", "good"]);
-        let latin = parse(b"id,x,y,yaw,k0,kf\n\xe9,1,2,0,0,\xff\n").unwrap();
-        assert_eq!(latin.rows[0].asked.as_ref().unwrap_err().column, "kf");
-    }
-
-    #[test]
-    fn broken_files_are_refused() {
-        for (text, told) in [
-            ("", "no column `id`"),
-            ("id,x,y,yaw,k0\n", "no column `kf`"),
-            ("id,x,y,yaw,k0,kf,x\n", "twice"),
-            ("id,sx,x,y,yaw,k0,kf\n", "belong together"),
-            ("id,x,y,yaw,k0,kf\n\"a,1,2,0,0,0\nb,1,2,0,0,0\n", "quotes"),
-            ("{\"id\": 1}\n", "no column"),
-        ] {
-            let found = parse(text.as_bytes()).unwrap_err().to_string();
-            assert!(found.contains(told), "{text:?}: {found}");
+    fn asked(&self) -> Result<Asked, Wrong> {
+        let Columns { needed, start, optional, .. } = self.columns;
+        let wrong = |place: usize, column: &str, bound| {
+            let value = quote::cell(&self.text(place));
+            Wrong { column: column.to_owned(), value, bound }
+        };
+        let number = |place: usize, column: &str| self.number(place).ok_or_else(|| wrong(place, column, NUMBER));
+        let given = |i: usize| optional[i].filter(|place| self.record.get(*place).is_some_and(|cell| !cell.is_empty()));
+        let optional = |i: usize, bound: &'static str, good: &dyn Fn(f64) -> bool| match given(i) {
+            None => Ok(None),
+            Some(place) => {
+                let found = self.number(place).filter(|number| good(*number));
+                found.map(Some).ok_or_else(|| wrong(place, OPTIONAL[i], bound))
+            }
+        };
+        let frame = match given(4).map(|place| (place, self.text(place))) {
+            None => Frame::Enu,
+            Some((_, text)) if matches!(&*text, "enu" | "ENU") => Frame::Enu,
+            Some((_, text)) if matches!(&*text, "ned" | "NED") => Frame::Ned,
+            Some((place, _)) => return Err(wrong(place, OPTIONAL[4], "enu or ned")),
+        };
+        if self.record.get(needed[0]).is_none_or(<[u8]>::is_empty) {
+            return Err(wrong(needed[0], NEEDED[0], "a name for the query"));
         }
-        assert!(read(Path::new("no-such.csv")).unwrap_err().to_string().contains("no-such.csv"));
+        let left = frame.left();
+        let start = match (start, frame) {
+            (None, _) => None,
+            (Some([x, y, yaw]), Frame::Enu) => {
+                Some([number(*x, START[0])?, number(*y, START[1])?, number(*yaw, START[2])?])
+            }
+            (Some([x, y, yaw]), Frame::Ned) => {
+                let (north, east, yaw) = (number(*x, START[0])?, number(*y, START[1])?, number(*yaw, START[2])?);
+                Some([east, north, frames::other_yaw(yaw)])
+            }
+        };
+        let needed = |i: usize| number(needed[i], NEEDED[i]);
+        Ok(Asked {
+            start,
+            goal: [needed(1)?, left * needed(2)?, left * needed(3)?],
+            k0: left * needed(4)?,
+            kf: left * needed(5)?,
+            free_end: false,
+            v0: optional(0, SPEED, &|v| v >= 0.0)?,
+            vf: optional(1, SPEED, &|v| v >= 0.0)?,
+            direction: left * optional(2, NUMBER, &|_| true)?.unwrap_or(0.0),
+            direction_end: optional(3, NUMBER, &|_| true)?.map(|direction| left * direction),
+            frame,
+            max_curvature: optional(5, POSITIVE, &|k| k > 0.0)?,
+            tolerance_m: optional(6, POSITIVE, &|m| m > 0.0)?,
+        })
     }
 }

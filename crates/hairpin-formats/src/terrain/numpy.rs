@@ -23,26 +23,28 @@ pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, 
         return Err(TerrainError::Broken(format!("an array of shape {shape:?}: rows and columns are needed")));
     };
     let (columns, rows) = bounded(columns, rows)?;
-    let number: fn(&[u8]) -> f32 = match descr {
-        "<f4" => |b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]),
-        ">f4" => |b| f32::from_be_bytes([b[0], b[1], b[2], b[3]]),
-        "<f8" => |b| f64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]) as f32,
-        ">f8" => |b| f64::from_be_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]]) as f32,
+    let size = match descr {
+        "<f4" | ">f4" => 4,
+        "<f8" | ">f8" => 8,
         _ => {
             let descr: String = descr.chars().take(40).collect();
             let found = format!("an array of '{descr}': float32 or float64 in metres is needed");
             return Err(TerrainError::Broken(found));
         }
     };
-    let size = if descr.ends_with('4') { 4 } else { 8 };
     // The data must be there before room for it is taken.
     let data = data
         .get(..size * columns * rows)
         .ok_or_else(|| broken(&format!("the header says {rows} x {columns} heights, {} bytes follow", data.len())))?;
-    let at = |index: usize| number(&data[size * index..]);
+    let heights: Vec<f32> = match descr {
+        "<f4" => data.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
+        ">f4" => data.as_chunks().0.iter().map(|b| f32::from_be_bytes(*b)).collect(),
+        "<f8" => data.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b) as f32).collect(),
+        _ => data.as_chunks().0.iter().map(|b| f64::from_be_bytes(*b) as f32).collect(),
+    };
     let heights = match fortran {
-        false => (0..rows * columns).map(at).collect(),
-        true => (0..rows * columns).map(|i| at(i % columns * rows + i / columns)).collect(),
+        false => heights,
+        true => (0..rows * columns).map(|i| heights[i % columns * rows + i / columns]).collect(),
     };
     let (reference, layout) = (Reference::default(), Layout::default());
     Ok(Raster { grid: placed(columns, rows, georeference)?, heights, reference, layout })

@@ -30,7 +30,7 @@ pub struct Answered {
     /// Which place to keep out of that is.
     pub near: Option<Near>,
     /// The drive that the ground lets go no further, and after how many metres.
-    pub stopped: Option<(Solution, f64)>,
+    pub stopped: Option<Box<(Solution, f64)>>,
     /// The bounds that were in force.
     pub bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.

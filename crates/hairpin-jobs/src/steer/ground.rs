@@ -84,7 +84,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         ..answered(Status::Infeasible, Some(near.limit()), drive)
     };
     let stopped = |limit, after_m| Answered {
-        stopped: (!solution.segments.is_empty()).then_some((solution, after_m)),
+        stopped: (!solution.segments.is_empty()).then(|| Box::new((solution, after_m))),
         ..answered(Status::Infeasible, Some(limit), None)
     };
     let ground = match (&status, &replay) {
@@ -187,6 +187,7 @@ fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> D
         error: [cos * x + sin * y, cos * y - sin * x, yaw],
         error_curvature: ground.error_curvature,
         steps: ground.steps,
+        left_out: f64::NAN,
         ..*flat
     }
 }

@@ -88,7 +88,8 @@ impl Vehicle {
 
     /// The way to where the ground stops a drive: places on the map, with the metres driven to them.
     fn way(&self, asked: &Asked, answered: &Answered) -> Vec<(f64, Planar)> {
-        let (Some(map), Some((solution, after_m)), Some(speed)) = (&self.map, &answered.stopped, answered.profile)
+        let (Some(map), Some((solution, after_m)), Some(speed)) =
+            (&self.map, answered.stopped.as_deref(), answered.profile)
         else {
             return Vec::new();
         };

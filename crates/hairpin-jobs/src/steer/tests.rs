@@ -1,11 +1,12 @@
 //! Questions answered without a binary.
 
 use std::fs;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hairpin_formats::steering::Status;
 
 use super::*;
-use crate::Unwatched;
+use crate::{Unwatched, Watch};
 
 fn generic() -> Vehicle {
     Vehicle::new(&SteerSettings { rover: "generic".into(), ..SteerSettings::default() }, &Unwatched).unwrap()
@@ -43,11 +44,13 @@ fn a_file_is_answered_in_its_order() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("q.csv");
     fs::write(&path, "id,x,y,yaw,k0,kf\na,4,1,0.5,0,0\nb,x,1,0,0,0\nc,0.1,0,0,0.9,-0.9\n").unwrap();
-    let batch = generic().answer_file(&path, &Unwatched).unwrap();
-    let ids: Vec<&str> = batch.answers.iter().map(|answer| answer.id.as_str()).collect();
-    assert_eq!(ids, ["a", "b", "c"]);
-    assert_eq!((batch.count(Status::Ok) >= 1, batch.count(Status::Invalid)), (true, 1));
-    assert!(String::from_utf8(batch.table().unwrap()).unwrap().starts_with("id,segment,"));
+    let mut shown = String::new();
+    let mut show = |rows: &str| shown.push_str(rows);
+    let batch = generic().answer_file(&path, Answers::Shown(&mut show), false, &Unwatched).unwrap();
+    assert_eq!((batch.ended(Status::Ok) >= 1, batch.ended(Status::Invalid)), (true, 1));
+    let ids: Vec<&str> = shown.lines().filter(|row| row.contains(",0,")).map(|row| &row[..1]).collect();
+    assert!(shown.starts_with("id,segment,"), "{shown}");
+    assert!(ids.is_sorted() && ["a", "b", "c"].iter().all(|id| ids.contains(id)), "{shown}");
 }
 
 /// Metres of the answer, and how far its replay ends from the goal: m, rad, 1/m.
@@ -134,4 +137,67 @@ fn a_detour_gives_way_to_a_goal_within_the_tolerances() {
     let (exact, length) = exactly(&strict, &asked).unwrap();
     assert!(length > 2.0);
     assert_eq!(strict.answer(&asked).drive.unwrap().0, exact);
+}
+
+/// Stops once it has been asked so often.
+struct Stops(AtomicUsize, usize);
+
+impl Watch for Stops {
+    fn stopped(&self) -> bool {
+        self.0.fetch_add(1, Ordering::Relaxed) >= self.1
+    }
+}
+
+#[test]
+fn a_file_that_is_stopped_keeps_what_is_done_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let [queries, whole, parts, other] =
+        ["q.csv", "whole.csv", "parts.csv", "other.csv"].map(|f| folder.path().join(f));
+    let row = |i: u64| {
+        let unit = |k: u64| hairpin::math::random::hashed_unit(i, &[k]);
+        let bad = if i % 97 == 5 { "x" } else { "" };
+        format!("q{i},{bad}{},{},{},0,0\n", 4.0 * unit(0), 2.0 * unit(1) - 1.0, unit(2) - 0.5)
+    };
+    let text = String::from("id,x,y,yaw,k0,kf\n") + &(0..300).map(row).collect::<String>();
+    fs::write(&queries, &text).unwrap();
+    let vehicle = generic();
+    // What solving took is no result.
+    let table = |path: &std::path::Path| -> Vec<String> {
+        let text = fs::read_to_string(path).unwrap();
+        let cells =
+            |row: &str| row.split(',').enumerate().filter(|(i, _)| *i != 6).map(|(_, c)| c.to_owned() + ",").collect();
+        text.lines().map(cells).collect()
+    };
+    let all = vehicle.answer_file(&queries, Answers::File(&whole), false, &Unwatched).unwrap();
+    assert_eq!((all.queries, all.wrong.len(), all.ended(Status::Invalid)), (300, 4, 4));
+    assert_eq!(all.wrong[1].0, 104, "the line");
+    // Nothing is done at once: what stands there stays.
+    fs::write(&parts, "mine").unwrap();
+    // One thread asks in the queries' order whether to stop.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let stop = |after: usize, answers: Answers<'_>| {
+        let stops = Stops(AtomicUsize::new(0), after);
+        let stopped = alone.install(|| vehicle.answer_file(&queries, answers, false, &stops));
+        stopped.expect_err("it is stopped").to_string()
+    };
+    let told = stop(0, Answers::File(&parts));
+    assert!(told.contains("0 of 300") && fs::read_to_string(&parts).unwrap() == "mine", "{told}");
+    let told = stop(70, Answers::File(&parts));
+    assert!(told.contains("of 300 queries answered") && told.contains("--resume goes on"), "{told}");
+    let first = table(&parts);
+    let expected = table(&whole);
+    assert!(!first.is_empty() && first.len() < expected.len() && expected.starts_with(&first));
+    stop(40, Answers::Resumed(&parts));
+    assert!(table(&parts).len() > first.len());
+    let resumed = vehicle.answer_file(&queries, Answers::Resumed(&parts), true, &Unwatched).unwrap();
+    assert_eq!(table(&parts), expected);
+    assert_eq!((resumed.queries, resumed.wrong.len()), (all.queries, all.wrong.len()));
+    assert_eq!(Status::ALL.map(|status| resumed.ended(status)), Status::ALL.map(|status| all.ended(status)));
+    // Other queries, or other tables, are not gone on with.
+    fs::write(&other, text.replace("q7,", "r7,")).unwrap();
+    let refused = vehicle.answer_file(&other, Answers::Resumed(&parts), false, &Unwatched).unwrap_err().to_string();
+    assert!(refused.contains("line 9") && refused.contains("same queries"), "{refused}");
+    fs::write(&parts, "mine\n").unwrap();
+    assert!(vehicle.answer_file(&queries, Answers::Resumed(&parts), false, &Unwatched).is_err());
+    assert_eq!(fs::read_to_string(&parts).unwrap(), "mine\n");
 }

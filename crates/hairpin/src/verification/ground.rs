@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::drive::{DrivePiece, LEAST_STEPS};
+use super::drive::DrivePiece;
 use super::stand::{NoRest, Rest, Stand, turn};
 use super::twist::{Place, carry};
 use crate::world::terrain::{NoGround, Terrain};
@@ -114,12 +114,14 @@ pub struct Stopped {
     pub no_ground: Option<NoGround>,
 }
 
+/// Steps of a replay at least.
+const LEAST_STEPS: usize = 2000;
 /// sin 20°.
 const SIN_20: f64 = 0.342_020_143_325_668_7;
 /// Longest step of a turn in place, rad.
 const TURN_STEP: f64 = 0.005;
 
-/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, [`LEAST_STEPS`] steps or more, the body at rest on
+/// Integrates ẋ, ẏ, ψ̇ and the steering angle by the midpoint rule, 2000 steps or more, the body at rest on
 /// its wheels at each; an exact vehicle is carried from rest to rest by the twist between them. With latency τ the
 /// vehicle first goes on for τ as it was, and the last τ of the commands never act; before a drive that begins in
 /// reverse or in place it stands, and all of them act. Where the speed is none and the direction changes, or after a

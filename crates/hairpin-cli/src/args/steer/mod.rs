@@ -69,6 +69,9 @@ pub(crate) struct Steer {
     /// Where the answers to --queries go; stdout if not given
     #[arg(long, value_name = "R.csv", requires = "queries")]
     pub(crate) out: Option<PathBuf>,
+    /// Go on behind the answers that --out has, of a run with the same arguments that was stopped
+    #[arg(long, requires = "out")]
+    pub(crate) resume: bool,
     /// Elevation map to drive on
     #[arg(long, value_name = "DEM")]
     pub(crate) terrain: Option<PathBuf>,
@@ -112,7 +115,7 @@ pub(crate) struct Steer {
     /// Steps of --path and --wheels at most; they are longer where there would be more
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = steps)]
     pub(crate) max_steps: usize,
-    /// One JSON object on stdout
+    /// One JSON object on stdout; its replay_steps are the replay's panels in the plane, and its steps on --terrain
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use hairpin_formats::atomic;
 use hairpin_formats::quote::shortened;
-use hairpin_formats::steering::Status;
-use hairpin_jobs::steer::{Batch, Vehicle};
+use hairpin_formats::steering::{Status, Wrong};
+use hairpin_jobs::steer::{Answers, Batch, Vehicle};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
@@ -17,16 +16,16 @@ use crate::exit::{DONE, WRONG_INPUT};
 const MOST_TOLD: usize = 10;
 
 pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Watch) -> Result<u8, Problem> {
-    let batch = vehicle.answer_file(path, watch)?;
-    let table = batch.table()?;
-    match &steer.out {
-        Some(out) => atomic::write(out, &table)?,
+    let answers = match &steer.out {
+        Some(out) if steer.resume => Answers::Resumed(out),
+        Some(out) => Answers::File(out),
         // One object on stdout is all that --json says.
-        None if steer.json => {}
-        None => console::say_text(&String::from_utf8_lossy(&table)),
-    }
+        None if steer.json => Answers::Counted,
+        None => Answers::Shown(&mut console::say_text),
+    };
+    let batch = vehicle.answer_file(path, answers, steer.plot.is_some(), watch)?;
     if let Some(plot) = &steer.plot {
-        batch.draw(plot, watch)?;
+        batch.draw(plot)?;
     }
     let code = if batch.nothing_asked() { WRONG_INPUT } else { DONE };
     tell(steer, path, &batch, code);
@@ -35,29 +34,26 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
 
 /// Counts on stdout if the table is in a file; wrong rows on stderr.
 fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
-    let rows = batch.queries.rows.iter();
-    let told = |line: u64, wrong: &dyn std::fmt::Display| {
-        shortened(&format!("{}, line {line}: {wrong}", path.display())).into_owned()
-    };
-    let wrong: Vec<String> = rows.filter_map(|row| Some(told(row.line, row.asked.as_ref().err()?))).collect();
+    let told =
+        |(line, wrong): &(u64, Wrong)| shortened(&format!("{}, line {line}: {wrong}", path.display())).into_owned();
+    let wrong: Vec<String> = batch.wrong.iter().map(told).collect();
     wrong.iter().take(MOST_TOLD).for_each(|line| console::warn(line));
     if wrong.len() > MOST_TOLD {
         console::warn(&format!("… and {} more wrong rows", wrong.len() - MOST_TOLD));
     }
-    let all = [Status::Ok, Status::Infeasible, Status::NotConverged, Status::TimeLimit, Status::Invalid];
-    let ([mean, worst], queries) = (batch.solving_us(), batch.answers.len());
+    let ([mean, worst], queries) = (batch.solving_us(), batch.queries);
     if steer.json {
         let mut object = json!({ "queries": queries, "mean_time_us": mean, "max_time_us": worst, "exit_code": code });
-        for status in all {
-            object[status.to_string()] = batch.count(status).into();
+        for status in Status::ALL {
+            object[status.to_string()] = batch.ended(status).into();
         }
         object["wrong"] = wrong.into();
         console::say(&object.to_string());
     } else if steer.out.is_some() {
-        let counts: Vec<String> = all
+        let counts: Vec<String> = Status::ALL
             .iter()
-            .filter(|status| **status == Status::Ok || batch.count(**status) > 0)
-            .map(|status| format!("{} {status}", batch.count(*status)))
+            .filter(|status| **status == Status::Ok || batch.ended(**status) > 0)
+            .map(|status| format!("{} {status}", batch.ended(*status)))
             .collect();
         let counts = counts.join(", ");
         console::say(&format!("{queries} queries: {counts}; solving {mean:.1} µs in the mean, {worst:.0} µs at most"));

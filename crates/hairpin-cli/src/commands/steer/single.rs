@@ -265,6 +265,7 @@ fn object(vehicle: &Vehicle, answered: &Answered, asked: &Asked, code: u8) -> Va
     object["max_curvature_1_m"] = replay.max_curvature.into();
     object["max_curvature_rate_1_m2"] = replay.max_curvature_rate.into();
     object["replay_steps"] = replay.steps.into();
+    object["replay_left_out_m"] = replay.left_out.into();
     if let Some((limit, excess)) = arc_lacks(solution) {
         object["single_arc"] = json!({ "limit": limit, "excess": excess });
     }

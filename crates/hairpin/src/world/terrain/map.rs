@@ -120,15 +120,12 @@ impl ElevationMap {
     pub fn new(grid: Grid, heights: &[f32], rule: HoleRule) -> Result<Self, MapError> {
         check(&grid, heights.len())?;
         let (columns, rows) = (grid.columns, grid.rows);
-        let mut cells = Vec::with_capacity(heights.len());
-        for row in heights.chunks_exact(columns).rev() {
-            cells.extend(row.iter().map(|h| if h.is_finite() { *h } else { f32::NAN }));
-        }
-        let holes = cells.iter().filter(|h| h.is_nan()).count();
-        if holes == cells.len() {
+        let holes = heights.iter().filter(|h| !h.is_finite()).count();
+        if holes == heights.len() {
             return Err(MapError::Empty);
         }
-        let mut filled = Vec::new();
+        let from_south = heights.chunks_exact(columns).rev();
+        let (mut filled, mut padded) = (Vec::new(), None);
         if holes > 0 {
             match rule {
                 HoleRule::Error => {
@@ -137,12 +134,15 @@ impl ElevationMap {
                 }
                 HoleRule::KeepOut => {}
                 HoleRule::Fill => {
+                    let mut cells: Vec<f32> = from_south.clone().flatten().map(|h| or_none(*h)).collect();
                     filled = cells.iter().map(|h| h.is_nan()).collect();
                     smooth::fill(&mut cells, columns, rows);
+                    padded = Some(pad(cells.chunks_exact(columns), columns, rows));
                 }
             }
         }
-        let (padded, stride) = pad(&cells, columns, rows);
+        // Maps may be large: what needs no room of its own is read where it is.
+        let (padded, stride) = padded.unwrap_or_else(|| pad(from_south, columns, rows));
         let per_cell = [1.0 / grid.cell[0], 1.0 / grid.cell[1]];
         Ok(Self { grid, per_cell, heights: padded, stride, filled, holes })
     }
@@ -193,7 +193,7 @@ impl ElevationMap {
             cells.extend_from_slice(&self.heights[row * self.stride + 1..][..columns]);
         }
         raise(&mut cells);
-        let (heights, _) = pad(&cells, columns, rows);
+        let (heights, _) = pad(cells.chunks_exact(columns), columns, rows);
         Self { heights, ..self.clone() }
     }
 
@@ -210,6 +210,11 @@ impl ElevationMap {
         let row = (v as usize).min(self.grid.rows - 2);
         Some(Located { row, column, u: u - column as f64, v: v - row as f64 })
     }
+}
+
+/// What is no height is none.
+fn or_none(height: f32) -> f32 {
+    if height.is_finite() { height } else { f32::NAN }
 }
 
 struct Located {
@@ -317,16 +322,15 @@ fn check(grid: &Grid, heights: usize) -> Result<(), MapError> {
     Ok(())
 }
 
-/// `cells` with a ring around them, continued linearly: the slope at the border is that of the outermost cells.
-fn pad(cells: &[f32], columns: usize, rows: usize) -> (Vec<f32>, usize) {
+/// The cells of `lines`, rows from the south, with a ring around them, continued linearly: the slope at the border is
+/// that of the outermost cells.
+fn pad<'a>(lines: impl Iterator<Item = &'a [f32]>, columns: usize, rows: usize) -> (Vec<f32>, usize) {
     let stride = columns + 2;
     let mut padded = vec![0.0; stride * (rows + 2)];
-    for row in 0..rows {
-        let line = &cells[row * columns..(row + 1) * columns];
-        let from = (row + 1) * stride;
-        padded[from + 1..from + 1 + columns].copy_from_slice(line);
-        padded[from] = 2.0 * line[0] - line[1];
-        padded[from + 1 + columns] = 2.0 * line[columns - 1] - line[columns - 2];
+    for (padded, line) in padded.chunks_exact_mut(stride).skip(1).zip(lines) {
+        padded[1..=columns].iter_mut().zip(line).for_each(|(cell, height)| *cell = or_none(*height));
+        padded[0] = 2.0 * padded[1] - padded[2];
+        padded[columns + 1] = 2.0 * padded[columns] - padded[columns - 1];
     }
     for column in 0..stride {
         let at = |row: usize| row * stride + column;

@@ -74,6 +74,9 @@ impl Hazards<'_> {
 
     /// The same, but content with any that is as deep as `enough`.
     pub(super) fn worst(&self, segments: &[Segment], enough: f64) -> Option<Intrusion> {
+        if self.keep_outs.is_empty() {
+            return None;
+        }
         let mut check = Check { keep_outs: self.keep_outs, radius: self.radius, worst: None };
         let (mut at, mut driven) = ([self.start.x, self.start.y], 0.0);
         let mut heading = self.start.yaw + self.direction;
