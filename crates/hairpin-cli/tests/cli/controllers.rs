@@ -125,7 +125,7 @@ fn what_goes_wrong_costs_its_own_run() {
     let sick = |what: &str| {
         format!(
             "{good}\nimport os, sys, time\ngood = control\ndef control(t_s, state, reference):\n    \
-             if t_s > 0.5 and sum(map(sum, reference[\"waypoints_m\"])) % 2.0 < 1.0:\n        {what}\n    \
+             if t_s > 0.5 and reference[\"waypoints_m\"][1][1] > 3.0:\n        {what}\n    \
              return good(t_s, state, reference)\n"
         )
     };
@@ -142,7 +142,8 @@ fn what_goes_wrong_costs_its_own_run() {
     ] {
         fs::write(here.join("sick.py"), sick(what)).unwrap();
         fs::write(here.join("q.toml"), scenario("python:sick.py")).unwrap();
-        let (code, out, error) = run(here, &["stress", "q.toml", "--out", "a", "--force"]);
+        let (code, out, error) =
+            run(here, &["stress", "q.toml", "--out", "a", "--force", "--set", "spec.deviation.max_m=50"]);
         assert_eq!(code, 4, "{what}: {out}{error}");
         assert!(out.contains("EXECUTOR FAILED") || error.contains("EXECUTOR FAILED"), "{what}: {out}{error}");
         let kept = CampaignFolder::open(&here.join("a")).unwrap();
@@ -226,15 +227,14 @@ fn each_run_begins_afresh() {
         )
     };
     let reset = format!("def reset(mission):\n    open({log:?}, 'a').write(json.dumps([0, mission]) + '\\n')\n");
-    for (text, lines, control_lines) in [(body(""), 8, 8), (body(&reset), 6, 2)] {
+    for (out, text, lines, control_lines) in [("a", body(""), 8, 8), ("b", body(&reset), 6, 2)] {
         let _ = fs::remove_file(&log);
         fs::write(here.join("c.py"), text).unwrap();
         fs::write(here.join("q.toml"), scenario("python:c.py").replace("[spec]", "time_limit_s = 1.0\n[spec]"))
             .unwrap();
         let rate = "execute.control_rate_hz=50";
-        let (code, out, error) =
-            run(here, &["stress", "q.toml", "--out", "a", "--force", "--threads", "1", "--set", rate]);
-        assert!([0, 1].contains(&code), "{out}{error}");
+        let (code, told, error) = run(here, &["stress", "q.toml", "--out", out, "--threads", "1", "--set", rate]);
+        assert!([0, 1].contains(&code), "{told}{error}");
         let told = fs::read_to_string(&log).unwrap();
         let told: Vec<Value> = told.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         let turns = told.iter().filter(|line| line[0] != 0).count();
@@ -261,9 +261,9 @@ fn what_drives_and_what_sails_is_steered_too() {
         here.join("boat.py"),
         "import math\ndef control(t_s, state, reference):\n    \
          c, s = math.cos(state['yaw_rad']), math.sin(state['yaw_rad'])\n    \
-         e = [200 * (p - q) + 200 * (v - w) for p, q, v, w in zip(reference['p_m'], state['p_m'], reference['v_m_s'], state['v_m_s'])]\n    \
+         e = [20 * (p - q) + 40 * (v - w) for p, q, v, w in zip(reference['p_m'], state['p_m'], reference['v_m_s'], state['v_m_s'])]\n    \
          turn = math.remainder(reference['yaw_rad'] - state['yaw_rad'], 2 * math.pi)\n    \
-         return {'force_n': [c * e[0] + s * e[1], c * e[1] - s * e[0]], 'moment_n_m': 100 * turn - 100 * state['w_rad_s'][2]}\n",
+         return {'force_n': [c * e[0] + s * e[1], c * e[1] - s * e[0]], 'moment_n_m': 10 * turn - 10 * state['w_rad_s'][2]}\n",
     )
     .unwrap();
     for (scenario, file) in [("demo-rover", "pursuit.py"), ("boat", "boat.py")] {
@@ -275,11 +275,15 @@ fn what_drives_and_what_sails_is_steered_too() {
             "generate.search.method=\"uniform\"",
             "--set",
             "execute.repeat=1",
+            "--set",
+            "task.length=3",
+            "--set",
+            "execute.control_rate_hz=20",
         ];
-        let told = json(here, &[&["stress", scenario, "--out", file, "--set", &controller][..], &words].concat());
+        let told = json(here, &[&["stress", scenario, "--out", scenario, "--set", &controller][..], &words].concat());
         assert!(told["verdict"].as_str().unwrap().contains(&format!("python:{file}")), "{told}");
         assert_ne!(told["exit_code"], 4, "{told}");
-        let kept = CampaignFolder::open(&here.join(file)).unwrap();
+        let kept = CampaignFolder::open(&here.join(scenario)).unwrap();
         let done = kept.read_results().unwrap().iter().filter(|result| result.message.is_none()).count();
         assert_eq!(done, 2);
     }
