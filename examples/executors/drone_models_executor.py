@@ -2,9 +2,9 @@
 
     hairpin stress quadrotor.toml --set 'robot="crazyflie"' --executor 'python3 examples/executors/drone_models_executor.py'
 
-The body is the package's own cf2x_L250 whatever robot the mission names. The timed reference is tracked where the mission has
-one; otherwise the waypoints are flown to one after the other, from rest to rest at 0.5 m/s in the mean. Wind, noise and
-obstacles are not simulated, and said so once on stderr.
+The body is the package's own cf2x_L250 whatever robot the mission names, so that the mission's timed reference, which another
+body can fly, is not tracked: waypoints are flown to one after the other, from rest to rest at 0.8 m/s in the mean. Wind, noise
+and obstacles are not simulated, and said so once on stderr.
 """
 import bisect
 import json
@@ -22,7 +22,7 @@ from drone_models import available_models
 from drone_models import parametrize as plant
 from scipy.spatial.transform import Rotation
 
-DRONE, STEP_S, OUTER, SAMPLE, LINGER_S, MEAN_M_S = "cf2x_L250", 0.002, 5, 5, 2.0, 0.5
+DRONE, STEP_S, OUTER, SAMPLE, LINGER_S, MEAN_M_S = "cf2x_L250", 0.002, 5, 5, 2.0, 0.8
 dynamics = plant(available_models["first_principles"], DRONE)
 position_loop = controller(mellinger_state2attitude, DRONE)
 attitude_loop = controller(mellinger_attitude2force_torque, DRONE)
@@ -34,39 +34,29 @@ def say(**message):
 
 
 class Reference:
-    """Position, velocity and acceleration over time, and the leg: of the timed reference, or from rest to rest."""
+    """Position, velocity and acceleration over time, and the leg: from waypoint to waypoint, from rest to rest."""
 
-    def __init__(self, mission):
-        points, timed = np.array(mission["waypoints_m"], dtype=float), mission["timed"]
-        if len(timed) > 1:
-            self.t = [sample["t_s"] for sample in timed]
-            self.p, self.v = (np.array([sample[key] for sample in timed]) for key in ("p_m", "v_m_s"))
-        else:
-            lengths = np.maximum(np.linalg.norm(np.diff(points, axis=0), axis=1), 1e-6)
-            self.t, self.p, self.v, begun = [0.0], [points[0]], [np.zeros(3)], 0.0
-            for start, span, duration in zip(points, np.diff(points, axis=0), lengths / MEAN_M_S):
-                for s in np.linspace(0.0, 1.0, 41)[1:]:
-                    self.t.append(begun + s * duration)
-                    self.p.append(start + span * s**3 * (10 - 15 * s + 6 * s**2))
-                    self.v.append(span / duration * 30 * s**2 * (1 - s) ** 2)
-                begun += duration
-            self.p, self.v = np.array(self.p), np.array(self.v)
-        self.a = np.gradient(self.v, self.t, axis=0)
-        self.changes, first = [], 0
-        for waypoint in points[1:-1]:
-            first += int(np.argmin(np.linalg.norm(self.p[first:] - waypoint, axis=1)))
-            self.changes.append(self.t[first])
+    def __init__(self, points):
+        self.points, self.spans = points, np.diff(points, axis=0)
+        self.durations = np.maximum(np.linalg.norm(self.spans, axis=1) / MEAN_M_S, 0.5)
+        self.begins = [0.0, *np.cumsum(self.durations)]
+
+    def leg(self, t):
+        return min(bisect.bisect_right(self.begins, t), len(self.spans)) - 1
 
     def at(self, t):
-        if t >= self.t[-1]:
-            return np.concatenate([self.p[-1], np.zeros(6)])
-        i = max(bisect.bisect_right(self.t, t) - 1, 0)
-        u = (t - self.t[i]) / (self.t[i + 1] - self.t[i])
-        return np.concatenate([(1 - u) * column[i] + u * column[i + 1] for column in (self.p, self.v, self.a)])
+        leg = self.leg(t)
+        span, duration = self.spans[leg], self.durations[leg]
+        s = min((t - self.begins[leg]) / duration, 1.0)
+        position = self.points[leg] + span * s**3 * (10 - 15 * s + 6 * s**2)
+        velocity = span / duration * 30 * s**2 * (1 - s) ** 2
+        acceleration = span / duration**2 * 60 * s * (1 - s) * (1 - 2 * s)
+        return np.concatenate([position, velocity, acceleration])
 
 
 def fly(mission):
-    reference, points = Reference(mission), np.array(mission["waypoints_m"], dtype=float)
+    points = np.array(mission["waypoints_m"], dtype=float)
+    reference = Reference(points)
     name = {"case": mission["case"], "run": mission["run"]}
     pos, vel, rates, quat = points[0].copy(), np.zeros(3), np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0])
     mass, gravity = dynamics.keywords["mass"], 9.81
@@ -75,11 +65,11 @@ def fly(mission):
     before, errors, turn_errors, attitude, steps, reached, poses = rates, None, None, np.array([0.0, 0.0, 0.0, thrust]), 0, None, []
     while True:
         t = steps * STEP_S
-        if reached is None and t >= reference.t[-1] and np.linalg.norm(points[-1] - pos) <= mission["accept_m"]:
+        if reached is None and t >= reference.begins[-1] and np.linalg.norm(points[-1] - pos) <= mission["accept_m"]:
             reached = t
         if steps % SAMPLE == 0:
             x, y, z, w = quat
-            poses.append([t, *pos, w, x, y, z, *vel, bisect.bisect_right(reference.changes, t)])
+            poses.append([t, *pos, w, x, y, z, *vel, reference.leg(t)])
         over = "done" if reached is not None and t >= reached + LINGER_S else None
         over = over or ("crash" if pos[2] < 0.0 else "time" if t + STEP_S > mission["time_limit_s"] else None)
         if over or len(poses) == 1000:

@@ -12,23 +12,21 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 HAIRPIN = os.environ.get("HAIRPIN_BIN", str(ROOT / "target" / "debug" / "hairpin"))
 EXECUTORS = ROOT / "examples" / "executors"
-# A robot that each flies well, in trajectories that it can follow: timed ones, or waypoints alone.
-WAYPOINTS = ['generate.reach="hull"', "generate.timing={ step_s = 2.0 }", 'generate.score="fast-corner"']
+# A robot that each flies well.
 FLY = {
-    "rotorpy_executor.py": ("flightgoggles", []),
-    "mujoco_executor.py": ("flightgoggles", []),
-    "drone_models_executor.py": ("crazyflie", WAYPOINTS),
-    "foundation_policy_executor.py": ("x500", []),
+    "rotorpy_executor.py": "flightgoggles",
+    "mujoco_executor.py": "flightgoggles",
+    "drone_models_executor.py": "crazyflie",
+    "foundation_policy_executor.py": "x500",
 }
 
 
 @pytest.mark.parametrize("name", FLY)
 def test_another_simulator_flies_a_campaign(name, tmp_path):
-    robot, trajectories = FLY[name]
     command = f"{shlex.quote(sys.executable)} {shlex.quote(str(EXECUTORS / name))}"
     out = tmp_path / "campaign"
-    sets = [f'robot="{robot}"', 'generate.search={ method = "uniform", waypoints = 60, cases = 1 }', "execute.repeat=1",
-            "task.length=4", "task.end_m=[9, 7, 6]", "execute.timeout_s=240", "spec.deviation.max_m=3", "execute.baseline=0", *trajectories]
+    sets = [f'robot="{FLY[name]}"', 'generate.search={ method = "uniform", waypoints = 60, cases = 1 }', "execute.repeat=1",
+            "task.length=4", "task.end_m=[9, 7, 6]", "execute.timeout_s=240", "spec.deviation.max_m=3", "execute.baseline=0"]
     arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", command, "--out", str(out), "--json"]
     for one in sets:
         arguments += ["--set", one]
