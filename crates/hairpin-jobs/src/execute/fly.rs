@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::arm::ArmSetup;
+use hairpin::campaign::scenario::Record;
 use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
 };
@@ -13,8 +14,10 @@ use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
+use super::kept::comes_again;
 use super::recorded;
 use super::to_judge::runs_to_judge;
+use super::worst::keep_worst;
 use crate::watch::Steps;
 use crate::work::Work;
 use crate::{Problem, Watch};
@@ -32,10 +35,10 @@ pub struct Flown {
 
 /// What is flown: run number `run` of a case or, where it violated, that run for the time number `again`.
 #[derive(Debug, Clone, Copy)]
-struct Job<'a> {
-    case: &'a Case,
-    run: usize,
-    again: Option<usize>,
+pub(super) struct Job<'a> {
+    pub(super) case: &'a Case,
+    pub(super) run: usize,
+    pub(super) again: Option<usize>,
 }
 
 impl Job<'_> {
@@ -46,12 +49,21 @@ impl Job<'_> {
         }
     }
 
-    fn simulate(&self, setup: &Setup) -> Run {
+    pub(super) fn simulate(&self, setup: &Setup) -> Run {
         match self.again {
             None => execute_run(setup, self.case, self.run),
             Some(again) => execute_again(setup, self.case, self.run, again),
         }
     }
+}
+
+/// Where runs land.
+pub(super) struct Landing<'f, 'k> {
+    /// How many there are once all have landed.
+    pub(super) of: usize,
+    pub(super) writer: RunWriter<'f>,
+    /// Whether the motion of one, with what was measured of it, is kept.
+    pub(super) keeps: &'k (dyn Fn(&Run) -> bool + Sync),
 }
 
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
@@ -67,7 +79,17 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
         .map(|(case, run)| Job { case, run, again: None })
         .collect();
     let writer = work.folder.write_runs(repeat, all().map(|(case, run)| (case.number, run)));
-    fly(work, &missing, (all().count(), writer), watch)?;
+    let (record, again) = (work.setup.scenario.executor().record, comes_again(&work.setup));
+    let keeps = |run: &Run| match record {
+        Record::All => true,
+        // Which these are is known once all have landed; what can be had again is then executed once more.
+        Record::Worst => run.full_rate.is_none() || !again,
+        Record::None => is_indispensable(run, again),
+    };
+    fly(work, &missing, Landing { of: all().count(), writer, keeps: &keeps }, watch)?;
+    if record == Record::Worst {
+        keep_worst(work, cases, watch)?;
+    }
     let flown = count(work, cases, repeat)?;
     fly_again(work, cases, watch)?;
     if flown.attitude_unknown > 0 {
@@ -77,6 +99,11 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
         ));
     }
     Ok(flown)
+}
+
+/// Whether nothing but its motion tells what a run was: it was not measured, and cannot be had again.
+fn is_indispensable(run: &Run, again: bool) -> bool {
+    run.full_rate.is_none() && !again
 }
 
 /// Flies the worst run of every violating case as often again as the scenario asks for, where it was not yet.
@@ -91,7 +118,7 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
         .map(|case: &Case| {
             let result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
             let is_violation = result.status == Status::Fail;
-            let known = if is_violation { work.folder.read_measured_reruns(case.number)?.len() } else { 0 };
+            let known = if is_violation { known_reruns(work, case)? } else { 0 };
             Ok(is_violation.then_some((case, result.run, known)))
         })
         .collect();
@@ -102,11 +129,21 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
         .iter()
         .flat_map(|(case, run, known)| (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) }));
     let jobs: Vec<Job> = jobs.collect();
-    fly(work, &jobs, (jobs.len(), writer), watch)
+    let (all_stay, again) = (work.setup.scenario.executor().record.is_all(), comes_again(&work.setup));
+    let keeps = |run: &Run| all_stay || is_indispensable(run, again);
+    fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &keeps }, watch)
 }
 
-/// Flies `missing`, the rest of `of` runs.
-fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &dyn Watch) -> Result<(), Problem> {
+/// How often the violation of `case` was run again.
+fn known_reruns(work: &Work, case: &Case) -> Result<usize, Problem> {
+    let known = work.folder.rerun_facts_of(case.number)?.len();
+    // Files of their own say it of themselves.
+    Ok(if known == 0 { work.folder.read_reruns(case.number)?.len() } else { known })
+}
+
+/// Flies `missing`, the rest of those that land there.
+pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watch) -> Result<(), Problem> {
+    let Landing { of, writer, keeps } = there;
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, mut run: Run| {
@@ -115,6 +152,7 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
         run.full_rate = full_rate.map(Box::new);
         let marked = marked.unwrap_or_default();
         let packed = match job.again {
+            again if !keeps(&run) => Ok(Landed::bare(&run, again.unwrap_or(job.run))),
             None => Landed::of(&run, &marked),
             Some(again) => Landed::again(&run, again, &marked),
         };
