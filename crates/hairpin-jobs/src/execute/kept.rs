@@ -1,16 +1,11 @@
 //! Runs with their motion: as it was kept or, where it was not, executed again.
 
-use hairpin::campaign::{Case, Run, Setup};
+use hairpin::campaign::{Case, Run};
 use hairpin_formats::parquet::runs::RunFacts;
 
-use super::fly::Job;
+use super::job::{Job, comes_again};
 use crate::Problem;
 use crate::work::Work;
-
-/// Whether a run can be had again to the bit: one of our own simulator is a function of its scenario, seed and number.
-pub(crate) fn comes_again(setup: &Setup) -> bool {
-    setup.scenario.executor().command.is_none() && setup.recordings().is_none()
-}
 
 /// The runs of `case`, in their order.
 pub(crate) fn runs_with_motion(work: &Work, case: &Case) -> Result<Vec<Run>, Problem> {

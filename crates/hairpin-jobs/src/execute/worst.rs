@@ -7,8 +7,8 @@ use hairpin::campaign::{self, Case, CaseResult};
 use hairpin_formats::parquet::runs::RunFacts;
 use rayon::prelude::*;
 
-use super::fly::{Job, Landing, fly};
-use super::kept::comes_again;
+use super::fly::{Landing, fly};
+use super::job::{Job, comes_again};
 use super::to_judge::runs_to_judge;
 use crate::work::Work;
 use crate::{Problem, Watch};
@@ -39,9 +39,11 @@ pub(super) fn keep_worst(work: &Work, cases: &[Case], watch: &dyn Watch) -> Resu
             again: None,
         }));
     }
-    let repeat = work.setup.scenario.executor().repeat as usize;
-    let writer = work.folder.write_runs(repeat, jobs.iter().map(|job| (job.case.number, job.run)));
-    fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &|_| true }, watch)?;
+    if !jobs.is_empty() {
+        let repeat = work.setup.scenario.executor().repeat as usize;
+        let writer = work.folder.write_runs(repeat, jobs.iter().map(|job| (job.case.number, job.run)));
+        fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &|_| true }, watch)?;
+    }
     let stays = |facts: &RunFacts| chosen.contains(&(facts.case, facts.run)) || !(facts.is_measured() || again);
     Ok(work.folder.keep_motion_of(&stays)?)
 }
