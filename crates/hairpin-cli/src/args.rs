@@ -34,7 +34,7 @@ pub(crate) use keys::Keys;
 pub(crate) use learn::Learn;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use pipeline::{
-    Campaign, Execute, Export, Format, Generate, Judge, Replay, ReportArguments, Stress, Verify,
+    Campaign, Execute, Export, Format, Generate, Judge, Keep, Kept, Replay, ReportArguments, Stress, Verify,
 };
 pub(crate) use requirements::Requirements;
 pub(crate) use resources::{Kernels, Threads};

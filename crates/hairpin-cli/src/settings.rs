@@ -1,12 +1,13 @@
 //! From what was typed to the settings of jobs.
 
+use hairpin::campaign::scenario::Record;
 use hairpin::math::simd::Simd;
 use hairpin_jobs::Problem;
 use hairpin_jobs::consent::Consent;
 use hairpin_jobs::sets::{self, Set};
 use hairpin_jobs::work::{CampaignSettings, IfThere};
 
-use crate::args::{Campaign, Commands, Kernels, Keys, Threads};
+use crate::args::{Campaign, Commands, Keep, Kept, Kernels, Keys, Threads};
 
 /// Takes the threads that were asked for.
 pub(crate) fn take_threads(threads: &Threads) {
@@ -14,6 +15,16 @@ pub(crate) fn take_threads(threads: &Threads) {
         // It fails only where the pool exists already: one command, one pool.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(count.into()).build_global();
     }
+}
+
+/// Of which runs the motion is kept, where that was asked for.
+pub(crate) fn record(kept: &Kept) -> Option<Set> {
+    let record = kept.keep.map(|keep| match keep {
+        Keep::All => Record::All,
+        Keep::Worst => Record::Worst,
+        Keep::None => Record::None,
+    });
+    record.map(sets::record)
 }
 
 /// The version of the kernels that was asked for.

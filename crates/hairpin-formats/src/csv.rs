@@ -5,11 +5,13 @@ use std::path::Path;
 use hairpin::trajectory::Track;
 
 use crate::atomic::{self, WriteError};
+use crate::parquet::track::in_order;
 
 /// The text of `track`: `t,x_m,y_m,z_m,qw,qx,qy,qz` and its channels; `t` in s. Numbers read back to the same bits.
 pub fn text(track: &Track) -> String {
     let mut text = String::from("t,x_m,y_m,z_m,qw,qx,qy,qz");
-    for channel in track.channels() {
+    let channels = in_order(track);
+    for channel in &channels {
         text.push(',');
         text.push_str(&field(&channel.name));
     }
@@ -17,7 +19,7 @@ pub fn text(track: &Track) -> String {
     for (row, (time, pose)) in track.times().iter().zip(track.poses()).enumerate() {
         let (p, q) = (pose.translation.vector, pose.rotation);
         let values = [*time, p.x, p.y, p.z, q.w, q.i, q.j, q.k];
-        let values = values.into_iter().chain(track.channels().iter().map(|channel| channel.values[row]));
+        let values = values.into_iter().chain(channels.iter().map(|channel| channel.values[row]));
         text.push_str(&values.map(|value| value.to_string()).collect::<Vec<_>>().join(","));
         text.push('\n');
     }

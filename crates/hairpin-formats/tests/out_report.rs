@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use hairpin::campaign::report::{COLUMNS, cells};
-use hairpin::campaign::{Setup, Status};
+use hairpin::campaign::{Case, Setup, Status};
 use hairpin_formats::folder::{CampaignFolder, Existing, Landed};
 use hairpin_formats::parquet::track;
 use hairpin_formats::report::{self, SHOWN};
@@ -41,7 +41,8 @@ fn html(place: &Path) -> String {
         "rotor lag is outside the claim <drag & wind are in it>".to_owned(),
     ];
     let verdict = stress::verdict(&folder.read_results().unwrap());
-    let data = report::from_folder(&folder, &setup, verdict, assumptions).unwrap();
+    let run = |case: &Case, run: usize| folder.read_run(case.number, run).map_err(|error| error.to_string());
+    let data = report::from_folder(&folder, &setup, verdict, assumptions, &run).unwrap();
     report::write(&folder.file("report.html"), &data).unwrap();
     fs::read_to_string(folder.file("report.html")).unwrap()
 }
@@ -94,7 +95,7 @@ fn the_worst_come_first_and_the_same_campaign_is_the_same_report() {
     assert_eq!(html(first.path()), html(second.path()));
     let (folder, setup) = written(first.path().join("again").as_path());
     let verdict = stress::verdict(&folder.read_results().unwrap());
-    let data = report::from_folder(&folder, &setup, verdict, vec![]).unwrap();
+    let data = report::from_folder(&folder, &setup, verdict, vec![], &|_, _| Ok(None)).unwrap();
     let fails = data.results.iter().filter(|result| result.status == Status::Fail).count();
     assert!(fails > 0 && data.results[..fails].iter().all(|result| result.status == Status::Fail));
     let deviation = |i: usize| data.results[i].measures.as_ref().unwrap().max_deviation;

@@ -1,5 +1,6 @@
 //! Two judged campaigns, paired by case and seed.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use hairpin::campaign::{self, Case, CaseResult, Comparison};
@@ -52,14 +53,12 @@ pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem
 /// Every case with its result.
 fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> {
     let cases = work.folder.read_cases_without_profiles()?;
-    let mut results = work.folder.read_results()?;
+    let results = work.folder.read_results()?;
     if results.len() < cases.len() || cases.is_empty() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", path.display())));
     }
-    let pair = |case: Case| {
-        let index = results.iter().position(|result| result.case == case.number)?;
-        Some((case, results.swap_remove(index)))
-    };
+    let mut results: HashMap<_, _> = results.into_iter().map(|result| (result.case, result)).collect();
+    let pair = |case: Case| results.remove(&case.number).map(|result| (case, result));
     Ok(cases.into_iter().filter_map(pair).collect())
 }
 

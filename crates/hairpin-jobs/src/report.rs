@@ -1,11 +1,12 @@
 //! One HTML file from a judged campaign.
 
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
-use hairpin::campaign::report::Shown;
+use hairpin::campaign::report::{Shown, worst_first};
 use hairpin::campaign::{self, Case, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
@@ -13,6 +14,7 @@ use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
 use crate::Problem;
 use crate::baseline::read_baseline;
+use crate::execute::{run_with_motion, why_lost};
 use crate::judge::with_moves;
 use crate::work::{Work, open_to_read};
 
@@ -30,20 +32,30 @@ pub struct Reported {
 /// Writes the `report.html` of the judged campaign in `folder`.
 ///
 /// # Errors
-/// A campaign that is not judged; a file that cannot be read or written.
+/// A campaign that is not judged, or of whose worst case the run is not to be had any more; a file that cannot be read
+/// or written.
 pub fn report(folder: &Path) -> Result<Reported, Problem> {
     let work = open_to_read(folder)?;
-    let cases = work.folder.read_cases()?;
+    let cases = work.folder.read_cases_without_profiles()?;
     let tally = work.folder.read_tally()?;
     let results = work.folder.read_results()?;
     if results.len() < cases.len() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
     }
+    if let Some(worst) = worst_first(&results).first()
+        && let Some(case) = cases.iter().find(|case| case.number == worst.case)
+        && let Some(lost) = why_lost(&work, case, worst.run)?
+    {
+        return Err(lost);
+    }
     let baseline = read_baseline(&work)?;
     let verdict = campaign::verdict(&work.setup, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
-    write_report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
+    let assumptions = assumptions(&work, &cases, &tally, (&moves, regression.as_ref()))?;
+    // They are read again for what is shown of them.
+    drop((cases, results));
+    write(&work, &verdict, assumptions, regression.as_ref())?;
     Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
 }
 
@@ -55,6 +67,15 @@ pub(crate) fn write_report(
     verdict: &Verdict,
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<(), Problem> {
+    write(work, verdict, assumptions(work, cases, tally, (moves, regression))?, regression)
+}
+
+fn assumptions(
+    work: &Work,
+    cases: &[Case],
+    tally: &Tally,
+    (moves, regression): (&Moves, Option<&Regression>),
+) -> Result<Vec<String>, Problem> {
     let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
@@ -62,8 +83,35 @@ pub(crate) fn write_report(
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }
-    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
+    Ok(assumptions)
+}
+
+fn write(
+    work: &Work,
+    verdict: &Verdict,
+    assumptions: Vec<String>,
+    regression: Option<&Regression>,
+) -> Result<(), Problem> {
+    let lost = Cell::new(0);
+    let run = |case: &Case, run: usize| match why_lost(work, case, run)? {
+        Some(_) => {
+            lost.set(lost.get() + 1);
+            Ok(None)
+        }
+        None => run_with_motion(work, case, run),
+    };
+    let run = |case: &Case, number: usize| run(case, number).map_err(|problem: Problem| problem.to_string());
+    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions, &run)
         .map_err(Problem::input)?;
+    if lost.get() > 0 {
+        data.assumptions.push(format!(
+            "A program flew the cases, and of {} of {} that are shown the motion was not kept (execute.record = \"{}\"): what was planned is \
+             drawn alone.",
+            lost.get(),
+            data.shown.len(),
+            work.setup.scenario.executor().record.word()
+        ));
+    }
     data.regression = regression.cloned();
     let level = |shown: &Shown| shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());
     if data.shown.iter().any(level) {

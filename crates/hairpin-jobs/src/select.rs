@@ -8,6 +8,7 @@ use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
 use rayon::prelude::*;
 
 use crate::consent::{Consent, Wish};
+use crate::execute::measured_runs;
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
@@ -76,8 +77,8 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     let all = work.folder.read_cases_without_profiles()?;
     let results = work.folder.read_results()?;
     let measured = measured(&results);
-    let (cases, unmeasured): (Vec<Case>, Vec<Case>) =
-        all.iter().cloned().partition(|case| measured.is_empty() || measured.contains_key(&case.number));
+    let (cases, unmeasured): (Vec<&Case>, Vec<&Case>) =
+        all.iter().partition(|case| measured.is_empty() || measured.contains_key(&case.number));
     let count = settings.cases;
     if count > cases.len() {
         let whose = if unmeasured.is_empty() { "cases" } else { "cases that were executed and measured" };
@@ -92,7 +93,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
             "Warning: {} of {} cases were not executed, or not measured, and are left out: {}",
             unmeasured.len(),
             all.len(),
-            listed(&unmeasured.iter().map(Case::id).collect::<Vec<_>>())
+            listed(&unmeasured.iter().map(|case| case.id()).collect::<Vec<_>>())
         ));
     }
     let met = Met::new(&work, &cases, !measured.is_empty() && unmeasured.is_empty())?;
@@ -110,7 +111,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     let choice = Choice::new(&candidates);
     let places = choice.best(count, by);
     let stressful = choice.best(count, By::Stress);
-    let mut chosen: Vec<Case> = places.iter().map(|place| cases[*place].clone()).collect();
+    let mut chosen: Vec<Case> = places.iter().map(|place| Case::clone(cases[*place])).collect();
     chosen.sort_by_key(|case| case.number);
     chosen.iter_mut().try_for_each(|case| work.folder.read_witness(case))?;
     let folder = write(&work, settings, (&all, &results), &chosen)?;
@@ -154,7 +155,7 @@ fn measured(results: &[CaseResult]) -> HashMap<CaseNumber, &CaseResult> {
 /// The cells that cases met, where they were executed.
 struct Met<'a> {
     work: &'a Work,
-    cases: &'a [Case],
+    cases: &'a [&'a Case],
     grid: Grid,
     /// How many all of them met, if that was told when they were judged.
     judged: Option<usize>,
@@ -162,7 +163,7 @@ struct Met<'a> {
 
 impl<'a> Met<'a> {
     /// Of `cases`; `judged`: they are those of the campaign's judgement.
-    fn new(work: &'a Work, cases: &'a [Case], judged: bool) -> Result<Self, Problem> {
+    fn new(work: &'a Work, cases: &'a [&'a Case], judged: bool) -> Result<Self, Problem> {
         let grid = Grid::of(&work.setup);
         let told = if judged { work.folder.read_coverage()? } else { None };
         let judged = told.filter(|told| told.grid == grid).map(|told| told.hit);
@@ -172,8 +173,8 @@ impl<'a> Met<'a> {
     /// Those that each of these cases met.
     fn by_case(&self, places: &[usize]) -> Result<Vec<BTreeSet<usize>>, Problem> {
         let met = |place: &usize| {
-            let case = &self.cases[*place];
-            let runs = self.work.folder.read_measured(case.number)?;
+            let case = self.cases[*place];
+            let runs = measured_runs(self.work, case)?;
             Ok(runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect())
         };
         places.par_iter().map(met).collect()

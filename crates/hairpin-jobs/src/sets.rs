@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin::campaign::scenario::Record;
 use hairpin_formats::recordings;
 
 /// A dotted key and its value as TOML.
@@ -17,6 +18,11 @@ pub fn executor(command: &str) -> Set {
 pub fn logs(folder: &Path, pattern: &str) -> Set {
     let logs = recordings::relative_to(folder, Path::new(""), pattern);
     ("execute.logs".to_owned(), serde_json::Value::from(logs).to_string())
+}
+
+/// Of which runs the motion is kept.
+pub fn record(kept: Record) -> Set {
+    ("execute.record".to_owned(), format!("\"{}\"", kept.word()))
 }
 
 /// The root seed.

@@ -6,7 +6,7 @@ use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 
 use crate::baseline::fly_baseline;
-use crate::execute::fly_missing;
+use crate::execute::{check_recordings, fly_missing};
 use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
 use crate::report::write_report;
@@ -54,6 +54,7 @@ pub fn stress_begun(
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
     let (cases, tally) = find_cases(&work, deadline, watch)?;
+    check_recordings(&work, &cases)?;
     let flown = fly_missing(&work, &cases, watch)?;
     fly_baseline(&work, &tally, flown, watch)?;
     let judgement = judge_cases(&work, &cases, &tally, &replayed)?;

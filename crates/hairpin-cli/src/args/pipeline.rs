@@ -47,7 +47,28 @@ pub(crate) struct Stress {
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
     #[command(flatten)]
+    pub(crate) kept: Kept,
+    #[command(flatten)]
     pub(crate) saved: Saved,
+}
+
+/// Of which runs the motion is kept.
+#[derive(Debug, Args)]
+pub(crate) struct Kept {
+    /// Runs whose motion is kept (sets execute.record); the measures and the verdict of all stay either way
+    #[arg(long, value_enum, value_name = "RUNS")]
+    pub(crate) keep: Option<Keep>,
+}
+
+/// What `--keep` takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Keep {
+    /// Every run (the default)
+    All,
+    /// The worst run of each of the ten worst cases
+    Worst,
+    /// No run
+    None,
 }
 
 /// Saved violations that are run first.
@@ -76,6 +97,8 @@ pub(crate) struct Execute {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
+    #[command(flatten)]
+    pub(crate) kept: Kept,
     #[command(flatten)]
     pub(crate) saved: Saved,
     /// Of arms: logs of a real controller instead of runs of ours, `*` for CASE-RUN (sets execute.logs):

@@ -15,6 +15,7 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     let mut all = settings::split(&asked.sets)?;
     all.extend(asked.executor.as_deref().map(sets::executor));
     all.extend(asked.logs.as_deref().map(|logs| sets::logs(&asked.folder, logs)));
+    all.extend(settings::record(&asked.kept));
     all.extend(asked.rerun_violations.map(|n| ("execute.flaky.reruns".to_owned(), n.to_string())));
     let settings = ExecuteSettings {
         folder: asked.folder.clone(),

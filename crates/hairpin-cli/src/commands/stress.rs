@@ -10,7 +10,8 @@ use crate::settings;
 /// Runs the command.
 pub(crate) fn run(asked: &Stress, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.campaign.threads);
-    let settings = settings::campaign(&asked.campaign, asked.executor.as_deref())?;
+    let mut settings = settings::campaign(&asked.campaign, asked.executor.as_deref())?;
+    settings.sets.extend(settings::record(&asked.kept));
     Ok(say(&stress(&settings, asked.saved.repro.as_deref(), watch)?, asked.campaign.json))
 }
 

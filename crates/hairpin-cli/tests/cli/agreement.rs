@@ -229,7 +229,7 @@ fn agree(kind: usize, seed: u64) -> bool {
                 read(&["import", file, "--check", "--cell", "a/scenario.toml"]);
             }
         }
-        read(&["import", "a/programs/0000.mod"]);
+        read(&["import", "a/0000.mod"]);
     }
     if judged["counts"]["fail"] == 1 {
         read(&["replay", "a/repro/0000.json"]);

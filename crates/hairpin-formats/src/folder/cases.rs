@@ -1,7 +1,7 @@
 //! The cases of a campaign folder: what `generate` writes, and every later part reads.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
 use hairpin::trajectory::Track;
@@ -9,12 +9,12 @@ use hairpin::trajectory::program::Program;
 
 use super::parts::{CASES_PER_PART, PROFILES, PROGRAMS, TRAJECTORIES};
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
-use crate::atomic::{self, WriteError};
+use crate::atomic::WriteError;
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::parquet::piece::Piece;
 use crate::parquet::results::Row;
 use crate::parquet::table::Table;
-use crate::parquet::{cases, drive, profile, track};
+use crate::parquet::{cases, drive, profile, program, track};
 use crate::rapid::{self, Frames};
 use crate::scenario::MADE_BY;
 
@@ -33,21 +33,19 @@ impl CampaignFolder {
     /// A file cannot be written.
     pub fn write_new_cases(&self, all: &[Case], old: usize) -> Result<(), FolderError> {
         for block in all[old..].chunk_by(|a, b| a.number.0 / CASES_PER_PART == b.number.0 / CASES_PER_PART) {
-            let mut pieces = Vec::new();
+            let (mut profiles, mut programs) = (Vec::new(), Vec::new());
             for case in block {
-                let piece = match (case.profile(), case.commands()) {
-                    (Some(witness), _) => profile::piece(case.number, witness),
-                    (_, Some(witness)) => drive::piece(case.number, witness),
+                let (table, piece) = match (case.profile(), case.commands(), case.program()) {
+                    (Some(witness), ..) => (PROFILES, profile::piece(case.number, witness)),
+                    (_, Some(witness), _) => (PROFILES, drive::piece(case.number, witness)),
+                    (.., Some(program)) => (PROGRAMS, program::piece(case.number, &self.module(case, program)?)),
                     _ => continue,
                 };
-                pieces.push((case.number, piece.map_err(|cause| self.no_room(PROFILES, cause))?));
+                let pieces = if table == PROGRAMS { &mut programs } else { &mut profiles };
+                pieces.push((case.number, piece.map_err(|cause| self.no_room(table, cause))?));
             }
-            self.add_pieces(PROFILES, pieces)?;
-        }
-        for case in &all[old..] {
-            if let Some(program) = case.program() {
-                self.write_program(case, program)?;
-            }
+            self.add_pieces(PROFILES, profiles)?;
+            self.add_pieces(PROGRAMS, programs)?;
         }
         cases::write(&self.file(WAYPOINTS), all)?;
         self.write_results(all, &[])
@@ -118,9 +116,8 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
-        let program = self.program_path(case.number);
-        if program.exists() {
-            case.witness = Some(self.read_program(&program, case.number)?.into());
+        if let Some(program) = self.read_program(case.number)? {
+            case.witness = Some(program.into());
         } else if let Some((rows, _)) = self.read_rows_of(PROFILES, case.number)? {
             let drive = drive::is_drive(&rows);
             let witness = if drive { drive::from_table(&rows)?.into() } else { profile::from_table(&rows)?.into() };
@@ -129,24 +126,31 @@ impl CampaignFolder {
         Ok(())
     }
 
-    /// Writes `programs/CASE.mod`: the program as RAPID, which is what a campaign keeps of it.
-    fn write_program(&self, case: &Case, program: &Program) -> Result<(), FolderError> {
-        let path = self.program_path(case.number);
-        atomic::make_folder(&self.path.join(PROGRAMS))?;
+    /// The program of a case as RAPID, which is what a campaign keeps of it.
+    fn module(&self, case: &Case, program: &Program) -> Result<String, FolderError> {
         let header = [format!("Evidence: {}", case.claim())];
-        let text = rapid::module(program, &header)
-            .map_err(|error| FolderError::Program { path: path.clone(), what: error.to_string() })?;
-        Ok(rapid::write(&path, &text)?)
+        let refuse = |what: String| FolderError::Program { path: self.path.join(PROGRAMS), what };
+        rapid::module(program, &header).map_err(|error| refuse(format!("case {}: {error}", case.number)))
     }
 
-    fn read_program(&self, path: &Path, case: CaseNumber) -> Result<Program, FolderError> {
-        let refuse = |what: String| FolderError::Program { path: path.into(), what };
-        let bytes = bounds::read(path, MOST_TEXT_BYTES)
-            .map_err(|cause| FolderError::Unreadable { path: path.into(), cause })?;
+    /// Reads the program of a case: from a file of its own, as earlier versions wrote it, or the table's.
+    fn read_program(&self, case: CaseNumber) -> Result<Option<Program>, FolderError> {
+        let own = self.path.join(PROGRAMS).join(format!("{case}.mod"));
+        let (path, bytes) = match own.exists() {
+            true => {
+                let bytes = bounds::read(&own, MOST_TEXT_BYTES);
+                (own.clone(), bytes.map_err(|cause| FolderError::Unreadable { path: own, cause })?)
+            }
+            false => match self.read_rows_of(PROGRAMS, case)? {
+                Some((rows, _)) => (self.path.join(PROGRAMS), program::from_table(&rows)?.into_bytes()),
+                None => return Ok(None),
+            },
+        };
+        let refuse = |what: String| FolderError::Program { path: path.clone(), what: format!("case {case}: {what}") };
         let frames = self.frames.get_or_init(|| self.scenario().as_ref().map_or_else(Frames::default, Frames::of));
         let module = rapid::read(&bytes, &frames.options()).map_err(|error| refuse(error.to_string()))?;
-        let program = module.whole().map_err(|what| refuse(format!("case {case}: {what}")))?;
-        program.checked().map_err(|error| refuse(error.to_string()))
+        let program = module.whole().map_err(refuse)?;
+        program.checked().map(Some).map_err(|error| refuse(error.to_string()))
     }
 
     /// Its scenario's keys; `None` where they are none.
@@ -154,11 +158,6 @@ impl CampaignFolder {
         let mut table: toml::Table = self.read_scenario().ok()?.parse().ok()?;
         table.remove(MADE_BY);
         table.try_into().ok()
-    }
-
-    /// `programs/CASE.mod`.
-    pub fn program_path(&self, case: CaseNumber) -> PathBuf {
-        self.path.join(PROGRAMS).join(format!("{case}.mod"))
     }
 
     /// Writes the planned motions of cases, in their order, the rows where they bend; what is in the folder of the

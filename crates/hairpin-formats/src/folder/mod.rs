@@ -8,7 +8,7 @@
 //! | `results.parquet` | one row per case: seed, score, evidence; once judged, its worst run |
 //! | `waypoints.parquet` | one row per waypoint of every case, with the planned leg times |
 //! | `profiles/` | the control witness, polynomials or a drive's segments |
-//! | `programs/CASE.mod` | what an arm runs, as RAPID |
+//! | `programs/` | what an arm runs, as RAPID |
 //! | `trajectories/` | the planned motion, the rows where it bends |
 //! | `executions/` | flights: poses, velocities, rotor speeds, the rows where they bend |
 //! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
@@ -28,7 +28,7 @@
 //!
 //! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or
 //! run (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file
-//! for each case or run, `NAME/CASE.parquet` and `NAME/CASE-RUN.parquet`, and are read, not written.
+//! for each case or run, `NAME/CASE.parquet`, `programs/CASE.mod` and `NAME/CASE-RUN.parquet`, and are read, not written.
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the
 //! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
@@ -43,6 +43,7 @@ mod graph;
 mod inside;
 mod json;
 mod judged;
+mod keep;
 mod list;
 mod names;
 mod parts;

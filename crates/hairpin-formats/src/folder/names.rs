@@ -55,6 +55,7 @@ pub(super) const OURS: &[&str] = &[
     LOG,
     "trajectories/part-PART.parquet",
     "profiles/part-PART.parquet",
+    "programs/part-PART.parquet",
     "executions/part-PART.parquet",
     "runs/part-PART.parquet",
     "reruns/part-PART.parquet",

@@ -29,6 +29,7 @@ fn schema_of(table: &str) -> &'static str {
     match table {
         TRAJECTORIES => "trajectory",
         PROFILES => "profile",
+        PROGRAMS => "program",
         _ => "execution",
     }
 }
@@ -51,6 +52,11 @@ pub(super) fn parts_of(folder: &Path, table: &str) -> Vec<PathBuf> {
         parts.push(single);
     }
     parts
+}
+
+/// The number of a part by its file's name; `None` of a table in a single file.
+pub(super) fn part_number(path: &Path) -> Option<usize> {
+    path.file_stem()?.to_str()?.strip_prefix("part-")?.parse().ok()
 }
 
 /// The one of `parts`, whose cases rise, that `case` would be in, by what `cases` says of each.

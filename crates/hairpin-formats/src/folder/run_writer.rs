@@ -47,6 +47,11 @@ impl Landed {
         Ok(Self { facts: RunFacts::of(run), motion: runs::piece(run, marked)? })
     }
 
+    /// `run` under the number `kept`, without its motion.
+    pub fn bare(run: &Run, kept: usize) -> Self {
+        Self { facts: RunFacts { run: kept, recorded: false, ..RunFacts::of(run) }, motion: None }
+    }
+
     /// One that has landed before.
     pub(super) fn known(facts: RunFacts, motion: Option<Piece>) -> Self {
         Self { facts, motion }

@@ -56,7 +56,10 @@ impl CampaignFolder {
     }
 
     /// The same of the runs of `case` that were flown again, by the number of the time.
-    pub(super) fn rerun_facts_of(&self, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
+    ///
+    /// # Errors
+    /// A file is broken.
+    pub fn rerun_facts_of(&self, case: CaseNumber) -> Result<Vec<RunFacts>, FolderError> {
         self.facts_in(RERUN_FACTS, case)
     }
 
@@ -102,23 +105,26 @@ impl CampaignFolder {
         }
     }
 
-    /// The runs of `case` with what was measured of them, and without their motion where it was; the others as
-    /// [`Self::read_runs`] has them.
+    /// The runs of `case` with what was measured of them and without their motion; `None` where one of them was not
+    /// measured.
     ///
     /// # Errors
-    /// As [`Self::read_runs`].
-    pub fn read_measured(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
+    /// A file is broken.
+    pub fn read_measured(&self, case: CaseNumber) -> Result<Option<Vec<Run>>, FolderError> {
         let known = self.facts_in(RUNS, case)?;
         let in_files = self.run_path(case, 0).exists() || self.run_path(case, known.len()).exists();
-        if known.is_empty() || in_files || !known.iter().all(RunFacts::is_measured) {
-            return self.read_runs(case);
-        }
-        known.into_iter().map(|facts| self.without_track(facts)).collect()
+        if in_files { Ok(None) } else { self.measured(known) }
     }
 
-    fn without_track(&self, facts: RunFacts) -> Result<Run, FolderError> {
-        let (case, run) = (facts.case, facts.run);
-        facts.without_track().ok_or_else(|| self.contradiction(case, run, "ended for an unknown reason"))
+    fn measured(&self, known: Vec<RunFacts>) -> Result<Option<Vec<Run>>, FolderError> {
+        if known.is_empty() || !known.iter().all(RunFacts::is_measured) {
+            return Ok(None);
+        }
+        let without_track = |facts: RunFacts| {
+            let (case, run) = (facts.case, facts.run);
+            facts.without_track().ok_or_else(|| self.contradiction(case, run, "ended for an unknown reason"))
+        };
+        known.into_iter().map(without_track).collect::<Result<_, _>>().map(Some)
     }
 
     /// Reads one run, its motion sampled as it was flown; `None` where it was not executed.
@@ -138,9 +144,12 @@ impl CampaignFolder {
     /// The run that is known by `facts`, with its motion in `table`.
     fn with_motion(&self, table: &str, facts: RunFacts) -> Result<Run, FolderError> {
         let (case, run) = (facts.case, facts.run);
+        if !facts.is_kept() {
+            return Err(self.contradiction(case, run, "has a run whose motion was not kept (`execute.record`)"));
+        }
         let track = match (facts.message.is_none(), self.part_with(table, case)?) {
             (false, _) => Track::default(),
-            (true, None) if facts.end_s.is_none() && facts.recorded => Track::default(),
+            (true, None) if facts.end_s.is_none() => Track::default(),
             (true, None) => return Err(self.missing(case, run)),
             (true, Some(part)) => match part.table((case, run))? {
                 Some(rows) => {
@@ -189,12 +198,17 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// A file is broken.
-    pub fn read_measured_reruns(&self, case: CaseNumber) -> Result<Vec<Run>, FolderError> {
-        let known = self.facts_in(RERUN_FACTS, case)?;
-        if known.is_empty() || !known.iter().all(RunFacts::is_measured) {
-            return self.read_reruns(case);
-        }
-        known.into_iter().map(|facts| self.without_track(facts)).collect()
+    pub fn read_measured_reruns(&self, case: CaseNumber) -> Result<Option<Vec<Run>>, FolderError> {
+        self.measured(self.facts_in(RERUN_FACTS, case)?)
+    }
+
+    /// One of them with its motion; `None` where it was not flown again so often.
+    ///
+    /// # Errors
+    /// As [`Self::read_run`].
+    pub fn read_rerun(&self, case: CaseNumber, again: usize) -> Result<Option<Run>, FolderError> {
+        let known = self.facts_in(RERUN_FACTS, case)?.into_iter().find(|facts| facts.run == again);
+        known.map(|facts| self.with_motion(RERUNS, facts)).transpose()
     }
 
     /// Reads the runs of `case` that were flown again, in their order.

@@ -10,6 +10,7 @@ pub(crate) mod part;
 pub mod part_writer;
 pub mod piece;
 pub mod profile;
+pub(crate) mod program;
 pub mod results;
 pub mod runs;
 pub(crate) mod table;

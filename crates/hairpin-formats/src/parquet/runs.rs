@@ -64,8 +64,25 @@ impl RunFacts {
         self.recorded && self.end_s.is_some()
     }
 
+    /// Whether nothing of it was left out: its rows stand there, or there was no motion.
+    pub fn is_kept(&self) -> bool {
+        self.recorded || self.message.is_some()
+    }
+
+    /// Whether it is about `run` as it was carried out, to the bit.
+    pub fn is_of(&self, run: &Run) -> bool {
+        let now = Self::of(run);
+        let how = |facts: &Self| (facts.ended.clone(), facts.message.clone(), facts.end_leg, facts.left_leg);
+        let when = |facts: &Self| {
+            let bits = |time: Option<f64>| time.map(f64::to_bits);
+            let reached: Vec<Option<u64>> = facts.reached_s.iter().copied().map(bits).collect();
+            (bits(facts.end_s), bits(facts.left_world_s), reached)
+        };
+        (how(self), when(self)) == (how(&now), when(&now))
+    }
+
     /// Whether it can be judged without its motion: it was measured, or there was none.
-    pub(crate) fn is_measured(&self) -> bool {
+    pub fn is_measured(&self) -> bool {
         self.full_rate.is_some() || self.message.is_some()
     }
 

@@ -21,6 +21,7 @@ use super::piece::Piece;
 use super::table::{CASE, Columns, RUN, Table, TableError};
 
 const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
+const LEG: &str = "leg";
 /// Channels that stand right after the pose, whatever the track's order.
 const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 /// A quaternion rewritten in single precision is off by 1e-7; one that is off by more than this is another thing.
@@ -76,6 +77,18 @@ fn step_of(values: &[f64]) -> f64 {
     if most.is_normal() && most > 0.0 { f64::from_bits(most.to_bits() & (0x7ff << 52)) } else { 0.0 }
 }
 
+/// The channels of `track` as they stand in files: the leg, the velocity, then the others in their order.
+pub(crate) fn in_order(track: &Track) -> Vec<&Channel> {
+    let place = |channel: &&Channel| match channel.name.as_str() {
+        LEG => 0,
+        name if VELOCITY.contains(&name) => 1,
+        _ => 2,
+    };
+    let mut channels: Vec<&Channel> = track.channels().iter().collect();
+    channels.sort_by_key(place);
+    channels
+}
+
 /// Reads a track: every further column of numbers becomes a channel.
 ///
 /// # Errors
@@ -92,15 +105,13 @@ pub(super) fn columns((case, run): (CaseNumber, Option<usize>), track: &Track) -
         columns.push(RUN, Arc::new(Int64Array::from(vec![run as i64; track.len()])));
     }
     columns.push("t_s", number_column(track.times().iter().copied()));
-    if let Some(legs) = track.channel("leg") {
-        columns.push("leg", leg_column(legs));
+    if let Some(legs) = track.channel(LEG) {
+        columns.push(LEG, leg_column(legs));
     }
     for (i, name) in POSE.into_iter().enumerate() {
         columns.push(name, number_column(track.poses().iter().map(|pose| pose_value(pose, i))));
     }
-    let (velocity, others): (Vec<_>, Vec<_>) =
-        track.channels().iter().filter(|c| c.name != "leg").partition(|c| VELOCITY.contains(&c.name.as_str()));
-    for channel in velocity.into_iter().chain(others) {
+    for channel in in_order(track).into_iter().filter(|channel| channel.name != LEG) {
         columns.push(channel.name.clone(), number_column(channel.values.iter().copied()));
     }
     columns

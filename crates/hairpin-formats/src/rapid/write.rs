@@ -1,14 +1,12 @@
 //! A program as a module that RobotStudio and controllers load: ASCII, CR LF, every name checked.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use hairpin::trajectory::program::{JointTarget, Motion, Move, PoseTarget, Program, ProgramError, Speed, Zone};
 use thiserror::Error;
 
 use super::names::{LONGEST_NAME, NameError, check_name};
 use super::text;
-use crate::atomic::{self, WriteError};
 use crate::banner::{comments, plain};
 
 /// The speed of the first run.
@@ -85,14 +83,6 @@ pub fn program_file(module_file: &str) -> String {
         "",
     ];
     lines.join("\r\n")
-}
-
-/// Writes a text of this room.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write(path: &Path, text: &str) -> Result<(), WriteError> {
-    atomic::write(path, text.as_bytes())
 }
 
 /// A module in the making.

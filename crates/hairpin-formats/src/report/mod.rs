@@ -17,7 +17,7 @@ mod worst;
 use std::path::Path;
 
 use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
-use hairpin::campaign::{Baseline, CaseNumber, Setup, Tally};
+use hairpin::campaign::{Baseline, Case, CaseNumber, Run, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
 
@@ -46,17 +46,24 @@ pub enum ReportError {
         /// What the judge says.
         cause: JudgementError,
     },
+    /// A run cannot be had.
+    #[error("{0}")]
+    Run(String),
 }
 
-/// Gathers a report from a judged campaign folder.
+/// Gives a run of a case, `None` where it was not executed or is not to be had any more, or says why it cannot be read.
+pub type Runs<'a> = dyn Fn(&Case, usize) -> Result<Option<Run>, String> + 'a;
+
+/// Gathers a report from a judged campaign folder; `run` gives those that are shown.
 ///
 /// # Errors
-/// Files that are missing or broken.
+/// Files that are missing or broken; as `run`, in words.
 pub fn from_folder(
     folder: &CampaignFolder,
     setup: &Setup,
     verdict: Verdict,
     assumptions: Vec<String>,
+    run: &Runs,
 ) -> Result<ReportData, ReportError> {
     let cases = folder.read_cases_without_profiles()?;
     let results = folder.read_results()?;
@@ -66,7 +73,7 @@ pub fn from_folder(
     for result in worst_first(&results).into_iter().take(SHOWN) {
         let Some(case) = cases.iter().find(|case| case.number == result.case) else { continue };
         let planned = folder.read_planned(case.number)?;
-        let run = folder.read_run(case.number, result.run)?;
+        let run = run(case, result.run).map_err(ReportError::Run)?;
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
         in_full.push(shown(setup, case, result, planned, run.as_ref()).map_err(flight)?);
     }

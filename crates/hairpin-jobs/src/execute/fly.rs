@@ -1,112 +1,31 @@
-//! Every case flown as often as the scenario asks for, each flight written as soon as it has landed.
+//! Runs carried out by whoever executes, each written as soon as it has landed.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::{
-    self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
-};
-use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin::campaign::{Case, Run, Setup, at_full_rate, execute_run, mission};
 use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
-use super::recorded;
-use super::to_judge::runs_to_judge;
+use super::job::Job;
 use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
 use crate::{Deadline, Problem, Watch};
 
-/// What the runs of a campaign are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Flown {
-    /// All runs.
-    pub runs: usize,
-    /// Of these, runs that the executor failed to fly.
-    pub failed: usize,
-    /// Of these, runs of which the executor sent no attitudes.
-    pub attitude_unknown: usize,
+/// Where runs land.
+pub(super) struct Landing<'f, 'k> {
+    /// How many there are once all have landed.
+    pub(super) of: usize,
+    pub(super) writer: RunWriter<'f>,
+    /// Whether the motion of one, with what was measured of it, is kept.
+    pub(super) keeps: &'k (dyn Fn(&Run) -> bool + Sync),
 }
 
-/// What is flown: run number `run` of a case or, where it violated, that run for the time number `again`.
-#[derive(Debug, Clone, Copy)]
-struct Job<'a> {
-    case: &'a Case,
-    run: usize,
-    again: Option<usize>,
-}
-
-impl Job<'_> {
-    fn mission(&self, setup: &Setup) -> Result<Mission, Mistake> {
-        match self.again {
-            None => mission(setup, self.case, self.run),
-            Some(again) => mission_again(setup, self.case, self.run, again),
-        }
-    }
-
-    fn simulate(&self, setup: &Setup) -> Run {
-        match self.again {
-            None => execute_run(setup, self.case, self.run),
-            Some(again) => execute_again(setup, self.case, self.run, again),
-        }
-    }
-}
-
-/// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
-pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<Flown, Problem> {
-    let repeat = work.setup.scenario.executor().repeat as usize;
-    if let (Some(arm), Some(pattern)) = (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
-        recorded::take_in(work, arm, pattern, cases)?;
-        return count(work, cases, repeat);
-    }
-    let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));
-    let missing: Vec<Job> = all()
-        .filter(|(case, run)| !work.folder.has_valid_run(case.number, *run))
-        .map(|(case, run)| Job { case, run, again: None })
-        .collect();
-    let writer = work.folder.write_runs(repeat, all().map(|(case, run)| (case.number, run)));
-    fly(work, &missing, (all().count(), writer), watch)?;
-    let flown = count(work, cases, repeat)?;
-    fly_again(work, cases, watch)?;
-    if flown.attitude_unknown > 0 {
-        watch.warn(&format!(
-            "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
-            flown.attitude_unknown
-        ));
-    }
-    Ok(flown)
-}
-
-/// Flies the worst run of every violating case as often again as the scenario asks for, where it was not yet.
-fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Problem> {
-    let wanted = work.setup.scenario.executor().reruns as usize;
-    if wanted == 0 {
-        return Ok(());
-    }
-    // A case, its worst run, and how many of that are there.
-    let violating: Result<Vec<_>, Problem> = cases
-        .par_iter()
-        .map(|case: &Case| {
-            let result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
-            let is_violation = result.status == Status::Fail;
-            let known = if is_violation { work.folder.read_measured_reruns(case.number)?.len() } else { 0 };
-            Ok(is_violation.then_some((case, result.run, known)))
-        })
-        .collect();
-    let violating: Vec<(&Case, usize, usize)> = violating?.into_iter().flatten().collect();
-    let all = violating.iter().flat_map(|(case, ..)| (0..wanted).map(|again| (case.number, again)));
-    let writer = work.folder.write_reruns(wanted, all);
-    let jobs = violating
-        .iter()
-        .flat_map(|(case, run, known)| (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) }));
-    let jobs: Vec<Job> = jobs.collect();
-    fly(work, &jobs, (jobs.len(), writer), watch)
-}
-
-/// Flies `missing`, the rest of `of` runs.
-fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &dyn Watch) -> Result<(), Problem> {
+/// Flies `missing`, the rest of those that land there.
+pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watch) -> Result<(), Problem> {
+    let Landing { of, writer, keeps } = there;
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, mut run: Run| {
@@ -115,6 +34,7 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
         run.full_rate = full_rate.map(Box::new);
         let marked = marked.unwrap_or_default();
         let packed = match job.again {
+            again if !keeps(&run) => Ok(Landed::bare(&run, again.unwrap_or(job.run))),
             None => Landed::of(&run, &marked),
             Some(again) => Landed::again(&run, again, &marked),
         };
@@ -153,24 +73,6 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
-}
-
-/// What the runs of `cases` came to.
-fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
-    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0 };
-    for case in cases {
-        for facts in work.folder.facts_of(case.number)?.iter().filter(|facts| facts.run < repeat) {
-            flown.runs += 1;
-            flown.failed += usize::from(facts.message.is_some());
-            flown.attitude_unknown += usize::from(facts.attitude_unknown);
-        }
-    }
-    Ok(flown)
-}
-
-/// Whether the executor flew and sent no attitudes.
-pub(crate) fn attitude_unknown(run: &Run) -> bool {
-    run.outcome.as_ref().is_ok_and(|flight| flight.track.channel(ATTITUDE_UNKNOWN).is_some())
 }
 
 fn fly_with(

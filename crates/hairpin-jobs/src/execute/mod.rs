@@ -3,8 +3,12 @@
 mod by_case;
 mod fly;
 mod in_loop;
+mod job;
+mod kept;
+mod missing;
 mod recorded;
 mod to_judge;
+mod worst;
 
 use std::path::{Path, PathBuf};
 
@@ -22,10 +26,15 @@ use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 pub(crate) use by_case::fly_by_case;
-pub use fly::{Flown, fly_each};
-pub(crate) use fly::{attitude_unknown, fly_missing, fly_one, fly_together};
+pub use fly::fly_each;
+pub(crate) use fly::{fly_one, fly_together};
 pub(crate) use in_loop::{Asked, in_the_loop};
-pub(crate) use to_judge::{ToJudge, reruns_to_judge, runs_to_judge};
+pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
+pub use missing::Flown;
+pub(crate) use missing::{attitude_unknown, fly_missing};
+pub(crate) use recorded::check_recordings;
+pub(crate) use to_judge::{ToJudge, measured_runs, reruns_to_judge, runs_to_judge};
+pub(crate) use worst::WORST;
 
 /// What is executed, and how.
 #[derive(Debug, Clone, Default)]
@@ -89,7 +98,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.
     let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
-    recorded::check(&work, kept.as_deref().unwrap_or_default())?;
+    check_recordings(&work, kept.as_deref().unwrap_or_default())?;
     if !sets.is_empty() {
         keep_changes(&work)?;
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();

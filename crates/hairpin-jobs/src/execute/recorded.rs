@@ -1,6 +1,6 @@
 //! Where an arm ran elsewhere, its logs become the campaign's runs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 
 use hairpin::campaign::arm::ArmSetup;
@@ -19,40 +19,44 @@ const LISTED: usize = 10;
 ///
 /// # Errors
 /// Those that are missing, too many, or cannot be used.
-pub(super) fn check(work: &Work, cases: &[Case]) -> Result<(), Problem> {
+pub(crate) fn check_recordings(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     match (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
-        (Some(arm), Some(pattern)) => read(work, arm, pattern, cases).map(drop),
+        (Some(arm), Some(pattern)) => read(work, (arm, pattern), cases, &|_| Ok(())),
         _ => Ok(()),
     }
 }
 
-/// Reads the logs that `pattern` names and writes them as runs: all of them, or none where one cannot be used.
+/// Reads the logs that `pattern` names and writes them as runs.
 pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<(), Problem> {
-    let runs = read(work, arm, pattern, cases)?;
     let repeat = work.setup.scenario.executor().repeat as usize;
-    let writer = work.folder.write_runs(repeat, runs.iter().map(|run| (run.case, run.run)));
-    for run in &runs {
-        let landed = Landed::of(run, &BTreeSet::new());
-        writer.land(landed.map_err(|cause| writer.no_room(cause))?)?;
-    }
+    let all = cases.iter().flat_map(|case| (0..repeat).map(move |run| (case.number, run)));
+    let writer = work.folder.write_runs(repeat, all);
+    read(work, (arm, pattern), cases, &|run| {
+        let landed = Landed::of(&run, &BTreeSet::new());
+        Ok(writer.land(landed.map_err(|cause| writer.no_room(cause))?)?)
+    })?;
     Ok(writer.finish()?)
 }
 
-fn read(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<Vec<Run>, Problem> {
+/// Reads them one by one on all threads, and hands each on.
+fn read(
+    work: &Work,
+    (arm, pattern): (&ArmSetup, &str),
+    cases: &[Case],
+    landed: &(dyn Fn(Run) -> Result<(), Problem> + Sync),
+) -> Result<(), Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
-    let jobs: Vec<((CaseNumber, usize), PathBuf)> = files.into_iter().collect();
-    let read = |((number, run), path): &((CaseNumber, usize), PathBuf)| {
-        let case = cases.iter().find(|case| case.number == *number);
-        case.map(|case| recordings::read(path, arm, case, *run))
+    let by_number: HashMap<CaseNumber, &Case> = cases.iter().map(|case| (case.number, case)).collect();
+    let read = |((number, run), path): (&(CaseNumber, usize), &PathBuf)| {
+        let case = by_number.get(number)?;
+        match recordings::read(path, arm, case, *run) {
+            Ok(run) => landed(run).err().map(Err),
+            Err(wrong) => Some(Ok(wrong)),
+        }
     };
-    let read: Vec<Result<Run, RecordingError>> = jobs.par_iter().filter_map(read).collect();
-    let (runs, wrong): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
-    let wrong: Vec<RecordingError> = wrong.into_iter().filter_map(Result::err).collect();
-    if !wrong.is_empty() {
-        return Err(refuse(&wrong));
-    }
-    Ok(runs.into_iter().flatten().collect())
+    let wrong = files.par_iter().filter_map(read).collect::<Result<Vec<RecordingError>, Problem>>()?;
+    if wrong.is_empty() { Ok(()) } else { Err(refuse(&wrong)) }
 }
 
 fn refuse(wrong: &[RecordingError]) -> Problem {

@@ -3,6 +3,7 @@
 use hairpin::campaign::judge::is_at_full_rate;
 use hairpin::campaign::{Case, Run};
 
+use super::kept::{reruns_with_motion, runs_with_motion};
 use crate::Problem;
 use crate::work::Work;
 
@@ -16,17 +17,26 @@ pub(crate) struct ToJudge {
 
 /// The runs of `case` with what was measured of them; with their motion where that is asked for otherwise.
 pub(crate) fn runs_to_judge(work: &Work, case: &Case) -> Result<ToJudge, Problem> {
-    let runs = work.folder.read_measured(case.number)?;
-    match are_measured(work, case, &runs)? {
-        true => Ok(ToJudge { runs, from_rows: false }),
-        false => Ok(ToJudge { runs: work.folder.read_runs(case.number)?, from_rows: true }),
+    if let Some(runs) = work.folder.read_measured(case.number)?
+        && are_measured(work, case, &runs)?
+    {
+        return Ok(ToJudge { runs, from_rows: false });
     }
+    let runs = runs_with_motion(work, case)?;
+    Ok(ToJudge { from_rows: !are_measured(work, case, &runs)?, runs })
 }
 
-/// The same of those that were flown again.
+/// The runs of `case` with what was measured of them when they were flown; with their motion where nothing was.
+pub(crate) fn measured_runs(work: &Work, case: &Case) -> Result<Vec<Run>, Problem> {
+    work.folder.read_measured(case.number)?.map_or_else(|| runs_with_motion(work, case), Ok)
+}
+
+/// As [`runs_to_judge`] those that were flown again.
 pub(crate) fn reruns_to_judge(work: &Work, case: &Case) -> Result<Vec<Run>, Problem> {
-    let runs = work.folder.read_measured_reruns(case.number)?;
-    if are_measured(work, case, &runs)? { Ok(runs) } else { Ok(work.folder.read_reruns(case.number)?) }
+    match work.folder.read_measured_reruns(case.number)? {
+        Some(runs) if are_measured(work, case, &runs)? => Ok(runs),
+        _ => reruns_with_motion(work, case),
+    }
 }
 
 /// Whether what was measured of `runs`, where it was, is what the scenario asks for.

@@ -13,6 +13,7 @@ use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
 use nalgebra::Isometry3;
 
 use crate::Problem;
+use crate::execute::{run_with_motion, runs_with_motion};
 use crate::work::{Work, open_to_read};
 
 pub use programs::Language;
@@ -122,7 +123,7 @@ fn write_csv(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     };
     for case in cases {
         write(folder.planned_csv_path(case.number), &folder.read_planned(case.number)?, !is_planned(case))?;
-        for run in folder.read_runs(case.number)? {
+        for run in runs_with_motion(work, case)? {
             if let Ok(flight) = &run.outcome {
                 write(folder.run_csv_path(case.number, run.run), &flight.track, is_level(&flight.track))?;
             }
@@ -140,7 +141,7 @@ fn write_tum(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     for case in cases {
         let mut miss = |why: &str| written.missing.push(format!("case {} has no .tum: {why}", case.id()));
         let worst = results.iter().find(|result| result.case == case.number).map_or(0, |result| result.run);
-        let Some(run) = folder.read_run(case.number, worst)? else {
+        let Some(run) = run_with_motion(work, case, worst)? else {
             miss("it has not been flown");
             continue;
         };

@@ -20,14 +20,11 @@ use rayon::prelude::*;
 use crate::Problem;
 use crate::baseline::read_baseline;
 use crate::differences::differences;
-use crate::execute::{ToJudge, attitude_unknown, reruns_to_judge, runs_to_judge};
+use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
 use suite::suite;
-
-/// Violating cases that get a `repro/CASE.json`, the worst ones; of every other `hairpin replay OUT --case` makes one.
-const REPROS: usize = 10;
 
 /// What judging came to.
 #[derive(Debug)]
@@ -223,7 +220,8 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
         }
     }
     let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
-    for result in violating.take(REPROS) {
+    // Of every other `hairpin replay OUT --case` makes one.
+    for result in violating.take(WORST) {
         atomic::make_folder(&folder)?;
         if let Some(case) = cases.iter().find(|case| case.number == result.case) {
             Repro::of(&work.setup, case, result).write(&folder.join(format!("{}.json", case.id())))?;

@@ -167,6 +167,9 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
         let both = "left out where there are logs: runs come from one of the two";
         found.require(execute.controller.is_none(), "execute.controller", "\"virtual\"", both);
         found.require(execute.faults.is_none(), "execute.faults", "given", both);
+        let kept = "\"all\" where there are logs: a recording cannot be made again";
+        let word = format!("\"{}\"", execute.record.word());
+        found.require(execute.record.is_all(), "execute.record", word, kept);
     }
     let bound = "left out: the virtual controller's clock is the program's";
     let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;

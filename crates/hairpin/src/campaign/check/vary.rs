@@ -21,6 +21,7 @@ const FIXED: &[(&str, &str)] = &[
     ("spec.regression", "it judges all cases together"),
     ("execute.repeat", "it is the number of runs"),
     ("execute.baseline", "it is the number of cases to compare with"),
+    ("execute.record", "it belongs to the whole campaign"),
     ("execute.timeout_s", "one program flies all runs"),
     ("execute.processes", "one program flies all runs"),
     ("execute.workers", "one program flies all runs"),

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::{
-    Asked, Distribution, Environment, Mistake, Named, Origin, Projected, SearchMethod, SearchSection, Subject, Terms,
+    Asked, Distribution, Environment, Mistake, Named, Origin, Projected, Record, SearchMethod, SearchSection, Subject,
+    Terms,
 };
 use crate::trajectory::program::{Tool, WorkObject};
 
@@ -27,6 +28,8 @@ pub struct Executor<'a> {
     pub accept: f64,
     /// Further runs of every violation, with other noise.
     pub reruns: u64,
+    /// Of which runs the motion is kept.
+    pub record: Record,
     /// Random feasible cases that are flown beside those of the campaign.
     pub baseline: u64,
     /// When a run is given up.

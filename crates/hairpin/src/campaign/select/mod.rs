@@ -145,7 +145,9 @@ impl<'a> Choice<'a> {
     /// Of places as [`Self::best`] gives them, which met so many `cells`; O(k²) comparisons for k of them.
     pub fn measure(&self, chosen: &[usize], cells: usize) -> Measured {
         let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
-        let (spread, nearest) = self.crowd.some(chosen).spread();
+        // All of them are not gathered anew: that would take as much memory again.
+        let are_all = chosen.iter().copied().eq(0..self.candidates.len());
+        let (spread, nearest) = if are_all { self.crowd.spread() } else { self.crowd.some(chosen).spread() };
         Measured {
             cases: chosen.len(),
             stress: if chosen.is_empty() { 0.0 } else { stress().sum::<f64>() / chosen.len() as f64 },

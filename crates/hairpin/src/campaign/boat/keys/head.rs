@@ -34,6 +34,7 @@ impl Keys for BoatScenario {
                 accept: *accept_m,
                 baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
+                record: self.execute.record,
                 patience: Patience { given: *time_limit_s, per_waypoint: 0.0, of_plan: SLOWNESS, spare: SPARE_SECONDS },
             },
             controller: self.execute.controller_word(),

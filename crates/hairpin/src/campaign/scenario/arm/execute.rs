@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::FlakySection;
+use crate::campaign::scenario::{FlakySection, Record};
 
 /// `[execute]`: our virtual controller, or logs of a real one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +36,9 @@ pub struct ArmExecute {
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
+    /// all | worst | none: of which runs the motion is kept, beside what was measured of all.
+    #[serde(skip_serializing_if = "Record::is_all")]
+    pub record: Record,
 }
 
 impl Default for ArmExecute {
@@ -51,6 +54,7 @@ impl Default for ArmExecute {
             faults: FaultSection::default(),
             baseline: None,
             flaky: None,
+            record: Record::All,
         }
     }
 }

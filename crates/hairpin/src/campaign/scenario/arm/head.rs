@@ -44,6 +44,7 @@ impl Keys for ArmScenario {
                 accept: ARRIVED,
                 baseline: execute.baseline.unwrap_or(BASELINE),
                 reruns: execute.flaky.map_or(0, |flaky| flaky.reruns),
+                record: execute.record,
                 // The virtual controller's runs end with their program.
                 patience: Patience { given: None, per_waypoint: f64::INFINITY, of_plan: 0.0, spare: 0.0 },
             },

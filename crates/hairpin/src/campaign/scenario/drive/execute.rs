@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Steering, UserSteering};
+use crate::campaign::scenario::{FlakySection, Record, Steering, UserSteering};
 use crate::simulation::ground::GroundControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -50,6 +50,9 @@ pub struct DriveExecute {
     /// Every violation is run again so often with other noise: how often does it come again?
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flaky: Option<FlakySection>,
+    /// all | worst | none: of which runs the motion is kept, beside what was measured of all.
+    #[serde(skip_serializing_if = "Record::is_all")]
+    pub record: Record,
 }
 
 impl Default for DriveExecute {
@@ -69,6 +72,7 @@ impl Default for DriveExecute {
             workers: None,
             baseline: None,
             flaky: None,
+            record: Record::All,
         }
     }
 }

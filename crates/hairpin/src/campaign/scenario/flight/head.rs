@@ -33,6 +33,7 @@ impl Keys for FlightScenario {
                 accept: *accept_m,
                 baseline: baseline.unwrap_or(BASELINE),
                 reruns: flaky.map_or(0, |flaky| flaky.reruns),
+                record: self.execute.record,
                 patience: Patience {
                     given: *time_limit_s,
                     per_waypoint: SECONDS_PER_WAYPOINT,
