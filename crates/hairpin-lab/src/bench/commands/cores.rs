@@ -1,0 +1,46 @@
+//! Two cores beside one: the same commands with one thread and with two, by the clock on the wall.
+
+use super::campaigns::{BEAM, CAMPAIGN, QUADROTOR, flown};
+use super::line::Line;
+use super::row::{Figure, Row};
+
+pub(super) fn rows() -> Vec<Row> {
+    let plans = Line::new("hairpin generate campaign.toml --set generate.search.cases=20000 --out plans --json");
+    let proofs = Line::new("hairpin generate quadrotor.toml --set generate.search.cases=1000 --out proofs --json");
+    vec![
+        Row {
+            lines: both("generate beam.toml --set generate.search.cases=8000 --out beam", Some("beam")),
+            ..twice("generate").reading([BEAM])
+        },
+        Row { lines: both("execute plans", None), ..twice("execute").reading([CAMPAIGN]).after(plans.making("plans")) },
+        Row {
+            lines: both("judge flown-20000 --set spec.deviation.from=nearest-leg", None),
+            ..twice("judge").reading([CAMPAIGN]).after(flown(20_000, "flown-20000"))
+        },
+        Row {
+            lines: both("verify proofs", None),
+            ..twice("verify").reading([QUADROTOR]).after(proofs.making("proofs"))
+        },
+        Row {
+            lines: both(
+                "steer generic --queries anywhere-100000.csv --reversals --out answers.csv",
+                Some("answers.csv"),
+            ),
+            ..twice("steer").reading(["anywhere-100000.csv"]).long()
+        },
+    ]
+}
+
+/// One thread, then two.
+fn both(typed: &str, makes: Option<&'static str>) -> Vec<Line> {
+    let line = |threads| Line { makes, ..Line::new(format!("hairpin {typed} --threads {threads} --json")) };
+    [1, 2].map(line).to_vec()
+}
+
+fn twice(verb: &str) -> Row {
+    let row = Row::new(format!("twice-{verb}"), format!("{verb} on two cores"), Vec::new(), |seen| {
+        let [one, two] = [0, 1].map(|line| seen.lines[line].wall_s);
+        Ok(vec![Figure::new("as fast as on one", "×", one / two).at_least(1.85)])
+    });
+    Row { cores: 2, ..row }
+}
