@@ -1,21 +1,23 @@
-//! Two cores beside one: the same commands with one thread and with two, by the clock on the wall.
+//! Two cores beside one: the same commands with one thread and with two, by the clock on the wall. Each takes five seconds
+//! or more with one.
 
 use super::campaigns::{BEAM, CAMPAIGN, QUADROTOR, flown};
 use super::line::Line;
 use super::row::{Figure, Row};
 
 pub(super) fn rows() -> Vec<Row> {
-    let plans = Line::new("hairpin generate campaign.toml --set generate.search.cases=20000 --out plans --json");
-    let proofs = Line::new("hairpin generate quadrotor.toml --set generate.search.cases=1000 --out proofs --json");
+    let plans = Line::new("hairpin generate campaign.toml --set generate.search.cases=4000 --out plans --json");
+    let proofs = Line::new("hairpin generate quadrotor.toml --set generate.search.cases=500 --out proofs --json");
     vec![
         Row {
-            lines: both("generate beam.toml --set generate.search.cases=8000 --out beam", Some("beam")),
+            lines: both("generate beam.toml --set generate.search.cases=10000 --out beam", Some("beam")),
             ..twice("generate").reading([BEAM])
         },
         Row { lines: both("execute plans", None), ..twice("execute").reading([CAMPAIGN]).after(plans.making("plans")) },
         Row {
-            lines: both("judge flown-20000 --set spec.deviation.from=nearest-leg", None),
-            ..twice("judge").reading([CAMPAIGN]).after(flown(20_000, "flown-20000"))
+            // From another reference than it was flown with: what was measured then is no answer, and rows are read.
+            lines: both("judge flown-4000 --set spec.deviation.from=nearest-leg", None),
+            ..twice("judge").reading([CAMPAIGN]).after(flown(4000, "flown-4000"))
         },
         Row {
             lines: both("verify proofs", None),

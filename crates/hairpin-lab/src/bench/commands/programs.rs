@@ -30,7 +30,8 @@ fn dense(points: usize) -> Row {
     let about = format!("{points} points, three arcs of four, 3 s");
     Row::new(format!("max-load-{points}"), about, lines, |seen| {
         let gap = Figure::new("gap", "%", seen.told("/gap_percent").unwrap_or(f64::NAN));
-        Ok(vec![Figure::new("time", "s", seen.lines[0].cpu_s).at_most(3.5), gap])
+        // The limit is one on the wall, and so is what is waited for.
+        Ok(vec![Figure::new("time on the wall", "s", seen.lines[0].wall_s).at_most(3.5), gap])
     })
     .reading([costs.as_str()])
 }
