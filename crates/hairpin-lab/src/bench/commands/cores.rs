@@ -15,8 +15,7 @@ pub(super) fn rows() -> Vec<Row> {
         },
         Row { lines: both("execute plans", None), ..twice("execute").reading([CAMPAIGN]).after(plans.making("plans")) },
         Row {
-            // From another reference than it was flown with: what was measured then is no answer, and rows are read.
-            lines: both("judge flown-4000 --set spec.deviation.from=nearest-leg", None),
+            lines: [1, 2].into_iter().flat_map(judged).collect(),
             ..twice("judge").reading([CAMPAIGN]).after(flown(4000, "flown-4000"))
         },
         Row {
@@ -33,15 +32,26 @@ pub(super) fn rows() -> Vec<Row> {
     ]
 }
 
-/// One thread, then two.
-fn both(typed: &str, makes: Option<&'static str>) -> Vec<Line> {
-    let line = |threads| Line { makes, ..Line::new(format!("hairpin {typed} --threads {threads} --json")) };
-    [1, 2].map(line).to_vec()
+/// Each from another reference than the one before: what was measured then is no answer, and rows are read.
+fn judged(threads: u32) -> [Line; 2] {
+    ["nearest-leg", "leg"]
+        .map(|from| line(&format!("judge flown-4000 --set spec.deviation.from={from}"), None, threads))
 }
 
+/// One thread, then two.
+fn both(typed: &str, makes: Option<&'static str>) -> Vec<Line> {
+    [1, 2].map(|threads| line(typed, makes, threads)).to_vec()
+}
+
+fn line(typed: &str, makes: Option<&'static str>, threads: u32) -> Line {
+    Line { makes, ..Line::new(format!("hairpin {typed} --threads {threads} --json")) }
+}
+
+/// The first half of its lines has one thread, the second half the same with two.
 fn twice(verb: &str) -> Row {
     let row = Row::new(format!("twice-{verb}"), format!("{verb} on two cores"), Vec::new(), |seen| {
-        let [one, two] = [0, 1].map(|line| seen.lines[line].wall_s);
+        let (one, two) = seen.lines.split_at(seen.lines.len() / 2);
+        let [one, two] = [one, two].map(|lines| lines.iter().map(|line| line.wall_s).sum::<f64>());
         Ok(vec![Figure::new("as fast as on one", "×", one / two).at_least(1.85)])
     });
     Row { cores: 2, ..row }
