@@ -37,9 +37,9 @@ pub(crate) enum Whole {
     Commands(BenchCommands),
 }
 
-/// Each command runs as a process of its own, with inputs that are frozen in hairpin's repository: run it in a checkout.
-/// Its time is that on processors. Targets decide nothing: the exit code is 0 whatever was measured. For one core:
-/// taskset -c 0 hairpin bench commands.
+/// Each command runs as a process of its own, with inputs that are frozen in hairpin's repository: run it in a
+/// checkout. Its time is that on processors. Targets decide nothing: the exit code is 0 whatever was measured. For one
+/// core: taskset -c 0 hairpin bench commands.
 #[derive(Debug, Args)]
 pub(crate) struct BenchCommands {
     /// Only rows whose names begin so, such as steer select-1000; without any, all that take less than two minutes
@@ -54,7 +54,8 @@ pub(crate) struct BenchCommands {
     /// The frozen inputs
     #[arg(long, value_name = "DIR", default_value = "bench/commands")]
     pub(crate) inputs: PathBuf,
-    /// Where the folder is made, and removed, in which commands run; needs up to a gigabyte [default: the system's place]
+    /// Where the folder is made, and removed, in which commands run; needs up to a gigabyte [default: the system's
+    /// place]
     #[arg(long, value_name = "DIR")]
     pub(crate) scratch: Option<PathBuf>,
     /// One JSON object on stdout

@@ -1,5 +1,5 @@
-//! Two cores beside one: the same commands with one thread and with two, by the clock on the wall. Each takes five seconds
-//! or more with one.
+//! Two cores beside one: the same commands with one thread and with two, by the clock on the wall. Each takes five
+//! seconds or more with one.
 
 use super::campaigns::{BEAM, CAMPAIGN, QUADROTOR, flown};
 use super::line::Line;

@@ -125,8 +125,8 @@ fn numpy(side: usize, height: impl Fn(usize, usize) -> f32) -> Vec<u8> {
     bytes
 }
 
-/// A table of costs for `max-load --graph`: `proof-POINTS-INDEX.csv` and `dense-POINTS-INDEX.csv` of the published kind,
-/// `clusters-POINTS-INDEX.csv` of four clusters of 10 mm.
+/// A table of costs for `max-load --graph`: `proof-POINTS-INDEX.csv` and `dense-POINTS-INDEX.csv` of the published
+/// kind, `clusters-POINTS-INDEX.csv` of four clusters of 10 mm.
 fn costs(name: &str) -> Option<Result<Vec<u8>, Problem>> {
     let mut parts = name.strip_suffix(".csv")?.split('-');
     let (kind, points, index) = (parts.next()?, parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
