@@ -1,5 +1,6 @@
 //! What can be typed. No meaning here: that is in `commands`.
 
+mod bench;
 mod calibrate;
 mod commands;
 mod compare;
@@ -24,6 +25,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairpin_formats::template::KINDS;
 
+pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
@@ -105,7 +107,7 @@ pub(crate) enum Command {
     MaxLoad(Box<MaxLoad>),
     /// Make a table of start values for a vehicle, for steer --start-table
     StartTable(StartTable),
-    /// Measure what hairpin promises of its speed, on one core
+    /// Measure what hairpin promises of its speed, on one core; bench commands: whole commands beside their kernels
     Bench(Bench),
     /// Run an experiment of the papers, or one that they left open: table as CSV, figure as SVG
     Experiment(Experiment),
@@ -136,7 +138,7 @@ impl Command {
             Self::Select(a) => a.json,
             Self::Explain(a) => a.json,
             Self::Calibrate(a) => a.json,
-            Self::Bench(a) => a.json,
+            Self::Bench(a) => a.json(),
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
             Self::StartTable(a) => a.json,
@@ -200,29 +202,6 @@ pub(crate) struct Simulate {
     /// Override one key, such as robot.drag_quadratic_n_s2_m2=0; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct Bench {
-    /// Only those whose name begins so, such as beam; rover-worst is the table of the worst queries of the rover
-    /// generator
-    pub(crate) name: Option<String>,
-    /// Flat queries of each family of rover-worst; a hundredth of it on the ground
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
-    pub(crate) queries: u64,
-    /// Length of the campaign whose memory is measured
-    #[arg(long, value_name = "M", default_value_t = 0.2)]
-    pub(crate) minutes: f64,
-    /// Write the questions of the max-load benches as tables of costs into DIR instead, with DIR/questions.json, for
-    /// other solvers
-    #[arg(long, value_name = "DIR")]
-    pub(crate) write: Option<PathBuf>,
-    /// How many questions of each bench --write writes
-    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u64).range(1..=10_000), requires = "write")]
-    pub(crate) questions: u64,
-    /// One JSON object on stdout
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 /// What a schema can be of.

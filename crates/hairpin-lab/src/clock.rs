@@ -104,9 +104,35 @@ pub(crate) fn process_time() -> f64 {
     told.unwrap_or_else(|| ORIGIN.get_or_init(Instant::now).elapsed().as_secs_f64())
 }
 
+/// Seconds on processors of all processes that this one started, and theirs, that have ended; `None` where the system
+/// does not tell.
+#[cfg(unix)]
+pub(crate) fn children_time() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    use nix::sys::time::TimeValLike;
+    let usage = getrusage(UsageWho::RUSAGE_CHILDREN).ok()?;
+    Some((usage.user_time() + usage.system_time()).num_microseconds() as f64 * 1e-6)
+}
+
+/// Seconds on processors of all processes that this one started, and theirs, that have ended; `None` where the system
+/// does not tell.
+#[cfg(not(unix))]
+pub(crate) fn children_time() -> Option<f64> {
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn time_of_children_counts_when_they_end() {
+        let before = children_time().unwrap();
+        let work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
+        std::process::Command::new("sh").args(["-c", work]).status().unwrap();
+        assert!((0.01..20.0).contains(&(children_time().unwrap() - before)));
+    }
 
     #[test]
     fn work_takes_time_of_the_process() {

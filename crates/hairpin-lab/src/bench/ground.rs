@@ -41,10 +41,14 @@ pub(super) struct Yard {
 impl Yard {
     /// [`CRATERS`], and the ends of random curves on it, 1 to 6 m away.
     pub(super) fn new(goals: usize) -> Result<Self, Problem> {
-        let (rover, map) = (rover_for("rocky8")?, generate(&CRATERS).map_err(Problem::input)?);
-        let yard = Self { rover, map, goals: Vec::new() };
+        let yard = Self::with(Vec::new())?;
         let goals = ground_goals(&yard.site(), goals, &mut stream(3));
         Ok(Self { goals, ..yard })
+    }
+
+    /// The same ground with these goals.
+    pub(super) fn with(goals: Vec<(Planar, Planar)>) -> Result<Self, Problem> {
+        Ok(Self { rover: rover_for("rocky8")?, map: craters()?, goals })
     }
 
     fn site(&self) -> Site<'_> {
@@ -56,7 +60,7 @@ impl Yard {
     }
 
     /// Mean time of a goal, µs.
-    fn mean(&self) -> f64 {
+    pub(super) fn mean(&self) -> f64 {
         let all = median_time(3, || self.goals.iter().map(|goal| self.solve(goal).iterations).sum::<u32>());
         all / self.goals.len() as f64 * 1e6
     }
@@ -85,6 +89,11 @@ impl Yard {
         };
         self.goals.iter().filter(good).count() as f64 / self.goals.len() as f64 * 100.0
     }
+}
+
+/// The ground of all of these benches.
+pub(super) fn craters() -> Result<ElevationMap, Problem> {
+    generate(&CRATERS).map_err(Problem::input)
 }
 
 /// From a robot's file to its first drive, ms.

@@ -27,7 +27,7 @@ pub(super) fn rows() -> Vec<Row> {
 }
 
 /// Median time until the optimum is proven, ms.
-fn proven(count: u64, draw: impl Fn(u64) -> Result<Question, Problem>) -> Result<f64, Problem> {
+pub(super) fn proven(count: u64, draw: impl Fn(u64) -> Result<Question, Problem>) -> Result<f64, Problem> {
     let questions = questions(count, draw)?;
     let (mut times, mut all) = (Vec::new(), true);
     for Question { arcs, settings } in &questions {

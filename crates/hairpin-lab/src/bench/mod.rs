@@ -2,6 +2,7 @@
 
 mod arm;
 mod arm_controller;
+mod commands;
 mod controls;
 mod exact;
 mod flyer;
@@ -18,6 +19,7 @@ mod steer;
 mod witness;
 mod worst;
 
+pub use commands::{CommandsSettings, list_commands, measure_commands};
 pub use questions::write_questions;
 pub use row::BenchSettings;
 pub use speeds::measure;

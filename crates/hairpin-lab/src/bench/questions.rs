@@ -109,7 +109,12 @@ fn misses_points(arcs: &Arcs) -> Result<bool, Problem> {
 
 /// The first `count` questions of a family.
 pub(super) fn questions(count: u64, draw: impl Fn(u64) -> Result<Question, Problem>) -> Result<Vec<Question>, Problem> {
-    (0..count).map(|index| draw(named_seed(1, "bench points", index))).collect()
+    (0..count).map(|index| draw(nth_seed(index))).collect()
+}
+
+/// The seed of question `index` of a family.
+pub(super) fn nth_seed(index: u64) -> u64 {
+    named_seed(1, "bench points", index)
 }
 
 /// Writes `count` questions of each bench whose name begins with `name` into `folder`, as tables of costs, and
@@ -141,7 +146,7 @@ pub fn write_questions(name: Option<&str>, count: u64, folder: &Path) -> Result<
 }
 
 /// A table of costs as `max-load --graph` reads it.
-fn table(arcs: &Arcs) -> String {
+pub(super) fn table(arcs: &Arcs) -> String {
     let n = arcs.points();
     let cell = |from, to| arcs.cost(from, to).map_or(String::new(), |cost: i64| cost.to_string());
     let line =

@@ -79,13 +79,18 @@ fn drawn(seed: u64, count: usize, draw: impl Fn(&mut Stream) -> Query) -> Vec<Qu
 }
 
 /// Ends of random curvatures of fifth order within the bounds, over 1 … 12 m.
-fn feasible() -> Vec<Query> {
+pub(super) fn feasible() -> Vec<Query> {
     drawn(1, QUERIES, |random| flat_goal(random, &BOUNDS))
 }
 
 /// Anywhere around within 6 m, with any heading, wheels straight at both ends.
-fn hard() -> Vec<Query> {
-    drawn(2, QUERIES, |random| anywhere(random, &BOUNDS, 0.0))
+pub(super) fn hard() -> Vec<Query> {
+    many_hard(QUERIES)
+}
+
+/// The first `count` of these; [`hard`] begins them.
+pub(super) fn many_hard(count: usize) -> Vec<Query> {
+    drawn(2, count, |random| anywhere(random, &BOUNDS, 0.0))
 }
 
 /// The same with any curvature at both ends.
@@ -100,7 +105,8 @@ fn crabs() -> Vec<(Query, f64)> {
     bent().into_iter().map(|query| (query, direction())).collect()
 }
 
-fn microseconds(queries: &[Query], reversals: bool) -> f64 {
+/// Mean time of solving a query, µs.
+pub(super) fn microseconds(queries: &[Query], reversals: bool) -> f64 {
     micros_by(queries, &choices(reversals))
 }
 
