@@ -40,7 +40,7 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
     }
     let baseline = read_baseline(&work)?;
-    let verdict = campaign::verdict(&work.setup, &cases, (&results, baseline.as_ref()), &tally);
+    let verdict = campaign::verdict(&work.told()?, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
     write_report(&work, &cases, &tally, &verdict, (&moves, regression.as_ref()))?;
@@ -55,14 +55,15 @@ pub(crate) fn write_report(
     verdict: &Verdict,
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<(), Problem> {
-    let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
+    let told = work.told()?;
+    let mut assumptions = campaign::assumptions(&told, cases, tally);
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }
-    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions)
+    let mut data = hairpin_formats::report::from_folder(&work.folder, &told, verdict.clone(), assumptions)
         .map_err(Problem::input)?;
     data.regression = regression.cloned();
     let level = |shown: &Shown| shown.flown.as_ref().is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some());

@@ -9,7 +9,7 @@ use hairpin::campaign::{
     self, Case, Mission, Mistake, Run, Setup, Status, at_full_rate, execute_again, execute_run, mission, mission_again,
 };
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
-use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
+use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
@@ -136,7 +136,12 @@ fn fly(work: &Work, missing: &[Job], (of, writer): (usize, RunWriter), watch: &d
                 });
             })
         }
-        Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
+        Some((command, limits)) => {
+            let greeting = fly_with(work, missing, (&command, limits), &landed, &stop, watch);
+            if let Some(greeting) = greeting {
+                work.folder.write_executor(&greeting)?;
+            }
+        }
     }
     drop(steps);
     let kept = writer.finish();
@@ -163,6 +168,17 @@ fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
     Ok(flown)
 }
 
+/// Why the first run of `cases` that was not flown was not, and by which program.
+pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String>, Problem> {
+    for case in cases {
+        let facts = work.folder.facts_of(case.number)?;
+        if let Some((run, message)) = facts.iter().find_map(|facts| Some((facts.run, facts.message.as_ref()?))) {
+            return Ok(Some(work.told()?.by_program(run, message)));
+        }
+    }
+    Ok(None)
+}
+
 /// Whether the executor flew and sent no attitudes.
 pub(crate) fn attitude_unknown(run: &Run) -> bool {
     run.outcome.as_ref().is_ok_and(|flight| flight.track.channel(ATTITUDE_UNKNOWN).is_some())
@@ -175,7 +191,7 @@ fn fly_with(
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
-) {
+) -> Option<Greeting> {
     let processes = processes(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
@@ -199,8 +215,9 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
+    let greeting = fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
+    greeting
 }
 
 pub(super) fn as_run(
@@ -213,13 +230,13 @@ pub(super) fn as_run(
         case: case.number,
         run: number,
         drawn: hairpin::campaign::vary::draw(&setup.scenario, case.seed, number),
-        outcome: result.map_err(|failed| failed.to_string()),
+        outcome: result.map_err(|failed| failed.in_full()),
         full_rate: None,
     }
 }
 
 /// The user's program, where one flies.
-pub(super) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
+pub(crate) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     let execute = setup.scenario.executor();
     let Some(text) = execute.command else { return Ok(None) };
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;
