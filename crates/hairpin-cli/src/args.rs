@@ -2,6 +2,7 @@
 
 mod bench;
 mod calibrate;
+mod check_executor;
 mod commands;
 mod compare;
 mod experiment;
@@ -27,6 +28,7 @@ use hairpin_formats::template::KINDS;
 
 pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
+pub(crate) use check_executor::CheckExecutor;
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
@@ -87,6 +89,8 @@ pub(crate) enum Command {
     Select(Select),
     /// Propose limits for [spec]: those that 5 % of random feasible cases break
     Calibrate(Calibrate),
+    /// Check that a program speaks the executor protocol: what was said, and a sentence for each mistake
+    CheckExecutor(CheckExecutor),
     /// Tell why nothing (or little) is feasible, and the smallest change that helps
     Explain(Explain),
     /// Reduce a violating case to the shortest feasible one that still violates
@@ -139,6 +143,7 @@ impl Command {
             Self::Explain(a) => a.json,
             Self::Calibrate(a) => a.json,
             Self::Bench(a) => a.json(),
+            Self::CheckExecutor(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,
             Self::StartTable(a) => a.json,

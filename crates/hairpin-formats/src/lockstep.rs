@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::executor::{self, Line, Tail, read_lines};
+use crate::executor::{self, Line, Lines, Tail};
 
 /// What its last words are waited for, and what it is given to end.
 const AFTERMATH: Duration = Duration::from_millis(300);
@@ -32,7 +32,7 @@ pub(crate) enum Silence {
 pub(crate) struct Lockstep {
     child: Child,
     asked: ChildStdin,
-    answers: Receiver<Line>,
+    answers: Lines,
     log: Tail,
     log_closed: Receiver<()>,
 }
@@ -56,7 +56,7 @@ impl Lockstep {
             unreachable!("all three streams were asked to be pipes")
         };
         let (log, log_closed) = Tail::follow(log);
-        Ok(Self { child, asked, answers: read_lines(answers), log, log_closed })
+        Ok(Self { child, asked, answers: Lines::of(answers), log, log_closed })
     }
 
     /// Tells it `line`.
@@ -71,9 +71,9 @@ impl Lockstep {
     }
 
     /// Its next line, if that comes before the time `until`.
-    pub(crate) fn hear(&self, stopped: &AtomicBool, until: Option<Instant>) -> Result<Vec<u8>, Silence> {
+    pub(crate) fn hear(&mut self, stopped: &AtomicBool, until: Option<Instant>) -> Result<Vec<u8>, Silence> {
         while !stopped.load(Ordering::Relaxed) {
-            match self.answers.recv_timeout(LOOK) {
+            match self.answers.next(LOOK) {
                 Ok(Line::Text(line)) => return Ok(line),
                 Ok(Line::TooLong) => return Err(Silence::Endless),
                 Err(RecvTimeoutError::Disconnected) => return Err(Silence::Gone),

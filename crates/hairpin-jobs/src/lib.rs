@@ -7,6 +7,7 @@
 mod baseline;
 pub mod calibrate;
 pub mod certificate;
+pub mod check_executor;
 pub mod compare;
 pub mod consent;
 pub mod differences;

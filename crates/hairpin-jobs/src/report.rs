@@ -49,7 +49,7 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
         return Err(lost);
     }
     let baseline = read_baseline(&work)?;
-    let verdict = campaign::verdict(&work.setup, &cases, (&results, baseline.as_ref()), &tally);
+    let verdict = campaign::verdict(&work.told()?, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
     let assumptions = assumptions(&work, &cases, &tally, (&moves, regression.as_ref()))?;
@@ -76,7 +76,7 @@ fn assumptions(
     tally: &Tally,
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<Vec<String>, Problem> {
-    let mut assumptions = campaign::assumptions(&work.setup, cases, tally);
+    let mut assumptions = campaign::assumptions(&work.told()?, cases, tally);
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
@@ -92,7 +92,7 @@ fn write(
     assumptions: Vec<String>,
     regression: Option<&Regression>,
 ) -> Result<(), Problem> {
-    let lost = Cell::new(0);
+    let (told, lost) = (work.told()?, Cell::new(0));
     let run = |case: &Case, run: usize| match why_lost(work, case, run)? {
         Some(_) => {
             lost.set(lost.get() + 1);
@@ -101,7 +101,7 @@ fn write(
         None => run_with_motion(work, case, run),
     };
     let run = |case: &Case, number: usize| run(case, number).map_err(|problem: Problem| problem.to_string());
-    let mut data = hairpin_formats::report::from_folder(&work.folder, &work.setup, verdict.clone(), assumptions, &run)
+    let mut data = hairpin_formats::report::from_folder(&work.folder, &told, verdict.clone(), assumptions, &run)
         .map_err(Problem::input)?;
     if lost.get() > 0 {
         data.assumptions.push(format!(

@@ -27,6 +27,18 @@ pub struct Work {
     pub setup: Setup,
 }
 
+impl Work {
+    /// Its setup as it is told of: with what the program that executed calls itself.
+    ///
+    /// # Errors
+    /// What the folder keeps of that is broken.
+    pub(crate) fn told(&self) -> Result<Setup, Problem> {
+        let greeting = self.folder.read_executor()?;
+        let name = greeting.map(|greeting| greeting.name).unwrap_or_default();
+        Ok(self.setup.clone().executed_by(&name))
+    }
+}
+
 /// What a campaign is begun with.
 #[derive(Debug, Clone, Default)]
 pub struct CampaignSettings {

@@ -31,7 +31,8 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     let (sentence, code) = if failed == 0 {
         (format!("EXECUTED {runs} runs of {cases} cases"), DONE)
     } else {
-        let sentence = format!("EXECUTOR FAILED {failed}/{runs} runs (stderr kept in executor-CASE-RUN.log)");
+        let why = executed.trouble.as_ref().map_or(String::new(), |why| format!("{why}; "));
+        let sentence = format!("EXECUTOR FAILED {failed}/{runs} runs ({why}stderr kept in executor-CASE-RUN.log)");
         (sentence, EXECUTOR_FAILED)
     };
     if asked.json {

@@ -12,6 +12,16 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
     let good = format!("python3 '{minimal}'");
     let object = json(folder.path(), &[&SMALL[..], &["--executor", &good, "--out", "good"]].concat());
     assert_eq!(object["exit_code"], 0, "{object}");
+    // It is told by its own name.
+    let verdict = object["verdict"].as_str().unwrap();
+    assert!(verdict.contains("executor minimal executor, 1 run each") && !verdict.contains("python3"), "{verdict}");
+    let good = folder.path().join("good");
+    for file in ["junit.xml", "report.html"] {
+        let text = fs::read_to_string(good.join(file)).unwrap();
+        assert!(text.contains("minimal executor") && !text.contains("python3"), "{file}");
+    }
+    let kept: Value = serde_json::from_str(&fs::read_to_string(good.join("executor.json")).unwrap()).unwrap();
+    assert_eq!(kept, serde_json::json!({ "name": "minimal executor", "protocol": 1 }));
     // It flies exactly on the legs.
     assert!(object["worst"]["max_deviation_m"].as_f64().unwrap() < 1e-9, "{object}");
 
@@ -24,11 +34,17 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
         (&Value::from(4), &Value::from(1)),
         "{object}"
     );
-    assert!(object["verdict"].as_str().unwrap().starts_with("EXECUTOR FAILED 1/4"), "{object}");
+    let trouble = "EXECUTOR FAILED 1/4 (minimal executor, run 0: ended without \"end\" (exit status: 1); the last line of its stderr: rotor 3 is gone)";
+    assert!(object["verdict"].as_str().unwrap().starts_with(trouble), "{object}");
+    assert!(
+        fs::read_to_string(folder.path().join("bad/junit.xml"))
+            .unwrap()
+            .contains("minimal executor, run 0: ended without")
+    );
     let log = fs::read_to_string(folder.path().join("bad/executor-0001-0.log")).unwrap();
     assert!(log.contains("rotor 3 is gone"), "{log}");
     // Done at once, without attitudes: judged by what was flown, which is nothing.
-    let idle = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    say(type='pose', t_s=0, p_m=[1, 1, 1])\n    return say(type='end', reason='done')");
+    let idle = fs::read_to_string(minimal).unwrap().replace("def fly(mission, speed=2.0, step=0.02):", "def fly(mission, speed=2.0, step=0.02):\n    say(type='pose', t_s=0, p_m=mission['waypoints_m'][0])\n    return say(type='end', reason='done')");
     fs::write(folder.path().join("idle.py"), idle).unwrap();
     let (code, out, error) = run(folder.path(), &["execute", "bad", "--executor", "python3 idle.py"]);
     assert!(code == 0 && error.contains("4 runs came without q_wxyz"), "{out}{error}");
@@ -42,7 +58,11 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
     assert_eq!(run(folder.path(), &["report", "bad"]).0, 0);
     assert!(fs::read_to_string(folder.path().join("bad/report.html")).unwrap().contains("sent no attitudes"));
 
+    // What ran before was another one.
     let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
+    assert!(!folder.path().join("bad/executor.json").exists());
+    let trouble = "EXECUTOR FAILED 4/4 runs (`no-such-program`, run 0: cannot start `no-such-program`: ";
+    assert!(object["verdict"].as_str().unwrap().starts_with(trouble), "{object}");
     assert_eq!(
         (&object["exit_code"], &object["counts"]["executor_failed"]),
         (&Value::from(4), &Value::from(4)),

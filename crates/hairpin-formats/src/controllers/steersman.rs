@@ -116,7 +116,7 @@ impl Steersman {
             Source::Python { path, alone } => (driver(path, *alone, "controller"), "python3".to_owned()),
             Source::Command(command) => (command.into(), command.words().next().unwrap_or_default().to_owned()),
         };
-        let process = Lockstep::start(&mut command).map_err(|error| {
+        let mut process = Lockstep::start(&mut command).map_err(|error| {
             let why = format!("`{program}` cannot be started: {error}");
             held(&self.trouble).get_or_insert(why.clone());
             why

@@ -7,9 +7,11 @@ use hairpin::trajectory::Flight;
 
 use super::envelope::{Envelope, Whose};
 use super::failure::{Failed, Failure, excerpt};
-use super::message::{FromExecutor, PoseMessage, ToExecutor, mission_message};
+use super::heard::{EndMessage, EndReason, ErrorMessage, FromExecutor};
+use super::line::{after, parse};
+use super::message::{ToExecutor, mission_message};
 use super::recording::Recording;
-use super::worker::{Worker, after};
+use super::worker::Worker;
 
 /// What came of one mission.
 #[derive(Debug)]
@@ -68,12 +70,12 @@ impl Worker {
         loop {
             let line = self.hear("ready", deadline, || Failure::TimeOut { awaited: "ready", seconds }, cancelled)?;
             match self.understand(&line) {
-                Ok(message @ FromExecutor::Ready { .. }) => match asked.whose(&message) {
+                Ok(message @ FromExecutor::Ready(_)) => match asked.whose(&message) {
                     Whose::This => return Ok(()),
                     Whose::Another { .. } => {}
                     Whose::Nobodys => return Err(Failure::Unnamed { found: message.kind() }),
                 },
-                Ok(FromExecutor::Error { message, .. }) if self.last.is_none() => {
+                Ok(FromExecutor::Error(ErrorMessage { message, .. })) if self.last.is_none() => {
                     return Err(Failure::Reported { message: excerpt(&message, 500) });
                 }
                 Ok(message) if self.last.is_none() => {
@@ -97,10 +99,10 @@ impl Worker {
         cancelled: &dyn Fn() -> bool,
         before: &mut Option<Failed>,
     ) -> Result<Flight, Failure> {
-        self.say(&mission_message(mission));
+        self.say(&mission_message(mission, self.protocol));
         let seconds = self.limits.mission.as_secs_f64();
         let mut astray: Option<(String, String)> = None;
-        let mut recording = Recording::new(mission);
+        let mut recording = Recording::new(mission, self.protocol);
         loop {
             let late = || match &astray {
                 None => Failure::TimeOut { awaited: "end", seconds },
@@ -111,7 +113,7 @@ impl Worker {
             if self.protocol > 1 {
                 match asked.whose(&message) {
                     Whose::This => {}
-                    Whose::Nobodys if matches!(message, FromExecutor::Error { .. }) => {}
+                    Whose::Nobodys if matches!(message, FromExecutor::Error(_)) => {}
                     Whose::Nobodys => return Err(Failure::Unnamed { found: message.kind() }),
                     Whose::Another { case, run } => {
                         if self.last.as_ref().is_some_and(|last| last.is(&case, &run)) {
@@ -122,24 +124,47 @@ impl Worker {
                     }
                 }
             }
-            match message {
-                FromExecutor::Pose(pose) => recording.push(&pose)?,
-                FromExecutor::Poses { poses, .. } if self.protocol > 1 => {
-                    for (row, numbers) in poses.iter().enumerate() {
-                        let pose = PoseMessage::of_row(numbers).map_err(|what| Failure::Row { row, what })?;
-                        recording.push(&pose)?;
-                    }
-                }
-                FromExecutor::End { reason, .. } => {
-                    self.ended = Some(Instant::now());
-                    return Ok(recording.finish(reason)?);
-                }
-                FromExecutor::Error { message, .. } => {
-                    self.ended = Some(Instant::now());
-                    return Err(Failure::Reported { message: excerpt(&message, 500) });
-                }
-                other => return Err(Failure::Unexpected { found: other.kind(), awaited: "pose" }),
+            let taken = take(&mut recording, message, self.protocol);
+            if matches!(taken, Ok(Some(_)) | Err(Failure::Reported { .. })) {
+                self.ended = Some(Instant::now());
+            }
+            if let Some(reason) = taken? {
+                return Ok(recording.finish(reason)?);
             }
         }
     }
+}
+
+/// Takes a message of the mission that is recorded. Gives why it is over, once it is.
+fn take(recording: &mut Recording, message: FromExecutor, protocol: u64) -> Result<Option<EndReason>, Failure> {
+    match message {
+        FromExecutor::Pose(pose) => recording.push(&pose)?,
+        FromExecutor::Poses(message) if protocol > 1 => {
+            for (row, numbers) in message.poses.iter().enumerate() {
+                let pose = numbers.pose().map_err(|what| Failure::Row { row, what })?;
+                recording.push(&pose)?;
+            }
+        }
+        FromExecutor::End(EndMessage { reason, .. }) => return Ok(Some(reason)),
+        FromExecutor::Error(ErrorMessage { message, .. }) => {
+            return Err(Failure::Reported { message: excerpt(&message, 500) });
+        }
+        other => return Err(Failure::Unexpected { found: other.kind(), awaited: "pose" }),
+    }
+    Ok(None)
+}
+
+/// The flight of `mission` in what a program said of it in `protocol`, a line each, as a wire kept it.
+///
+/// `None` where nothing ends it; errors as of [`Worker::fly`].
+pub fn read_flight(mission: &Mission, protocol: u64, lines: &[&str]) -> Option<Result<Flight, Failure>> {
+    let mut recording = Recording::new(mission, protocol);
+    for (number, line) in (1..).zip(lines) {
+        match parse(line.as_bytes(), number).and_then(|message| take(&mut recording, message, protocol)) {
+            Ok(None) => {}
+            Ok(Some(reason)) => return Some(recording.finish(reason).map_err(Failure::from)),
+            Err(failure) => return Some(Err(failure)),
+        }
+    }
+    None
 }

@@ -3,7 +3,7 @@
 use hairpin::campaign::Mission;
 use serde_json::Value;
 
-use super::message::FromExecutor;
+use super::heard::FromExecutor;
 
 /// The name of a mission.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -147,6 +147,20 @@ pub enum Failure {
 /// What a mission is told with that was not asked for.
 const NOT_ASKED: &str = "not flown: the program had left three missions in a row unanswered";
 
+impl Failed {
+    /// The sentence, and the last line that the program wrote to stderr, where it wrote one.
+    pub fn in_full(&self) -> String {
+        let last = self.last_line().map_or(String::new(), |line| format!("; {line}"));
+        format!("{}{last}", self.failure)
+    }
+
+    /// The last line of stderr, in a sentence's part.
+    pub(super) fn last_line(&self) -> Option<String> {
+        let last = self.stderr.lines().rev().map(str::trim).find(|line| !line.is_empty())?;
+        Some(format!("the last line of its stderr: {}", excerpt(last, 200)))
+    }
+}
+
 impl Failure {
     /// Whether the program was waited for until its time was over.
     pub(super) fn is_time_out(&self) -> bool {
@@ -161,7 +175,11 @@ impl Failure {
             Self::After { .. }
                 | Self::Unexpected { .. }
                 | Self::Pose(
-                    PoseError::Start { .. } | PoseError::Time { .. } | PoseError::Empty | PoseError::Leg { .. }
+                    PoseError::Start { .. }
+                        | PoseError::Place(_)
+                        | PoseError::Time { .. }
+                        | PoseError::Empty
+                        | PoseError::Leg { .. }
                 )
         )
     }

@@ -9,6 +9,7 @@ use hairpin::trajectory::Flight;
 
 use super::command::Command;
 use super::failure::{Failed, Failure};
+use super::greeting::Greeting;
 use super::message::mission_key;
 use super::pool::Pool;
 use super::worker::Limits;
@@ -72,6 +73,19 @@ impl<'a> InLoop<'a> {
         self.told().clone()
     }
 
+    /// What the program says of itself, once it has.
+    pub fn greeting(&self) -> Option<&Greeting> {
+        self.pool.program.greeting()
+    }
+
+    /// A sentence about it, with its name where it has one.
+    pub fn by_name(&self, sentence: String) -> String {
+        match self.greeting() {
+            Some(Greeting { name, .. }) if !name.is_empty() => format!("{name}: {sentence}"),
+            _ => sentence,
+        }
+    }
+
     fn told(&self) -> MutexGuard<'_, Told> {
         self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -99,10 +113,13 @@ impl<'a> InLoop<'a> {
                 told.last = Some(failed.clone());
                 let seconds = self.limits.mission.as_secs_f64();
                 if hopeless {
-                    told.trouble.get_or_insert_with(|| failed.to_string());
+                    told.trouble.get_or_insert_with(|| self.by_name(failed.in_full()));
                 } else if told.unanswered >= MOST {
+                    let stderr = failed.last_line().map_or(String::new(), |line| format!("; {line}"));
                     told.trouble.get_or_insert_with(|| {
-                        format!("it left {MOST} executions in a row without an answer (execute.timeout_s = {seconds})")
+                        self.by_name(format!(
+                            "it left {MOST} executions in a row without an answer (execute.timeout_s = {seconds}){stderr}"
+                        ))
                     });
                 }
             }

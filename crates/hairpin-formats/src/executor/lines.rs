@@ -1,15 +1,18 @@
 //! What a child writes, read by threads: its stdout as bounded lines, the end of its stderr.
 
 use std::collections::VecDeque;
-use std::io::{BufRead, BufReader, Read};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::io::{ErrorKind, Read};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
+use std::time::Duration;
 
 /// No message of the protocol comes near this, bytes.
 pub(super) const LONGEST_LINE: usize = 1 << 20;
-/// Lines that may wait to be looked at; then the child waits.
-const WAITING: usize = 256;
+/// What is read at once, bytes: as much as a pipe holds.
+const CHUNK: usize = 64 << 10;
+/// Batches of lines that may wait to be looked at; then the child waits.
+const WAITING: usize = 16;
 /// How much of stderr is kept, bytes.
 const TAIL: usize = 64 << 10;
 
@@ -22,32 +25,81 @@ pub(crate) enum Line {
     TooLong,
 }
 
-/// Lines of `stdout`, read by a thread of their own; the channel closes with the stream or after a line too long.
-pub(crate) fn read_lines(stdout: impl Read + Send + 'static) -> Receiver<Line> {
-    let (sender, receiver) = sync_channel(WAITING);
-    thread::spawn(move || send_lines(BufReader::new(stdout), &sender));
-    receiver
+/// What the thread that reads hands over: all lines that are there, for one at a time costs a switch of threads each.
+enum Batch {
+    /// Whole lines; the stream's last may have no end.
+    Lines(Vec<u8>),
+    /// A line too long, and the end.
+    TooLong,
 }
 
-fn send_lines(mut stdout: impl BufRead, sender: &SyncSender<Line>) {
+/// Lines of a stream, read by a thread of their own; they end with the stream or after a line too long.
+#[derive(Debug)]
+pub(crate) struct Lines {
+    batches: Receiver<Batch>,
+    /// The batch that is being looked at, and how far.
+    batch: Vec<u8>,
+    at: usize,
+}
+
+impl Lines {
+    /// Those of `stdout`.
+    pub(crate) fn of(stdout: impl Read + Send + 'static) -> Self {
+        let (sender, batches) = sync_channel(WAITING);
+        thread::spawn(move || send_batches(stdout, &sender));
+        Self { batches, batch: Vec::new(), at: 0 }
+    }
+
+    /// The next one, if it comes in time.
+    pub(crate) fn next(&mut self, timeout: Duration) -> Result<Line, RecvTimeoutError> {
+        while self.at >= self.batch.len() {
+            match self.batches.recv_timeout(timeout)? {
+                Batch::Lines(lines) => (self.batch, self.at) = (lines, 0),
+                Batch::TooLong => return Ok(Line::TooLong),
+            }
+        }
+        let rest = &self.batch[self.at..];
+        let end = rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+        self.at += end + 1;
+        if end > LONGEST_LINE {
+            return Ok(Line::TooLong);
+        }
+        let text = &rest[..end];
+        let kept = text.iter().rposition(|byte| *byte != b'\r').map_or(0, |last| last + 1);
+        Ok(Line::Text(text[..kept].to_vec()))
+    }
+}
+
+fn send_batches(mut stdout: impl Read, sender: &SyncSender<Batch>) {
+    let mut chunk = vec![0; CHUNK];
+    // What has no end yet.
+    let mut open: Vec<u8> = Vec::new();
     loop {
-        let mut line = Vec::new();
-        let read = stdout.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line);
-        if !matches!(read, Ok(1..)) {
+        let read = match stdout.read(&mut chunk) {
+            Ok(0) => break,
+            Ok(count) => &chunk[..count],
+            Err(cause) if cause.kind() == ErrorKind::Interrupted => continue,
+            Err(_) => break,
+        };
+        match read.iter().rposition(|byte| *byte == b'\n') {
+            None => open.extend_from_slice(read),
+            Some(end) => {
+                let mut lines = std::mem::take(&mut open);
+                lines.extend_from_slice(&read[..=end]);
+                open.extend_from_slice(&read[end + 1..]);
+                // It fails where nobody listens any more.
+                if sender.send(Batch::Lines(lines)).is_err() {
+                    return;
+                }
+            }
+        }
+        if open.len() > LONGEST_LINE {
+            let _ = sender.send(Batch::TooLong);
             return;
         }
-        let ended = line.last() == Some(&b'\n');
-        if !ended && line.len() > LONGEST_LINE {
-            // Nobody listens any more when this fails.
-            let _ = sender.send(Line::TooLong);
-            return;
-        }
-        while matches!(line.last(), Some(b'\n' | b'\r')) {
-            line.pop();
-        }
-        if sender.send(Line::Text(line)).is_err() {
-            return;
-        }
+    }
+    if !open.is_empty() {
+        let _ = sender.send(Batch::Lines(open));
     }
 }
 

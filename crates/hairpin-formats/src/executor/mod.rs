@@ -4,11 +4,12 @@
 //!
 //! ```text
 //! > {"type":"hello","hairpin":2}
-//! < {"type":"ready","protocol":2,"name":"my simulator"}
+//! < {"type":"ready","protocol":2,"name":"my simulator","version":"1.4","deterministic":true}
 //! > {"type":"reset","case":"0117","run":0}
 //! < {"type":"ready","case":"0117","run":0}
 //! > {"type":"mission","case":"0117","run":0,"seed":123,"robot":{…},"world":{…},"waypoints_m":[[x,y,z],…],
-//!    "accept_m":1.0,"time_limit_s":90,"timed":[{"t_s":…,"p_m":[…],"v_m_s":[…]},…]}
+//!    "accept_m":1.0,"yaw_rad":[…],"limits":{…},"accept":{"radius_m":1.0,"height_m":1.0},"time_limit_s":90,
+//!    "timed":[{"t_s":…,"p_m":[…],"v_m_s":[…]},…]}
 //! < {"type":"pose","case":"0117","run":0,"t_s":0.01,"p_m":[…],"q_wxyz":[…],"v_m_s":[…],"leg":0}
 //! < {"type":"poses","case":"0117","run":0,"poses":[[t,x,y,z,qw,qx,qy,qz,vx,vy,vz,leg],…]}
 //! < {"type":"end","case":"0117","run":0,"reason":"done|time|crash"}   or   {"type":"error","message":"…"}
@@ -16,14 +17,15 @@
 //! ```
 //!
 //! t is from 0, strictly rising; places are in the world frame. Answers carry the case and the run that they are of,
-//! and count for these alone. In protocol 1 they do not, and there are neither `reset` nor `poses`; a program that
-//! answers `hello` with 1, with an error, or by ending is started again and spoken to in protocol 1. There, what comes
-//! after an `end` is a mistake of the mission that ended.
+//! and count for these alone. In protocol 1 they do not, and there are neither `reset` nor `poses`, nor `yaw_rad`,
+//! `limits` and `accept`; a program that answers `hello` with 1, with an error, or by ending is started again and
+//! spoken to in protocol 1. There, what comes after an `end` is a mistake of the mission that ended.
 //!
-//! `leg`, `v_m_s` and `q_wxyz` may be left out: legs are then assigned along the path, velocities differentiated, and
-//! the attitude counts as unknown (channel [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). The first pose may lie anywhere,
-//! and `done` may be claimed anywhere: the judge sees what was flown, and a `done` without the last waypoint is an
-//! unfinished mission.
+//! The first pose lies at the first waypoint, `leg` is in all poses, never falling, or in none: what is otherwise would
+//! be judged as a violation that nobody flew, so it is refused ([`PoseError`]). `leg`, `v_m_s` and `q_wxyz` may be left
+//! out: legs are then assigned along the path, velocities differentiated, and the attitude counts as unknown (channel
+//! [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). `done` may be claimed anywhere: the judge sees what was flown, and a
+//! `done` without the last waypoint is an unfinished mission.
 //!
 //! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
 //!
@@ -34,7 +36,11 @@ mod answer;
 mod command;
 mod envelope;
 mod failure;
+mod first_pose;
+mod greeting;
+mod heard;
 mod in_loop;
+mod line;
 mod lines;
 mod message;
 mod patience;
@@ -46,18 +52,23 @@ mod recording;
 #[cfg(test)]
 mod tests;
 mod watchdog;
+mod wire;
 mod worker;
 
-pub use answer::Answer;
+pub use answer::{Answer, read_flight};
 pub use command::{Command, CommandError};
 pub(crate) use failure::excerpt;
 pub(crate) use failure::was_never_asked;
 pub use failure::{Failed, Failure};
+pub use first_pose::{Elsewhere, Slip};
+pub use greeting::Greeting;
+pub use heard::{EndReason, FromExecutor, PoseMessage};
 pub use in_loop::{InLoop, Told};
-pub(crate) use lines::{Line, Tail, read_lines};
-pub use message::{EndReason, FromExecutor, PoseMessage, TimedMessage, ToExecutor, mission_message};
+pub(crate) use lines::{Line, Lines, Tail};
+pub use message::{TimedMessage, ToExecutor, mission_message};
 pub use process::kill_all;
 pub(crate) use process::{end, start};
 pub use queue::fly_all;
 pub use recording::{PoseError, Recording};
-pub use worker::{Limits, Worker};
+pub use wire::{Said, Speaker, Transcript, Wire};
+pub use worker::{Limits, QUIET, Worker};

@@ -1,6 +1,7 @@
 //! Mission after mission by one process at a time, which is started anew where it failed; what a process says after its
 //! last answer is told with the next one.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -10,6 +11,7 @@ use hairpin::trajectory::Flight;
 use super::answer::Answer;
 use super::command::Command;
 use super::failure::{Failed, Failure};
+use super::greeting::Greeting;
 use super::worker::{Limits, QUIET, Worker};
 
 /// A program that failed this often in a row to say `ready` is not started again.
@@ -30,6 +32,8 @@ pub(super) struct Program {
     clean: AtomicU64,
     /// Whether it ever went on after an answer.
     unruly: AtomicBool,
+    /// What the first of its processes said of itself.
+    greeting: OnceLock<Greeting>,
 }
 
 impl Program {
@@ -42,7 +46,13 @@ impl Program {
             trusting,
             clean: AtomicU64::new(0),
             unruly: AtomicBool::new(false),
+            greeting: OnceLock::new(),
         }
+    }
+
+    /// What it says of itself, once it has.
+    pub(super) fn greeting(&self) -> Option<&Greeting> {
+        self.greeting.get()
     }
 
     /// How long it is listened after an answer of protocol 1 before the next mission is told.
@@ -139,6 +149,7 @@ impl Pilot {
         match &started {
             Ok(worker) => {
                 protocol.store(worker.protocol, Ordering::Relaxed);
+                program.greeting.get_or_init(|| worker.greeting().clone());
                 self.misses.clear();
             }
             // Whoever is stopped has not missed.

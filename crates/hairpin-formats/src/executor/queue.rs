@@ -9,6 +9,7 @@ use hairpin::trajectory::Flight;
 
 use super::command::Command;
 use super::failure::{Failed, Failure};
+use super::greeting::Greeting;
 use super::patience::{Heard, Patience};
 use super::pilot::{Pilot, Program, Told};
 use super::pool::Pool;
@@ -22,7 +23,8 @@ type Landed<'a> = &'a (dyn Fn(usize, Result<Flight, Failed>) + Sync);
 /// `cancelled` became true is not reported.
 ///
 /// A program that cannot even be started fails every mission with the same sentence. Where three in a row, in their
-/// order, were left without an answer, those that were not asked for yet fail at once.
+/// order, were left without an answer, those that were not asked for yet fail at once. Gives what the program says of
+/// itself, if it was asked and has said it.
 pub fn fly_all(
     command: &Command,
     limits: Limits,
@@ -31,7 +33,7 @@ pub fn fly_all(
     mission: &(dyn Fn(usize) -> Result<Mission, String> + Sync),
     landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
-) {
+) -> Option<Greeting> {
     let workers = workers.clamp(1, count.max(1));
     let (next, patience) = (AtomicUsize::new(0), Patience::new(count));
     let pool = Pool::new(command, limits, workers, false);
@@ -67,6 +69,7 @@ pub fn fly_all(
             landed(index, Err(Failed { failure: failure.clone(), stderr: String::new() }));
         }
     }
+    pool.program.greeting().cloned()
 }
 
 fn heard(told: &Result<(), Failure>) -> Heard {

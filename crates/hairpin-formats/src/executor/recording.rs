@@ -1,5 +1,5 @@
-//! From the stream of poses to a flight: every promise of the protocol is checked, none is repaired silently. What the
-//! protocol does not ask for is no reason to refuse a flight: how it was flown is the judge's business.
+//! From the stream of poses to a flight: every promise of the protocol is checked, none is repaired silently. What is
+//! broken here would be a violation that nobody flew; how it was flown is the judge's business.
 
 use hairpin::campaign::Mission;
 // Beyond it a simulation has diverged.
@@ -8,7 +8,9 @@ use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
-use super::message::{EndReason, PoseMessage};
+use super::first_pose::{Elsewhere, elsewhere};
+use super::heard::{EndReason, PoseMessage};
+use super::message::acceptance_height;
 
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
@@ -26,6 +28,9 @@ pub enum PoseError {
     /// The first stamp is not 0.
     #[error("its first pose has t_s = {time}: must be 0")]
     Start { time: f64 },
+    /// The first place is not the start.
+    #[error(transparent)]
+    Place(#[from] Elsewhere),
     /// Stamps do not rise.
     #[error("pose {index}: t_s = {time} does not follow {before}: must rise strictly")]
     Time { index: usize, time: f64, before: f64 },
@@ -38,6 +43,12 @@ pub enum PoseError {
     /// A leg that the mission has not.
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
     Leg { index: usize, time: f64, leg: u64, last: u64 },
+    /// A leg that was over.
+    #[error("pose {index} (t_s = {time}): leg = {leg} after {before}: must never fall")]
+    Falls { index: usize, time: f64, leg: u64, before: u64 },
+    /// Poses with and without a leg.
+    #[error("pose {index} (t_s = {time}) comes {} \"leg\", those before it {}: must be in all poses or in none", with(.has), without(.has))]
+    Mixed { index: usize, time: f64, has: bool },
     /// It goes on long after the time limit.
     #[error("pose {index}: t_s = {time} and no \"end\", time_limit_s is {limit}")]
     Overtime { index: usize, time: f64, limit: f64 },
@@ -52,10 +63,12 @@ pub enum PoseError {
     Track(#[from] TrackError),
 }
 
-/// A flight being recorded. A column that misses in one pose is `None` from then on.
+/// A flight being recorded. Attitudes and velocities that miss in one pose are `None` from then on.
 #[derive(Debug)]
 pub struct Recording<'a> {
     mission: &'a Mission,
+    /// How far above or below a waypoint counts as reached, m; as far as on all sides where that is not told.
+    height: Option<f64>,
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     velocities: Option<Vec<[f64; 3]>>,
@@ -64,10 +77,11 @@ pub struct Recording<'a> {
 }
 
 impl<'a> Recording<'a> {
-    /// Nothing recorded yet.
-    pub fn new(mission: &'a Mission) -> Self {
+    /// Nothing recorded yet of what a program says in `protocol`.
+    pub fn new(mission: &'a Mission, protocol: u64) -> Self {
         Self {
             mission,
+            height: (protocol > 1).then(|| acceptance_height(mission)),
             times: Vec::new(),
             poses: Vec::new(),
             velocities: Some(Vec::new()),
@@ -99,11 +113,14 @@ impl<'a> Recording<'a> {
         if let Some(axis) = (0..3).find(|&axis| pose.p_m[axis].is_nan() || pose.p_m[axis].abs() > FARTHEST_ON_EARTH_M) {
             return Err(PoseError::Far { index, time, axis, value: pose.p_m[axis] });
         }
+        if let (0, Some(start)) = (index, self.mission.waypoints.first()) {
+            let is_at = self.is_at(&Point3::from(pose.p_m), start);
+            elsewhere(pose.p_m, start, (self.mission.accept, is_at)).map_or(Ok(()), Err)?;
+        }
         let rotation = attitude(index, pose)?;
-        let leg = pose.leg.map(|leg| self.checked_leg(index, time, leg)).transpose()?;
+        self.take_leg(index, time, pose.leg)?;
         self.attitude_known &= rotation.is_some();
         keep(&mut self.velocities, pose.v_m_s);
-        keep(&mut self.legs, leg);
         self.times.push(if index == 0 { 0.0 } else { time });
         let place = Translation3::from(Point3::from(pose.p_m));
         self.poses.push(Isometry3::from_parts(place, rotation.unwrap_or_default()));
@@ -111,9 +128,31 @@ impl<'a> Recording<'a> {
     }
 
     /// One more than the last leg means "all reached", and counts as the last.
-    fn checked_leg(&self, index: usize, time: f64, leg: u64) -> Result<u64, PoseError> {
+    fn take_leg(&mut self, index: usize, time: f64, leg: Option<u64>) -> Result<(), PoseError> {
         let last = self.last_leg();
-        if leg > last + 1 { Err(PoseError::Leg { index, time, leg, last }) } else { Ok(leg.min(last)) }
+        let has = leg.is_some();
+        if index == 0 && !has {
+            self.legs = None;
+        }
+        match (&mut self.legs, leg) {
+            (_, Some(leg)) if leg > last + 1 => return Err(PoseError::Leg { index, time, leg, last }),
+            (Some(legs), Some(leg)) => match legs.last() {
+                Some(&before) if leg < before => return Err(PoseError::Falls { index, time, leg, before }),
+                _ => legs.push(leg.min(last)),
+            },
+            (None, None) => {}
+            _ => return Err(PoseError::Mixed { index, time, has }),
+        }
+        Ok(())
+    }
+
+    /// Whether a waypoint counts as reached at a place.
+    fn is_at(&self, place: &Point3<f64>, waypoint: &Point3<f64>) -> bool {
+        let (away, accept) = (place - waypoint, self.mission.accept);
+        match self.height {
+            None => away.norm() <= accept,
+            Some(height) => away.xy().norm() <= accept && away.z.abs() <= height,
+        }
     }
 
     fn last_leg(&self) -> u64 {
@@ -152,7 +191,7 @@ impl<'a> Recording<'a> {
     }
 
     /// When each waypoint was reached: where the executor tells the leg, when that leg was over; otherwise, and for the
-    /// last waypoint, when the robot was first inside the acceptance radius, one waypoint after the other. One that was
+    /// last waypoint, when the robot was first within acceptance, one waypoint after the other. One that was
     /// missed does not hide those after it; but the last counts only on the last leg or, without legs, after another
     /// one: paths cross, and a robot that never left a start near the end has flown nothing.
     fn reached(&self) -> Vec<Option<f64>> {
@@ -160,8 +199,7 @@ impl<'a> Recording<'a> {
         let mut from = 0;
         let mut reached: Vec<Option<f64>> = Vec::with_capacity(last + 1);
         for (number, waypoint) in self.mission.waypoints.iter().enumerate() {
-            let inside =
-                |i: &usize| (self.poses[*i].translation.vector - waypoint.coords).norm() <= self.mission.accept;
+            let inside = |i: &usize| self.is_at(&Point3::from(self.poses[*i].translation.vector), waypoint);
             let mut later = from..self.poses.len();
             let found = match &self.legs {
                 _ if number == 0 => Some(0),
@@ -186,6 +224,14 @@ fn attitude(index: usize, pose: &PoseMessage) -> Result<Option<UnitQuaternion<f6
         return Err(PoseError::Quaternion { index, time: pose.t_s, length });
     }
     Ok(Some(UnitQuaternion::from_quaternion(quaternion)))
+}
+
+fn with(has: &bool) -> &'static str {
+    if *has { "with" } else { "without" }
+}
+
+fn without(has: &bool) -> &'static str {
+    with(&!has)
 }
 
 fn keep<T>(column: &mut Option<Vec<T>>, value: Option<T>) {

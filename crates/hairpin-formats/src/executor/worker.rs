@@ -8,9 +8,13 @@ use std::time::{Duration, Instant};
 use super::command::Command;
 use super::envelope::Envelope;
 use super::failure::{Failed, Failure, excerpt};
-use super::lines::{LONGEST_LINE, Line, Tail, read_lines};
-use super::message::{FromExecutor, ToExecutor};
+use super::greeting::Greeting;
+use super::heard::{ErrorMessage, FromExecutor, ReadyMessage};
+use super::line::{after, is_an_answer, parse};
+use super::lines::{LONGEST_LINE, Line, Lines, Tail};
+use super::message::ToExecutor;
 use super::process;
+use super::wire::{Speaker, Wire};
 
 /// Between looks at whether the user wants to stop.
 const LOOK: Duration = Duration::from_millis(50);
@@ -19,7 +23,7 @@ const AFTERMATH: Duration = Duration::from_millis(300);
 
 /// How long it is listened after an answer of protocol 1 before the next mission is told, for answers do not say what
 /// they are of: whoever flies twice goes on at once. What has passed since the answer counts.
-pub(super) const QUIET: Duration = Duration::from_millis(20);
+pub const QUIET: Duration = Duration::from_millis(20);
 
 /// Wall-clock limits of a worker: all that a stranger's program may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,13 +47,14 @@ impl Default for Limits {
 pub struct Worker {
     child: Child,
     outgoing: Option<Sender<Vec<u8>>>,
-    lines: Receiver<Line>,
+    lines: Lines,
+    wire: Wire,
     line_number: u64,
     pub(super) stderr: Tail,
     stderr_closed: Receiver<()>,
     pub(super) limits: Limits,
     status: Option<ExitStatus>,
-    name: String,
+    greeting: Greeting,
     /// The protocol that it speaks.
     pub(super) protocol: u64,
     /// The mission that it answered last.
@@ -70,7 +75,21 @@ impl Worker {
         protocol: u64,
         cancelled: &dyn Fn() -> bool,
     ) -> Result<Self, Failed> {
-        match Self::begin(command, limits, protocol, cancelled) {
+        Self::start_on(&Wire::default(), command, limits, protocol, cancelled)
+    }
+
+    /// The same on a wire that keeps what is said.
+    ///
+    /// # Errors
+    /// As [`Self::start`].
+    pub fn start_on(
+        wire: &Wire,
+        command: &Command,
+        limits: Limits,
+        protocol: u64,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<Self, Failed> {
+        match Self::begin(wire, command, limits, protocol, cancelled) {
             Err(Failed {
                 failure:
                     Failure::Version { found: 1 }
@@ -78,12 +97,18 @@ impl Worker {
                     | Failure::Exited { .. }
                     | Failure::Silent { .. },
                 ..
-            }) if protocol > 1 => Self::begin(command, limits, 1, cancelled),
+            }) if protocol > 1 => Self::begin(wire, command, limits, 1, cancelled),
             begun => begun,
         }
     }
 
-    fn begin(command: &Command, limits: Limits, protocol: u64, cancelled: &dyn Fn() -> bool) -> Result<Self, Failed> {
+    fn begin(
+        wire: &Wire,
+        command: &Command,
+        limits: Limits,
+        protocol: u64,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<Self, Failed> {
         let mut starter = std::process::Command::new(&command.program);
         starter.args(&command.arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = process::start(&mut starter).map_err(|cause| Failed {
@@ -98,13 +123,14 @@ impl Worker {
         let mut worker = Self {
             child,
             outgoing: Some(write_lines(stdin)),
-            lines: read_lines(stdout),
+            lines: Lines::of(stdout),
+            wire: wire.clone(),
             line_number: 0,
             stderr,
             stderr_closed,
             limits,
             status: None,
-            name: String::new(),
+            greeting: Greeting::default(),
             protocol,
             last: None,
             ended: None,
@@ -115,9 +141,14 @@ impl Worker {
         }
     }
 
-    /// What the program calls itself.
-    pub fn name(&self) -> &str {
-        &self.name
+    /// What the program says of itself.
+    pub fn greeting(&self) -> &Greeting {
+        &self.greeting
+    }
+
+    /// The end of what it has written to stderr since its last mission began.
+    pub fn stderr(&self) -> String {
+        self.stderr.text()
     }
 
     fn shake_hands(&mut self, cancelled: &dyn Fn() -> bool) -> Result<(), Failure> {
@@ -126,13 +157,15 @@ impl Worker {
         let late = || Failure::NoReady { seconds: limit.as_secs_f64() };
         let line = self.hear("ready", Instant::now() + limit, late, cancelled)?;
         match self.understand(&line)? {
-            FromExecutor::Ready { protocol: Some(found), name, .. } if found == self.protocol => {
-                self.name = excerpt(&name, 100);
+            FromExecutor::Ready(ready) if ready.protocol == Some(self.protocol) => {
+                self.greeting = Greeting::of(&ready, self.protocol);
                 Ok(())
             }
-            FromExecutor::Ready { protocol: Some(found), .. } => Err(Failure::Version { found }),
-            FromExecutor::Ready { protocol: None, .. } => Err(Failure::NoVersion),
-            FromExecutor::Error { message, .. } => Err(Failure::Reported { message: excerpt(&message, 500) }),
+            FromExecutor::Ready(ReadyMessage { protocol: Some(found), .. }) => Err(Failure::Version { found }),
+            FromExecutor::Ready(ReadyMessage { protocol: None, .. }) => Err(Failure::NoVersion),
+            FromExecutor::Error(ErrorMessage { message, .. }) => {
+                Err(Failure::Reported { message: excerpt(&message, 500) })
+            }
             other => Err(Failure::Unexpected { found: other.kind(), awaited: "ready" }),
         }
     }
@@ -142,7 +175,7 @@ impl Worker {
     pub(super) fn unasked(&mut self, patience: Duration) -> Option<Failure> {
         let until = self.ended.take().filter(|_| self.protocol == 1)? + patience;
         loop {
-            match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
+            match self.next_line(until.saturating_duration_since(Instant::now())) {
                 Ok(Line::Text(bytes)) if bytes.iter().all(u8::is_ascii_whitespace) => self.line_number += 1,
                 Ok(Line::Text(bytes)) => return Some(after(&bytes)),
                 Ok(Line::TooLong) => return Some(after(b"a line without end")),
@@ -151,11 +184,23 @@ impl Worker {
         }
     }
 
+    fn next_line(&mut self, timeout: Duration) -> Result<Line, RecvTimeoutError> {
+        let line = self.lines.next(timeout);
+        match &line {
+            Ok(Line::Text(bytes)) => self.wire.note(Speaker::Program, bytes),
+            Ok(Line::TooLong) => self.wire.note(Speaker::Program, b"(a line without end)"),
+            Err(_) => {}
+        }
+        line
+    }
+
     /// Hands a line to the thread that writes: a program that never reads must not hold us up.
     pub(super) fn say(&mut self, message: &ToExecutor) {
         if let Some(outgoing) = &self.outgoing {
+            let line = message.line();
+            self.wire.note(Speaker::Hairpin, &line);
             // It fails only where the program closed its stdin; what it says next decides.
-            let _ = outgoing.send(message.line());
+            let _ = outgoing.send(line);
         }
     }
 
@@ -175,7 +220,7 @@ impl Worker {
             if now >= deadline {
                 return Err(late());
             }
-            let line = match self.lines.recv_timeout(LOOK.min(deadline - now)) {
+            let line = match self.next_line(LOOK.min(deadline - now)) {
                 Ok(line) => line,
                 Err(RecvTimeoutError::Timeout) => continue,
                 Err(RecvTimeoutError::Disconnected) => return Err(self.gone(awaited)),
@@ -222,7 +267,7 @@ impl Worker {
         // Who still talks is heard, so that whoever waits for a reader can exit; words of farewell are no answers.
         let mut exited = false;
         loop {
-            match self.lines.recv_timeout(LOOK) {
+            match self.next_line(LOOK) {
                 Ok(Line::Text(bytes)) => wrong = wrong.or_else(|| is_an_answer(&bytes).then(|| after(&bytes))),
                 Ok(Line::TooLong) | Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) if exited => break,
@@ -261,26 +306,4 @@ fn write_lines(mut stdin: impl Write + Send + 'static) -> Sender<Vec<u8>> {
         }
     });
     sender
-}
-
-fn parse(bytes: &[u8], number: u64) -> Result<FromExecutor, Failure> {
-    let garbage =
-        |cause: String| Failure::Garbage { number, cause, line: excerpt(&String::from_utf8_lossy(bytes), 120) };
-    let text = std::str::from_utf8(bytes).map_err(|error| garbage(format!("not UTF-8: {error}")))?;
-    serde_json::from_str(text).map_err(|error| {
-        // Python's json writes these; they are no JSON.
-        let infinite = ["NaN", "Infinity"].into_iter().find(|word| text.contains(word));
-        garbage(infinite.map_or_else(|| error.to_string(), |word| format!("{word} is no JSON number: must be finite")))
-    })
-}
-
-/// What is wrong with a line after the end.
-pub(super) fn after(line: &[u8]) -> Failure {
-    Failure::After { line: excerpt(&String::from_utf8_lossy(line), 80) }
-}
-
-/// Whether a line answers a mission.
-fn is_an_answer(line: &[u8]) -> bool {
-    let message = serde_json::from_slice::<FromExecutor>(line);
-    message.is_ok_and(|message| !matches!(message, FromExecutor::Ready { .. }))
 }

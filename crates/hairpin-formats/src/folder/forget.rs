@@ -8,8 +8,8 @@ use hairpin::campaign::learn::NAME;
 use super::names::ALL_RUNS;
 use super::parts::{EXECUTIONS, PROFILES, PROGRAMS, RERUN_FACTS, RERUNS, TRAJECTORIES};
 use super::{
-    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG, List,
-    MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
+    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, EXECUTOR, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG,
+    List, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -30,7 +30,7 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
         let [coverage, table] = COVERAGE;
-        let made = [ALL_RUNS, BY_CHANCE, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
+        let made = [ALL_RUNS, BY_CHANCE, EXECUTOR, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
         self.remove(&made, &OF_RUNS)
     }
 
@@ -44,6 +44,7 @@ impl CampaignFolder {
             RESULTS,
             ALL_RUNS,
             BY_CHANCE,
+            EXECUTOR,
             INFLUENCE,
             MOVES,
             OPTIMUM,

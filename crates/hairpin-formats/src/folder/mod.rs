@@ -38,6 +38,7 @@
 mod cases;
 mod copy;
 mod error;
+mod executor;
 mod forget;
 mod graph;
 mod inside;
@@ -70,7 +71,7 @@ pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
-use names::{COVERAGE, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
+use names::{COVERAGE, EXECUTOR, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
 pub(crate) use names::{SCENARIO, is_written_to};
 use recent::Recent;
 pub use run_writer::{Landed, RunWriter};

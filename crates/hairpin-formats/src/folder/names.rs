@@ -26,6 +26,8 @@ pub const BY_CHANCE: &str = "baseline.parquet";
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 
+/// What the program of the user's that executed says of itself.
+pub(super) const EXECUTOR: &str = "executor.json";
 /// Why a program of the user's gave no flight.
 pub(super) const LOG: &str = "executor-CASE-RUN.log";
 /// What hairpin has made of a folder: the names that are its own.
@@ -52,6 +54,7 @@ pub(super) const OURS: &[&str] = &[
     hairpin::campaign::learn::NAME,
     "junit.xml",
     "report.html",
+    EXECUTOR,
     LOG,
     "trajectories/part-PART.parquet",
     "profiles/part-PART.parquet",

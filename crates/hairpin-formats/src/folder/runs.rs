@@ -1,7 +1,5 @@
 //! The runs of a campaign folder: what is known of each, and its motion. Folders with a file per run are read as well.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,8 +8,7 @@ use hairpin::trajectory::Track;
 
 use super::parts::{EXECUTIONS, RERUN_FACTS, RERUNS, part_with, parts_of};
 use super::{CampaignFolder, FolderError, RUNS};
-use crate::atomic::{self, WriteError};
-use crate::executor::{Failed, was_never_asked};
+use crate::executor::was_never_asked;
 use crate::parquet::runs::{self, Facts, RunFacts};
 use crate::parquet::track;
 
@@ -230,28 +227,6 @@ impl CampaignFolder {
             all.push(run.ok_or_else(|| refuse("ended for an unknown reason"))?);
         }
         Ok(all)
-    }
-
-    /// Writes `executor-CASE-RUN.log`: why a program of the user's failed to fly a run, and the end of its stderr.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn write_executor_log(&self, case: CaseNumber, run: usize, failed: &Failed) -> Result<(), FolderError> {
-        let Failed { failure, stderr } = failed;
-        let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
-        Ok(atomic::write(&self.file(&format!("executor-{case}-{run}.log")), text.as_bytes())?)
-    }
-
-    /// Removes it, where there is one: the run was flown.
-    ///
-    /// # Errors
-    /// It cannot be removed.
-    pub fn remove_executor_log(&self, case: CaseNumber, run: usize) -> Result<(), FolderError> {
-        let path = self.file(&format!("executor-{case}-{run}.log"));
-        match fs::remove_file(&path) {
-            Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
-            _ => Ok(()),
-        }
     }
 
     /// `executions/CASE-RUN.parquet`, where a run of earlier versions stands.

@@ -103,7 +103,8 @@ impl Worker {
     /// When its functions are there.
     fn start((path, alone): (&Path, bool), what: &str, stopped: &AtomicBool) -> Result<Self, Unanswered> {
         let started = Lockstep::start(&mut driver(path, alone, what));
-        let worker = Self(started.map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?);
+        let mut worker =
+            Self(started.map_err(|error| Unanswered::Failed(format!("python3 cannot be started: {error}")))?);
         match &*worker.answer(stopped)? {
             b"ready" => Ok(worker),
             _ => Err(worker.last_words()),
@@ -124,7 +125,7 @@ impl Worker {
     }
 
     /// Its next line; an empty one where it ended.
-    fn answer(&self, stopped: &AtomicBool) -> Result<Vec<u8>, Unanswered> {
+    fn answer(&mut self, stopped: &AtomicBool) -> Result<Vec<u8>, Unanswered> {
         match self.0.hear(stopped, None) {
             Err(Silence::Stopped) => Err(Unanswered::Stopped),
             answer => Ok(answer.unwrap_or_default()),

@@ -164,7 +164,8 @@ fn logs() {
     fuzz("rotors.csv", &texts(&[speeds]), |bytes| drop(rotor_speeds::parse(&lossy(bytes), (0.0, 1000.0))));
     let answer = r#"{"type":"pose","t_s":0.01,"p_m":[1,2,3],"q_wxyz":[1,0,0,0],"v_m_s":[0,0,0],"leg":0}"#;
     let end = r#"{"type":"end","reason":"done"}"#;
-    fuzz("executor.json", &texts(&[answer, end]), |bytes| drop(serde_json::from_slice::<FromExecutor>(bytes)));
+    let rows = r#"{"type":"poses","case":"0000","run":0,"poses":[[0,1,2,3,1,0,0,0,null,5,6,0]]}"#;
+    fuzz("executor.json", &texts(&[answer, end, rows]), |bytes| drop(lossy(bytes).parse::<FromExecutor>()));
 }
 
 #[test]

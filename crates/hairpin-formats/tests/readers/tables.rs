@@ -92,7 +92,7 @@ fn of_obj(text: &str) -> Answer {
 }
 
 fn of_answer(text: &str) -> Answer {
-    said(serde_json::from_str::<FromExecutor>(text))
+    said(text.parse::<FromExecutor>())
 }
 
 const ARM: &str = include_str!("../../../../data/robots/arm/irb120.toml");

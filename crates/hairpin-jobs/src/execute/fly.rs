@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::{Case, Run, Setup, at_full_rate, execute_run, mission};
-use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all};
+use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
@@ -61,7 +61,12 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
             };
             not_waiting_for(&steers, watch, Deadline::after(None), in_parts);
         }
-        Some((command, limits)) => fly_with(work, missing, (&command, limits), &landed, &stop, watch),
+        Some((command, limits)) => {
+            let greeting = fly_with(work, missing, (&command, limits), &landed, &stop, watch);
+            if let Some(greeting) = greeting {
+                work.folder.write_executor(&greeting)?;
+            }
+        }
     }
     drop(steps);
     let kept = writer.finish();
@@ -75,6 +80,17 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
     Ok(())
 }
 
+/// Why the first run of `cases` that was not flown was not, and by which program.
+pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String>, Problem> {
+    for case in cases {
+        let facts = work.folder.facts_of(case.number)?;
+        if let Some((run, message)) = facts.iter().find_map(|facts| Some((facts.run, facts.message.as_ref()?))) {
+            return Ok(Some(work.told()?.by_program(run, message)));
+        }
+    }
+    Ok(None)
+}
+
 fn fly_with(
     work: &Work,
     missing: &[Job],
@@ -82,7 +98,7 @@ fn fly_with(
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
-) {
+) -> Option<Greeting> {
     let processes = processes(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
@@ -106,8 +122,9 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
+    let greeting = fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
+    greeting
 }
 
 pub(super) fn as_run(
@@ -120,13 +137,13 @@ pub(super) fn as_run(
         case: case.number,
         run: number,
         drawn: hairpin::campaign::vary::draw(&setup.scenario, case.seed, number),
-        outcome: result.map_err(|failed| failed.to_string()),
+        outcome: result.map_err(|failed| failed.in_full()),
         full_rate: None,
     }
 }
 
 /// The user's program, where one flies.
-pub(super) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
+pub(crate) fn command_of(setup: &Setup) -> Result<Option<(Command, Limits)>, Problem> {
     let execute = setup.scenario.executor();
     let Some(text) = execute.command else { return Ok(None) };
     let command = text.parse().map_err(|error| Problem::input(format!("`execute.command` = {text:?} {error}")))?;

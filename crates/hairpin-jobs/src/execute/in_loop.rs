@@ -48,7 +48,7 @@ pub(crate) fn in_the_loop<T: Send>(
     };
     let told = program.all();
     tell(&told, watch);
-    Ok((found, trouble(&told, stopped())))
+    Ok((found, trouble(&program, &told, stopped())))
 }
 
 /// What the user's program did not fly.
@@ -63,9 +63,11 @@ fn tell(told: &Told, watch: &dyn Watch) {
 }
 
 /// Why the search was in vain, or had to end.
-fn trouble(told: &Told, stopped: bool) -> Option<Problem> {
-    let Told { flown, failed, .. } = told;
+fn trouble(program: &InLoop, told: &Told, stopped: bool) -> Option<Problem> {
+    let Told { flown, failed, last, .. } = told;
     let in_vain = *flown == 0 && *failed > 0 && !stopped;
-    let in_vain = || in_vain.then(|| format!("none of {failed} executions in the loop came to a flight"));
+    let last = last.as_ref().map_or(String::new(), |last| format!("; the last: {}", last.in_full()));
+    let in_vain =
+        || in_vain.then(|| program.by_name(format!("none of {failed} executions in the loop came to a flight{last}")));
     told.trouble.clone().or_else(in_vain).map(Problem::Executor)
 }

@@ -2,9 +2,11 @@
 
 use hairpin::campaign::{Case, Mission, Mistake, Run, Setup, execute_again, execute_run, mission, mission_again};
 
-/// Whether a run can be had again to the bit: one of our own simulator is a function of its scenario, seed and number.
+/// Whether a run can be had again to the bit: one of our own simulator is a function of its scenario, seed and number,
+/// unless code of the user's steers.
 pub(super) fn comes_again(setup: &Setup) -> bool {
-    setup.scenario.executor().command.is_none() && setup.recordings().is_none()
+    let ours = setup.scenario.executor().command.is_none() && setup.steering_code().is_none();
+    ours && setup.recordings().is_none()
 }
 
 /// What is flown: run number `run` of a case or, where it violated, that run for the time number `again`.

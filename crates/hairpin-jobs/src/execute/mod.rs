@@ -26,8 +26,9 @@ use crate::sets::Set;
 use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 pub(crate) use by_case::fly_by_case;
+use fly::first_trouble;
 pub use fly::fly_each;
-pub(crate) use fly::{fly_one, fly_together};
+pub(crate) use fly::{command_of, fly_one, fly_together};
 pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
 pub use missing::Flown;
@@ -64,6 +65,8 @@ pub struct Executed {
     pub cases: usize,
     /// Their runs.
     pub flown: Flown,
+    /// Why the first run that was not flown was not, and by which program.
+    pub trouble: Option<String>,
     /// Names of the missions that were made elsewhere.
     pub missions: Vec<String>,
     /// Saved cases that were run first.
@@ -120,7 +123,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
     fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
-    Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, missions, replayed })
+    let trouble = if flown.failed > 0 { first_trouble(&work, &cases)? } else { None };
+    Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, trouble, missions, replayed })
 }
 
 /// Who resumes goes on with the same settings, or runs of two kinds would stand side by side.

@@ -124,8 +124,8 @@ pub(crate) fn judge_cases(
     tally: &Tally,
     replayed: &[Replayed],
 ) -> Result<Judgement, Problem> {
-    let grid = Grid::of(&work.setup);
-    let judged = cases.par_iter().map(|case| judge_case(work, case, tally, &grid));
+    let (grid, told) = (Grid::of(&work.setup), work.told()?);
+    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, &grid));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
     let from_rows = judged.iter().filter(|case| case.from_rows).count();
@@ -138,7 +138,7 @@ pub(crate) fn judge_cases(
     let influences = campaign::influences(&work.setup.scenario, &deviations);
     let moves = work.setup.own::<ArmSetup>().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
     let baseline = read_baseline(work)?;
-    let verdict = campaign::verdict(&work.setup, cases, (&results, baseline.as_ref()), tally);
+    let verdict = campaign::verdict(&told, cases, (&results, baseline.as_ref()), tally);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
     work.folder.write_results(cases, &results)?;
     if work.setup.has_programs() {
@@ -152,7 +152,7 @@ pub(crate) fn judge_cases(
     Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline })
 }
 
-fn judge_case(work: &Work, case: &Case, tally: &Tally, grid: &Grid) -> Result<JudgedCase, Problem> {
+fn judge_case((work, told): (&Work, &Setup), case: &Case, tally: &Tally, grid: &Grid) -> Result<JudgedCase, Problem> {
     let ToJudge { runs, from_rows } = runs_to_judge(work, case)?;
     if runs.is_empty() {
         return Err(Problem::input(format!(
@@ -161,7 +161,7 @@ fn judge_case(work: &Work, case: &Case, tally: &Tally, grid: &Grid) -> Result<Ju
             work.folder.path().display()
         )));
     }
-    let (mut result, mut deviations) = campaign::judge_runs(&work.setup, case, &runs)?;
+    let (mut result, mut deviations) = campaign::judge_runs(told, case, &runs)?;
     // Missions that were made elsewhere were planned by other scenarios.
     if tally.missions.is_empty() {
         let of_plan = vary::draw_for_case(&work.setup.scenario, case.seed, case.number);

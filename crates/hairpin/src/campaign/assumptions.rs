@@ -14,6 +14,9 @@ pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> 
         Some(own) => said.extend(own),
         None => search(setup, cases, tally, beside, &mut said),
     }
+    if let (Some(program), None) = (setup.program(), setup.controller()) {
+        said.push(format!("Executed by {program}; legs are those that it reported."));
+    }
     said.extend(act);
     runs(setup, &mut said);
     said.extend(verdict);
@@ -74,9 +77,9 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
             search.executions
         ));
     }
-    if let Some(command) = setup.scenario.executor().command.filter(|_| setup.scenario.executes()) {
+    if let Some(program) = setup.program().filter(|_| setup.scenario.executes()) {
         said.push(format!(
-            "What the search executed was flown by `{command}`, each mission once; the judgement's runs were flown anew."
+            "What the search executed was flown by {program}, each mission once; the judgement's runs were flown anew."
         ));
     }
     said.extend(beside);

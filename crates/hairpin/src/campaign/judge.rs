@@ -33,7 +33,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         let flight = match &run.outcome {
             Ok(flight) => flight,
             Err(message) => {
-                unflown = unflown.or(Some(format!("run {}: {message}", run.run)));
+                unflown = unflown.or_else(|| Some(setup.by_program(run.run, message)));
                 continue;
             }
         };

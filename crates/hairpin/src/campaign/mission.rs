@@ -31,6 +31,8 @@ pub struct Mission {
     pub drawn: Vec<(String, serde_json::Value)>,
     /// Both ends included, m, world frame.
     pub waypoints: Vec<Point3<f64>>,
+    /// The planned heading at each waypoint, rad from x towards y; empty where there is none.
+    pub yaws: Vec<f64>,
     /// A waypoint counts as reached inside this radius, m.
     pub accept: f64,
     /// Time limit, s.
@@ -62,6 +64,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let varied = if drawn.is_empty() { setup.clone() } else { setup.drawn(&drawn)? };
     // The plan is the nominal robot's, whatever was drawn for the one that carries it out.
     let timed = if case.leg_times.is_empty() { Vec::new() } else { setup.kind().timed(case) };
+    let yaws = setup.kind().headings(case);
     let executor = varied.scenario.executor();
     let time_limit = executor.patience.time_limit(case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
     let accept = executor.accept;
@@ -71,6 +74,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
         seed: run_seed(case.seed, run),
         drawn,
         waypoints: case.waypoints.clone(),
+        yaws,
         accept,
         time_limit,
         timed,

@@ -33,6 +33,8 @@ pub struct Setup {
     pub simd: Simd,
     kind: Arc<dyn Kind>,
     own_controller: Option<AnyController>,
+    /// What the program of the user's that executed calls itself.
+    program: Option<Arc<str>>,
 }
 
 /// Which keys are looked at.
@@ -86,8 +88,8 @@ impl Setup {
     pub fn build(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
         let Resolved { scenario, attachments } = resolved;
         let attachments = attachments.into();
-        let kind = built(&scenario, &attachments, None, Look::All)?;
-        Self { scenario, attachments, simd: Simd::default(), kind, own_controller: None }.steered()?.checked()
+        let (kind, simd) = (built(&scenario, &attachments, None, Look::All)?, Simd::default());
+        Self { scenario, attachments, simd, kind, own_controller: None, program: None }.steered()?.checked()
     }
 
     /// The same, which tells the first mistake alone.
@@ -119,6 +121,26 @@ impl Setup {
     pub fn with_simd(self, simd: Simd) -> Self {
         let kind = self.kind.with(simd, self.own_controller.as_ref()).unwrap_or_else(|| self.kind.clone());
         Self { simd, kind, ..self }
+    }
+
+    /// The same executed by a program that calls itself `name`, which is what is told of it; one without a name is told
+    /// by its command.
+    #[must_use]
+    pub fn executed_by(self, name: &str) -> Self {
+        Self { program: Some(name).filter(|name| !name.is_empty()).map(Into::into), ..self }
+    }
+
+    /// The program of the user's that executes, in words: what it calls itself, where that is known, else its command.
+    /// `None` where there is none.
+    pub fn program(&self) -> Option<String> {
+        let command = self.scenario.executor().command?;
+        Some(self.program.as_deref().map_or_else(|| format!("`{command}`"), str::to_owned))
+    }
+
+    /// Why run number `run` was not flown, `sentence`, with the program that executes before it, if one does.
+    pub fn by_program(&self, run: usize, sentence: &str) -> String {
+        let program = self.program().map_or(String::new(), |program| format!("{program}, "));
+        format!("{program}run {run}: {sentence}")
     }
 
     /// The setup of `scenario`, whose keys were checked before `[vary]` drew some of them; kernels and controller stay
@@ -167,8 +189,8 @@ impl Setup {
     }
 
     fn with(&self, scenario: Scenario, kind: Arc<dyn Kind>) -> Self {
-        let (attachments, own_controller) = (self.attachments.clone(), self.own_controller.clone());
-        Self { scenario, attachments, simd: self.simd, kind, own_controller }
+        let Self { attachments, own_controller, program, .. } = self.clone();
+        Self { scenario, attachments, simd: self.simd, kind, own_controller, program }
     }
 
     fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {

@@ -100,7 +100,7 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
     Some(words)
 }
 
-/// `simulated, anafi stand-in, minimum-snap`, or the executor's command; of logs `hardware, irb120, nightly/*.csv`.
+/// `simulated, anafi stand-in, minimum-snap`, or `executor my simulator`; of logs `hardware, irb120, nightly/*.csv`.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
     if let Some(logs) = setup.recordings() {
         // What was recorded was no stand-in, only what it is held against is computed with one.
@@ -109,8 +109,8 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
     }
     let name = setup.robot_name();
     let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
-    let who = match (setup.scenario.executor().command, setup.controller()) {
-        (Some(command), None) => format!("executor `{command}`"),
+    let who = match (setup.program(), setup.controller()) {
+        (Some(program), None) => format!("executor {program}"),
         (_, Some(controller)) => match setup.loops() {
             Some(loops) => format!("{controller} on {loops}"),
             None => controller.into(),

@@ -72,7 +72,7 @@ fn three_in_a_row_without_an_answer_end_it() {
     };
     let (told, trouble) = asks("time.sleep(600)");
     let trouble = trouble.unwrap();
-    assert_eq!(trouble, "it left 3 executions in a row without an answer (execute.timeout_s = 0.4)");
+    assert_eq!(trouble, "test: it left 3 executions in a row without an answer (execute.timeout_s = 0.4)");
     assert!(told[2].as_ref().unwrap_err().starts_with("time-out"), "{told:?}");
     assert!(told[3..].iter().all(|told| told == &Err("stopped".to_owned())), "{told:?}");
     // One that is answered between begins it anew.

@@ -3,7 +3,7 @@
 use super::*;
 
 /// An executor that speaks protocol 2 and answers a mission by `body`; `pose` and `end` say what they are of.
-fn speaks_2(folder: &Path, body: &str) -> Command {
+pub(super) fn speaks_2(folder: &Path, body: &str) -> Command {
     let mut text = String::from(
         r#"
 import json, os, sys, time, threading

@@ -31,6 +31,10 @@ impl Claim for ArmSetup {
         Vec::new()
     }
 
+    fn headings(&self, _: &Case) -> Vec<f64> {
+        Vec::new()
+    }
+
     fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
         let mut proof = verify::verify(self, case);
         if case.environment.is_some() {

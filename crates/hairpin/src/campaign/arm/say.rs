@@ -86,6 +86,7 @@ impl Say for ArmSetup {
             robot: json!(self.scenario.robot),
             world: json!(self.scenario.world),
             external_force: None,
+            limits: json!({}),
             frame: FrameWords {
                 relative_to: "arm's base",
                 world: "cell",

@@ -1,6 +1,7 @@
 //! What a boat's claim, execution and limits rest on, said from the run's own settings.
 
 use super::BoatSetup;
+use crate::campaign::kind::reached_within;
 use crate::campaign::scenario::DeviationFrom;
 
 /// What stands behind the legs.
@@ -23,14 +24,10 @@ pub(super) fn claim(setup: &BoatSetup, said: &mut Vec<String>) {
 /// Who sailed them.
 pub(super) fn act(setup: &BoatSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
-    let who = match (&setup.controller, execute.controller_in_force(), &execute.command) {
-        (Some(own), ..) => format!("`{}`, the caller's own", own.name()),
-        (None, Some(ours), _) => format!("`{}` with hairpin's own gains, fixed by step responses", ours.word()),
-        (None, None, command) => {
-            let command = command.as_deref().unwrap_or_default();
-            said.push(format!("Executed by `{command}`; legs are those that it reported."));
-            return;
-        }
+    let who = match (&setup.controller, execute.controller_in_force()) {
+        (Some(own), _) => format!("`{}`, the caller's own", own.name()),
+        (None, Some(ours)) => format!("`{}` with hairpin's own gains, fixed by step responses", ours.word()),
+        (None, None) => return,
     };
     said.push(format!(
         "Simulated: hull in surge, sway and yaw with thrusters that lag ({} s) and end at 0.02 s, no waves, controller {who}; noise {}.",
@@ -41,7 +38,7 @@ pub(super) fn act(setup: &BoatSetup, said: &mut Vec<String>) {
 
 /// What deviation is.
 pub(super) fn verdict(setup: &BoatSetup, said: &mut Vec<String>) {
-    said.push(format!("A waypoint counts as reached within {} m.", setup.scenario.execute.accept_m));
+    said.push(reached_within(setup.scenario.execute.accept_m, setup.scenario.execute.command.is_some()));
     said.push(match setup.scenario.spec.deviation {
         Some(deviation) => {
             let from = match deviation.from {

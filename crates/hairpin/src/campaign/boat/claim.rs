@@ -31,6 +31,10 @@ impl Claim for BoatSetup {
         plan::timed(case)
     }
 
+    fn headings(&self, case: &Case) -> Vec<f64> {
+        plan::headings(case)
+    }
+
     fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
         verify::verify(self, case)
     }

@@ -32,6 +32,24 @@ pub(super) fn timed(case: &Case) -> Vec<Timed> {
     stamps(case.leg_times.iter().sum(), REFERENCE_RATE).into_iter().map(at).collect()
 }
 
+/// Heading at each waypoint, rad: of a witness the one that it passes with, else along the leg that follows.
+pub(super) fn headings(case: &Case) -> Vec<f64> {
+    let legs = case.waypoints.len().saturating_sub(1);
+    let along = |leg: usize| {
+        let way = case.waypoints[leg + 1] - case.waypoints[leg];
+        libm::atan2(way.y, way.x)
+    };
+    let at = |waypoint: usize| {
+        let leg = waypoint.min(legs.saturating_sub(1));
+        match case.profile().and_then(|profile| profile.legs.get(leg)) {
+            Some(piece) => piece.derivative(if waypoint < legs { 0.0 } else { case.leg_times[leg] }, 0).z,
+            None if legs > 0 => along(leg),
+            None => 0.0,
+        }
+    };
+    (0..case.waypoints.len()).map(at).collect()
+}
+
 /// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. A case without leg times is drawn at the
 /// boat's default speed.
 ///

@@ -44,6 +44,7 @@ impl Say for BoatSetup {
             robot: json!(self.scenario.robot),
             world: json!(self.scenario.world),
             external_force: self.scenario.execute.external_force_n.map(|[east, north]| [east, north, 0.0]),
+            limits: json!(self.scenario.generate.limits),
             frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
             start: Point3::new(x, y, 0.0),
             farthest: LARGEST_WATERS_M,

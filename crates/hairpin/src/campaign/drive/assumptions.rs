@@ -4,7 +4,6 @@ use super::DriveSetup;
 use crate::campaign::scenario::GroundReach;
 use crate::feasibility::reach::drive::{Pace, Slopes};
 use crate::robot::rover::{Kinematics, Suspension};
-use crate::simulation::ground::GroundControllerKind;
 
 /// What stands behind the legs.
 ///
@@ -103,30 +102,23 @@ fn pace(setup: &DriveSetup) -> String {
 /// Who drove them.
 pub(super) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
-    match (&execute.command, execute.controller_in_force()) {
-        (Some(command), None) => {
-            said.push(format!("Executed by `{command}`; legs are those that it reported."));
+    let who = match (&setup.controller, execute.controller_in_force()) {
+        (Some(own), _) => format!("`{}`, the caller's own, knows the nominal vehicle and the plan", own.name()),
+        (None, Some(ours)) => {
+            format!("`{}` with hairpin's own gains knows the nominal vehicle and the map", ours.word())
         }
-        (_, controller) => {
-            let who = match &setup.controller {
-                Some(own) => format!("`{}`, the caller's own, knows the nominal vehicle and the plan", own.name()),
-                None => {
-                    let ours = controller.unwrap_or(GroundControllerKind::Predictive);
-                    format!("`{}` with hairpin's own gains knows the nominal vehicle and the map", ours.word())
-                }
-            };
-            let latency = execute.latency_s.unwrap_or(setup.rover.response.latency);
-            said.push(format!(
-                "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \
-                 controller {who}, and its pose exactly."
-            ));
-            if let Some([east, north, up]) = execute.external_force_n {
-                said.push(format!(
-                    "A steady force of ({east}, {north}, {up}) N, east, north, up, pulls at the centre of mass: to slip, torque and tip-over \
-                     margin it is a tilt of gravity. The plan does not know it."
-                ));
-            }
-        }
+        (None, None) => return,
+    };
+    let latency = execute.latency_s.unwrap_or(setup.rover.response.latency);
+    said.push(format!(
+        "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \
+         controller {who}, and its pose exactly."
+    ));
+    if let Some([east, north, up]) = execute.external_force_n {
+        said.push(format!(
+            "A steady force of ({east}, {north}, {up}) N, east, north, up, pulls at the centre of mass: to slip, torque and tip-over \
+             margin it is a tilt of gravity. The plan does not know it."
+        ));
     }
 }
 

@@ -35,6 +35,10 @@ impl Claim for DriveSetup {
         plan::timed(self, case, REFERENCE_RATE)
     }
 
+    fn headings(&self, case: &Case) -> Vec<f64> {
+        plan::headings(self, case)
+    }
+
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
         let mut proof = verify::verify(self, case);
         if case.environment.is_some() {

@@ -23,6 +23,13 @@ pub(super) fn drive_of(setup: &DriveSetup, case: &Case) -> Drive {
     case.commands().cloned().unwrap_or_else(|| straight_legs(setup, &case.waypoints))
 }
 
+/// The body's heading at each waypoint, rad; of a case without a drive those that turns in place come to.
+pub(super) fn headings(setup: &DriveSetup, case: &Case) -> Vec<f64> {
+    let drive = drive_of(setup, case);
+    let first = drive.legs.first().map(|leg| leg.from.yaw);
+    first.into_iter().chain(drive.legs.iter().map(|leg| leg.to.yaw)).collect()
+}
+
 /// The timed reference of a mission at `rate` (Hz).
 ///
 /// At t = k / rate up to the drive's end; places linear between the track's stamps, velocities those of the later one.

@@ -5,7 +5,9 @@ use serde_json::json;
 
 use super::{DriveSetup, assumptions, drawing};
 use crate::campaign::bounds::FARTHEST_M;
-use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, word};
+use crate::campaign::kind::{
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, reached_within, word,
+};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::trajectory::Track;
@@ -27,7 +29,7 @@ impl Say for DriveSetup {
         let mut said = Assumptions { beside: assumptions::searched_beside(self), ..Assumptions::default() };
         assumptions::claim(self, &mut said.claim);
         assumptions::act(self, &mut said.act);
-        said.verdict.push(format!("A waypoint counts as reached within {} m.", self.scenario.execute.accept_m));
+        said.verdict.push(reached_within(self.scenario.execute.accept_m, self.scenario.execute.command.is_some()));
         assumptions::verdict(self, &mut said.verdict);
         said
     }
@@ -67,6 +69,7 @@ impl Say for DriveSetup {
             robot: json!(self.scenario.robot),
             world: json!(self.scenario.world),
             external_force: self.scenario.execute.external_force_n,
+            limits: json!(self.scenario.generate.limits),
             frame: FrameWords { relative_to: "map origin", world: "map", axes: "x east, y north", nowhere: None },
             start: Point3::new(start.x_m, start.y_m, height),
             farthest: farthest(&self.map),

@@ -59,10 +59,6 @@ pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>)
 /// Who flew them.
 pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
-    if let (Some(command), None) = (&execute.command, execute.controller_in_force()) {
-        said.push(format!("Executed by `{command}`; legs are those that it reported."));
-        return;
-    }
     let who = match (&setup.controller, execute.controller_in_force()) {
         (Some(own), _) => format!("`{}`, the caller's own, on hairpin's inner loops", own.name()),
         (None, Some(ours)) => format!("`{}` with {}", ours.word(), ours.gains()),

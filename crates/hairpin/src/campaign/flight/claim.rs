@@ -43,6 +43,11 @@ impl Claim for FlightSetup {
         plan::timed(case, REFERENCE_RATE)
     }
 
+    /// Plans of flights do not turn: their flat outputs are x, y, z.
+    fn headings(&self, case: &Case) -> Vec<f64> {
+        vec![0.0; case.waypoints.len()]
+    }
+
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
         let (mut proof, with_lag) = verify::verify(&self.robot, case).unzip();
         if case.environment.is_some() {

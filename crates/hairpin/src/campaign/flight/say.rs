@@ -6,7 +6,7 @@ use serde_json::json;
 use super::{FlightSetup, assumptions};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, surface,
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, reached_within, surface,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
@@ -49,6 +49,7 @@ impl Say for FlightSetup {
             robot: json!(description(&self.robot)),
             world: json!(self.scenario.world),
             external_force: None,
+            limits: json!(self.scenario.generate.limits),
             frame: FrameWords {
                 relative_to: "cage origin",
                 world: "cage",
@@ -150,6 +151,6 @@ fn reached(setup: &FlightSetup) -> String {
         Some(Acceptance::Cylinder { height }) => {
             format!("A waypoint counts as reached within {} m from above and {height} m in height.", execute.accept_m)
         }
-        _ => format!("A waypoint counts as reached within {} m.", execute.accept_m),
+        _ => reached_within(execute.accept_m, execute.command.is_some() && setup.controller.is_none()),
     }
 }

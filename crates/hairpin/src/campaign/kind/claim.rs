@@ -68,6 +68,9 @@ pub(in crate::campaign) trait Claim {
     /// The timed reference that executors get of a case with leg times; empty where they get none.
     fn timed(&self, case: &Case) -> Vec<Timed>;
 
+    /// The planned heading at each waypoint, rad from x towards y; empty where there is none.
+    fn headings(&self, case: &Case) -> Vec<f64>;
+
     /// Hands the written witness to the verification room, and with it the environment, held to the bounds of `drawn`:
     /// the scenario that the case was searched with. What is found of the two is one proof.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);

@@ -36,6 +36,6 @@ pub(super) use knob::{Condition, Knob, Knobs, Standing, Turn};
 pub(super) use of_robot::Kind;
 pub(super) use programs::Programs;
 pub(super) use same::Same;
-pub(super) use say::{Assumptions, Facts, Motion, RobotWords, Say, word};
+pub(super) use say::{Assumptions, Facts, Motion, RobotWords, Say, reached_within, word};
 pub use say::{FrameWords, Handed};
 pub use solid::{Surface, surface};

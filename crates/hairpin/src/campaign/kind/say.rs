@@ -76,12 +76,22 @@ pub struct Handed {
     pub world: Value,
     /// Steady force on it, east, north, up, N, where there is one.
     pub external_force: Option<[f64; 3]>,
+    /// What plans keep to beside the robot's own limits: `generate.limits`, the keys that are in force.
+    pub limits: Value,
     /// What places are relative to.
     pub frame: FrameWords,
     /// The first waypoint, world frame, m.
     pub start: Point3<f64>,
     /// How far from the origin a place may be, m: beyond is another unit or a slip.
     pub farthest: f64,
+}
+
+/// Where a waypoint counts as reached, `accept` (m) being the radius, in a sentence; a program of the user's, which has
+/// the cylinder from protocol 2 on, does with it what it wants.
+pub(in crate::campaign) fn reached_within(accept: f64, by_command: bool) -> String {
+    let more =
+        if by_command { "; of programs that speak protocol 2 within as much from above and in height" } else { "" };
+    format!("A waypoint counts as reached within {accept} m{more}.")
 }
 
 /// Calls its last argument with the values, one an axis, of whatever a run over waypoints met.

@@ -69,9 +69,9 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let setup = pieces.setup;
     let scenario = &setup.scenario;
     let caveat = if setup.caveat().is_empty() { String::new() } else { format!(" ({})", setup.caveat()) };
-    let executor = match (setup.controller(), scenario.executor().command) {
+    let executor = match (setup.controller(), setup.program()) {
         (Some(controller), _) => format!("{controller}, simulated"),
-        (None, Some(command)) => format!("`{command}`"),
+        (None, Some(program)) => program,
         (None, None) => setup.recordings().map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),
     };
     let Facts { world, task, search, proven, .. } = setup.kind().facts();

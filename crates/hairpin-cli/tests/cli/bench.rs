@@ -1,10 +1,8 @@
 //! Whole commands, measured by the binary itself.
 
-mod commands;
-
 use std::fs;
 
-use commands::{json, run};
+use crate::commands::{json, run};
 
 const INPUTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../bench/commands");
 

@@ -1,13 +1,11 @@
 //! `--keep`: of which runs the motion stays changes no measure, no result and no verdict; what is needed of it later is
 //! executed again, or refused by name where a program flew.
 
-mod commands;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use commands::{assert_same, copy, json, refused, run, small_hull};
+use crate::commands::{assert_same, copy, json, refused, run, small_hull};
 use hairpin::campaign::report::worst_first;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::parquet::runs::{RunFacts, read_facts};

@@ -1,0 +1,37 @@
+//! What a program says of itself in its first `ready`.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::failure::excerpt;
+use super::heard::ReadyMessage;
+
+/// Room for a name.
+const LONGEST_NAME: usize = 100;
+
+/// A program by its own words.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Greeting {
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Which version of it this is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
+    /// The protocol that it speaks.
+    pub protocol: u64,
+    /// Whether, by its own word, the same mission is the same flight to the bit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deterministic: Option<bool>,
+}
+
+impl Greeting {
+    /// That of its `ready`, in `protocol`.
+    pub(super) fn of(ready: &ReadyMessage, protocol: u64) -> Self {
+        let version = ready.version.as_ref().map(|version| match version {
+            Value::String(text) => excerpt(text, LONGEST_NAME),
+            other => excerpt(&other.to_string(), LONGEST_NAME),
+        });
+        let name = excerpt(ready.name.trim(), LONGEST_NAME);
+        Self { name, version, protocol, deterministic: ready.deterministic }
+    }
+}

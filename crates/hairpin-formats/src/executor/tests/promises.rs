@@ -1,0 +1,122 @@
+//! What protocol 2 promises either side, and what a broken promise would be judged as: a violation that nobody flew.
+
+use std::sync::Arc;
+
+use super::second::speaks_2;
+use super::*;
+
+/// The mission as a program in each protocol sees it.
+#[test]
+fn missions_of_protocol_2_say_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mission.json");
+    let keep = format!("open({:?}, 'w').write(json.dumps(m))\ngood(m)", file.to_str().unwrap());
+    let said = |command: Command| -> serde_json::Value {
+        fly(&command, limits(), 1, 1).remove(0).unwrap();
+        serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap()
+    };
+    let second = said(speaks_2(folder.path(), &keep));
+    assert_eq!(second["yaw_rad"], json!([0.0, 0.0, 0.0]));
+    assert_eq!(second["limits"], json!({}));
+    assert_eq!(second["accept"], json!({ "radius_m": 0.5, "height_m": 0.5 }));
+    let first = said(python(folder.path(), &keep));
+    assert!(["yaw_rad", "limits", "accept"].iter().all(|key| first.get(key).is_none()), "{first}");
+    let keys = |mission: &serde_json::Value| mission.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert!(keys(&first).iter().all(|key| second.get(key).is_some()), "{first} {second}");
+}
+
+#[test]
+fn limits_are_those_of_the_scenario() {
+    let given = [("max_speed_m_s", 4.5), ("max_tilt_deg", 30.0)];
+    let given = given.map(|(key, value)| (format!("generate.limits.{key}"), json!(value)));
+    let setup = mission(0).setup.drawn(&given).unwrap();
+    let line = mission_message(&Mission { setup, ..mission(0) }, 2).line();
+    let said: serde_json::Value = serde_json::from_slice(&line).unwrap();
+    assert_eq!(said["limits"], json!({ "max_speed_m_s": 4.5, "max_tilt_deg": 30.0 }));
+}
+
+/// In either protocol.
+#[test]
+fn what_would_be_a_false_violation_is_refused() {
+    let end = "say(type='end', reason='done', **globals().get('of', {}))";
+    for (poses, sentence) in [
+        (
+            "pose(0, [1, 1, -1])",
+            "its first pose is at (1.00, 1.00, -1.00), the start at (1.00, 1.00, 1.00): must be within 0.5 m; it is the start as NED has it",
+        ),
+        ("pose(0, [0, 0, 0])", "it is the program's own origin"),
+        ("pose(0, [9, 9, 9])", "the start at (1.00, 1.00, 1.00): must be within 0.5 m"),
+        (
+            "pose(0, [1, 1, 1]); pose(1, [5, 1, 1], 1); pose(2, [1, 5, 1], 0)",
+            "pose 2 (t_s = 2): leg = 0 after 1: must never fall",
+        ),
+        (
+            "pose(0, [1, 1, 1]); pose(1, [5, 1, 1], None)",
+            "pose 1 (t_s = 1) comes without \"leg\", those before it with: must be in all poses or in none",
+        ),
+        (
+            "pose(0, [1, 1, 1], None); pose(1, [5, 1, 1], 0)",
+            "pose 1 (t_s = 1) comes with \"leg\", those before it without",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        for command in
+            [python(folder.path(), &format!("{poses}; {end}")), speaks_2(folder.path(), &format!("{poses}; {end}"))]
+        {
+            let failed = fly(&command, limits(), 1, 1).remove(0).unwrap_err().to_string();
+            assert!(failed.contains(sentence), "{poses}: {failed}");
+        }
+    }
+}
+
+/// In a corner of the cylinder that is outside of the sphere.
+#[test]
+fn acceptance_is_a_cylinder_from_protocol_2_on() {
+    let poses = "pose(0, [1, 1, 1], None); pose(1, [5.4, 1, 1.4], None); pose(2, [1, 5.4, 0.6], None)";
+    let folder = tempfile::tempdir().unwrap();
+    let reached = |command: &Command| fly(command, limits(), 1, 1).remove(0).unwrap().reached;
+    let end = "say(type='end', reason='done', **globals().get('of', {}))";
+    assert_eq!(reached(&python(folder.path(), &format!("{poses}; {end}"))), [Some(0.0), None, None]);
+    assert_eq!(reached(&speaks_2(folder.path(), &format!("{poses}; {end}"))), [Some(0.0), Some(1.0), Some(2.0)]);
+}
+
+#[test]
+fn programs_are_known_by_what_they_say_of_themselves() {
+    let folder = tempfile::tempdir().unwrap();
+    let greeting = |command: &Command| fly_all(command, limits(), 2, 3, &|i| Ok(mission(i)), &|_, _| {}, &|| false);
+    let second = Greeting { name: "second".into(), version: Some("7".into()), protocol: 2, deterministic: Some(true) };
+    assert_eq!(greeting(&speaks_2(folder.path(), "good(m)")), Some(second));
+    let first = Greeting { name: "test".into(), protocol: 1, ..Greeting::default() };
+    assert_eq!(greeting(&python(folder.path(), "good(m)")), Some(first));
+    assert_eq!(greeting(&"hairpin-no-such-program".parse().unwrap()), None);
+}
+
+#[test]
+fn failures_end_with_the_last_line_of_stderr() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = "print('warming up', file=sys.stderr)\nraise SystemExit('rotor 3 is gone\\n\\n')";
+    let failed = fly(&python(folder.path(), body), limits(), 1, 1).remove(0).unwrap_err();
+    let sentence = "ended without \"end\" (exit status: 1); the last line of its stderr: rotor 3 is gone";
+    assert_eq!(failed.in_full(), sentence);
+}
+
+#[test]
+fn a_wire_keeps_both_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let (wire, command) = (Wire::kept(), speaks_2(folder.path(), "good(m)"));
+    let worker = Worker::start_on(&wire, &command, limits(), 2, &|| false).unwrap();
+    assert_eq!((worker.greeting().name.as_str(), worker.greeting().protocol), ("second", 2));
+    let answer = worker.fly(&mission(0), Duration::ZERO, &|| false);
+    let said: Arc<[String]> = wire.take().said.iter().map(|said| format!("{:?} {}", said.by, said.line)).collect();
+    for (place, beginning) in [
+        (0, "Hairpin {\"type\":\"hello\",\"hairpin\":2}"),
+        (1, "Program {\"type\": \"ready\""),
+        (2, "Hairpin {\"type\":\"reset\",\"case\":\"0000\",\"run\":0}"),
+        (4, "Hairpin {\"type\":\"mission\""),
+    ] {
+        assert!(said[place].starts_with(beginning), "{said:?}");
+    }
+    assert_eq!(said.len(), 5 + 3 + 1);
+    assert!(answer.worker.unwrap().stop().is_none());
+    assert_eq!(wire.take().said[0].line, "{\"type\":\"bye\"}");
+}

@@ -1,0 +1,52 @@
+//! What a campaign folder keeps of the program of the user's that executed: what it says of itself, and its logs.
+
+use std::fs;
+use std::io;
+
+use hairpin::campaign::CaseNumber;
+
+use super::list::List;
+use super::{CampaignFolder, EXECUTOR, FolderError};
+use crate::atomic::{self, WriteError};
+use crate::executor::{Failed, Greeting};
+
+impl CampaignFolder {
+    /// Writes `executor.json`: what the program of the user's that executes says of itself.
+    ///
+    /// # Errors
+    /// The file cannot be written, or is another's.
+    pub fn write_executor(&self, greeting: &Greeting) -> Result<(), FolderError> {
+        List::read(&self.path)?.unwrap_or_default().take_in(&self.path, &[EXECUTOR])?;
+        self.write_json(EXECUTOR, greeting)
+    }
+
+    /// Reads it; `None` where none has executed, or has said nothing.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_executor(&self) -> Result<Option<Greeting>, FolderError> {
+        self.read_json_if_there(EXECUTOR)
+    }
+
+    /// Writes `executor-CASE-RUN.log`: why a program of the user's failed to fly a run, and the end of its stderr.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_executor_log(&self, case: CaseNumber, run: usize, failed: &Failed) -> Result<(), FolderError> {
+        let Failed { failure, stderr } = failed;
+        let text = format!("{failure}\n\n--- the end of its stderr ---\n{stderr}");
+        Ok(atomic::write(&self.file(&format!("executor-{case}-{run}.log")), text.as_bytes())?)
+    }
+
+    /// Removes it, where there is one: the run was flown.
+    ///
+    /// # Errors
+    /// It cannot be removed.
+    pub fn remove_executor_log(&self, case: CaseNumber, run: usize) -> Result<(), FolderError> {
+        let path = self.file(&format!("executor-{case}-{run}.log"));
+        match fs::remove_file(&path) {
+            Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
+            _ => Ok(()),
+        }
+    }
+}
