@@ -28,7 +28,8 @@
 //!
 //! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or
 //! run (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file
-//! for each case or run, `NAME/CASE.parquet`, `programs/CASE.mod` and `NAME/CASE-RUN.parquet`, and are read, not written.
+//! for each case or run, `NAME/CASE.parquet`, `programs/CASE.mod` and `NAME/CASE-RUN.parquet`, and are read, not
+//! written.
 //!
 //! Files are written one by one and each at once, in an order in which each says no more than those before it: the
 //! cases' own files, `waypoints.parquet`, `results.parquet`, `generation.json`.
