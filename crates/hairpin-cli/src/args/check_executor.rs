@@ -7,8 +7,8 @@ use super::keys::Keys;
 use super::numbers::seconds;
 
 /// Takes a program through the executor protocol and tells what was said: handshake, a mission, the same again by
-/// the same process and by a new one, a mission that nobody can fly, one that is ended amid its flight, speed, and bye; with
-/// a sentence for each mistake. Nothing is written. Exit code 0 if it is sound, 4 if not.
+/// the same process and by a new one, a mission that nobody can fly, one that is ended amid its flight, speed, and bye;
+/// with a sentence for each mistake. Nothing is written. Exit code 0 if it is sound, 4 if not.
 #[derive(Debug, Args)]
 pub(crate) struct CheckExecutor {
     /// The program's command line, as --executor takes it

@@ -32,7 +32,7 @@ def fly(m):
             time.sleep(0.2)
     if KIND == "flood":
         while True:
-            say(type="poses", poses=[[poses[0][0]] + row[1:] for row in poses] * 100, **of)
+            say(type="poses", poses=[[poses[0][0]] + row[1:] for row in poses] * 10, **of)
     if KIND == "nan":
         poses[3][1] = math.nan
     if KIND == "ned":
@@ -46,7 +46,7 @@ def fly(m):
         say(type="poses", poses=poses[:3], **of)
         sys.exit("rotor 3 is gone")
     if KIND == "fork" and os.fork() == 0:
-        time.sleep(0.1)  # and answers as well
+        time.sleep(0.03)  # and answers as well
     if KIND == "noise":
         poses = [row[:1] + [x + random.uniform(-1e-3, 1e-3) for x in row[1:4]] + row[4:] for row in poses]
     if KIND == "short":

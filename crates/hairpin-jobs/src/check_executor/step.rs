@@ -72,8 +72,12 @@ impl Step {
         self.findings.push(Finding::Remark(sentence.into()));
     }
 
+    /// The same mistake is told once.
     pub(super) fn mistake(&mut self, sentence: impl Into<String>) {
-        self.findings.push(Finding::Mistake(sentence.into()));
+        let mistake = Finding::Mistake(sentence.into());
+        if !self.findings.contains(&mistake) {
+            self.findings.push(mistake);
+        }
     }
 
     /// A mission that was not flown.

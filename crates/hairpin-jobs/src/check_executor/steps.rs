@@ -189,6 +189,9 @@ impl Session<'_> {
             let Answer { result, before, .. } = self.fly(mission, &|| false);
             elapsed += begun.elapsed();
             before.iter().for_each(|failed| step.failed(failed));
+            if before.is_some() {
+                break;
+            }
             if let Err(failed) = result {
                 step.mistake(format!("the same mission for the time number {}: {}", all.len() + 1, failed.in_full()));
                 break;
