@@ -1,7 +1,7 @@
 //! A few of many cases, in a campaign folder of their own.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
