@@ -99,7 +99,7 @@ impl<R: Steered> Controller<R> for AtTheHelm<R> {
     }
 
     fn reset(&mut self, reference: &Reference<R>) -> Result<(), Fault> {
-        self.until = Some(Instant::now() + self.steersman.limit());
+        self.until = Instant::now().checked_add(self.steersman.limit());
         self.process = Some(self.steersman.process()?);
         self.waypoints = reference.waypoints.iter().map(|point| point.coords.into()).collect();
         let mission = MissionLine {
