@@ -21,7 +21,7 @@ pub(super) enum ToController<'a> {
         /// What is measured.
         state: Value,
         /// Where to go.
-        reference: ReferenceLine<'a>,
+        reference: Box<ReferenceLine<'a>>,
     },
 }
 
