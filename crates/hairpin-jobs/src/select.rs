@@ -1,7 +1,7 @@
 //! A few of many cases, in a campaign folder of their own.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Grid, Tally, vary};
@@ -12,7 +12,7 @@ use crate::execute::measured_runs;
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
-use crate::work::{IfThere, Work, make, open_to_read, saying_what_is_asked};
+use crate::work::{IfThere, Work, make, open_to_read, same_place, saying_what_is_asked};
 use crate::{Problem, Watch};
 
 /// What is chosen, and where it goes.
@@ -141,10 +141,6 @@ impl StressUnit {
         };
         Self { factor, unit }
     }
-}
-
-fn same_place(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// The results that have measures, by case.

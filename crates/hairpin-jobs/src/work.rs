@@ -132,6 +132,11 @@ fn with_logs_from(setup: Setup, folder: &Path, file: &Path) -> Result<Setup, Pro
     Ok(setup.changed(scenario)?)
 }
 
+/// Whether two paths lead to one place.
+pub(crate) fn same_place(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
 /// Makes `path` the folder of the campaign of `setup`.
 ///
 /// # Errors

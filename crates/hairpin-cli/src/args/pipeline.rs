@@ -91,6 +91,12 @@ pub(crate) struct Execute {
     /// Campaign folder
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
+    /// Keep OUT as it is, and the runs in a campaign of their own with the same cases: two programs' side by side
+    #[arg(long, value_name = "DIR", conflicts_with = "logs")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace a campaign in --out
+    #[arg(long, requires = "out", conflicts_with = "resume")]
+    pub(crate) force: bool,
     /// Fly these waypoint files (CSV: x_m,y_m,z_m) instead of the folder's cases
     #[arg(long, value_name = "DIR")]
     pub(crate) missions: Option<PathBuf>,

@@ -19,6 +19,8 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     all.extend(asked.rerun_violations.map(|n| ("execute.flaky.reruns".to_owned(), n.to_string())));
     let settings = ExecuteSettings {
         folder: asked.folder.clone(),
+        out: asked.out.clone(),
+        replaces: asked.force,
         sets: all,
         missions: asked.missions.clone(),
         repro: asked.saved.repro.clone(),

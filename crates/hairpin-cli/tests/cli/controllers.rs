@@ -208,8 +208,6 @@ fn what_cannot_steer_is_refused_before_anything_flies() {
     refused(here, &["stress", "q.toml", "--out", "a"], &["execute.controller", "left out"]);
     given(scenario("minimum-snap").replace("timeout_s = 20.0", "control_rate_hz = 50.0"));
     refused(here, &["stress", "q.toml", "--out", "a"], &["execute.control_rate_hz", "no controller of yours"]);
-    let arm = ["stress", "demo-arm", "--set", "execute.controller=\"python:pd.py\"", "--out", "a"];
-    refused(here, &arm, &["execute.controller"]);
     assert!(!here.join("a").exists());
 }
 
@@ -287,4 +285,35 @@ fn what_drives_and_what_sails_is_steered_too() {
         let done = kept.read_results().unwrap().iter().filter(|result| result.message.is_none()).count();
         assert_eq!(done, 2);
     }
+}
+
+/// On the servos of the virtual controller: who tracks its plan comes as near as that does, who lags does not.
+#[test]
+fn arms_are_steered_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let arm = |name: &str, forward: f64, gain: f64| {
+        let body = format!(
+            "def control(t_s, state, reference):\n    \
+             return {{'dq_rad_s': [{forward} * w + {gain} * (a - q) for w, a, q in \
+             zip(reference['dq_rad_s'], reference['q_rad'], state['q_rad'])]}}\n"
+        );
+        fs::write(here.join(name), body).unwrap();
+    };
+    arm("tracks.py", 1.0, 10.0);
+    arm("lags.py", 0.0, 10.0);
+    let ran = |out: &str, controller: &str| {
+        let controller = format!("execute.controller=\"{controller}\"");
+        let keys = ["generate.search.programs=1", "execute.faults={}", "execute.noise_mm=0.0", "spec.path.max_mm=2000"];
+        let sets = keys.into_iter().chain([controller.as_str()]).flat_map(|key| ["--set", key]);
+        let words = ["stress", "demo-arm", "--out", out].into_iter().chain(sets).collect::<Vec<_>>();
+        let told = json(here, &words);
+        assert_eq!(told["exit_code"], 0, "{told}");
+        (worst(&here.join(out))[0], told["verdict"].as_str().unwrap().to_owned())
+    };
+    let (own, verdict) = ran("tracks", "python:tracks.py");
+    assert!(verdict.contains("python:tracks.py on hairpin's servos"), "{verdict}");
+    let (ours, _) = ran("ours", "virtual");
+    let (late, _) = ran("lags", "python:lags.py");
+    assert!((own - ours).abs() < 0.01 && late > own + 0.01, "{own} {ours} {late}");
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::commands::{SMALL, json, run};
+use crate::commands::{SMALL, contents, json, refused, run};
 use serde_json::Value;
 
 #[test]
@@ -68,4 +68,27 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
         (&Value::from(4), &Value::from(4)),
         "{object}"
     );
+}
+
+/// Two programs' runs of the same cases stand side by side, and the campaign that they are of stays as it was.
+#[test]
+fn runs_of_two_programs_stand_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let minimal = format!("python3 '{minimal}'");
+    let (code, out, error) = run(here, &[&SMALL[..], &["--out", "a"]].concat());
+    assert!([0, 1].contains(&code), "{out}{error}");
+    let before = contents(&here.join("a"));
+    let beside = ["execute", "a", "--executor", &minimal, "--out", "b"];
+    assert_eq!(json(here, &beside)["counts"]["runs"], 4);
+    assert!(contents(&here.join("a")) == before, "a changed");
+    refused(here, &beside, &["b", "--force"]);
+    assert_eq!(json(here, &[&beside[..], &["--force"]].concat())["counts"]["runs"], 4);
+    assert_eq!(json(here, &[&beside[..], &["--resume"]].concat())["counts"]["runs"], 4);
+    refused(here, &["execute", "a", "--out", "a"], &["--out", "another folder"]);
+    assert!([0, 1].contains(&run(here, &["judge", "b"]).0));
+    let (code, out, error) = run(here, &["compare", "a", "b"]);
+    assert!([0, 1].contains(&code) && out.contains("0000"), "{out}{error}");
+    assert_eq!(run(here, &["verify", "b"]).0, 0);
 }

@@ -53,6 +53,7 @@ impl Steered for Boat {
             v_m_s: Some(flat(1)),
             a_m_s2: Some(flat(2)),
             yaw_rad: Some(derivative(0).z),
+            ..Planned::default()
         })
     }
 

@@ -77,6 +77,7 @@ impl Steered for Rover {
             v_m_s: Some(v.into()),
             a_m_s2: Some(a.into()),
             yaw_rad: Some(pose.rotation.euler_angles().2),
+            ..Planned::default()
         })
     }
 

@@ -55,7 +55,13 @@ impl Steered for Quadrotor {
         // Beyond its end it stands where that is.
         let moves = t <= plan.duration();
         let moving = |order| if moves { derivative(order) } else { [0.0; 3] };
-        Some(Planned { p_m: Some(derivative(0)), v_m_s: Some(moving(1)), a_m_s2: Some(moving(2)), yaw_rad: Some(0.0) })
+        Some(Planned {
+            p_m: Some(derivative(0)),
+            v_m_s: Some(moving(1)),
+            a_m_s2: Some(moving(2)),
+            yaw_rad: Some(0.0),
+            ..Planned::default()
+        })
     }
 
     fn planned_s(plan: &Profile) -> f64 {

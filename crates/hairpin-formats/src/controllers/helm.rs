@@ -99,7 +99,7 @@ impl<R: Steered> Controller<R> for AtTheHelm<R> {
     }
 
     fn reset(&mut self, reference: &Reference<R>) -> Result<(), Fault> {
-        self.until = Some(Instant::now() + self.steersman.limit());
+        self.until = Instant::now().checked_add(self.steersman.limit());
         self.process = Some(self.steersman.process()?);
         self.waypoints = reference.waypoints.iter().map(|point| point.coords.into()).collect();
         let mission = MissionLine {
@@ -130,7 +130,7 @@ impl<R: Steered> Controller<R> for AtTheHelm<R> {
             planned: to.plan.and_then(|plan| R::planned(plan, t_s)).unwrap_or_default(),
         };
         let mut may_skip = std::mem::take(&mut self.may_answer);
-        self.asked(&ToController::Control { t_s, state, reference }, |answer| {
+        self.asked(&ToController::Control { t_s, state, reference: Box::new(reference) }, |answer| {
             let command = R::command(answer);
             // What is said to `reset` has no command in it.
             if command.is_err() && std::mem::take(&mut may_skip) && says_nothing(answer) {

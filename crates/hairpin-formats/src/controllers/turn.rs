@@ -1,5 +1,6 @@
 //! What is said at a turn, and what is answered.
 
+use hairpin::robot::arm::AXES;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
@@ -20,7 +21,7 @@ pub(super) enum ToController<'a> {
         /// What is measured.
         state: Value,
         /// Where to go.
-        reference: ReferenceLine<'a>,
+        reference: Box<ReferenceLine<'a>>,
     },
 }
 
@@ -50,6 +51,10 @@ pub(super) struct Planned {
     pub(super) v_m_s: Option<[f64; 3]>,
     pub(super) a_m_s2: Option<[f64; 3]>,
     pub(super) yaw_rad: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) q_rad: Option<[f64; AXES]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) dq_rad_s: Option<[f64; AXES]>,
 }
 
 /// The keys of an answer, but for `type`, which is not looked at.

@@ -20,6 +20,15 @@ impl CampaignFolder {
     /// # Errors
     /// A file cannot be read or written.
     pub fn copy_cases(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
+        self.copy_plans(cases, there)?;
+        self.copy_runs(cases, there)
+    }
+
+    /// The same without the runs.
+    ///
+    /// # Errors
+    /// As [`Self::copy_cases`].
+    pub fn copy_plans(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
         let mut planned = Vec::new();
         for &case in cases {
             let known = self.part_with(TRAJECTORIES, case)?.map(|part| part.piece((case, 0))).transpose()?.flatten();
@@ -31,7 +40,6 @@ impl CampaignFolder {
             planned.push((case, piece));
         }
         there.write_planned(planned)?;
-        self.copy_runs(cases, there)?;
         // What is proven of the first program is of no use without it.
         let optimum = cases.contains(&CaseNumber(0)).then_some(OPTIMUM);
         for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter().chain(optimum) {

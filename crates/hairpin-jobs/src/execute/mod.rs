@@ -1,5 +1,6 @@
 //! Execution: the flights of a campaign whose trajectories are there, or of waypoint files made elsewhere.
 
+mod beside;
 mod by_case;
 mod fly;
 mod in_loop;
@@ -23,8 +24,9 @@ use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{changed_by, keep_changes, open_to_change, tell_share};
+use crate::work::{IfThere, changed_by, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
+use beside::beside;
 pub(crate) use by_case::fly_by_case;
 use fly::first_trouble;
 pub use fly::fly_each;
@@ -42,6 +44,11 @@ pub(crate) use worst::WORST;
 pub struct ExecuteSettings {
     /// Campaign folder.
     pub folder: PathBuf,
+    /// Folder of a campaign of its own with the same cases, where the runs land; where not given they land in the
+    /// campaign's.
+    pub out: Option<PathBuf>,
+    /// Whether a campaign that is in `out` makes room.
+    pub replaces: bool,
     /// Keys of `execute`, `vary` and `spec` with other values.
     pub sets: Vec<Set>,
     /// Folder of waypoint files, which take the place of the folder's cases.
@@ -79,7 +86,13 @@ pub struct Executed {
 /// Settings that do not fit the folder, or a folder that asks to run what its user has not allowed; missions,
 /// recordings or saved cases that cannot be used; a file that cannot be written; it was asked to stop.
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
-    let ExecuteSettings { folder: path, sets, .. } = settings;
+    let ExecuteSettings { folder, sets, .. } = settings;
+    let path = settings.out.as_ref().unwrap_or(folder);
+    // Who resumes goes on where the cases are already.
+    if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
+        let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
+        beside(folder, path, if_there, &settings.consent)?;
+    }
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
     }

@@ -136,6 +136,13 @@ fn executed(setup: &ArmSetup, cases: &[Case], tally: &Tally, often: &str) -> Vec
 /// Who ran them.
 pub(super) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
+    if let Some(own) = &setup.controller {
+        said.push(format!(
+            "The servos' set points are `{}`'s, the caller's own; the path and the times that runs are held against are those that hairpin's virtual \
+             controller plans.",
+            own.name()
+        ));
+    }
     said.push(match &execute.logs {
         Some(logs) => format!(
             "Recorded on a real controller (hardware): `{logs}`. Places are taken for those of the tool's point in the arm's base frame; what \

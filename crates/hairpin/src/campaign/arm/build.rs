@@ -25,7 +25,8 @@ impl Build for ArmSetup {
             _ => Arc::new(station_of(keys, files)?),
         };
         let simd = known.map_or_else(Simd::default, |known| known.simd);
-        Ok(Self { scenario: keys.clone(), attachments: files.clone(), station, simd })
+        let controller = known.and_then(|known| known.controller.clone());
+        Ok(Self { scenario: keys.clone(), attachments: files.clone(), station, simd, controller })
     }
 
     fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {

@@ -6,8 +6,8 @@ use crate::campaign::attachments::Attachments;
 use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
-    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CostName, CostSection, Keys, LogClock, Mistake,
-    MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection, Target,
+    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CONTROLLER_KEY, CostName, CostSection, Keys,
+    LogClock, Mistake, MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection, Steering, Target,
 };
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
@@ -165,11 +165,18 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
         let fine = name.matches('*').count() == 1 && logs.matches('*').count() == 1;
         found.require(fine, "execute.logs", format!("\"{logs}\""), bound);
         let both = "left out where there are logs: runs come from one of the two";
-        found.require(execute.controller.is_none(), "execute.controller", "\"virtual\"", both);
+        let who = serde_json::to_string(&execute.controller).unwrap_or_default();
+        found.require(execute.controller.is_none(), CONTROLLER_KEY, who, both);
         found.require(execute.faults.is_none(), "execute.faults", "given", both);
         let kept = "\"all\" where there are logs: a recording cannot be made again";
         let word = format!("\"{}\"", execute.record.word());
         found.require(execute.record.is_all(), "execute.record", word, kept);
+    }
+    found.who(execute.controller.as_ref(), execute.control_rate_hz, None);
+    if let Some(limit) = execute.timeout_s {
+        let bound = "left out where no controller of yours steers";
+        found.require(Steering::users(execute.controller.as_ref()).is_some(), "execute.timeout_s", limit, bound);
+        found.above("execute.timeout_s", limit, 0.0, 1e6, " s");
     }
     let bound = "left out: the virtual controller's clock is the program's";
     let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;

@@ -8,7 +8,7 @@ use crate::campaign::kind::{Act, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
 use crate::simulation::SimulationError;
-use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape};
+use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape, Steering};
 use crate::trajectory::program::Program;
 use crate::trajectory::{Channel, Ended, Flight, Track};
 
@@ -60,7 +60,8 @@ impl ArmSetup {
 }
 
 impl Act for ArmSetup {
-    /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it.
+    /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it, or by the caller's
+    /// on its servos.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let nominal: &Self = nominal.setup();
         if let Some(logs) = &nominal.scenario.execute.logs {
@@ -73,7 +74,8 @@ impl Act for ArmSetup {
         let program = program_of(case)?;
         let orders = nominal.orders(program)?;
         let plan = Plan::new(&self.station.arm, &nominal.station.home, &orders, &self.plan_settings())?;
-        let run = plan.execute(&self.run_settings(), &self.faults(), order.seed)?;
+        let steering = self.controller.as_ref().map(|controller| Steering { controller, waypoints: order.waypoints });
+        let run = plan.execute_by(&self.run_settings(), &self.faults(), order.seed, steering)?;
         let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
         let track = legs_of(&run.recording)?;
         let reached = reached(&track, case.waypoints.len(), ended);

@@ -11,6 +11,7 @@ use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::ArmScenario;
 use crate::math::simd::Simd;
 use crate::robot::arm::{Arm, Joints, Tool, WorkObject};
+use crate::simulation::OwnController;
 use crate::world::cell::{Cell, Part, Region};
 
 /// An arm in its cell.
@@ -41,6 +42,8 @@ pub struct ArmSetup {
     pub station: Arc<Station>,
     /// Version of the kernels.
     pub simd: Simd,
+    /// Who gives the servos their set points, where that is a controller of the caller's.
+    pub(super) controller: Option<OwnController<Arm>>,
 }
 
 impl ArmSetup {
@@ -51,9 +54,12 @@ impl ArmSetup {
 }
 
 impl Kind for ArmSetup {
-    /// Nobody has brought a controller of arms yet.
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
-        controller.is_none().then(|| Arc::new(Self { simd, ..self.clone() }) as Arc<dyn Kind>)
+        let controller = match controller {
+            Some(own) => Some(own.of::<Arm>()?.clone()),
+            None => None,
+        };
+        Some(Arc::new(Self { simd, controller, ..self.clone() }))
     }
 }
 

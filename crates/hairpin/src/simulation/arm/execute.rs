@@ -7,6 +7,7 @@ use super::follow::Stop;
 use super::plan::{Plan, Timed};
 use super::servo::Servo;
 use super::settings::{Noise, RunSettings};
+use super::steered::{ArmState, JointPlan, Steering, Steersman};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 use crate::math::rotation::from_rotation_vector;
 use crate::robot::arm::{AXES, Joints};
@@ -59,6 +60,21 @@ impl Plan<'_> {
     /// # Errors
     /// Settings or faults out of their bounds.
     pub fn execute(&self, settings: &RunSettings, faults: &[Fault], seed: u64) -> Result<Run, SimulationError> {
+        self.execute_by(settings, faults, seed, None)
+    }
+
+    /// The same where a controller of the caller's own gives the servos their set points, if one is given: it is told the
+    /// plan in time, and the run lasts as long as the plan does. As reproducible as the controller is.
+    ///
+    /// # Errors
+    /// As [`Self::execute`]; a period out of bounds; [`SimulationError::Controller`].
+    pub fn execute_by(
+        &self,
+        settings: &RunSettings,
+        faults: &[Fault],
+        seed: u64,
+        steering: Option<Steering<'_>>,
+    ) -> Result<Run, SimulationError> {
         settings.check()?;
         faults.iter().try_for_each(Fault::check)?;
         let parts = (settings.sample / settings.interpolation).round().max(1.0) as usize;
@@ -78,16 +94,27 @@ impl Plan<'_> {
         let samples = ((end + LINGER * slowest) / settings.sample).ceil() as usize + 1;
         let mut column = Columns::with_capacity(samples);
         let mut random = stream(named_seed(seed, "measured", 0));
+        let steered = |steering| Steersman::new(self.arm, steering, self.joint_plan(step), step);
+        let mut steersman = steering.map(steered).transpose()?;
         let mut cursor = Cursor { section: 0, span: 0 };
         let (mut from, mut measured): (Joints, Joints) = (*self.start(), *self.start());
+        let mut rates = [0.0; AXES];
         for sample in 0..samples {
             if sample > 0 {
                 for part in 1..=parts {
                     let t = ((sample - 1) * parts + part) as f64 * step;
-                    let to = cursor.set_point(&self.timed, &begins, t);
+                    let planned = cursor.set_point(&self.timed, &begins, t);
+                    let to = match &mut steersman {
+                        None => planned,
+                        Some(steersman) => {
+                            let state = ArmState { t: t - step, joints: measured, rates };
+                            steersman.set_point(&from, step, state, cursor.order(self) + 1)?
+                        }
+                    };
                     for (k, joint) in joints.iter_mut().enumerate() {
                         let angle = joint.servo.follow(from[k], to[k]);
-                        measured[k] = joint.play.as_mut().map_or(angle, |play| play.follow(angle));
+                        let angle = joint.play.as_mut().map_or(angle, |play| play.follow(angle));
+                        (rates[k], measured[k]) = ((angle - measured[k]) / step, angle);
                     }
                     from = to;
                 }
@@ -99,6 +126,15 @@ impl Plan<'_> {
         }
         let interpolation_steps = ((samples - 1) * parts) as u64;
         Ok(Run { recording: column.track(settings.sample), stop: self.stop().copied(), interpolation_steps })
+    }
+
+    /// Set points every `step` s, without pauses and delays: what is planned.
+    fn joint_plan(&self, step: f64) -> JointPlan {
+        let begins: Vec<f64> = self.timed.iter().map(|timed| timed.begin).collect();
+        let mut cursor = Cursor { section: 0, span: 0 };
+        let count = (self.duration() / step).ceil() as usize;
+        let joints = (0..=count).map(|i| cursor.set_point(&self.timed, &begins, i as f64 * step)).collect();
+        JointPlan { period: step, joints }
     }
 
     /// Joint k, from 0, with the faults that are about it; of several plays the last counts, shares of speed multiply.
@@ -178,13 +214,18 @@ impl Cursor {
         section.joints_at(self.span, s)
     }
 
+    /// The move that is being executed.
+    fn order(&self, plan: &Plan) -> usize {
+        let spans = &plan.timed[self.section].section.spans;
+        spans.get(self.span).map_or(0, |span| span.order).min(plan.orders.len() - 1)
+    }
+
     /// The move that is being executed, and whether the set points move.
     fn place(&self, plan: &Plan, begins: &[f64], time: f64, end: f64) -> (usize, Status) {
-        let Timed { section, law, .. } = &plan.timed[self.section];
+        let law = &plan.timed[self.section].law;
         let since = time - begins[self.section];
         let moving = since >= 0.0 && since < law.duration();
-        let last = plan.orders.len() - 1;
-        let order = section.spans.get(self.span).map_or(0, |span| span.order).min(last);
+        let order = self.order(plan);
         let status = match (moving, plan.stop()) {
             (true, _) => Status::Moving,
             (false, Some(_)) if time >= end => Status::Stopped,

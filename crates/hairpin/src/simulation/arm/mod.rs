@@ -10,6 +10,7 @@
 //! | joint angles along them, node by node, one branch | `follow`, `grid` |
 //! | x = ṡ² by speeds and accelerations, two passes; an S-curve by averaging | `profile`, `clock` |
 //! | servos a lag behind, faults, noise, a recording | `servo`, `faults`, `execute` |
+//! | set points by a controller of the caller's own | `steered` |
 //!
 //! It shares the arm's kinematics with the claim and none of its bounds between samples: where a program cannot be
 //! followed it stops, and says at which move, how far and why ([`Stop`]).
@@ -58,6 +59,7 @@ mod program;
 mod servo;
 mod settings;
 mod sharp;
+mod steered;
 
 #[cfg(test)]
 mod tests;
@@ -68,3 +70,4 @@ pub use follow::{Reason, Stop};
 pub use order::{Order, Speed, Target, Zone};
 pub use plan::{Load, Plan};
 pub use settings::{Noise, PlanSettings, RunSettings, Shape};
+pub use steered::{ArmCommand, ArmState, JointPlan, Steering};

@@ -3,15 +3,21 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Record};
+use crate::campaign::scenario::{FlakySection, Record, Steering};
 
 /// `[execute]`: our virtual controller, or logs of a real one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ArmExecute {
-    /// virtual.
+    /// virtual, or yours: python:FILE | command:CMD.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub controller: Option<ArmControllerKind>,
+    pub controller: Option<Steering<ArmControllerKind>>,
+    /// Turns of a controller of yours in a second; 100 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control_rate_hz: Option<f64>,
+    /// Wall-clock limit of a run by a controller of yours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub timeout_s: Option<f64>,
     /// CSV logs of a real controller, relative to the scenario file; `*` stands for CASE-RUN or, where there is one
     /// run, CASE: `nightly/*.csv`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,6 +51,8 @@ impl Default for ArmExecute {
     fn default() -> Self {
         Self {
             controller: None,
+            control_rate_hz: None,
+            timeout_s: None,
             logs: None,
             log_clock: LogClock::AsRecorded,
             repeat: 1,

@@ -7,13 +7,15 @@ use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource, ProgramMe
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
-    Subject, Terms, sections,
+    Steering, Subject, Terms, UserSteering, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};
 
 /// A point counts as reached within this distance of an arm's tool, m.
 const ARRIVED: f64 = 1e-3;
+/// Wall-clock limit of a run by a controller of the user's, s.
+const PATIENCE: f64 = 60.0;
 
 /// Keys of limits.
 const LIMITS: &[&str] = &["spec.path.max_mm", "spec.arrival.max_late_ms", "spec.regression.baseline"];
@@ -38,8 +40,8 @@ impl Keys for ArmScenario {
             executor: Executor {
                 command: None,
                 repeat: execute.repeat,
-                timeout: f64::INFINITY,
-                control_rate: None,
+                timeout: execute.timeout_s.unwrap_or(PATIENCE),
+                control_rate: execute.control_rate_hz,
                 processes: None,
                 accept: ARRIVED,
                 baseline: execute.baseline.unwrap_or(BASELINE),
@@ -48,7 +50,11 @@ impl Keys for ArmScenario {
                 // The virtual controller's runs end with their program.
                 patience: Patience { given: None, per_waypoint: f64::INFINITY, of_plan: 0.0, spare: 0.0 },
             },
-            controller: execute.logs.is_none().then_some("virtual controller"),
+            controller: match (&execute.logs, Steering::users(execute.controller.as_ref())) {
+                (Some(_), _) => None,
+                (None, Some(users)) => Some(users.word()),
+                (None, None) => Some("virtual controller"),
+            },
             origin: None,
             vary: &self.vary,
             violation_share: spec.violation_share,
@@ -64,8 +70,9 @@ impl Keys for ArmScenario {
     }
 
     fn subject(&self) -> Subject {
-        let controller = if self.execute.logs.is_some() { "recorded" } else { "virtual" };
-        let subject = Subject::of(&self.robot, |robot| &robot.name, true, Some(controller));
+        let users = Steering::users(self.execute.controller.as_ref()).map(UserSteering::word);
+        let ours = if self.execute.logs.is_some() { "recorded" } else { "virtual" };
+        let subject = Subject::of(&self.robot, |robot| &robot.name, true, Some(users.unwrap_or(ours)));
         Subject { speeds: ARM_MOVES.into(), ..subject }
     }
 
@@ -86,7 +93,7 @@ impl Keys for ArmScenario {
 
     fn write_defaults(&mut self) {
         if self.execute.logs.is_none() {
-            self.execute.controller = Some(ArmControllerKind::Virtual);
+            self.execute.controller.get_or_insert(Steering::Ours(ArmControllerKind::Virtual));
         }
         let search = self.search();
         let own = &mut self.generate.search;
@@ -117,8 +124,9 @@ impl Keys for ArmScenario {
             PointsSource::File(file) => Some((file, &mut self.task.checksum)),
             PointsSource::List(_) | PointsSource::Drawn(_) => None,
         };
+        let controller = Steering::users_mut(self.execute.controller.as_mut());
         let (target, baseline) = (self.generate.search.target.as_mut(), self.spec.regression.as_mut());
-        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, controller: None, baseline }
+        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, controller, baseline }
     }
 
     fn frames(&self) -> Option<(Tool, WorkObject)> {

@@ -1,0 +1,42 @@
+//! A campaign's cases once more, in a folder of their own: two programs' runs of them stand side by side.
+
+use std::path::Path;
+
+use crate::Problem;
+use crate::consent::{Consent, Wish};
+use crate::work::{IfThere, make, open_to_read, same_place};
+
+/// Makes `out` a campaign with the scenario and the cases of `folder`, of which nothing was executed yet. Marks of the
+/// user's on what the scenario wishes to run hold there, too.
+///
+/// # Errors
+/// The same folder, or one of recordings; `out` holds a campaign that is not to be replaced; a file cannot be read or
+/// written.
+pub(super) fn beside(folder: &Path, out: &Path, if_there: IfThere, consent: &Consent) -> Result<(), Problem> {
+    if same_place(folder, out) {
+        return Err(Problem::input("--out: must be another folder than OUT"));
+    }
+    let work = open_to_read(folder)?;
+    if let Some(logs) = work.setup.recordings() {
+        return Err(Problem::input(format!(
+            "--out: {} has recordings (execute.logs = \"{logs}\"), which are of one controller",
+            folder.display()
+        )));
+    }
+    let wishes = Wish::of_campaign(&work.setup);
+    let marked = consent.has_marked(folder, &wishes);
+    let new = make(out, work.setup.clone(), if_there)?;
+    if marked {
+        consent.mark(out, &wishes);
+    }
+    if !work.folder.has_cases() {
+        return Ok(());
+    }
+    let cases = work.folder.read_cases()?;
+    work.folder.copy_plans(&cases.iter().map(|case| case.number).collect::<Vec<_>>(), &new.folder)?;
+    new.folder.write_new_cases(&cases, 0)?;
+    if work.folder.has_tally() {
+        new.folder.write_tally(&work.folder.read_tally()?)?;
+    }
+    Ok(())
+}
