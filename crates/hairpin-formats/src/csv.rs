@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::trajectory::Track;
 
 use crate::atomic::{self, WriteError};
-use crate::parquet::track::in_order;
+use crate::channels::in_order;
 
 /// The text of `track`: `t,x_m,y_m,z_m,qw,qx,qy,qz` and its channels; `t` in s. Numbers read back to the same bits.
 pub fn text(track: &Track) -> String {

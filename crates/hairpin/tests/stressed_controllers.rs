@@ -144,7 +144,8 @@ fn it_is_named_wherever_ours_would_be() {
     };
     let (how, said) = told(&own);
     assert!(
-        how.ends_with(", tiring") && said.contains("controller `tiring`, the caller's own, on hairpin's inner loops")
+        how.ends_with(", tiring on hairpin's inner loops")
+            && said.contains("controller `tiring`, the caller's own, on hairpin's inner loops")
     );
     assert!(!said.contains("hairpin's own gains"), "{said}");
     let (how, said) = told(&ours);

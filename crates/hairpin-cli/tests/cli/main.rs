@@ -1,4 +1,5 @@
-//! The command line as a user types it: one program for all its tests, so that it is linked once and both cores are busy.
+//! The command line as a user types it: one program for all its tests, so that it is linked once and both cores are
+//! busy.
 
 mod commands;
 

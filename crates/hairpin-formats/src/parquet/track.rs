@@ -19,11 +19,9 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::piece::Piece;
 use super::table::{CASE, Columns, RUN, Table, TableError};
+use crate::channels::{LEG, VELOCITY, in_order};
 
 const POSE: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
-const LEG: &str = "leg";
-/// Channels that stand right after the pose, whatever the track's order.
-const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 /// A quaternion rewritten in single precision is off by 1e-7; one that is off by more than this is another thing.
 const NORM_TOLERANCE: f64 = 1e-3;
 
@@ -75,18 +73,6 @@ fn step_of(values: &[f64]) -> f64 {
     let most = TOLERANCES.share * (high - low) / STEPS;
     // Its exponent alone.
     if most.is_normal() && most > 0.0 { f64::from_bits(most.to_bits() & (0x7ff << 52)) } else { 0.0 }
-}
-
-/// The channels of `track` as they stand in files: the leg, the velocity, then the others in their order.
-pub(crate) fn in_order(track: &Track) -> Vec<&Channel> {
-    let place = |channel: &&Channel| match channel.name.as_str() {
-        LEG => 0,
-        name if VELOCITY.contains(&name) => 1,
-        _ => 2,
-    };
-    let mut channels: Vec<&Channel> = track.channels().iter().collect();
-    channels.sort_by_key(place);
-    channels
 }
 
 /// Reads a track: every further column of numbers becomes a channel.

@@ -10,7 +10,7 @@ use hairpin::campaign::{UserController, user_score, user_target};
 
 use super::attached::Wrong;
 use super::whole::read_file;
-use crate::controllers::{Source, Steersman, controllers};
+use crate::controllers::{Source, Steersman};
 
 /// Turns in a second where nothing says how many.
 const USUAL_RATE: f64 = 100.0;
@@ -52,13 +52,7 @@ pub(super) fn read(
     // What is no time, or no rate, is refused with the keys that say it.
     let limit = Duration::try_from_secs_f64(terms.timeout).unwrap_or(Duration::MAX);
     let steersman = Arc::new(Steersman::new(source, steering.word(), terms.rate.recip(), limit));
-    Ok(Arc::new(UserController {
-        word: steering.word().to_owned(),
-        given,
-        controllers: controllers(&steersman),
-        code: steersman,
-        file,
-    }))
+    Ok(Arc::new(UserController { word: steering.word().to_owned(), given, code: steersman, file }))
 }
 
 /// The name of the copy of `file` in a campaign's folder: its own, if nothing else there can have that.

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-use hairpin_formats::atomic;
 use hairpin_formats::steering::{self, Answer, Block, Blocks, Columns, Drive, Errors, Frame, KeptAnswer, Row, Status};
+use hairpin_formats::{atomic, bounds};
 use rayon::prelude::*;
 
 use super::answered::Answered;
@@ -52,7 +52,7 @@ impl Run<'_> {
             if self.kept.is_empty() {
                 file.write_all(steering::head().as_bytes())?;
             } else {
-                io::copy(&mut File::open(out)?, file)?;
+                io::copy(&mut bounds::open(out, u64::MAX)?, file)?;
             }
             let found = self.all(blocks, &mut |rows| file.write_all(rows));
             // Without an answer what was there before stays.

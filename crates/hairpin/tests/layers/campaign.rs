@@ -16,7 +16,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // All keys are one sum: the table of the kinds.
     &["scenario::kinds"],
     &["user_code"],
-    &["vary", "user_score", "user_target", "baseline"],
+    &["vary", "user_score", "user_target", "user_controller", "baseline"],
     // What a case and its runs are.
     &["full_rate"],
     &["case"],

@@ -60,8 +60,8 @@ impl ArmSetup {
 }
 
 impl Act for ArmSetup {
-    /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it, or by the caller's
-    /// on its servos.
+    /// Runs the program, which was made with `nominal`, on the virtual controller as this setup has it, or by the
+    /// caller's on its servos.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let nominal: &Self = nominal.setup();
         if let Some(logs) = &nominal.scenario.execute.logs {

@@ -29,6 +29,7 @@ mod seen;
 mod solve;
 mod solver;
 mod station;
+mod steered;
 #[cfg(test)]
 mod tests;
 mod verify;

@@ -13,6 +13,8 @@ use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod, Target};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::arm::AXES;
+use crate::robot::arm::Arm;
+use crate::simulation::Controlled;
 use crate::trajectory::Track;
 use crate::world::cell::Region;
 use crate::world::{Obstacle, Shape};
@@ -32,6 +34,7 @@ impl Say for ArmSetup {
             estimated: arm.estimated.iter().map(String::as_str).collect(),
             has_sides: false,
             unknown_shapes: looked_at.then_some("link shapes estimated"),
+            loops: Arm::LOOPS,
         }
     }
 

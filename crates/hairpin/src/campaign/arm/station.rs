@@ -56,7 +56,7 @@ impl ArmSetup {
 impl Kind for ArmSetup {
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
         let controller = match controller {
-            Some(own) => Some(own.of::<Arm>()?.clone()),
+            Some(own) => Some(own.of::<Arm>()?),
             None => None,
         };
         Some(Arc::new(Self { simd, controller, ..self.clone() }))

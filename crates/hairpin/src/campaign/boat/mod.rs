@@ -13,6 +13,7 @@ mod plan;
 mod say;
 mod setup;
 mod solve;
+mod steered;
 #[cfg(test)]
 mod tests;
 mod through;

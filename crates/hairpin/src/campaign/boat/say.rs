@@ -8,13 +8,16 @@ use crate::campaign::bounds::LARGEST_WATERS_M;
 use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
+use crate::robot::boat::Boat;
+use crate::simulation::Controlled;
 use crate::trajectory::Track;
 
 impl Say for BoatSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let boat = &self.boat;
         let estimated = boat.estimated.iter().map(String::as_str).collect();
-        RobotWords { name: &boat.name, caveat: &boat.caveat, estimated, has_sides: true, unknown_shapes: None }
+        let loops = Boat::LOOPS;
+        RobotWords { name: &boat.name, caveat: &boat.caveat, estimated, has_sides: true, unknown_shapes: None, loops }
     }
 
     fn assumptions(&self, _: &[Case], _: &Tally) -> Assumptions {

@@ -88,7 +88,7 @@ impl BoatSetup {
 impl Kind for BoatSetup {
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
         let controller = match controller {
-            Some(own) => Some(own.of::<Boat>()?.clone()),
+            Some(own) => Some(own.of::<Boat>()?),
             None => None,
         };
         Some(Arc::new(Self { simd, controller, ..self.clone() }))

@@ -18,6 +18,7 @@ mod say;
 mod setup;
 mod site;
 mod solve;
+mod steered;
 mod stepwise;
 mod surround;
 #[cfg(test)]

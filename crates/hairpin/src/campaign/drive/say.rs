@@ -10,6 +10,8 @@ use crate::campaign::kind::{
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
+use crate::robot::rover::Rover;
+use crate::simulation::Controlled;
 use crate::trajectory::Track;
 use crate::world::terrain::{ElevationMap, Terrain};
 
@@ -22,6 +24,7 @@ impl Say for DriveSetup {
             estimated: rover.estimated.clone(),
             has_sides: true,
             unknown_shapes: None,
+            loops: Rover::LOOPS,
         }
     }
 

@@ -161,7 +161,7 @@ impl DriveSetup {
 impl Kind for DriveSetup {
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
         let controller = match controller {
-            Some(own) => Some(own.of::<Rover>()?.clone()),
+            Some(own) => Some(own.of::<Rover>()?),
             None => None,
         };
         Some(Arc::new(Self { simd, controller, ..self.clone() }))

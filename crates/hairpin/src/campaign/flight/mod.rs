@@ -16,6 +16,7 @@ mod replan;
 mod say;
 mod setup;
 mod solve;
+mod steered;
 mod stepwise;
 mod surround;
 mod verify;

@@ -12,6 +12,7 @@ use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::math::rotation::angle_between;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
+use crate::simulation::Controlled;
 use crate::simulation::{Acceptance, ControllerKind};
 use crate::trajectory::Flight;
 
@@ -19,7 +20,7 @@ impl Say for FlightSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let Quadrotor { name, caveat, estimated, .. } = &*self.robot;
         let estimated = estimated.iter().map(String::as_str).collect();
-        RobotWords { name, caveat, estimated, has_sides: true, unknown_shapes: None }
+        RobotWords { name, caveat, estimated, has_sides: true, unknown_shapes: None, loops: Quadrotor::LOOPS }
     }
 
     fn assumptions(&self, cases: &[Case], _: &Tally) -> Assumptions {

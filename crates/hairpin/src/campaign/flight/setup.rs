@@ -60,7 +60,7 @@ impl FlightSetup {
 impl Kind for FlightSetup {
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
         let controller = match controller {
-            Some(own) => Some(own.of::<Quadrotor>()?.clone()),
+            Some(own) => Some(own.of::<Quadrotor>()?),
             None => None,
         };
         Some(Arc::new(Self { simd, controller, ..self.clone() }))

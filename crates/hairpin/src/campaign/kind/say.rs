@@ -22,6 +22,8 @@ pub(in crate::campaign) struct RobotWords<'a> {
     pub(in crate::campaign) has_sides: bool,
     /// What of its shape a claim rests on that is not known, in a few words of the verdict.
     pub(in crate::campaign) unknown_shapes: Option<&'static str>,
+    /// What of ours carries out what a stranger's controller asks for.
+    pub(in crate::campaign) loops: Option<&'static str>,
 }
 
 /// "Assumptions and limits of this run", by what they are about.

@@ -43,11 +43,8 @@ impl Setup {
             let kind = self.kind.with(self.simd, None).unwrap_or_else(|| self.kind.clone());
             return Ok(Self { kind, own_controller: None, ..self });
         };
-        let fits = user.controllers.iter().find_map(|any| Some((any.named(), self.kind.with(self.simd, Some(any))?)));
-        let (controller, kind) = fits.ok_or_else(|| {
-            let (key, value) = (CONTROLLER_KEY.into(), format!("\"{}\"", user.given));
-            vec![Mistake { key, value, bound: "left out: robots of this kind are steered by hairpin's own".into() }]
-        })?;
+        let controller = AnyController::named(user);
+        let kind = self.kind.with(self.simd, Some(&controller)).ok_or_else(|| vec![controller.foreign()])?;
         match controller.mistake(&self.scenario) {
             Some(mistake) => Err(vec![mistake]),
             None => Ok(Self { kind, own_controller: Some(controller), ..self }),
@@ -76,7 +73,7 @@ impl Setup {
 
     /// What of ours carries out what the caller's or the user's controller asks for.
     pub(in crate::campaign) fn loops(&self) -> Option<&'static str> {
-        self.own_controller().and_then(AnyController::loops)
+        self.own_controller().and(self.robot_words().loops)
     }
 
     /// The word of the controller that executes, the caller's or ours; `None` where a command does.

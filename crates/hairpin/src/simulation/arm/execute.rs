@@ -63,8 +63,8 @@ impl Plan<'_> {
         self.execute_by(settings, faults, seed, None)
     }
 
-    /// The same where a controller of the caller's own gives the servos their set points, if one is given: it is told the
-    /// plan in time, and the run lasts as long as the plan does. As reproducible as the controller is.
+    /// The same where a controller of the caller's own gives the servos their set points, if one is given: it is told
+    /// the plan in time, and the run lasts as long as the plan does. As reproducible as the controller is.
     ///
     /// # Errors
     /// As [`Self::execute`]; a period out of bounds; [`SimulationError::Controller`].

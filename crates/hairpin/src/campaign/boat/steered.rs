@@ -1,15 +1,12 @@
-//! What sails.
+//! What sails, as code of the user's that steers it knows it.
 
-use hairpin::robot::boat::Boat;
-use hairpin::simulation::boat::{BoatCommand, BoatState};
-use hairpin::trajectory::Profile;
+use crate::robot::boat::Boat;
+use crate::simulation::boat::{BoatCommand, BoatState};
+use crate::trajectory::Profile;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::helm::Steered;
-use super::turn::{Planned, keys};
-
-const WANTED: &str = "{\"force_n\",\"moment_n_m\"}, of finite numbers";
+use crate::campaign::own_controller::{Planned, Steered, keys};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,6 +16,8 @@ struct Answer {
 }
 
 impl Steered for Boat {
+    const WANTED: &'static str = "{\"force_n\",\"moment_n_m\"}, of finite numbers";
+
     fn numbers(&self) -> Value {
         json!({
             "kind": "boat",
@@ -61,8 +60,8 @@ impl Steered for Boat {
         plan.duration()
     }
 
-    fn command(answer: &[u8]) -> Result<BoatCommand, String> {
-        let Answer { force_n: [surge, sway], moment_n_m: yaw } = keys(answer, WANTED)?;
+    fn command(answer: Map<String, Value>) -> Result<BoatCommand, String> {
+        let Answer { force_n: [surge, sway], moment_n_m: yaw } = keys::<Self, Answer>(answer)?;
         Ok(BoatCommand { surge, sway, yaw })
     }
 }

@@ -1,17 +1,14 @@
-//! What flies.
+//! What flies, as code of the user's that steers it knows it.
 
-use hairpin::robot::quadrotor::Quadrotor;
-use hairpin::simulation::{FlightCommand, FlightState};
-use hairpin::trajectory::Profile;
+use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::{FlightCommand, FlightState};
+use crate::trajectory::Profile;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::helm::Steered;
-use super::turn::{Planned, keys};
+use crate::campaign::own_controller::{Planned, Steered, keys};
 
-const WANTED: &str = "one of {\"v_m_s\"}, {\"a_m_s2\"}, {\"thrust_n\",\"q_wxyz\"}, {\"thrust_n\",\"w_rad_s\"}, of finite \
-                      numbers";
 /// By how much the norm of a quaternion may differ from 1: whoever rounds to three digits is understood.
 const NORM: f64 = 0.01;
 
@@ -26,6 +23,9 @@ struct Answer {
 }
 
 impl Steered for Quadrotor {
+    const WANTED: &'static str = "one of {\"v_m_s\"}, {\"a_m_s2\"}, {\"thrust_n\",\"q_wxyz\"}, {\"thrust_n\",\"w_rad_s\"}, of finite \
+                      numbers";
+
     fn numbers(&self) -> Value {
         json!({
             "kind": "quadrotor",
@@ -68,8 +68,8 @@ impl Steered for Quadrotor {
         plan.duration()
     }
 
-    fn command(answer: &[u8]) -> Result<FlightCommand, String> {
-        let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys(answer, WANTED)?;
+    fn command(answer: Map<String, Value>) -> Result<FlightCommand, String> {
+        let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys::<Self, Answer>(answer)?;
         match (v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s) {
             (Some(v), None, None, None, None) => Ok(FlightCommand::Velocity(Vector3::from(v))),
             (None, Some(a), None, None, None) => Ok(FlightCommand::Acceleration(Vector3::from(a))),
@@ -81,7 +81,7 @@ impl Steered for Quadrotor {
                 Err(format!("q_wxyz must have the norm 1, not {}", q.norm()))
             }
             (None, None, Some(thrust), None, Some(w)) => Ok(FlightCommand::Rates { thrust, rates: Vector3::from(w) }),
-            _ => Err(format!("must be {WANTED}")),
+            _ => Err(format!("must be {}", Self::WANTED)),
         }
     }
 }

@@ -1,17 +1,15 @@
-//! What drives.
+//! What drives, as code of the user's that steers it knows it.
 
-use hairpin::robot::rover::Rover;
-use hairpin::simulation::ground::{DriveCommand, DriveState};
-use hairpin::trajectory::Track;
-use nalgebra::Vector3;
+use std::f64::consts::TAU;
+
+use crate::robot::rover::Rover;
+use crate::simulation::ground::{DriveCommand, DriveState};
+use crate::trajectory::Track;
+use nalgebra::{Isometry3, Vector3};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::helm::Steered;
-use super::turn::{Planned, keys};
-
-const WANTED: &str =
-    "{\"v_m_s\",\"curvature_1_m\"}, with \"turn_rad_s\" and \"direction_rad\" if wanted, of finite numbers";
+use crate::campaign::own_controller::{Planned, Steered, keys};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -24,7 +22,16 @@ struct Answer {
     direction_rad: f64,
 }
 
+/// ψ of `world_from_body`, rad.
+fn yaw(pose: &Isometry3<f64>) -> f64 {
+    let q = &pose.rotation;
+    libm::atan2(2.0 * (q.w * q.k + q.i * q.j), 1.0 - 2.0 * (q.j * q.j + q.k * q.k))
+}
+
 impl Steered for Rover {
+    const WANTED: &'static str =
+        "{\"v_m_s\",\"curvature_1_m\"}, with \"turn_rad_s\" and \"direction_rad\" if wanted, of finite numbers";
+
     fn numbers(&self) -> Value {
         // JSON has no infinity: what has no bound is null.
         let bound = |value: f64| value.is_finite().then_some(value);
@@ -61,7 +68,10 @@ impl Steered for Rover {
         let next = (at + 1).min(last);
         let span = times[next] - times[at];
         let share = if span > 0.0 { ((t - times[at]) / span).clamp(0.0, 1.0) } else { 0.0 };
-        let pose = poses[at].try_lerp_slerp(&poses[next], share, 1e-9).unwrap_or(poses[next]);
+        let place = plan.position(at) + (plan.position(next) - plan.position(at)) * share;
+        // The shorter way round.
+        let turn = yaw(&poses[next]) - yaw(&poses[at]);
+        let turn = turn - TAU * (turn / TAU).round();
         let moves = t <= times[last];
         let velocity = |from: usize, to: usize| match times[to] - times[from] {
             span if span > 0.0 => (plan.position(to) - plan.position(from)) / span,
@@ -73,10 +83,10 @@ impl Steered for Rover {
         let change = velocity(next, after) - velocity(before, at);
         let a = if moves && around > 0.0 && before < at && next < after { change / around } else { Vector3::zeros() };
         Some(Planned {
-            p_m: Some(pose.translation.vector.into()),
+            p_m: Some(place.coords.into()),
             v_m_s: Some(v.into()),
             a_m_s2: Some(a.into()),
-            yaw_rad: Some(pose.rotation.euler_angles().2),
+            yaw_rad: Some(yaw(&poses[at]) + share * turn),
             ..Planned::default()
         })
     }
@@ -85,8 +95,8 @@ impl Steered for Rover {
         plan.times().last().copied().unwrap_or_default()
     }
 
-    fn command(answer: &[u8]) -> Result<DriveCommand, String> {
-        let Answer { v_m_s, curvature_1_m, turn_rad_s, direction_rad } = keys(answer, WANTED)?;
+    fn command(answer: Map<String, Value>) -> Result<DriveCommand, String> {
+        let Answer { v_m_s, curvature_1_m, turn_rad_s, direction_rad } = keys::<Self, Answer>(answer)?;
         Ok(DriveCommand { speed: v_m_s, curvature: curvature_1_m, turn_rate: turn_rad_s, direction: direction_rad })
     }
 }

@@ -1,14 +1,11 @@
-//! Arms.
+//! An arm as code of the user's that steers it knows it.
 
-use hairpin::robot::arm::{AXES, Arm};
-use hairpin::simulation::arm::{ArmCommand, ArmState, JointPlan};
+use crate::robot::arm::{AXES, Arm};
+use crate::simulation::arm::{ArmCommand, ArmState, JointPlan};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::helm::Steered;
-use super::turn::{Planned, keys};
-
-const WANTED: &str = "{\"dq_rad_s\"}, six finite numbers";
+use crate::campaign::own_controller::{Planned, Steered, keys};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -17,6 +14,8 @@ struct Answer {
 }
 
 impl Steered for Arm {
+    const WANTED: &'static str = "{\"dq_rad_s\"}, six finite numbers";
+
     fn numbers(&self) -> Value {
         json!({
             "kind": "arm",
@@ -40,7 +39,7 @@ impl Steered for Arm {
         plan.duration()
     }
 
-    fn command(answer: &[u8]) -> Result<ArmCommand, String> {
-        keys(answer, WANTED).map(|Answer { dq_rad_s: rates }| ArmCommand { rates })
+    fn command(answer: Map<String, Value>) -> Result<ArmCommand, String> {
+        keys::<Self, Answer>(answer).map(|Answer { dq_rad_s: rates }| ArmCommand { rates })
     }
 }

@@ -1,10 +1,15 @@
 //! A controller of the caller's own in the place of the scenario's.
 
+mod helm;
+
 use std::any::Any;
 use std::sync::Arc;
 
 use super::scenario::{CONTROLLER_KEY, Mistake, Scenario};
+use super::user_controller::UserController;
 use crate::simulation::{Controlled, OwnController};
+use helm::AtTheHelm;
+pub(super) use helm::{Planned, Steered, keys};
 
 /// Keys that say of our controllers what no other knows.
 const OF_OURS: [&str; 4] =
@@ -14,46 +19,48 @@ const OF_OURS: [&str; 4] =
 #[derive(Debug, Clone)]
 pub struct AnyController {
     name: String,
-    /// What its robots do.
-    does: &'static str,
-    /// What of ours carries its commands out.
-    loops: Option<&'static str>,
-    /// Whether it came with the scenario that names it.
-    named: bool,
-    controller: Arc<dyn Any + Send + Sync>,
+    source: Source,
+}
+
+#[derive(Debug, Clone)]
+enum Source {
+    /// Code of the caller's, for one kind of robots, and what these do.
+    Callers(Arc<dyn Any + Send + Sync>, &'static str),
+    /// Code of the user's that a scenario names, for any kind.
+    Users(UserController),
 }
 
 impl<R: Controlled + 'static> From<OwnController<R>> for AnyController {
     fn from(controller: OwnController<R>) -> Self {
-        let (name, loops) = (controller.name().into(), R::LOOPS);
-        Self { name, does: R::DOES, loops, named: false, controller: Arc::new(controller) }
+        Self { name: controller.name().into(), source: Source::Callers(Arc::new(controller), R::DOES) }
     }
 }
 
 impl AnyController {
+    /// The one that a scenario names.
+    pub(super) fn named(user: &UserController) -> Self {
+        Self { name: user.word.clone(), source: Source::Users(user.clone()) }
+    }
+
+    /// Whether it came with the scenario that names it: where that names another, it goes.
+    pub(super) fn is_named(&self) -> bool {
+        matches!(self.source, Source::Users(_))
+    }
+
     /// Its name in reports.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Itself as what a scenario names: where that names another, it goes.
-    pub(super) fn named(&self) -> Self {
-        Self { named: true, ..self.clone() }
-    }
-
-    /// Whether it came with the scenario that names it.
-    pub(super) fn is_named(&self) -> bool {
-        self.named
-    }
-
-    /// What of ours carries its commands out.
-    pub(super) fn loops(&self) -> Option<&'static str> {
-        self.loops
-    }
-
     /// Itself, if it is for robots of the kind `R`.
-    pub(super) fn of<R: Controlled + 'static>(&self) -> Option<&OwnController<R>> {
-        self.controller.downcast_ref()
+    pub(super) fn of<R: Steered>(&self) -> Option<OwnController<R>> {
+        match &self.source {
+            Source::Callers(controller, _) => controller.downcast_ref().cloned(),
+            Source::Users(user) => {
+                let user = user.clone();
+                Some(OwnController::new(&self.name, move |robot: &R| AtTheHelm::new(&user, robot)))
+            }
+        }
     }
 
     /// Why nobody could execute `scenario` with it.
@@ -73,7 +80,8 @@ impl AnyController {
 
     /// That it is one for another kind of robot.
     pub(super) fn foreign(&self) -> Mistake {
-        self.refused(&format!("one of what the scenario is about: {}", self.does))
+        let does = if let Source::Callers(_, does) = self.source { does } else { "it is steered by hairpin's own" };
+        self.refused(&format!("one of what the scenario is about: {does}"))
     }
 
     fn refused(&self, bound: &str) -> Mistake {

@@ -1,0 +1,225 @@
+//! Controllers of the user's on our plants: a Python function, or a program that answers line by line.
+//!
+//! ```text
+//! > {"type":"reset","mission":{"waypoints_m":[[x,y,z],…],"accept_m":1.0,"robot":{"name":…},"planned_s":27.1}}
+//! < {}
+//! > {"type":"control","t_s":0.01,"state":{"p_m":[…],"v_m_s":[…],"q_wxyz":[…],"w_rad_s":[…]},
+//!    "reference":{"waypoints_m":[…],"next":1,"p_m":[…],"v_m_s":[…],"a_m_s2":[…],"yaw_rad":0.0}}
+//! < {"v_m_s":[…]}
+//! ```
+//!
+//! SI, world frame, in lockstep: the plant waits. The last four of `reference` are of the planned motion at that time,
+//! null where there is none. A program may leave `reset` unanswered.
+//!
+//! Keys of states, references and commands of each kind of robot: docs/own-controllers.md.
+//!
+//! Whatever goes wrong at a turn ends that run, and its process with it; the next run has a new one.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use hairpin::campaign::UserCode;
+use hairpin::campaign::user_controller::{Turns, UserSteering};
+use serde_json::{Map, Value, json};
+
+use crate::executor::{Command, excerpt};
+use crate::lockstep::{Lockstep, Silence};
+use crate::scenario::{driver, held};
+
+/// So many runs in a row that were left without an answer are the end: what hangs costs three times its limit.
+const MOST_LATE: usize = 3;
+
+/// Longest piece of an answer that is quoted, characters.
+const QUOTED: usize = 120;
+
+/// What answers.
+#[derive(Debug, Clone)]
+pub(crate) enum Source {
+    /// A Python file.
+    Python {
+        /// The file.
+        path: PathBuf,
+        /// No others beside it.
+        alone: bool,
+    },
+    /// A program.
+    Command(Command),
+}
+
+/// Whoever steers, for all runs of a campaign: processes, one for each run that is under way.
+pub(crate) struct Steersman {
+    source: Source,
+    name: String,
+    /// Wall-clock limit of a run.
+    limit: Duration,
+    /// Time between two turns, s.
+    period: f64,
+    /// Processes that steer nothing just now.
+    idle: Mutex<Vec<Lockstep>>,
+    late: AtomicUsize,
+    trouble: Mutex<Option<String>>,
+    stopped: AtomicBool,
+}
+
+impl Steersman {
+    /// Called `name` in reports, with `period` s from turn to turn and `limit` for a run.
+    pub(crate) fn new(source: Source, name: &str, period: f64, limit: Duration) -> Self {
+        let (idle, late, trouble, stopped) = Default::default();
+        Self { source, name: name.to_owned(), limit, period, idle, late, trouble, stopped }
+    }
+
+    /// Whether it is told the waypoints once a run; a program is told them every time.
+    fn remembers(&self) -> bool {
+        matches!(self.source, Source::Python { .. })
+    }
+
+    /// A process for a run.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn process(&self) -> Result<Lockstep, String> {
+        if let Some(trouble) = self.trouble() {
+            return Err(trouble);
+        }
+        match held(&self.idle).pop() {
+            Some(process) => Ok(process),
+            None => self.start(),
+        }
+    }
+
+    /// Takes one back whose run has ended.
+    fn give_back(&self, process: Lockstep) {
+        self.late.store(0, Ordering::Relaxed);
+        held(&self.idle).push(process);
+    }
+
+    /// Why `process`, which goes, did not answer.
+    fn complaint(&self, process: &Lockstep, why: Silence) -> String {
+        let seconds = self.limit.as_secs_f64();
+        match why {
+            Silence::Stopped => "stopped".into(),
+            Silence::Endless => "it answered a line that does not end".into(),
+            Silence::Gone => match process.last_words() {
+                last if last.is_empty() => "it ended without an answer".into(),
+                last => last,
+            },
+            Silence::Late => {
+                if self.late.fetch_add(1, Ordering::Relaxed) + 1 >= MOST_LATE {
+                    let why = format!("it left {MOST_LATE} runs in a row unfinished (execute.timeout_s = {seconds})");
+                    held(&self.trouble).get_or_insert(why);
+                }
+                format!("its run was not over after {seconds} s on the clock (execute.timeout_s)")
+            }
+        }
+    }
+
+    fn start(&self) -> Result<Lockstep, String> {
+        let (mut command, program) = match &self.source {
+            Source::Python { path, alone } => (driver(path, *alone, "controller"), "python3".to_owned()),
+            Source::Command(command) => (command.into(), command.words().next().unwrap_or_default().to_owned()),
+        };
+        let mut process = Lockstep::start(&mut command).map_err(|error| {
+            let why = format!("`{program}` cannot be started: {error}");
+            held(&self.trouble).get_or_insert(why.clone());
+            why
+        })?;
+        if self.remembers() {
+            match process.hear(&self.stopped, None) {
+                Ok(line) if line == b"ready" => {}
+                Ok(_) => return Err(self.complaint(&process, Silence::Gone)),
+                Err(why) => return Err(self.complaint(&process, why)),
+            }
+        }
+        Ok(process)
+    }
+}
+
+impl UserCode for Steersman {
+    fn trouble(&self) -> Option<String> {
+        held(&self.trouble).clone()
+    }
+
+    fn try_out(&self) -> Result<(), String> {
+        let process = self.process().map_err(|why| format!("{}: {why}", self.name))?;
+        held(&self.idle).push(process);
+        Ok(())
+    }
+
+    fn stop(&self) {
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+}
+
+impl UserSteering for Steersman {
+    fn period(&self) -> f64 {
+        self.period
+    }
+
+    fn begin(self: Arc<Self>, mission: Value) -> Result<Box<dyn Turns>, String> {
+        let until = Instant::now().checked_add(self.limit);
+        let process = self.process()?;
+        let waypoints = mission.get("waypoints_m").cloned().filter(|_| !self.remembers());
+        // A program need not answer; if it does, that comes before its first command.
+        let mut run = Run { may_answer: waypoints.is_some(), steersman: self, process, until, waypoints };
+        run.tell(&json!({ "type": "reset", "mission": mission }))?;
+        if run.steersman.remembers() {
+            run.hear()?;
+        }
+        Ok(Box::new(run))
+    }
+}
+
+/// A run that is under way.
+struct Run {
+    steersman: Arc<Steersman>,
+    process: Lockstep,
+    /// It has to be over by then.
+    until: Option<Instant>,
+    /// What a program is told every time.
+    waypoints: Option<Value>,
+    /// Whether `reset` may still be answered.
+    may_answer: bool,
+}
+
+impl Run {
+    fn tell(&mut self, line: &Value) -> Result<(), String> {
+        self.process.tell(line).map_err(|why| self.steersman.complaint(&self.process, why))
+    }
+
+    /// The keys of its next line, but for `type`, which is not looked at.
+    fn hear(&mut self) -> Result<Map<String, Value>, String> {
+        let line = self.process.hear(&self.steersman.stopped, self.until);
+        let line = line.map_err(|why| self.steersman.complaint(&self.process, why))?;
+        let mut keys = serde_json::from_slice::<Map<String, Value>>(&line).map_err(|error| {
+            let said = excerpt(&String::from_utf8_lossy(&line), QUOTED);
+            format!("it answered `{said}`: must be a line of JSON, a table of finite numbers ({error})")
+        })?;
+        keys.remove("type");
+        Ok(keys)
+    }
+}
+
+impl Turns for Run {
+    fn turn(
+        &mut self,
+        t_s: f64,
+        state: Value,
+        mut reference: Map<String, Value>,
+    ) -> Result<Map<String, Value>, String> {
+        if let Some(waypoints) = &self.waypoints {
+            reference.insert("waypoints_m".into(), waypoints.clone());
+        }
+        self.tell(&json!({ "type": "control", "t_s": t_s, "state": state, "reference": reference }))?;
+        let answer = self.hear()?;
+        // What is said to `reset` has no command in it.
+        let says_nothing = !answer.values().any(|value| value.is_number() || value.is_array());
+        if std::mem::take(&mut self.may_answer) && says_nothing { self.hear() } else { Ok(answer) }
+    }
+
+    fn finish(self: Box<Self>) {
+        let Self { steersman, process, .. } = *self;
+        steersman.give_back(process);
+    }
+}
