@@ -89,6 +89,6 @@ fn runs_of_two_programs_stand_side_by_side() {
     refused(here, &["execute", "a", "--out", "a"], &["--out", "another folder"]);
     assert!([0, 1].contains(&run(here, &["judge", "b"]).0));
     let (code, out, error) = run(here, &["compare", "a", "b"]);
-    assert!([0, 1].contains(&code) && out.contains("0000"), "{out}{error}");
+    assert!([0, 1].contains(&code) && out.contains("max_deviation_m"), "{out}{error}");
     assert_eq!(run(here, &["verify", "b"]).0, 0);
 }
