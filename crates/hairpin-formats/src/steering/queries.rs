@@ -34,7 +34,7 @@ impl QueryFile {
     ///
     /// # Errors
     /// It cannot be read, or is no table of queries.
-    pub fn open(path: &Path) -> Result<Self, BrokenFile> {
+    pub fn at(path: &Path) -> Result<Self, BrokenFile> {
         let unreadable = |cause| BrokenFile::Unreadable { path: path.into(), cause };
         let file = bounds::open(path, bounds::MOST_BYTES).map_err(unreadable)?;
         let count = survey(&file).map_err(unreadable)?.ok_or(BrokenFile::Quotes)?;
@@ -157,6 +157,6 @@ mod tests {
             let found = parse(text.as_bytes()).unwrap_err().to_string();
             assert!(found.contains(told), "{text:?}: {found}");
         }
-        assert!(QueryFile::open(Path::new("no-such.csv")).unwrap_err().to_string().contains("no-such.csv"));
+        assert!(QueryFile::at(Path::new("no-such.csv")).unwrap_err().to_string().contains("no-such.csv"));
     }
 }

@@ -40,7 +40,7 @@ impl Vehicle {
         watch: &dyn Watch,
     ) -> Result<Batch, Problem> {
         let QueryFile { columns, blocks, count } =
-            QueryFile::open(path).map_err(|error| Problem::of_file(path, error))?;
+            QueryFile::at(path).map_err(|error| Problem::of_file(path, error))?;
         if !columns.ignored.is_empty() {
             watch.warn(&format!(
                 "Warning: {}: columns without meaning here: {}",
