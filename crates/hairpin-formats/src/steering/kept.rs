@@ -17,7 +17,7 @@ pub struct KeptAnswer {
     pub driven: bool,
 }
 
-/// The answers of a table as [`head()`] and [`rows`] write it, in their order.
+/// The answers of a table as [`super::head`] and [`super::rows`] write it, in their order.
 ///
 /// # Errors
 /// It is none.
