@@ -22,6 +22,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::UserCode;
 use hairpin::campaign::user_controller::{Turns, UserSteering};
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::executor::{Command, excerpt};
@@ -163,7 +164,8 @@ impl UserSteering for Steersman {
         let waypoints = mission.get("waypoints_m").cloned().filter(|_| !self.remembers());
         // A program need not answer; if it does, that comes before its first command.
         let mut run = Run { may_answer: waypoints.is_some(), steersman: self, process, until, waypoints };
-        run.tell(&json!({ "type": "reset", "mission": mission }))?;
+        let told = run.process.tell(&json!({ "type": "reset", "mission": mission }));
+        told.map_err(|why| run.steersman.complaint(&run.process, why))?;
         if run.steersman.remembers() {
             run.hear()?;
         }
@@ -184,11 +186,7 @@ struct Run {
 }
 
 impl Run {
-    fn tell(&mut self, line: &Value) -> Result<(), String> {
-        self.process.tell(line).map_err(|why| self.steersman.complaint(&self.process, why))
-    }
-
-    /// The keys of its next line, but for `type`, which is not looked at.
+    /// Its next line, a table, but for `type`, which is not looked at.
     fn hear(&mut self) -> Result<Map<String, Value>, String> {
         let line = self.process.hear(&self.steersman.stopped, self.until);
         let line = line.map_err(|why| self.steersman.complaint(&self.process, why))?;
@@ -201,21 +199,34 @@ impl Run {
     }
 }
 
+/// What is said at a turn.
+#[derive(Serialize)]
+#[serde(tag = "type", rename = "control")]
+struct Turn<'a> {
+    t_s: f64,
+    state: &'a Value,
+    reference: Bearing<'a>,
+}
+
+/// Where to go.
+#[derive(Serialize)]
+struct Bearing<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    waypoints_m: Option<&'a Value>,
+    #[serde(flatten)]
+    planned: &'a Value,
+}
+
 impl Turns for Run {
-    fn turn(
-        &mut self,
-        t_s: f64,
-        state: Value,
-        mut reference: Map<String, Value>,
-    ) -> Result<Map<String, Value>, String> {
-        if let Some(waypoints) = &self.waypoints {
-            reference.insert("waypoints_m".into(), waypoints.clone());
-        }
-        self.tell(&json!({ "type": "control", "t_s": t_s, "state": state, "reference": reference }))?;
+    fn turn(&mut self, t_s: f64, state: &Value, reference: &Value) -> Result<Value, String> {
+        let reference = Bearing { waypoints_m: self.waypoints.as_ref(), planned: reference };
+        let told = self.process.tell(&Turn { t_s, state, reference });
+        told.map_err(|why| self.steersman.complaint(&self.process, why))?;
         let answer = self.hear()?;
         // What is said to `reset` has no command in it.
         let says_nothing = !answer.values().any(|value| value.is_number() || value.is_array());
-        if std::mem::take(&mut self.may_answer) && says_nothing { self.hear() } else { Ok(answer) }
+        let is_for_reset = std::mem::take(&mut self.may_answer) && says_nothing;
+        Ok(Value::Object(if is_for_reset { self.hear()? } else { answer }))
     }
 
     fn finish(self: Box<Self>) {

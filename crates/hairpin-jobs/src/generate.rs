@@ -61,10 +61,9 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
         progress: &|done, of| watch.progress(WHAT, done, of),
         clock: &|| begun.elapsed().as_secs_f64(),
     };
-    let asked: Vec<_> = code.iter().copied().chain(work.setup.steering_code()).collect();
     let search = |Asked { executor, stop: over }: Asked| {
         let stop = Stop { cancelled: over, ..stop };
-        not_waiting_for(&asked, watch, deadline, || {
+        not_waiting_for(&code, watch, deadline, || {
             hairpin::campaign::generate(&work.setup, &known, executor, &stop, &mut |new, tally| {
                 cases.extend_from_slice(new);
                 if at.elapsed() > CHECKPOINT && trouble.is_none() {

@@ -7,7 +7,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::report::{Shown, worst_first};
-use hairpin::campaign::{self, Case, Tally};
+use hairpin::campaign::{self, Case, Setup, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
@@ -49,13 +49,14 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
         return Err(lost);
     }
     let baseline = read_baseline(&work)?;
-    let verdict = campaign::verdict(&work.told()?, &cases, (&results, baseline.as_ref()), &tally);
+    let told = work.told()?;
+    let verdict = campaign::verdict(&told, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
-    let assumptions = assumptions(&work, &cases, &tally, (&moves, regression.as_ref()))?;
+    let assumptions = assumptions((&work, &told), &cases, &tally, (&moves, regression.as_ref()))?;
     // They are read again for what is shown of them.
     drop((cases, results));
-    write(&work, &verdict, assumptions, regression.as_ref())?;
+    write((&work, &told), &verdict, assumptions, regression.as_ref())?;
     Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
 }
 
@@ -67,16 +68,18 @@ pub(crate) fn write_report(
     verdict: &Verdict,
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<(), Problem> {
-    write(work, verdict, assumptions(work, cases, tally, (moves, regression))?, regression)
+    let told = work.told()?;
+    let assumptions = assumptions((work, &told), cases, tally, (moves, regression))?;
+    write((work, &told), verdict, assumptions, regression)
 }
 
 fn assumptions(
-    work: &Work,
+    (work, told): (&Work, &Setup),
     cases: &[Case],
     tally: &Tally,
     (moves, regression): (&Moves, Option<&Regression>),
 ) -> Result<Vec<String>, Problem> {
-    let mut assumptions = campaign::assumptions(&work.told()?, cases, tally);
+    let mut assumptions = campaign::assumptions(told, cases, tally);
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
@@ -87,12 +90,12 @@ fn assumptions(
 }
 
 fn write(
-    work: &Work,
+    (work, told): (&Work, &Setup),
     verdict: &Verdict,
     assumptions: Vec<String>,
     regression: Option<&Regression>,
 ) -> Result<(), Problem> {
-    let (told, lost) = (work.told()?, Cell::new(0));
+    let lost = Cell::new(0);
     let run = |case: &Case, run: usize| match why_lost(work, case, run)? {
         Some(_) => {
             lost.set(lost.get() + 1);
@@ -101,7 +104,7 @@ fn write(
         None => run_with_motion(work, case, run),
     };
     let run = |case: &Case, number: usize| run(case, number).map_err(|problem: Problem| problem.to_string());
-    let mut data = hairpin_formats::report::from_folder(&work.folder, &told, verdict.clone(), assumptions, &run)
+    let mut data = hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &run)
         .map_err(Problem::input)?;
     if lost.get() > 0 {
         data.assumptions.push(format!(

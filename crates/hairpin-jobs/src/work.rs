@@ -212,6 +212,23 @@ pub(crate) fn open_to_change(
     allowed: &[&str],
     flown: Option<Simd>,
 ) -> Result<Work, Problem> {
+    check_tables(sets, allowed)?;
+    let folder = CampaignFolder::open_to_write(path)?;
+    let setup = changed(&folder, sets)?;
+    // The users' own programs run none of our kernels.
+    match (flown, setup.scenario.executor().command) {
+        (Some(Simd::Portable), _) => same_level(&folder, Simd::Portable)?,
+        (Some(Simd::Widest), None) => same_level(&folder, setup.simd)?,
+        (Some(Simd::Widest), Some(_)) | (None, _) => {}
+    }
+    Ok(Work { folder, setup })
+}
+
+/// That `sets` change nothing but the tables `allowed`.
+///
+/// # Errors
+/// The first that does.
+pub(crate) fn check_tables(sets: &[Set], allowed: &[&str]) -> Result<(), Problem> {
     for (key, _) in sets {
         let table = key.split(['.', '[']).next().unwrap_or_default().trim();
         if !allowed.contains(&table) {
@@ -221,27 +238,28 @@ pub(crate) fn open_to_change(
             )));
         }
     }
-    let folder = CampaignFolder::open_to_write(path)?;
+    Ok(())
+}
+
+/// What the scenario of `folder` describes once `sets` change it.
+///
+/// # Errors
+/// A scenario with mistakes, or one that the folder's trajectories are none of.
+pub(crate) fn changed(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
     let level = folder.simd_level()?;
-    let setup = resolve(&folder, sets)?.with_simd(simd_of(level.as_deref()));
+    let setup = resolve(folder, sets)?.with_simd(simd_of(level.as_deref()));
     check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
         let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
         of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
     };
-    if !sets.is_empty() && plans(&setup.scenario) != plans(&resolve(&folder, &[])?.scenario) {
+    if !sets.is_empty() && plans(&setup.scenario) != plans(&resolve(folder, &[])?.scenario) {
         return Err(Problem::input(
             "--set vary: the folder's trajectories were drawn by its keys under `task` and `generate`; these must stay",
         ));
     }
-    // The users' own programs run none of our kernels.
-    match (flown, setup.scenario.executor().command) {
-        (Some(Simd::Portable), _) => same_level(&folder, Simd::Portable)?,
-        (Some(Simd::Widest), None) => same_level(&folder, setup.simd)?,
-        (Some(Simd::Widest), Some(_)) | (None, _) => {}
-    }
-    Ok(Work { folder, setup })
+    Ok(setup)
 }
 
 /// Writes the scenario of `work` as [`open_to_change`] changed it.

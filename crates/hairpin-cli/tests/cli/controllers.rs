@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::commands::{assert_same, copy, json, refused, run, small_hull};
-use hairpin::campaign::{execute_run, judge};
+use hairpin::campaign::{execute_run, judge, vary};
 use hairpin::robot::quadrotor::Quadrotor;
 use hairpin::simulation::{Controller, Fault, FlightCommand, FlightState, OwnController, Reference};
 use hairpin_formats::folder::CampaignFolder;
@@ -316,4 +316,36 @@ fn arms_are_steered_too() {
     let (ours, _) = ran("ours", "virtual");
     let (late, _) = ran("lags", "python:lags.py");
     assert!((own - ours).abs() < 0.01 && late > own + 0.01, "{own} {ours} {late}");
+}
+
+/// The limit of a search's time is none of who steers: what was found is flown after it.
+#[test]
+fn a_search_that_ran_out_of_time_is_executed_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    example("pd.py", here);
+    let search = "{ method = \"worst\", waypoints = 60, cases = 2, executions = 4000 }";
+    let text = small_hull(search).replace("\"minimum-snap\"", "\"python:pd.py\"");
+    fs::write(here.join("q.toml"), text).unwrap();
+    let told = json(here, &["stress", "q.toml", "--out", "a", "--time-limit", "4"]);
+    assert!(told["counts"]["cases"].as_u64().unwrap() > 0, "{told}");
+    assert_eq!(told["counts"]["executor_failed"], 0, "{told}");
+}
+
+/// A scenario that names code which was not read is steered by nobody else in its place.
+#[test]
+fn another_word_is_another_controller() {
+    let folder = tempfile::tempdir().unwrap();
+    example("pd.py", folder.path());
+    let file = folder.path().join("q.toml");
+    fs::write(&file, scenario("python:pd.py")).unwrap();
+    let setup = setup_for(&file.to_string_lossy(), &[]).unwrap();
+    assert_eq!(setup.controller(), Some("python:pd.py"));
+    let with = |word: &str| {
+        let changes = [("execute.controller".to_owned(), word.into())];
+        setup.changed(vary::apply(&setup.scenario, &changes).unwrap())
+    };
+    assert_eq!(with("anafi").unwrap().controller(), Some("anafi"));
+    let refused = with("python:other.py").unwrap_err();
+    assert_eq!((refused.key.as_str(), refused.bound.as_str()), ("execute.controller", "read with its scenario"));
 }

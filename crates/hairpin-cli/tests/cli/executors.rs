@@ -87,6 +87,12 @@ fn runs_of_two_programs_stand_side_by_side() {
     assert_eq!(json(here, &[&beside[..], &["--force"]].concat())["counts"]["runs"], 4);
     assert_eq!(json(here, &[&beside[..], &["--resume"]].concat())["counts"]["runs"], 4);
     refused(here, &["execute", "a", "--out", "a"], &["--out", "another folder"]);
+    // What is wrong with the words is told before anything makes room.
+    let kept = contents(&here.join("b"));
+    for (wrong, words) in [("task.length=9", "only execute, vary, spec"), ("execute.repeat=0", "execute.repeat")] {
+        refused(here, &["execute", "a", "--out", "b", "--force", "--set", wrong], &[words]);
+        assert!(contents(&here.join("b")) == kept, "{wrong}: b changed");
+    }
     assert!([0, 1].contains(&run(here, &["judge", "b"]).0));
     let (code, out, error) = run(here, &["compare", "a", "b"]);
     assert!([0, 1].contains(&code) && out.contains("max_deviation_m"), "{out}{error}");

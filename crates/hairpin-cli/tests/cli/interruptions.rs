@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::commands::{SMALL, assert_same, json, refused, run, without_baseline};
+use crate::commands::{SMALL, assert_same, json, refused, run, small_hull, without_baseline};
 use hairpin::campaign::CaseNumber;
 use hairpin::math::random::case_seed;
 use hairpin_formats::folder::CampaignFolder;
@@ -303,4 +303,39 @@ fn what_it_was_started_to_ignore_it_ignores() {
         assert!(code == Some(calm) && !error.contains("stopping"), "{signal}: {code:?}: {error}");
         assert_same(&folder.path().join("calm"), &begun);
     }
+}
+
+/// A run whose controller is not waited for any more is no run: it is flown when the campaign goes on.
+#[test]
+fn ctrl_c_leaves_no_run_that_only_its_end_made_fail() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let begun = here.join("begun");
+    let slow = format!(
+        "import os, time\nopen({begun:?}, 'a').write('run\\n')\ndef control(t_s, state, reference):\n    \
+         time.sleep(0.002 if os.path.exists('slow') else 0)\n    \
+         target = reference['waypoints_m'][min(reference['next'], len(reference['waypoints_m']) - 1)]\n    \
+         return {{'v_m_s': [0.5 * (a - b) for a, b in zip(target, state['p_m'])]}}\n"
+    );
+    fs::write(here.join("slow.py"), slow).unwrap();
+    let scenario = small_hull("{ method = \"uniform\", waypoints = 60, cases = 4 }")
+        .replace("\"minimum-snap\"", "\"python:slow.py\"\ncontrol_rate_hz = 20.0");
+    fs::write(here.join("q.toml"), scenario).unwrap();
+    let search = ["stress", "q.toml", "--threads", "1", "--out"];
+    let calm = run(here, &[&search[..], &["calm"]].concat());
+    fs::write(here.join("slow"), "").unwrap();
+    fs::remove_file(&begun).unwrap();
+    let child = begin(here, &[&search[..], &["hit"]].concat());
+    // The file is loaded once more, to see whether it can be.
+    wait_until("the second run", || fs::read_to_string(&begun).is_ok_and(|text| text.lines().count() >= 2));
+    ctrl_c(&child);
+    let (code, error) = end(child);
+    assert_eq!(code, Some(130), "{error}");
+    let kept = CampaignFolder::open(&here.join("hit")).unwrap();
+    let facts = (0..4).flat_map(|case| kept.facts_of(CaseNumber(case)).unwrap());
+    assert!(facts.into_iter().all(|facts| facts.message.is_none()), "a run that was stopped counts as one that failed");
+    fs::remove_file(here.join("slow")).unwrap();
+    let again = run(here, &[&search[..], &["hit", "--resume"]].concat());
+    assert_eq!(calm.0, again.0, "{}{}", again.1, again.2);
+    assert_same(&here.join("calm"), &here.join("hit"));
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Command {
     pub(super) program: String,
-    pub(super) arguments: Vec<String>,
+    arguments: Vec<String>,
 }
 
 /// Why a text is no command.

@@ -109,8 +109,8 @@ impl Worker {
         protocol: u64,
         cancelled: &dyn Fn() -> bool,
     ) -> Result<Self, Failed> {
-        let mut starter = std::process::Command::new(&command.program);
-        starter.args(&command.arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut starter = std::process::Command::from(command);
+        starter.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = process::start(&mut starter).map_err(|cause| Failed {
             failure: Failure::Start { program: command.program.clone(), cause: cause.to_string() },
             stderr: String::new(),

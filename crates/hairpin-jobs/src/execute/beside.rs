@@ -4,15 +4,22 @@ use std::path::Path;
 
 use crate::Problem;
 use crate::consent::{Consent, Wish};
-use crate::work::{IfThere, make, open_to_read, same_place};
+use crate::sets::Set;
+use crate::work::{IfThere, changed, make, open_to_read, same_place};
 
 /// Makes `out` a campaign with the scenario and the cases of `folder`, of which nothing was executed yet. Marks of the
-/// user's on what the scenario wishes to run hold there, too.
+/// user's on what the scenario wishes to run hold there, too. What `sets` are to change there is changed later, and
+/// looked at before anything is.
 ///
 /// # Errors
-/// The same folder, or one of recordings; `out` holds a campaign that is not to be replaced; a file cannot be read or
+/// The same folder, or one of recordings; keys that cannot be changed; `out` holds a campaign that is not to be replaced; a file cannot be read or
 /// written.
-pub(super) fn beside(folder: &Path, out: &Path, if_there: IfThere, consent: &Consent) -> Result<(), Problem> {
+pub(super) fn beside(
+    (folder, sets): (&Path, &[Set]),
+    out: &Path,
+    if_there: IfThere,
+    consent: &Consent,
+) -> Result<(), Problem> {
     if same_place(folder, out) {
         return Err(Problem::input("--out: must be another folder than OUT"));
     }
@@ -23,6 +30,8 @@ pub(super) fn beside(folder: &Path, out: &Path, if_there: IfThere, consent: &Con
             folder.display()
         )));
     }
+    // Before a campaign makes room for it.
+    changed(&work.folder, sets)?;
     let wishes = Wish::of_campaign(&work.setup);
     let marked = consent.has_marked(folder, &wishes);
     let new = make(out, work.setup.clone(), if_there)?;

@@ -7,7 +7,7 @@ use hairpin::campaign::{Case, Run, Setup, execute_run, mission};
 use hairpin_formats::executor::{Failed, fly_all};
 use rayon::prelude::*;
 
-use super::fly::{as_run, command_of, processes};
+use super::fly::{as_run, command_of, processes, unless_stopped, while_wanted};
 use crate::watch::Steps;
 use crate::{Problem, Watch};
 
@@ -29,12 +29,13 @@ pub(crate) fn fly_by_case<T: Send>(
             let run = |run| {
                 let flown = (!watch.stopped()).then(|| execute_run(setup, case, run));
                 steps.step();
-                flown
+                unless_stopped(flown?, watch)
             };
             let runs: Option<Vec<Run>> = (0..repeat).map(run).collect();
             runs.map(|runs| made(case, &runs))
         };
-        return cases.par_iter().map(fly).collect::<Option<_>>().ok_or_else(stopped);
+        let flown = while_wanted(setup, watch, || cases.par_iter().map(fly).collect::<Option<_>>());
+        return flown.ok_or_else(stopped);
     };
     let landed: Mutex<Vec<Vec<Run>>> = Mutex::new(vec![Vec::new(); cases.len()]);
     let all: Mutex<Vec<Option<T>>> = Mutex::new(cases.iter().map(|_| None).collect());

@@ -47,19 +47,16 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
     let stop = || watch.stopped() || broken();
     match command_of(&work.setup)? {
         None => {
-            let steers: Vec<_> = work.setup.steering_code().into_iter().collect();
+            let fly = |job: &Job| {
+                if !stop()
+                    && let Some(run) = unless_stopped(job.simulate(&work.setup), watch)
+                {
+                    landed(job, run);
+                }
+            };
             // Part by part, so that few are open at a time.
-            let fly = |part: &[Job]| {
-                part.par_iter().for_each(|job| {
-                    if !stop() {
-                        landed(job, job.simulate(&work.setup));
-                    }
-                });
-            };
-            let in_parts = || {
-                missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number)).for_each(fly);
-            };
-            not_waiting_for(&steers, watch, Deadline::after(None), in_parts);
+            let parts = missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number));
+            while_wanted(&work.setup, watch, || parts.for_each(|part| part.par_iter().for_each(fly)));
         }
         Some((command, limits)) => {
             let greeting = fly_with(work, missing, (&command, limits), &landed, &stop, watch);
@@ -177,8 +174,11 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
             case.id()
         )));
     }
+    let stopped = || Problem::Interrupted("stopped".into());
     let Some((command, limits)) = command_of(setup)? else {
-        return Ok(jobs.par_iter().map(|(setup, case, run)| execute_run(setup, case, *run)).collect());
+        let fly = |(setup, case, run): &(&Setup, &Case, usize)| unless_stopped(execute_run(setup, case, *run), watch);
+        let flown = while_wanted(setup, watch, || jobs.par_iter().map(fly).collect::<Option<_>>());
+        return flown.ok_or_else(stopped);
     };
     let flown = Mutex::new(vec![None; jobs.len()]);
     let make = |index: usize| {
@@ -196,7 +196,19 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
     };
     fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    runs.into_iter().collect::<Option<_>>().ok_or_else(|| Problem::Interrupted("stopped".into()))
+    runs.into_iter().collect::<Option<_>>().ok_or_else(stopped)
+}
+
+/// Does `work`, which simulates runs of `setup`; where code of the user's steers them it is not waited for once it was
+/// asked to stop.
+pub(super) fn while_wanted<T>(setup: &Setup, watch: &dyn Watch, work: impl FnOnce() -> T) -> T {
+    let steers: Vec<_> = setup.steering_code().into_iter().collect();
+    not_waiting_for(&steers, watch, Deadline::after(None), work)
+}
+
+/// `run`, unless it may have failed because nobody waited for who steers: it is none then, and flown another time.
+pub(super) fn unless_stopped(run: Run, watch: &dyn Watch) -> Option<Run> {
+    (run.outcome.is_ok() || !watch.stopped()).then_some(run)
 }
 
 /// How many programs of the user's run side by side.

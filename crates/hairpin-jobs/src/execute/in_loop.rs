@@ -4,7 +4,7 @@ use hairpin::campaign::{Executor, OwnSimulator, Setup};
 use hairpin_formats::executor::{InLoop, Told};
 use rayon::ThreadPoolBuilder;
 
-use super::fly::{command_of, processes};
+use super::fly::{command_of, processes, while_wanted};
 use crate::{Problem, Watch};
 
 /// Who executes, and whether the search is to stop.
@@ -33,7 +33,8 @@ pub(crate) fn in_the_loop<T: Send>(
         let steers = setup.steering_code();
         let trouble = || steers.and_then(|(_, code)| code.trouble());
         let stop = || stopped() || trouble().is_some();
-        let found = search(Asked { executor: &OwnSimulator, stop: &stop });
+        // The limit of a search's time is none of who steers: what was found is executed after it.
+        let found = while_wanted(setup, watch, || search(Asked { executor: &OwnSimulator, stop: &stop }));
         return Ok((found, trouble().map(Problem::Executor)));
     };
     let processes = processes(setup);

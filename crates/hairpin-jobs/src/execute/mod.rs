@@ -24,7 +24,7 @@ use crate::consent::{Consent, Wish};
 use crate::missions::adopt;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{IfThere, changed_by, keep_changes, open_to_change, tell_share};
+use crate::work::{IfThere, changed_by, check_tables, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 use beside::beside;
 pub(crate) use by_case::fly_by_case;
@@ -38,6 +38,9 @@ pub(crate) use missing::{attitude_unknown, fly_missing};
 pub(crate) use recorded::check_recordings;
 pub(crate) use to_judge::{ToJudge, measured_runs, reruns_to_judge, runs_to_judge};
 pub(crate) use worst::WORST;
+
+/// Tables of a scenario that may change once there are trajectories.
+const CHANGED: &[&str] = &["execute", "vary", "spec"];
 
 /// What is executed, and how.
 #[derive(Debug, Clone, Default)]
@@ -91,12 +94,13 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     // Who resumes goes on where the cases are already.
     if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
         let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
-        beside(folder, path, if_there, &settings.consent)?;
+        check_tables(sets, CHANGED)?;
+        beside((folder, sets), path, if_there, &settings.consent)?;
     }
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
     }
-    let work = open_to_change(path, sets, &["execute", "vary", "spec"], Some(settings.simd))?;
+    let work = open_to_change(path, sets, CHANGED, Some(settings.simd))?;
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
     let farthest = work.setup.handed().farthest;

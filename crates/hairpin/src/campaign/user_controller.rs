@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::user_code::UserCode;
 
@@ -43,11 +43,11 @@ pub trait UserSteering: UserCode {
 
 /// A run that is being steered. Whoever lets go of it without [finishing](Self::finish) it gives up on what steers.
 pub trait Turns {
-    /// The command at `t_s` s, by its keys.
+    /// The command at `t_s` s, a table of its keys.
     ///
     /// # Errors
     /// Why there is none.
-    fn turn(&mut self, t_s: f64, state: Value, reference: Map<String, Value>) -> Result<Map<String, Value>, String>;
+    fn turn(&mut self, t_s: f64, state: &Value, reference: &Value) -> Result<Value, String>;
 
     /// The run is over, and nothing was wrong.
     fn finish(self: Box<Self>);

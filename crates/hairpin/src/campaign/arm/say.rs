@@ -12,8 +12,7 @@ use crate::campaign::kind::{
 use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod, Target};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
-use crate::robot::arm::AXES;
-use crate::robot::arm::Arm;
+use crate::robot::arm::{AXES, Arm};
 use crate::simulation::Controlled;
 use crate::trajectory::Track;
 use crate::world::cell::Region;

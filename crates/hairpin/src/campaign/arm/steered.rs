@@ -1,11 +1,11 @@
 //! An arm as code of the user's that steers it knows it.
 
-use crate::robot::arm::{AXES, Arm};
-use crate::simulation::arm::{ArmCommand, ArmState, JointPlan};
 use serde::Deserialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::campaign::own_controller::{Planned, Steered, keys};
+use crate::robot::arm::{AXES, Arm};
+use crate::simulation::arm::{ArmCommand, ArmState, JointPlan};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -39,7 +39,7 @@ impl Steered for Arm {
         plan.duration()
     }
 
-    fn command(answer: Map<String, Value>) -> Result<ArmCommand, String> {
+    fn command(answer: &Value) -> Result<ArmCommand, String> {
         keys::<Self, Answer>(answer).map(|Answer { dq_rad_s: rates }| ArmCommand { rates })
     }
 }

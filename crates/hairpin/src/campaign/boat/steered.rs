@@ -1,12 +1,12 @@
 //! What sails, as code of the user's that steers it knows it.
 
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::campaign::own_controller::{Planned, Steered, keys};
 use crate::robot::boat::Boat;
 use crate::simulation::boat::{BoatCommand, BoatState};
 use crate::trajectory::Profile;
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
-
-use crate::campaign::own_controller::{Planned, Steered, keys};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -40,27 +40,16 @@ impl Steered for Boat {
 
     /// Of its plan the third coordinate is the heading.
     fn planned(plan: &Profile, t: f64) -> Option<Planned> {
-        let (leg, tau) = plan.locate(t)?;
-        let derivative = |order| plan.legs[leg].derivative(tau, order);
-        let moves = t <= plan.duration();
-        let flat = |order| match derivative(order) {
-            _ if order > 0 && !moves => [0.0; 3],
-            found => [found.x, found.y, 0.0],
-        };
-        Some(Planned {
-            p_m: Some(flat(0)),
-            v_m_s: Some(flat(1)),
-            a_m_s2: Some(flat(2)),
-            yaw_rad: Some(derivative(0).z),
-            ..Planned::default()
-        })
+        let (_, motion) = plan.motion(t)?;
+        let [p_m, v_m_s, a_m_s2] = motion.map(|part| Some([part.x, part.y, 0.0]));
+        Some(Planned { p_m, v_m_s, a_m_s2, yaw_rad: Some(motion[0].z), ..Planned::default() })
     }
 
     fn planned_s(plan: &Profile) -> f64 {
         plan.duration()
     }
 
-    fn command(answer: Map<String, Value>) -> Result<BoatCommand, String> {
+    fn command(answer: &Value) -> Result<BoatCommand, String> {
         let Answer { force_n: [surge, sway], moment_n_m: yaw } = keys::<Self, Answer>(answer)?;
         Ok(BoatCommand { surge, sway, yaw })
     }

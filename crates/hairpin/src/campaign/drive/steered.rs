@@ -2,14 +2,15 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::{Isometry3, Vector3};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::campaign::own_controller::{Planned, Steered, keys};
+use crate::math::rotation::euler_from_quaternion;
 use crate::robot::rover::Rover;
 use crate::simulation::ground::{DriveCommand, DriveState};
 use crate::trajectory::Track;
-use nalgebra::{Isometry3, Vector3};
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
-
-use crate::campaign::own_controller::{Planned, Steered, keys};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,7 +26,7 @@ struct Answer {
 /// ψ of `world_from_body`, rad.
 fn yaw(pose: &Isometry3<f64>) -> f64 {
     let q = &pose.rotation;
-    libm::atan2(2.0 * (q.w * q.k + q.i * q.j), 1.0 - 2.0 * (q.j * q.j + q.k * q.k))
+    euler_from_quaternion(&[q.w, q.i, q.j, q.k])[2]
 }
 
 impl Steered for Rover {
@@ -70,8 +71,7 @@ impl Steered for Rover {
         let share = if span > 0.0 { ((t - times[at]) / span).clamp(0.0, 1.0) } else { 0.0 };
         let place = plan.position(at) + (plan.position(next) - plan.position(at)) * share;
         // The shorter way round.
-        let turn = yaw(&poses[next]) - yaw(&poses[at]);
-        let turn = turn - TAU * (turn / TAU).round();
+        let turn = libm::remainder(yaw(&poses[next]) - yaw(&poses[at]), TAU);
         let moves = t <= times[last];
         let velocity = |from: usize, to: usize| match times[to] - times[from] {
             span if span > 0.0 => (plan.position(to) - plan.position(from)) / span,
@@ -95,7 +95,7 @@ impl Steered for Rover {
         plan.times().last().copied().unwrap_or_default()
     }
 
-    fn command(answer: Map<String, Value>) -> Result<DriveCommand, String> {
+    fn command(answer: &Value) -> Result<DriveCommand, String> {
         let Answer { v_m_s, curvature_1_m, turn_rad_s, direction_rad } = keys::<Self, Answer>(answer)?;
         Ok(DriveCommand { speed: v_m_s, curvature: curvature_1_m, turn_rate: turn_rad_s, direction: direction_rad })
     }

@@ -12,8 +12,7 @@ use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::math::rotation::angle_between;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
-use crate::simulation::Controlled;
-use crate::simulation::{Acceptance, ControllerKind};
+use crate::simulation::{Acceptance, Controlled, ControllerKind};
 use crate::trajectory::Flight;
 
 impl Say for FlightSetup {

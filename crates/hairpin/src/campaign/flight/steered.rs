@@ -1,13 +1,13 @@
 //! What flies, as code of the user's that steers it knows it.
 
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::campaign::own_controller::{Planned, Steered, keys};
 use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::{FlightCommand, FlightState};
 use crate::trajectory::Profile;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
-
-use crate::campaign::own_controller::{Planned, Steered, keys};
 
 /// By how much the norm of a quaternion may differ from 1: whoever rounds to three digits is understood.
 const NORM: f64 = 0.01;
@@ -50,25 +50,16 @@ impl Steered for Quadrotor {
     }
 
     fn planned(plan: &Profile, t: f64) -> Option<Planned> {
-        let (leg, tau) = plan.locate(t)?;
-        let derivative = |order| <[f64; 3]>::from(plan.legs[leg].derivative(tau, order));
-        // Beyond its end it stands where that is.
-        let moves = t <= plan.duration();
-        let moving = |order| if moves { derivative(order) } else { [0.0; 3] };
-        Some(Planned {
-            p_m: Some(derivative(0)),
-            v_m_s: Some(moving(1)),
-            a_m_s2: Some(moving(2)),
-            yaw_rad: Some(0.0),
-            ..Planned::default()
-        })
+        let (_, motion) = plan.motion(t)?;
+        let [p_m, v_m_s, a_m_s2] = motion.map(|part| Some(part.into()));
+        Some(Planned { p_m, v_m_s, a_m_s2, yaw_rad: Some(0.0), ..Planned::default() })
     }
 
     fn planned_s(plan: &Profile) -> f64 {
         plan.duration()
     }
 
-    fn command(answer: Map<String, Value>) -> Result<FlightCommand, String> {
+    fn command(answer: &Value) -> Result<FlightCommand, String> {
         let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys::<Self, Answer>(answer)?;
         match (v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s) {
             (Some(v), None, None, None, None) => Ok(FlightCommand::Velocity(Vector3::from(v))),

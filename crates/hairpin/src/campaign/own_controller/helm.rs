@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::campaign::user_controller::{Turns, UserController, UserSteering};
 use crate::robot::arm::AXES;
@@ -34,7 +34,7 @@ pub(in crate::campaign) trait Steered: Controlled + 'static {
     ///
     /// # Errors
     /// What it must be.
-    fn command(answer: Map<String, Value>) -> Result<Self::Command, String>;
+    fn command(answer: &Value) -> Result<Self::Command, String>;
 }
 
 /// The planned motion at a time; nothing where there is none.
@@ -50,12 +50,20 @@ pub(in crate::campaign) struct Planned {
     pub(in crate::campaign) dq_rad_s: Option<[f64; AXES]>,
 }
 
+/// Where to go.
+#[derive(Serialize)]
+struct Bearing {
+    next: usize,
+    #[serde(flatten)]
+    planned: Planned,
+}
+
 /// The keys of an answer.
 ///
 /// # Errors
 /// That it must be what `R` wants.
-pub(in crate::campaign) fn keys<R: Steered, A: DeserializeOwned>(answer: Map<String, Value>) -> Result<A, String> {
-    serde_json::from_value(Value::Object(answer)).map_err(|error| format!("must be {} ({error})", R::WANTED))
+pub(in crate::campaign) fn keys<R: Steered, A: DeserializeOwned>(answer: &Value) -> Result<A, String> {
+    A::deserialize(answer).map_err(|error| format!("must be {} ({error})", R::WANTED))
 }
 
 /// See the file's first line.
@@ -93,21 +101,16 @@ impl<R: Steered> Controller<R> for AtTheHelm {
     fn control(&mut self, _dt: f64, now: &R::State, to: &Reference<R>) -> Result<R::Command, Fault> {
         let (t_s, state) = R::state(now);
         let planned = to.plan.and_then(|plan| R::planned(plan, t_s)).unwrap_or_default();
-        let mut reference = match serde_json::to_value(planned) {
-            Ok(Value::Object(keys)) => keys,
-            _ => Map::new(),
-        };
-        reference.insert("next".into(), to.next.into());
+        let reference = json!(Bearing { next: to.next, planned });
         let Some(mut turns) = self.turns.take() else { return Err("it steers no more".into()) };
-        let answer = turns.turn(t_s, state, reference)?;
-        let said = Value::Object(answer.clone());
-        match R::command(answer) {
+        let answer = turns.turn(t_s, &state, &reference)?;
+        match R::command(&answer) {
             Ok(command) => {
                 self.turns = Some(turns);
                 Ok(command)
             }
             Err(bound) => {
-                let said: String = said.to_string().chars().take(QUOTED).collect();
+                let said: String = answer.to_string().chars().take(QUOTED).collect();
                 Err(format!("it answered `{said}`: {bound}").into())
             }
         }

@@ -58,6 +58,17 @@ impl<K: Copy> Steering<K> {
         }
     }
 
+    /// The word of who steers, as [`Self::in_force`] has it; `word` has those of ours.
+    pub(in crate::campaign) fn word_in_force<'a>(
+        given: Option<&'a Self>,
+        command: Option<&str>,
+        otherwise: K,
+        word: fn(K) -> &'static str,
+    ) -> Option<&'a str> {
+        let ours = || Self::in_force(given, command, otherwise)?.ours().map(word);
+        Self::users(given).map(UserSteering::word).or_else(ours)
+    }
+
     /// The one of ours.
     pub fn ours(&self) -> Option<K> {
         match self {

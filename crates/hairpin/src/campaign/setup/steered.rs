@@ -31,28 +31,18 @@ impl Setup {
     }
 
     /// Itself with the controller that its scenario names, where that is the user's and no caller's takes its place.
-    pub(super) fn steered(self) -> Result<Self, Vec<Mistake>> {
-        let named = self.user_controller();
-        let own = match (&self.own_controller, named) {
-            (Some(own), _) if !own.is_named() => return Ok(self),
-            (None, None) => return self.without_stranger(),
-            (_, None) => None,
-            (_, Some(user)) => Some(user),
-        };
-        let Some(user) = own else {
-            let kind = self.kind.with(self.simd, None).unwrap_or_else(|| self.kind.clone());
-            return Ok(Self { kind, own_controller: None, ..self });
-        };
-        let controller = AnyController::named(user);
-        let kind = self.kind.with(self.simd, Some(&controller)).ok_or_else(|| vec![controller.foreign()])?;
-        match controller.mistake(&self.scenario) {
-            Some(mistake) => Err(vec![mistake]),
-            None => Ok(Self { kind, own_controller: Some(controller), ..self }),
+    pub(super) fn steered(mut self) -> Result<Self, Vec<Mistake>> {
+        if self.own_controller.as_ref().is_some_and(|own| !own.is_named()) {
+            return Ok(self);
         }
-    }
-
-    /// Itself, if no code of the user's is to steer that was not read.
-    fn without_stranger(self) -> Result<Self, Vec<Mistake>> {
+        if let Some(named) = self.user_controller().map(AnyController::named) {
+            return self.with_controller(named).map_err(|mistake| vec![mistake]);
+        }
+        // One that an earlier scenario named is none of this one's.
+        if self.own_controller.take().is_some() {
+            let simd = self.simd;
+            self = self.with_simd(simd);
+        }
         let word = self.scenario.controller().unwrap_or_default();
         if !word.starts_with(PYTHON) && !word.starts_with(COMMAND) {
             return Ok(self);

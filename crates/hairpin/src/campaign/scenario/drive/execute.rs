@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Record, Steering, UserSteering};
+use crate::campaign::scenario::{FlakySection, Record, Steering};
 use crate::simulation::ground::GroundControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -90,7 +90,7 @@ impl DriveExecute {
 
     /// The word of who drives.
     pub fn controller_word(&self) -> Option<&str> {
-        let users = Steering::users(self.controller.as_ref()).map(UserSteering::word);
-        users.or_else(|| self.controller_in_force().map(|controller| controller.word()))
+        let (given, command) = (self.controller.as_ref(), self.command.as_deref());
+        Steering::word_in_force(given, command, GroundControllerKind::Predictive, GroundControllerKind::word)
     }
 }

@@ -62,11 +62,8 @@ impl Tracking {
 
 /// Place, velocity and acceleration of `plan` at `t`; at its end it lies still.
 fn sample(plan: &Profile, t: f64) -> Option<([Vector3<f64>; 3], Schedule)> {
-    let (leg, tau) = plan.locate(t)?;
-    let over = t >= plan.duration();
-    let moving = if over { 0.0 } else { 1.0 };
-    let d = |order: usize| plan.legs[leg].derivative(tau, order);
-    Some(([d(0), d(1) * moving, d(2) * moving], Schedule { leg, over }))
+    let (leg, motion) = plan.motion(t)?;
+    Some((motion, Schedule { leg, over: t >= plan.duration() }))
 }
 
 impl Controller<Boat> for Tracking {
