@@ -12,8 +12,8 @@ use crate::work::{IfThere, changed, make, open_to_read, same_place};
 /// looked at before anything is.
 ///
 /// # Errors
-/// The same folder, or one of recordings; keys that cannot be changed; `out` holds a campaign that is not to be replaced; a file cannot be read or
-/// written.
+/// The same folder, or one of recordings; keys that cannot be changed; `out` holds a campaign that is not to be
+/// replaced; a file cannot be read or written.
 pub(super) fn beside(
     (folder, sets): (&Path, &[Set]),
     out: &Path,

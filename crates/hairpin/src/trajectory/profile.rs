@@ -78,8 +78,8 @@ impl Profile {
         None
     }
 
-    /// The leg flown at `t`, and place (m), velocity (m/s) and acceleration (m/s²) there; from the end on it is at rest.
-    /// `None` for an empty profile.
+    /// The leg flown at `t`, and place (m), velocity (m/s) and acceleration (m/s²) there; from the end on it is at
+    /// rest. `None` for an empty profile.
     pub fn motion(&self, t: f64) -> Option<(usize, [Vector3<f64>; 3])> {
         let (leg, tau) = self.locate(t)?;
         let moving = if t >= self.duration() { 0.0 } else { 1.0 };
