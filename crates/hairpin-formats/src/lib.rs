@@ -29,6 +29,7 @@ pub mod krl;
 pub mod library;
 pub mod listing;
 mod lockstep;
+pub mod logs;
 pub mod mesh;
 pub mod parquet;
 pub mod placement;
