@@ -45,9 +45,10 @@ fn rovers_that_rest_on_their_wheels_meet_goals_on_rolling_ground() {
             assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{rover} to {goal}: {answer}");
             let error = |name: &str| answer["errors"][name].as_f64().unwrap().abs();
             assert!(error("x_m").hypot(error("y_m")) < 0.01 && error("yaw_rad") < 0.01, "{answer}");
-            assert!(
-                answer["max_curvature_1_m"].as_f64().unwrap() <= 1.5 && answer["replay_steps"].as_u64() >= Some(2000)
-            );
+            assert!(answer["max_curvature_1_m"].as_f64().unwrap() <= 1.5, "{answer}");
+            // Strides of 10 cm at most, and an honest sum of what they leave out.
+            assert!(answer["replay_steps"].as_u64() >= Some(30), "{answer}");
+            assert!(answer["replay_left_out_m"].as_f64().unwrap() <= 1e-4, "{answer}");
         }
     }
     // The ground is longer than the plane: the same goal takes other controls.

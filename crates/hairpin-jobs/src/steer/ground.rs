@@ -187,7 +187,7 @@ fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> D
         error: [cos * x + sin * y, cos * y - sin * x, yaw],
         error_curvature: ground.error_curvature,
         steps: ground.steps,
-        left_out: f64::NAN,
+        left_out: ground.left_out,
         ..*flat
     }
 }

@@ -3,7 +3,8 @@
 
 use super::drives::DriveLegClaim;
 use super::finding::{Collector, Finding};
-use super::ground::{GroundVehicle, follow_ground};
+use super::ground::follow_ground;
+use super::ground_claim::GroundVehicle;
 use crate::world::terrain::Terrain;
 
 /// A disc on the ground.
@@ -104,13 +105,13 @@ impl Steps {
         let claim = leg.ground();
         let mut last = claim.start;
         let mut steps = vec![([[last[0], last[1]]; 2], 0.0)];
-        let pass = |here: [f64; 3]| {
+        let mut pass = |here: [f64; 3]| {
             let chord = libm::hypot(here[0] - last[0], here[1] - last[1]);
             let turned = (here[2] - last[2]).abs() + claim.crab_rate.abs() * chord;
             steps.push(([[last[0], last[1]], [here[0], here[1]]], 0.25 * chord * turned));
             last = here;
         };
-        let followed = follow_ground(&leg.pieces, vehicle, terrain, &claim, pass).is_ok();
+        let followed = follow_ground(&leg.pieces, vehicle, terrain, &claim, Some(&mut pass)).is_ok();
         Self(followed.then_some(steps))
     }
 

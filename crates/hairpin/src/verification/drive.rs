@@ -67,7 +67,7 @@ pub struct DriveReplay {
     pub reversals: usize,
     /// Panels of the quadrature.
     pub steps: usize,
-    /// What they leave out of the end's place at most, m, rounding aside; no number where that is not bounded.
+    /// What they leave out of the end's place at most, m, rounding aside.
     pub left_out: f64,
 }
 

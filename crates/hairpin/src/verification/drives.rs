@@ -2,7 +2,8 @@
 
 use super::drive::{DriveClaim, DrivePiece, replay_drive};
 use super::finding::{Collector, Finding, Proof, Worst, note};
-use super::ground::{GroundClaim, GroundVehicle, replay_ground};
+use super::ground::replay_ground;
+use super::ground_claim::{GroundClaim, GroundVehicle};
 use super::pace::{PaceClaim, check_speeds};
 use crate::world::terrain::Terrain;
 

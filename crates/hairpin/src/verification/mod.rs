@@ -27,12 +27,15 @@ mod body;
 mod claim;
 mod clear;
 mod clear_ground;
+mod course;
+mod crest;
 mod demand;
 mod drive;
 mod drives;
 mod finding;
 mod gauss;
 mod ground;
+mod ground_claim;
 mod heaviest;
 mod heaviest_bound;
 mod heaviest_choices;
@@ -47,9 +50,13 @@ mod quadrature;
 mod replay;
 mod rotors;
 mod stand;
+mod stretch;
+mod stride;
 mod twist;
 mod walk;
 
+#[cfg(test)]
+mod midpoint;
 #[cfg(test)]
 mod tests;
 
@@ -65,7 +72,8 @@ pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_gro
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
-pub use ground::{GroundClaim, GroundReplay, GroundVehicle, Haul, Stopped, replay_ground};
+pub use ground::{GroundReplay, Stopped, replay_ground};
+pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
 pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
 pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};

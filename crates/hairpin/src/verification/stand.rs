@@ -97,6 +97,8 @@ const LEAPS: usize = 5;
 const HALVINGS: usize = 10;
 /// Widths of the difference quotients, m and rad, in the order they are tried.
 const DIFFERENCES: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-2];
+/// Rests that differ by more lead nowhere, m and rad.
+const NEIGHBOURS: f64 = 0.1;
 /// Longest step, m and rad: slopes mean nothing a wheel's width away.
 const FARTHEST: f64 = 0.3;
 
@@ -123,6 +125,26 @@ impl Rest {
     /// θ, rad, nose down.
     pub(super) fn pitch(&self) -> f64 {
         self.unknowns[2]
+    }
+
+    /// The same without the inverse, which is then its own again.
+    pub(super) fn afresh(&self) -> Self {
+        Self { unknowns: self.unknowns, inverse: None }
+    }
+
+    /// What two rests lead to at `share` of the way from the first to the last beyond it; the last, where they are no
+    /// neighbours.
+    pub(super) fn foreseen(first: &Self, last: &Self, share: f64) -> Self {
+        let change = last.unknowns - first.unknowns;
+        if change.amax() > NEIGHBOURS {
+            return last.clone();
+        }
+        Self { unknowns: last.unknowns + share * change, inverse: last.inverse }
+    }
+
+    /// The largest difference of heights (m) and angles (rad).
+    pub(super) fn apart(&self, other: &Self) -> f64 {
+        (self.unknowns - other.unknowns).amax()
     }
 
     /// At rest on the ground below `place` (x, y, ψ), looked for from the slope there, from level, and from in between.
@@ -179,7 +201,7 @@ impl Rest {
     }
 
     /// Brings the body to rest at `place`, from the rest it had before; no link of it on its head.
-    fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
+    pub(super) fn follow<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         self.approach(stand, terrain, place)?;
         let upright = self.unknowns.rows(3, 3).iter().all(|joint| joint.abs() <= std::f64::consts::FRAC_PI_2);
         if upright { Ok(()) } else { Err(NoRest::NotFound) }
@@ -187,30 +209,35 @@ impl Rest {
 
     /// Newton's method for F(q) = 0 from where the last place came to rest: q ← q − J⁺ F(q).
     ///
-    /// First the neighbour's J⁺ is used again, as long as each step is at most half of the one before (not on four
-    /// wheels, whose gaps end at a least that depends on it). Then a J of its own is taken at each iteration, by
-    /// central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`]
-    /// iterations take it whole, which leads out of corners. At rest where a step is below [`CLOSED`] (m and rad).
+    /// First the neighbour's J⁺ is used again and learns from each step by Broyden's update, as long as each is at most
+    /// half of the one before (not on four wheels, whose gaps end at a least that depends on it). Then a J of its own
+    /// is taken at each iteration, by central differences, and the step, at most [`FARTHEST`], is halved until ‖F‖
+    /// falls; every other [`LEAPS`] iterations take it whole, which leads out of corners. At rest where a step is below
+    /// [`CLOSED`] (m and rad).
     fn approach<T: Terrain>(&mut self, stand: &Stand, terrain: &T, place: [f64; 3]) -> Result<(), NoRest> {
         if *stand == Stand::Level {
             return Ok(());
         }
         let gaps_at = |unknowns: &Unknowns| gaps(stand, terrain, place, unknowns).map_err(NoRest::Ground);
         // A neighbour's Jacobian closes gaps as its own does; where gaps remain it is another least that it leads to.
-        if let Some(inverse) = self.inverse.as_ref().filter(|_| !matches!(stand, Stand::FourWheel { .. })) {
-            let (mut unknowns, mut last) = (self.unknowns, f64::INFINITY);
+        if let Some(inverse) = self.inverse.filter(|_| !matches!(stand, Stand::FourWheel { .. })) {
+            let (mut inverse, mut unknowns, mut last) = (inverse, self.unknowns, f64::INFINITY);
+            let mut gaps = gaps_at(&unknowns)?;
             for _ in 0..BORROWED {
-                let step = inverse * gaps_at(&unknowns)?;
+                let step = inverse * gaps;
                 let length = step.amax();
-                if length > 0.5 * last || length > FARTHEST {
+                if !(length <= 0.5 * last && length <= FARTHEST) {
                     break;
                 }
                 unknowns -= step;
-                if length < CLOSED {
-                    self.unknowns = unknowns;
+                // What is left is the share of this step that this one was of the last.
+                if length < CLOSED || length * length < CLOSED * last {
+                    (self.unknowns, self.inverse) = (unknowns, Some(inverse));
                     return Ok(());
                 }
-                last = length;
+                let there = gaps_at(&unknowns)?;
+                inverse = broyden(&inverse, &step, &(gaps - there));
+                (gaps, last) = (there, length);
             }
         }
         let mut found = gaps_at(&self.unknowns)?;
@@ -317,6 +344,13 @@ fn jacobian<T: Terrain>(
     Ok(jacobian)
 }
 
+/// The inverse that also leads by `step` where the gaps changed by `closed`: B + (s − B y) sᵀB/(sᵀB y). Broyden 1965.
+fn broyden(inverse: &SMatrix<f64, 6, 6>, step: &Unknowns, closed: &Gaps) -> SMatrix<f64, 6, 6> {
+    let (led, across) = (inverse * closed, inverse.tr_mul(step));
+    let along = across.dot(closed);
+    if along == 0.0 { *inverse } else { inverse + (step - led) * across.transpose() / along }
+}
+
 /// (JᵀJ)⁻¹Jᵀ over the unknowns there are: the inverse, or what brings four gaps to their least squares.
 fn pseudo_inverse(stand: &Stand, jacobian: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
     if matches!(stand, Stand::RockerBogie { .. }) {
@@ -327,4 +361,9 @@ fn pseudo_inverse(stand: &Stand, jacobian: &SMatrix<f64, 6, 6>) -> Option<SMatri
     let mut whole = SMatrix::<f64, 6, 6>::zeros();
     whole.fixed_view_mut::<3, 6>(0, 0).copy_from(&inverse);
     Some(whole)
+}
+
+/// Angle of the body's z axis from the vertical, rad.
+pub(super) fn tilt(rest: &Rest) -> f64 {
+    libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0))
 }

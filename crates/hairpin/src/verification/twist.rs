@@ -28,7 +28,7 @@ const CLOSED: f64 = 3e-9;
 const ENOUGH: f64 = 1e-6;
 
 /// The place (x, y, ψ) after a step of `h` from `from`, where the body has come to `rest`, at the rates that `body`
-/// gives for how it leans halfway; `rest` is then the one there.
+/// gives for how it leans halfway; `rest` is then the one there. It is looked for from `ahead`.
 ///
 /// `body` gives vx, vy (m) and ωz (rad) per unit of `h`. A fixed-point iteration on the place: what the twist lacks is
 /// added, turned into the world; it contracts as steps are small beside the ground's curvature. `NoRest` where the body
@@ -37,14 +37,14 @@ pub(super) fn carry<T: Terrain>(
     stand: &Stand,
     terrain: &T,
     rest: &mut Rest,
-    from: [f64; 3],
+    [from, ahead]: [[f64; 3]; 2],
     h: f64,
     body: impl Fn(&Place) -> [f64; 3],
 ) -> Result<[f64; 3], NoRest> {
     rest.carry_on(stand, terrain, from)?;
     let (begun, origin) = (attitude(rest, from[2]), Vector3::new(from[0], from[1], rest.height()));
     let leant = Place { roll: rest.roll(), pitch: rest.pitch() };
-    let mut place = from;
+    let mut place = ahead;
     let mut left = f64::INFINITY;
     for _ in 0..TRIES {
         rest.carry_on(stand, terrain, place)?;

@@ -115,7 +115,7 @@ pub(crate) struct Steer {
     /// Steps of --path and --wheels at most; they are longer where there would be more
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = steps)]
     pub(crate) max_steps: usize,
-    /// One JSON object on stdout; its replay_steps are the replay's panels in the plane, and its steps on --terrain
+    /// One JSON object on stdout; its replay_steps are the replay's panels in the plane, and its strides on --terrain
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]

@@ -1,0 +1,108 @@
+//! A piece of a drive on the ground, stride by stride, each as long as what it leaves out allows.
+
+use super::crest::{Followed, SHOWN};
+use super::stand::{NoRest, Rest};
+use super::stride::{Look, Pose, Station, Stretch, Taken, Tried};
+use crate::world::terrain::Terrain;
+
+/// What a drive's strides may leave out of its end's place in all, m, and of its heading times the metres left: a
+/// hundredth of what drives are usually held to.
+const ACCURACY: f64 = 1e-4;
+/// Longest stride, m and rad: what lies between two looks is not seen.
+const LONGEST: f64 = 0.1;
+/// The shortest is this share of the drive, or this long, m and rad: whatever it leaves out is told.
+const SHORTEST: (f64, f64) = (1.0 / 4000.0, 2.5e-4);
+/// Plain steps that are tried where the body falls in the shortest stride, as multiples of it.
+const PLAIN: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
+
+/// A stride that is taken, how long it is, and how long the next one may be, m or rad.
+struct Step {
+    h: f64,
+    tried: Tried,
+    next: f64,
+}
+
+impl<T: Terrain> Stretch<'_, T> {
+    /// Drives on from `at`, where the body rests, to the end of the piece, where `at` is then.
+    ///
+    /// `pass` is shown places along the way. No rest is told with s.
+    pub(super) fn follow(
+        &self,
+        at: &mut (Pose, Rest),
+        followed: &mut Followed,
+        pass: &mut Option<&mut dyn FnMut(Pose)>,
+    ) -> Result<(), (f64, NoRest)> {
+        let length = self.length.abs();
+        if !length.is_finite() {
+            return Err((0.0, NoRest::NotFound));
+        }
+        let mut looks = vec![Look { s: 0.0, rest: at.1.clone() }];
+        let mut taken: Vec<Taken> = Vec::new();
+        let mut station = self.station(0.0, at.0, at.1.clone());
+        let (mut done, mut stride) = (0.0, LONGEST);
+        while done < length {
+            let left = length - done;
+            let Step { h, tried, next } = self.step(&station, &looks, stride, left).map_err(|no| (station.s, no))?;
+            followed.strides += 1;
+            followed.left_out += tried.off;
+            let poses = [station.pose, tried.middle, tried.end];
+            let walked = Taken { s: station.s, h: h.copysign(self.length), poses };
+            if let Some(pass) = pass {
+                let parts = (SHOWN * h / self.extent).ceil().max(1.0) as usize;
+                (1..=parts).for_each(|part| pass(walked.pose(part as f64 / parts as f64)));
+            }
+            taken.push(walked);
+            looks.extend(tried.looks);
+            done = if h >= left { length } else { done + h };
+            station = self.station(done.copysign(self.length), tried.end, tried.rest);
+            stride = next;
+        }
+        // Nobody asks how it stands where the drive ends: what is behind the last look may be an edge.
+        if let Ok(end) = self.look(&looks, self.length, station.pose) {
+            looks.push(end);
+        }
+        *at = (station.pose, looks.last().map_or(station.rest, |last| last.rest.clone()));
+        self.add_peaks(&looks, &taken, followed);
+        Ok(())
+    }
+
+    /// The next stride, `stride` long at most and no longer than what is `left`: halved, or more, until it is near
+    /// enough; a plain step where none is short enough for a body that falls.
+    fn step(&self, station: &Station, looks: &[Look], stride: f64, left: f64) -> Result<Step, NoRest> {
+        let shortest = SHORTEST.1.max(SHORTEST.0 * self.extent);
+        let mut h = stride.min(left);
+        loop {
+            let allowed = ACCURACY * h / self.extent;
+            let tried = self.attempt(station, h.copysign(self.length), looks).ok();
+            // A difference that is not a number is as large as can be; its root is that of third-order terms.
+            let longer = tried.as_ref().map_or(0.0, |tried| 0.9 * (allowed / tried.off).sqrt());
+            let fell = tried.as_ref().is_none_or(|tried| tried.fell);
+            match tried {
+                Some(tried) if !fell && (h <= shortest || tried.off <= allowed) => {
+                    let next = shortest.max(LONGEST.min(h * bounded(longer, 0.5, 2.0)));
+                    return Ok(Step { h, tried, next });
+                }
+                _ if h <= shortest => return self.fall(station, looks, shortest, left),
+                _ => h = shortest.max(h * if fell { 0.25 } else { bounded(longer, 0.2, 0.7) }),
+            }
+        }
+    }
+
+    /// The first plain step that finds a rest.
+    fn fall(&self, station: &Station, looks: &[Look], shortest: f64, left: f64) -> Result<Step, NoRest> {
+        let mut refused = NoRest::NotFound;
+        for times in PLAIN {
+            let h = left.min(times * shortest);
+            match self.plainly(station, h.copysign(self.length), looks) {
+                Ok(tried) => return Ok(Step { h, tried, next: shortest }),
+                Err(why) => refused = why,
+            }
+        }
+        Err(refused)
+    }
+}
+
+/// `x` within bounds; the lower one if it is no number.
+fn bounded(x: f64, low: f64, high: f64) -> f64 {
+    if x > low { x.min(high) } else { low }
+}
