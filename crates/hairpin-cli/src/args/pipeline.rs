@@ -215,6 +215,10 @@ pub(crate) enum Format {
     ArcClock,
     /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps, not aligned
     Tum,
+    /// CASE.mcap: planned motion, runs and obstacles for Foxglove, protocol buffers
+    Mcap,
+    /// CASE.ros2.mcap: planned motion, runs and an arm's joints for ROS 2
+    McapRos2,
 }
 
 #[derive(Debug, Args)]

@@ -67,6 +67,8 @@ fn of_job(format: Format) -> export::Format {
         Format::JointTrajectory => export::Format::Program(Language::JointTrajectory),
         Format::ArcClock => export::Format::ArcClock,
         Format::Tum => export::Format::Tum,
+        Format::Mcap => export::Format::Mcap,
+        Format::McapRos2 => export::Format::McapRos2,
     }
 }
 
@@ -84,5 +86,7 @@ fn of_format(format: Format) -> (&'static str, &'static str) {
         }
         Format::Csv => ("csv", "spreadsheets, pandas, PlotJuggler"),
         Format::Tum => ("tum", "evo: `evo_ape tum CASE.ref.tum CASE.exec.tum`, never with --align"),
+        Format::Mcap => ("mcap", "Foxglove"),
+        Format::McapRos2 => ("mcap-ros2", "`ros2 bag play -s mcap`, RViz, PlotJuggler, rosbags"),
     }
 }

@@ -85,7 +85,8 @@ const ENDINGS: &[&str] =
     &["planned.csv", "ref.tum", "exec.tum", "joint_trajectory.json", "mod", "pgf", "script", "src", "dat"];
 
 /// How those end that earlier versions did not have.
-const NEWER_ENDINGS: &[&str] = &["setpoints.csv", "setpoints.json", "poly4d.csv", "poly4d.bin", "poly4d.json"];
+const NEWER_ENDINGS: &[&str] =
+    &["setpoints.csv", "setpoints.json", "poly4d.csv", "poly4d.bin", "poly4d.json", "mcap", "ros2.mcap"];
 
 /// How those end that are missions: a user may have changed them for `execute --missions`, so they stay as long as the
 /// campaign is the same.

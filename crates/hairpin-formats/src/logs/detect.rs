@@ -1,12 +1,13 @@
 //! Which format a log is of, told by its first bytes; among texts by its name, then by its first line.
 
 use super::error::Fault;
-use super::{bag, ulog};
+use super::{bag, dataflash, ulog};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Ulog,
     Mcap,
+    DataFlash,
     Tum,
     Csv,
 }
@@ -18,12 +19,15 @@ const OTHERS: [(&[u8], &str); 3] = [
     (b"PAR1", "a Parquet table; export it as CSV"),
 ];
 
-const KNOWN: &str = "a log is read as PX4 ULog (.ulg), ROS 2 MCAP (.mcap), TUM (`t x y z qx qy qz qw`) or CSV (a header such as `t_s,x_m,y_m,z_m,qw,qx,qy,qz`)";
+const KNOWN: &str = "a log is read as PX4 ULog (.ulg), ArduPilot DataFlash (.bin), ROS 2 MCAP (.mcap), TUM (`t x y z qx qy qz qw`) or CSV (a header such as `t_s,x_m,y_m,z_m,qw,qx,qy,qz`)";
 
 impl Format {
     pub(super) fn of(bytes: &[u8], name: &str) -> Result<Self, Fault> {
         if let Some((_, what)) = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic)) {
             return Err(Fault::Unknown((*what).into()));
+        }
+        if bytes.starts_with(dataflash::MAGIC) {
+            return Ok(Self::DataFlash);
         }
         if bytes.starts_with(ulog::MAGIC) {
             return Ok(Self::Ulog);
@@ -31,12 +35,14 @@ impl Format {
         if bytes.starts_with(bag::MAGIC) {
             return Ok(Self::Mcap);
         }
-        let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
-        match ending.as_deref() {
-            _ if bytes.contains(&0) => Err(Fault::Unknown(format!("no text, and of no format that is known; {KNOWN}"))),
-            Some("tum") => Ok(Self::Tum),
-            Some("csv") => Ok(Self::Csv),
-            _ => Self::of_text(bytes).ok_or_else(|| Fault::Unknown(format!("of no format that is known; {KNOWN}"))),
+        if bytes.contains(&0) {
+            return Err(Fault::Unknown(format!("no text, and of no format that is known; {KNOWN}")));
+        }
+        let name = name.to_ascii_lowercase();
+        match () {
+            () if name.ends_with(".tum") => Ok(Self::Tum),
+            () if name.ends_with(".csv") => Ok(Self::Csv),
+            () => Self::of_text(bytes).ok_or_else(|| Fault::Unknown(format!("of no format that is known; {KNOWN}"))),
         }
     }
 

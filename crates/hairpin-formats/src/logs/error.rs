@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::samples::MOST_SAMPLES;
+/// Samples of all topics of a log at most: four hours at 250 Hz.
+pub const MOST_SAMPLES: usize = 4_000_000;
 
 /// Why a file is no log that can be read.
 #[derive(Debug, Error)]

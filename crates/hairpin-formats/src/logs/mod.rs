@@ -6,6 +6,7 @@
 mod attitude;
 mod axes;
 mod bag;
+mod dataflash;
 mod detect;
 mod error;
 mod log;
@@ -15,9 +16,8 @@ mod ulog;
 
 use std::path::Path;
 
-pub use error::{LogError, Place};
+pub use error::{LogError, MOST_SAMPLES, Place};
 pub use log::{Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span};
-pub use samples::MOST_SAMPLES;
 
 use crate::bounds;
 use detect::Format;
@@ -42,6 +42,7 @@ fn parse(bytes: &[u8], name: &str) -> Result<Logged, Fault> {
     let logged = match Format::of(bytes, name)? {
         Format::Ulog => ulog::read_ulog(bytes),
         Format::Mcap => bag::read_mcap(bytes),
+        Format::DataFlash => dataflash::read_dataflash(bytes),
         Format::Tum => text::read_tum(text::decode(bytes)?, name),
         Format::Csv => text::read_csv(text::decode(bytes)?, name),
     }?;

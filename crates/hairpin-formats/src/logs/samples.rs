@@ -1,9 +1,6 @@
 //! How many samples a log may hold, counted over all of its topics while they are read.
 
-use super::error::Fault;
-
-/// Samples of all topics of a log at most: four hours at 250 Hz.
-pub const MOST_SAMPLES: usize = 4_000_000;
+use super::error::{Fault, MOST_SAMPLES};
 
 /// What is left of [`MOST_SAMPLES`].
 #[derive(Debug)]

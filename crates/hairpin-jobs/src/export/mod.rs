@@ -1,6 +1,7 @@
 //! A campaign's trajectories as files that other programs open, in `export/` of its folder.
 
 mod chosen;
+mod mcap;
 mod motions;
 mod placed;
 mod programs;
@@ -32,6 +33,10 @@ pub enum Format {
     ArcClock,
     /// CASE.ref.tum and CASE.exec.tum: planned motion and worst run on the same stamps.
     Tum,
+    /// CASE.mcap: planned motion, runs and obstacles for Foxglove.
+    Mcap,
+    /// CASE.ros2.mcap: planned motion, runs and an arm's joints for ROS 2.
+    McapRos2,
 }
 
 /// A campaign that is exported.
@@ -64,6 +69,8 @@ impl Export {
             Format::Geodetic => motions::write_geodetic(work, &place, &cases),
             Format::Csv => motions::write_csv(work, &place, &cases),
             Format::Tum => motions::write_tum(work, &place, &cases),
+            Format::Mcap => mcap::write(work, &place, &cases, mcap::For::Foxglove),
+            Format::McapRos2 => mcap::write(work, &place, &cases, mcap::For::Ros2),
             Format::Program(language) => programs::write(work, &place, &cases, language),
             Format::ArcClock => programs::write_clock(work, &place),
         }
@@ -79,7 +86,14 @@ mod tests {
     fn files_lie_in_the_campaign() {
         let (_place, folder) = executed();
         let export = Export::open(&folder, &Which::All).unwrap();
-        for (format, count) in [(Format::Waypoints, 2), (Format::Geodetic, 2), (Format::Csv, 4), (Format::Tum, 4)] {
+        for (format, count) in [
+            (Format::Waypoints, 2),
+            (Format::Geodetic, 2),
+            (Format::Csv, 4),
+            (Format::Tum, 4),
+            (Format::Mcap, 2),
+            (Format::McapRos2, 2),
+        ] {
             let written = export.write(format).unwrap();
             assert_eq!((written.files.len(), written.missing.len()), (count, 0), "{format:?}");
             assert!(written.files.iter().all(|file| file.starts_with(folder.join("export")) && file.is_file()));

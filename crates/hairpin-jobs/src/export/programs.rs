@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
+use hairpin::robot::arm::{AXES, Joints};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
 
@@ -103,11 +104,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
-            let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
-            let (times, joints) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
-            let names = std::array::from_fn(|axis| format!("joint_{}", axis + 1));
-            let text =
-                joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
+            let (times, joints) = planned_joints(work, case)?;
+            let text = joint_trajectory::text("base_link", &joint_names(), &times, &joints)
+                .map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
@@ -125,4 +124,15 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             ]
         }
     })
+}
+
+/// The planned joints of an arm's case every 10 ms: times, s, and angles, rad.
+pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<(Vec<f64>, Vec<Joints>), String> {
+    let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
+    arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())
+}
+
+/// What they are called.
+pub(super) fn joint_names() -> [String; AXES] {
+    std::array::from_fn(|axis| format!("joint_{}", axis + 1))
 }

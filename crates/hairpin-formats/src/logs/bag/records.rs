@@ -10,6 +10,9 @@ use crate::foreign;
 pub(in super::super) const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Bytes of a chunk at most, packed and unpacked: recorders make them a hundred times smaller.
 const MOST_CHUNK: usize = 128_000_000;
+/// Bytes that one packed byte may stand for, and what a small chunk may have beside: more is no recorder's.
+const MOST_PACKED: usize = 1_000;
+const SMALL_CHUNK: usize = 1_000_000;
 /// Operation and length before each record.
 const HEAD: usize = 9;
 /// Broken chunks that are told one by one.
@@ -18,10 +21,23 @@ const TOLD: usize = 5;
 /// What is read of a record.
 #[derive(Debug)]
 pub(super) enum Record<'a> {
-    Schema { id: u16, name: String },
-    Channel { id: u16, schema: u16, topic: String, encoding: String },
+    Schema {
+        id: u16,
+        name: String,
+    },
+    Channel {
+        id: u16,
+        schema: u16,
+        topic: String,
+        encoding: String,
+    },
     /// `offset` is that of the message, or of the chunk that it is in.
-    Message { channel: u16, received_ns: u64, offset: usize, data: &'a [u8] },
+    Message {
+        channel: u16,
+        received_ns: u64,
+        offset: usize,
+        data: &'a [u8],
+    },
 }
 
 type Take<'t> = dyn FnMut(Record<'_>) -> Result<(), Fault> + 't;
@@ -76,9 +92,10 @@ impl<'a> Records<'a> {
     fn unpack(&mut self, at: usize, body: &[u8], take: &mut Take) -> Result<(), Fault> {
         let length = (body.len() as u64).to_le_bytes();
         let mut input = [&[op::CHUNK][..], &length, body].concat();
+        let most = body.len().saturating_mul(MOST_PACKED).saturating_add(SMALL_CHUNK).min(MOST_CHUNK);
         let mut options = LinearReaderOptions::default();
         options = options.with_skip_start_magic(true).with_skip_end_magic(true);
-        options = options.with_prevalidate_chunk_crcs(true).with_record_length_limit(MOST_CHUNK);
+        options = options.with_prevalidate_chunk_crcs(true).with_record_length_limit(most);
         let mut reader = LinearReader::new_with_options(options);
         // What goes wrong while records are taken is no decoder's.
         let mut taken = Ok(());
@@ -144,12 +161,9 @@ fn hand(operation: u8, body: &[u8], at: usize, take: &mut Take) -> Result<Result
             topic: channel.topic,
             encoding: channel.message_encoding,
         })?,
-        Parsed::Message { header, data } => take(Record::Message {
-            channel: header.channel_id,
-            received_ns: header.log_time,
-            offset: at,
-            data: &data,
-        })?,
+        Parsed::Message { header, data } => {
+            take(Record::Message { channel: header.channel_id, received_ns: header.log_time, offset: at, data: &data })?
+        }
         _ => {}
     }
     Ok(Ok(()))

@@ -45,9 +45,15 @@ impl Topic {
         Self { name, kind, frame, samples, sets, received, paths, stamped, seen, broken, first_broken, elsewhere }
     }
 
-    pub(super) fn push(&mut self, data: &[u8], received_ns: u64, offset: usize, budget: &mut Budget) -> Result<(), Fault> {
+    pub(super) fn push(
+        &mut self,
+        data: &[u8],
+        received_ns: u64,
+        offset: usize,
+        budget: &mut Budget,
+    ) -> Result<(), Fault> {
         self.seen = true;
-        let taken = Cdr::of(data).and_then(|mut cdr| self.take(&mut cdr, received_ns as f64 * 1e-9));
+        let taken = Cdr::of(data).and_then(|mut cdr| self.take(&mut cdr, received_ns as f64 / 1e9));
         match taken {
             Ok(samples) => (0..samples).try_for_each(|_| budget.take()),
             Err(NoMessage) => {
@@ -77,9 +83,11 @@ impl Topic {
                 let rises = poses.windows(2).all(|pair| pair[0].header.stamp_ns < pair[1].header.stamp_ns);
                 // A path is the whole way each time; the last that has times counts.
                 if rises && poses.len() > 1 {
+                    let before = self.samples.len();
                     self.samples.clear();
                     self.received.clear();
-                    return Ok(poses.iter().map(|pose| self.sample(pose, received_s)).sum());
+                    let now: usize = poses.iter().map(|pose| self.sample(pose, received_s)).sum();
+                    return Ok(now.saturating_sub(before));
                 }
                 Ok(0)
             }
@@ -96,7 +104,7 @@ impl Topic {
         self.stamped |= pose.header.stamp_ns != 0;
         self.received.push(received_s);
         self.samples.push(Sample {
-            t_s: pose.header.stamp_ns as f64 * 1e-9,
+            t_s: pose.header.stamp_ns as f64 / 1e9,
             p_m: pose.p_m,
             attitude: pose.attitude,
             v_m_s: pose.v_m_s,
@@ -127,7 +135,7 @@ impl Topic {
         };
         self.stamped |= stamp_ns != 0;
         let set = &mut self.sets[index];
-        set.times.push(stamp_ns as f64 * 1e-9);
+        set.times.push(stamp_ns as f64 / 1e9);
         set.received.push(received_s);
         set.rows.push(order.into_iter().map(|place| positions[place]).collect());
         // A row of many joints counts for more than one of few.
@@ -149,7 +157,10 @@ impl Topic {
         let Self { name, samples, sets, received, mut frame, .. } = self;
         let mut notes = Vec::new();
         if self.broken > 0 {
-            notes.push(format!("{name}: {} messages that are none of its type, the first at byte {}", self.broken, self.first_broken));
+            notes.push(format!(
+                "{name}: {} messages that are none of its type, the first at byte {}",
+                self.broken, self.first_broken
+            ));
         }
         if self.elsewhere > 0 {
             notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));

@@ -6,8 +6,8 @@ use nalgebra::{Point3, Vector3};
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample, Source};
 use super::super::samples::Budget;
+use super::checks::{FARTHEST_M, after, attitude};
 use super::columns::{Column, Columns};
-use super::{FARTHEST_M, after, attitude};
 use crate::delimited::{Cut, Row, Table};
 use crate::quote;
 

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::super::error::Fault;
 use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
 use super::super::samples::Budget;
-use super::{FARTHEST_M, after, attitude};
+use super::checks::{FARTHEST_M, after, attitude};
 use crate::quote;
 
 const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];

@@ -180,7 +180,8 @@ impl Flown {
     pub(super) fn progress(&self, place: impl Fn(&Geodetic) -> Option<nalgebra::Point3<f64>>) -> Vec<Progress> {
         let end = |index: usize| self.items.get(index + 1).map_or(f64::INFINITY, |(next, _)| *next);
         let one = |(index, (t_s, item)): (usize, &(f64, u32))| {
-            let target = self.targets.iter().find(|(at, _)| *at >= t_s - TOGETHER);
+            let from = self.targets.partition_point(|(at, _)| *at < t_s - TOGETHER);
+            let target = self.targets.get(from);
             let target = target.filter(|(at, _)| *at < end(index) - TOGETHER || *at <= *t_s);
             Progress { t_s: *t_s, item: *item, target_m: target.and_then(|(_, target)| place(target)) }
         };

@@ -5,20 +5,20 @@ mod mission;
 mod odometry;
 mod position;
 mod projection;
+mod series;
 mod stream;
 mod topic;
 
 use std::collections::BTreeMap;
 
-use super::attitude::Attitudes;
 use super::error::Fault;
-use super::log::{Clock, LogFrame, Logged, LoggedMotion, Source, Span};
+use super::log::{Clock, LogFrame, Logged, Source, Span};
 use super::samples::Budget;
-use crate::frames::Geodetic;
-use formats::{Formats, Size, Slot};
-use mission::{Flown, Topic};
-use odometry::{Odometry, attitude};
-use position::{Positions, target};
+use formats::{Formats, Size};
+use mission::Flown;
+use odometry::attitude;
+use position::target;
+use series::{Series, What, motions};
 use stream::{Message, Messages, broken};
 use topic::{Finder, seconds};
 
@@ -58,30 +58,6 @@ impl From<Fault> for Trouble {
     fn from(fault: Fault) -> Self {
         Self::Log(fault)
     }
-}
-
-/// One subscription.
-#[derive(Debug)]
-struct Series {
-    name: String,
-    instance: u8,
-    size: Size,
-    stamp: Slot,
-    what: What,
-}
-
-#[derive(Debug)]
-enum What {
-    Positions(Source, Box<Positions>),
-    Odometry(Source, Box<Odometry>),
-    Attitudes {
-        slots: [Slot; 4],
-        sample: Option<Slot>,
-        read: Attitudes,
-    },
-    Flown(Topic),
-    /// Says nothing of motion.
-    Other,
 }
 
 #[derive(Debug, Default)]
@@ -129,24 +105,10 @@ impl Reader {
         let size = self.formats.size(name)?;
         let finder = Finder { formats: &self.formats, name };
         let stamp = finder.needed("timestamp")?;
-        let what = Self::what(name, &finder)?;
+        let what = What::of(name, &finder)?;
         self.ids.insert(id, self.series.len());
         self.series.push(Series { name: name.into(), instance, size, stamp, what });
         Ok(())
-    }
-
-    fn what(name: &str, finder: &Finder) -> Result<What, String> {
-        Ok(match name {
-            "vehicle_local_position" => What::Positions(Source::Estimate, Positions::of(finder)?.into()),
-            "vehicle_local_position_groundtruth" => What::Positions(Source::GroundTruth, Positions::of(finder)?.into()),
-            "vehicle_mocap_odometry" => What::Odometry(Source::MotionCapture, Odometry::of(finder)?.into()),
-            "vehicle_visual_odometry" => What::Odometry(Source::Estimate, Odometry::of(finder)?.into()),
-            "vehicle_attitude" | "vehicle_attitude_groundtruth" => {
-                let slots = finder.array("q", [""; 4]).ok_or_else(|| format!("`{name}` has no field `q`"))?;
-                What::Attitudes { slots, sample: finder.slot("timestamp_sample"), read: Attitudes::default() }
-            }
-            _ => Topic::of(name, finder)?.map_or(What::Other, What::Flown),
-        })
     }
 
     fn data(&mut self, body: &[u8], after_break: bool) -> Result<(), Trouble> {
@@ -169,7 +131,7 @@ impl Reader {
             return Err(what.into());
         }
         let stamp = series.stamp.read(data).unwrap_or(0.0);
-        self.now_s = stamp * 1e-6;
+        self.now_s = stamp / 1e6;
         match &mut series.what {
             What::Positions(_, positions) => positions.push(stamp, data, &mut self.budget)?,
             What::Odometry(_, odometry) => odometry.push(stamp, data, &mut self.budget)?,
@@ -256,71 +218,4 @@ impl Reader {
             notes,
         }
     }
-}
-
-impl Series {
-    fn source(&self) -> Option<Source> {
-        match &self.what {
-            What::Positions(source, _) | What::Odometry(source, _) => Some(*source),
-            _ => None,
-        }
-    }
-
-    fn is_empty(&self) -> bool {
-        match &self.what {
-            What::Positions(_, positions) => positions.is_empty(),
-            What::Odometry(_, odometry) => odometry.is_empty(),
-            _ => true,
-        }
-    }
-
-    fn reference(&self) -> Option<Geodetic> {
-        match &self.what {
-            What::Positions(_, positions) => positions.reference(),
-            _ => None,
-        }
-    }
-
-    /// The topic's name, with its instance where it is not the first.
-    fn told(&self) -> String {
-        if self.instance == 0 { self.name.clone() } else { format!("{}[{}]", self.name, self.instance) }
-    }
-}
-
-/// Positions with the attitudes of their own source and instance beside them.
-fn motions(series: Vec<Series>, origin: Option<Geodetic>, notes: &mut Vec<String>) -> Vec<LoggedMotion> {
-    let mut attitudes = BTreeMap::new();
-    let mut moved = Vec::new();
-    for series in series {
-        let (name, key) = (series.told(), (series.name, series.instance));
-        match series.what {
-            What::Attitudes { read, .. } if !read.is_empty() => drop(attitudes.insert(key, read)),
-            What::Positions(source, positions) if !positions.is_empty() => {
-                let (motion, told) = positions.motion(&name, source, origin);
-                notes.extend(told);
-                moved.push((motion, key.1));
-            }
-            What::Odometry(source, odometry) => {
-                let (motion, told) = odometry.motion(&name, source);
-                notes.extend(told);
-                moved.extend(motion.map(|motion| (motion, key.1)));
-            }
-            _ => {}
-        }
-    }
-    for (motion, instance) in &mut moved {
-        let topic = match motion.source {
-            Source::GroundTruth => "vehicle_attitude_groundtruth",
-            Source::Estimate if motion.name.starts_with("vehicle_local") => "vehicle_attitude",
-            _ => continue,
-        };
-        let beside = [*instance, 0].iter().find_map(|instance| attitudes.get(&(topic.to_owned(), *instance)));
-        if let Some(beside) = beside {
-            let turns = beside.at(motion.samples.iter().map(|sample| sample.t_s));
-            motion.samples.iter_mut().zip(turns).for_each(|(sample, turn)| sample.attitude = turn);
-        } else {
-            notes.push(format!("{}: no `{topic}` beside it", motion.name));
-        }
-    }
-    moved.into_iter().map(|(motion, _)| motion).collect()
 }

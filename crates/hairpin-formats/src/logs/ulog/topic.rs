@@ -40,5 +40,5 @@ impl Finder<'_> {
 /// Seconds of microseconds: when the raw data was taken, where that is told and could be, else when it was published.
 pub(super) fn seconds(stamp: f64, sample: Option<f64>) -> f64 {
     let near = |sample: &f64| *sample > 0.0 && *sample <= stamp && stamp - sample <= LONGEST_DELAY * 1e6;
-    sample.filter(near).unwrap_or(stamp) * 1e-6
+    sample.filter(near).unwrap_or(stamp) / 1e6
 }
