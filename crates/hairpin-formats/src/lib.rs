@@ -30,6 +30,7 @@ pub mod library;
 pub mod listing;
 mod lockstep;
 pub mod logs;
+pub mod mcap;
 pub mod mesh;
 pub mod parquet;
 pub mod placement;

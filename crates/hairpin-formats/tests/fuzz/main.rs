@@ -19,7 +19,7 @@ use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario::{arm_for, read_setup, rover_for, setup_for};
 use hairpin_formats::steering::{parse as parse_queries, read_start_table, start_table_bytes};
 use hairpin_formats::terrain::{Georeference, Sidecars, read_keep_outs, read_terrain};
-use hairpin_formats::{arcs, cloud, controller_log, costs, mesh, rapid, rotor_speeds, urdf, waypoints};
+use hairpin_formats::{arcs, cloud, controller_log, costs, logs, mesh, rapid, rotor_speeds, urdf, waypoints};
 use mutate::{fuzz, stand};
 use out_campaign::campaign;
 use samples::{AUX, PRJ, collada, fixtures, meshes, modules, numpy, picture, srdf, texts, urdf as urdf_sample};
@@ -166,6 +166,17 @@ fn logs() {
     let end = r#"{"type":"end","reason":"done"}"#;
     let rows = r#"{"type":"poses","case":"0000","run":0,"poses":[[0,1,2,3,1,0,0,0,null,5,6,0]]}"#;
     fuzz("executor.json", &texts(&[answer, end, rows]), |bytes| drop(lossy(bytes).parse::<FromExecutor>()));
+}
+
+#[test]
+fn logs_of_robots() {
+    for ending in ["ulg", "mcap", "bin"] {
+        fuzz_file(&format!("a.{ending}"), &fixtures("logs", &[ending]), |path| drop(logs::read(path)));
+    }
+    let tum = "# t x y z qx qy qz qw\n0 1 2 3 0 0 0 1\n0.1 1.5 2 3 0 0.6 0 0.8\n";
+    fuzz_file("a.tum", &texts(&[tum]), |path| drop(logs::read(path)));
+    let csv = "t,x_m,y_m,z_m,qw,qx,qy,qz,leg,vx_m_s,vy_m_s,vz_m_s,q1_rad\n0,1,2,3,1,0,0,0,0,1,0,0,0.5\n0.1,1,2,3,1,0,0,0,1,1,0,0,0.5\n";
+    fuzz_file("a.csv", &texts(&[csv]), |path| drop(logs::read(path)));
 }
 
 #[test]

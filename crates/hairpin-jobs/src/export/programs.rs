@@ -1,10 +1,11 @@
 //! Programs of arms in the languages of their controllers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
+use hairpin::robot::arm::{AXES, Joints};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
 
@@ -29,10 +30,10 @@ pub enum Language {
 const SAMPLE: f64 = 0.01;
 
 /// Writes the program of every case; a case without one, or one that the language cannot hold, is told as missing.
-pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<Written, Problem> {
+pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Language) -> Result<Written, Problem> {
     let mut written = Written::default();
     for case in cases {
-        let mut case = case.clone();
+        let mut case = Case::clone(case);
         work.folder.read_witness(&mut case)?;
         let Some(program) = case.program() else {
             written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
@@ -41,7 +42,7 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
         match texts(work, &case, program, language) {
             Ok(texts) => {
                 for (name, text) in texts {
-                    let path: PathBuf = work.folder.file(&name);
+                    let path: PathBuf = place.join(&name);
                     atomic::write(&path, text.as_bytes())?;
                     written.files.push(path);
                 }
@@ -56,7 +57,7 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
 }
 
 /// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.
-pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
+pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem> {
     let Some(arm) = work.setup.own::<ArmSetup>() else {
         return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
     };
@@ -80,7 +81,7 @@ pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
         header: &header,
     });
     let clocked = clocked.map_err(|error| refuse(error.to_string()))?;
-    let path = work.folder.file("arc_clock.mod");
+    let path = place.join("arc_clock.mod");
     atomic::write(&path, clocked.text.as_bytes())?;
     let mut written = Written::all(vec![path]);
     if !clocked.left_out.is_empty() {
@@ -103,11 +104,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
-            let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
-            let (times, joints) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
-            let names = std::array::from_fn(|axis| format!("joint_{}", axis + 1));
-            let text =
-                joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
+            let (times, joints) = planned_joints(work, case)?;
+            let text = joint_trajectory::text("base_link", &joint_names(), &times, &joints)
+                .map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
@@ -125,4 +124,15 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             ]
         }
     })
+}
+
+/// The planned joints of an arm's case every 10 ms: times, s, and angles, rad.
+pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<(Vec<f64>, Vec<Joints>), String> {
+    let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
+    arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())
+}
+
+/// What they are called.
+pub(super) fn joint_names() -> [String; AXES] {
+    std::array::from_fn(|axis| format!("joint_{}", axis + 1))
 }

@@ -224,6 +224,12 @@ pub fn shown(
     })
 }
 
+/// The obstacles and keep-outs that stand around the waypoints of `case`, its own ones last.
+pub fn surroundings(setup: &Setup, case: &Case) -> Vec<Surface> {
+    let of = |setup: &Setup| setup.kind().drawing(&case.waypoints).obstacles;
+    setup.around(case).map_or_else(|_| of(setup), |around| of(&around))
+}
+
 /// The obstacles and keep-outs that only `case` has.
 fn own_obstacles(setup: &Setup, case: &Case) -> Vec<Surface> {
     let (Some(_), Ok(around)) = (&case.environment, setup.around(case)) else { return Vec::new() };

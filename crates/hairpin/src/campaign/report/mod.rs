@@ -6,5 +6,5 @@ mod facts;
 mod text;
 
 pub use assemble::assemble;
-pub use data::{Metric, Pieces, ReportData, Shown, shown, worst_first};
+pub use data::{Metric, Pieces, ReportData, Shown, shown, surroundings, worst_first};
 pub use text::{COLUMNS, attitude, cells, leg, violation};

@@ -1,0 +1,190 @@
+//! ArduPilot's DataFlash logs (`.bin`): where the vehicle says that it was, on Earth, and what it flew.
+
+mod flown;
+mod place;
+mod stream;
+
+use std::collections::BTreeMap;
+
+use hairpin::math::rotation::from_rotation_vector;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use super::attitude::Attitudes;
+use super::axes::{enu_attitude, enu_vector};
+use super::error::Fault;
+use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
+use super::samples::Budget;
+use crate::frames::Geodetic;
+use flown::Flown;
+use place::{geodetic, is_place, local, plane};
+use stream::{Message, each};
+
+pub(super) use stream::MAGIC;
+
+/// Which of two kinds of origin an ORGN is.
+const EKF: f64 = 0.0;
+const HOME: f64 = 1.0;
+
+pub(super) fn read_dataflash(bytes: &[u8]) -> Result<Logged, Fault> {
+    let mut log = Log::default();
+    let breaks = each(bytes, |message| log.take(message))?;
+    Ok(log.logged(breaks))
+}
+
+/// Places on Earth over time.
+#[derive(Debug)]
+struct Series {
+    source: Source,
+    samples: Vec<(f64, Geodetic, Option<Vector3<f64>>)>,
+    attitudes: Attitudes,
+}
+
+#[derive(Debug, Default)]
+struct Log {
+    series: BTreeMap<(u8, String), Series>,
+    attitudes: Attitudes,
+    origin: Option<Geodetic>,
+    home: Option<Geodetic>,
+    flown: Flown,
+    budget: Budget,
+    skipped: usize,
+    before_origin: usize,
+}
+
+/// NED from angles in degrees: yaw, then pitch, then roll, each about the axis that the turns before left.
+fn attitude([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
+    let about = |axis: Vector3<f64>, angle: f64| from_rotation_vector(&(axis * angle.to_radians()));
+    enu_attitude(about(Vector3::z(), yaw) * about(Vector3::y(), pitch) * about(Vector3::x(), roll))
+}
+
+impl Log {
+    fn take(&mut self, message: &Message) -> Result<(), Fault> {
+        let Some(t_s) = message.time() else { return Ok(()) };
+        let place = || message.numbers(["Lat", "Lng", "Alt"]).and_then(geodetic);
+        let turn = || message.numbers(["Roll", "Pitch", "Yaw"]).map(attitude);
+        // Of raw GPS only a fix of three dimensions is a place.
+        let fixed = || message.number("Status").is_none_or(|status| status >= 3.0);
+        match &message.format.name[..] {
+            "POS" => self.push(1, "POS", Source::Estimate, t_s, place(), None)?,
+            "SIM" => {
+                self.push(0, "SIM", Source::GroundTruth, t_s, place(), None)?;
+                let q = message.numbers(["Q1", "Q2", "Q3", "Q4"]).map(|[w, x, y, z]| Quaternion::new(w, x, y, z));
+                let q = q.filter(|q| (q.norm() - 1.0).abs() < 1e-2);
+                let turn = q.map(|q| enu_attitude(UnitQuaternion::from_quaternion(q))).or_else(turn);
+                self.turn((0, "SIM"), t_s, turn);
+            }
+            "XKF1" | "NKF1" => {
+                let core = message.number("C").unwrap_or(0.0);
+                let (name, rank) = (format!("{}[{core}]", message.format.name), 2);
+                let (ned, v) = (message.numbers(["PN", "PE", "PD"]), message.numbers(["VN", "VE", "VD"]));
+                let Some(origin) = self.origin else {
+                    self.before_origin += 1;
+                    return Ok(());
+                };
+                let place = ned.map(|ned| local(&origin, ned)).filter(is_place);
+                self.push(rank, &name, Source::Estimate, t_s, place, v.map(enu_vector))?;
+                self.turn((rank, &name), t_s, turn());
+            }
+            "AHR2" => {
+                self.push(3, "AHR2", Source::Estimate, t_s, place(), None)?;
+                self.turn((3, "AHR2"), t_s, turn());
+            }
+            "GPS" | "GPS2" if fixed() => {
+                let name = message.number("I").map_or_else(|| message.format.name.clone(), |i| format!("GPS[{i}]"));
+                self.push(4, &name, Source::Untold, t_s, place(), None)?;
+            }
+            "ATT" => {
+                self.budget.take()?;
+                if let Some(turn) = turn() {
+                    self.attitudes.push(t_s, turn);
+                }
+            }
+            "ORGN" => match (message.number("Type"), place()) {
+                (Some(EKF), Some(place)) => {
+                    self.flown.origin(t_s, self.origin.replace(place), &place);
+                }
+                (Some(HOME), Some(place)) => self.home = Some(place),
+                _ => {}
+            },
+            _ => self.flown.take(message, t_s, self.home),
+        }
+        Ok(())
+    }
+
+    /// One more place of a source; better sources have lower ranks.
+    fn push(
+        &mut self,
+        rank: u8,
+        name: &str,
+        source: Source,
+        t_s: f64,
+        place: Option<Geodetic>,
+        v: Option<Vector3<f64>>,
+    ) -> Result<(), Fault> {
+        let key = (rank, name.to_owned());
+        let series =
+            self.series.entry(key).or_insert(Series { source, samples: Vec::new(), attitudes: Attitudes::default() });
+        match place {
+            Some(place) if series.samples.last().is_none_or(|(last, ..)| *last < t_s) => {
+                self.budget.take()?;
+                series.samples.push((t_s, place, v));
+            }
+            _ => self.skipped += 1,
+        }
+        Ok(())
+    }
+
+    fn turn(&mut self, (rank, name): (u8, &str), t_s: f64, turn: Option<UnitQuaternion<f64>>) {
+        if let (Some(series), Some(turn)) = (self.series.get_mut(&(rank, name.to_owned())), turn) {
+            series.attitudes.push(t_s, turn);
+        }
+    }
+
+    fn logged(self, breaks: Vec<String>) -> Logged {
+        let Self { series, attitudes, origin, flown, skipped, before_origin, .. } = self;
+        let mut notes = breaks;
+        if skipped > 0 {
+            notes.push(format!("{skipped} messages without a place or with a stamp that does not rise"));
+        }
+        if before_origin > 0 {
+            notes.push(format!("{before_origin} positions of the filter before its origin was told are not read"));
+        }
+        let first = series.values().find_map(|series| series.samples.first()).map(|(_, place, _)| *place);
+        let about = origin.or(first);
+        if origin.is_none() && first.is_some() {
+            notes.push("no origin (ORGN): positions are about the first one".into());
+        }
+        let plane = about.map(|about| plane(&about));
+        let mut motions = Vec::new();
+        for ((_, name), series) in series {
+            let Some(plane) = plane.as_ref().filter(|_| !series.samples.is_empty()) else { continue };
+            let beside = if series.attitudes.is_empty() { &attitudes } else { &series.attitudes };
+            let turns = beside.at(series.samples.iter().map(|(t_s, ..)| *t_s));
+            let one = |((t_s, place, v), attitude): (&(f64, Geodetic, Option<Vector3<f64>>), _)| Sample {
+                t_s: *t_s,
+                p_m: plane.from_geodetic(place),
+                attitude,
+                v_m_s: *v,
+                accuracy_m: None,
+            };
+            let samples = series.samples.iter().zip(turns).map(one).collect();
+            let resets = if series.source == Source::Estimate { flown.resets() } else { Vec::new() };
+            motions.push(LoggedMotion { name, source: series.source, samples, resets, invalid: Vec::new() });
+        }
+        motions.sort_by_key(|motion| motion.source);
+        let progress = flown.progress(|place| plane.as_ref().map(|plane| plane.from_geodetic(place)));
+        let (events, told) = flown.into_events();
+        notes.extend(told);
+        Logged {
+            format: "ArduPilot DataFlash",
+            clock: Clock::SinceBoot,
+            frame: LogFrame::Enu(about),
+            motions,
+            joints: Vec::new(),
+            progress,
+            events,
+            dropouts: Vec::new(),
+            notes,
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! ROS 2 bags.
+
+use mcap::Compression;
+use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
+
+use super::write_bag::{Cdr, bag, drive};
+use super::*;
+
+fn pose(seconds: u32, frame: &str, x: f64) -> Vec<u8> {
+    Cdr::new(true).header(seconds, 0, frame).numbers(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).bytes()
+}
+
+#[test]
+fn odometry_and_joints_are_read_however_they_are_packed() {
+    let of = |little, packed| parse(&drive(little, packed), "a.mcap").unwrap();
+    let read = of(true, None);
+    assert_eq!((read.format, read.clock, &read.frame), ("ROS 2 MCAP", Clock::Header, &LogFrame::Named("odom".into())));
+    let [motion] = &read.motions[..] else { panic!("{read:?}") };
+    assert_eq!((&motion.name[..], motion.samples.len()), ("/odom", 20));
+    let last = motion.samples[19];
+    assert!((last.t_s - 101.9).abs() < 1e-9);
+    assert_eq!(last.p_m, Point3::new(19.0, 2.0, 0.5));
+    // Turned left by a right angle, 1 m/s ahead: the twist is the body's.
+    assert!((last.attitude.unwrap() * Vector3::x() - Vector3::y()).norm() < 1e-12);
+    assert!((last.v_m_s.unwrap() - Vector3::y()).norm() < 1e-12);
+    assert_eq!(last.accuracy_m, Some([0.2, 0.5]));
+    let [joints] = &read.joints[..] else { panic!("{read:?}") };
+    assert_eq!(joints.joints, ["q_b", "q_a"]);
+    assert_eq!((&joints.positions_rad[7][..], joints.times_s.len()), (&[14.0, 7.0][..], 20));
+    assert_eq!(read.notes, ["topics that are not read: /rosout (rcl_interfaces/msg/Log, cdr)"]);
+    for (little, packed) in [(false, None), (true, Some(Compression::Zstd)), (false, Some(Compression::Lz4))] {
+        assert_eq!(of(little, packed), read);
+    }
+}
+
+#[test]
+fn times_are_when_they_were_recorded_where_headers_have_none() {
+    let kind = "geometry_msgs/msg/PoseStamped";
+    let messages = [
+        ("/a", kind, 3_000_000_000, pose(0, "map", 1.0)),
+        ("/a", kind, 2_000_000_000, pose(0, "map", 2.0)),
+        ("/a", kind, 3_000_000_000, pose(0, "map", 3.0)),
+        ("/a", kind, 4_000_000_000, pose(0, "odom", 4.0)),
+        ("/a", kind, 5_000_000_000, vec![0, 1, 0, 0, 9]),
+        ("/b", kind, 5_000_000_000, pose(7, "other", 9.0)),
+    ];
+    let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+    assert_eq!((read.clock, &read.frame), (Clock::Receive, &LogFrame::Named("map".into())));
+    let of = |motion: &LoggedMotion| motion.samples.iter().map(|sample| (sample.t_s, sample.p_m.x)).collect::<Vec<_>>();
+    assert_eq!(of(&read.motions[0]), [(2.0, 2.0), (3.0, 1.0)]);
+    assert_eq!(of(&read.motions[1]), [(5.0, 9.0)]);
+    let told = read.notes.join("\n");
+    for part in [
+        "no stamps in the headers of /a: times are when messages were recorded",
+        "/a: 1 messages with a stamp that was there before",
+        "/a: 1 poses in another frame than the first are not read",
+        "/a: 1 messages that are none of its type, the first at byte ",
+        "/b is in the frame `other`, /a in `map`: nothing is turned or moved",
+        "several topics of a motion: /a, /b",
+    ] {
+        assert!(told.contains(part), "{part} is not in {told}");
+    }
+}
+
+#[test]
+fn a_path_without_times_is_a_plan() {
+    let path = |stamps: [u32; 2]| {
+        let cdr = Cdr::new(true)
+            .header(9, 0, "map")
+            .u32(2)
+            .header(stamps[0], 0, "")
+            .numbers(&[1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0]);
+        cdr.header(stamps[1], 0, "").numbers(&[4.0, 5.0, 6.0, 0.0, 0.0, 0.0, 1.0]).bytes()
+    };
+    let kind = "nav_msgs/msg/Path";
+    let read = parse(&bag(&[("/p", kind, 1, path([1, 2])), ("/p", kind, 2, path([3, 4]))], None), "a.mcap").unwrap();
+    let times: Vec<_> = read.motions[0].samples.iter().map(|sample| sample.t_s).collect();
+    assert_eq!((times, &read.frame), (vec![3.0, 4.0], &LogFrame::Named("map".into())));
+    let told = refusal(&bag(&[("/p", kind, 1, path([0, 0]))], None), "a.mcap");
+    assert!(
+        told.contains("without any motion (/p: 1 paths; none has poses with stamps that rise: a plan, not a motion)"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_is_cut_or_spoiled_is_told_by_its_byte() {
+    let whole = drive(true, Some(Compression::Zstd));
+    let cut = parse(&whole[..whole.len() / 2], "a.mcap").unwrap();
+    assert!(cut.notes.iter().any(|note| note.ends_with("the file ends within a record; read as far as that")));
+    assert!((1..20).contains(&cut.motions[0].samples.len()));
+    // The first chunk begins behind the header's record.
+    let header = 8 + 9 + u64::from_le_bytes(whole[9..17].try_into().unwrap()) as usize;
+    assert_eq!(whole[header], 6);
+    let mut spoiled = whole.clone();
+    spoiled[header + 90] ^= 4;
+    let read = parse(&spoiled, "a.mcap").unwrap();
+    let told = format!("byte {header}: a broken chunk: ");
+    assert!(
+        read.notes.iter().any(|note| note.starts_with(&told) && note.ends_with("the record is not read")),
+        "{:?}",
+        read.notes
+    );
+    assert!((1..20).contains(&read.motions[0].samples.len()));
+    // A chunk that says it holds gigabytes takes no room for them.
+    let mut large = whole.clone();
+    large[header + 9 + 16..][..8].copy_from_slice(&(1_u64 << 40).to_le_bytes());
+    let taken = allocation_counter::measure(|| drop(parse(&large, "a.mcap")));
+    assert!(taken.bytes_max < 10_000_000, "{}", taken.bytes_max);
+    let mut zero = whole;
+    zero[header] = 0;
+    assert_eq!(refusal(&zero, "a.mcap"), format!(", byte {header}: a record of the operation 0, which there is not"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn flips_and_cuts_are_answers(place in 0_usize..20_000, bit in 0_u8..8, cut in 0_usize..20_000, packed in 0..3) {
+        let packed = [None, Some(Compression::Zstd), Some(Compression::Lz4)][packed as usize];
+        let mut bytes = drive(true, packed);
+        let (place, cut) = (place % bytes.len(), cut % bytes.len());
+        bytes[place] ^= 1 << bit;
+        drop(parse(&bytes, "a.mcap"));
+        drop(parse(&bytes[..cut], "a.mcap"));
+    }
+}

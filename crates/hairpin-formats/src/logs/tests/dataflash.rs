@@ -1,0 +1,84 @@
+//! ArduPilot's DataFlash logs.
+
+use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
+
+use super::write_dataflash::{Bin, flight};
+use super::*;
+
+fn parsed(bytes: &[u8]) -> Logged {
+    parse(bytes, "a.bin").unwrap()
+}
+
+#[test]
+fn a_flight_is_read_in_east_north_up() {
+    let log = parsed(&flight());
+    assert_eq!((log.format, log.clock), ("ArduPilot DataFlash", Clock::SinceBoot));
+    assert!(matches!(log.frame, LogFrame::Enu(Some(place)) if (place.lat_deg - 47.3977).abs() < 1e-9));
+    let [position, filter] = &log.motions[..] else { panic!("{}", log.motions.len()) };
+    assert_eq!((&position.name[..], &filter.name[..]), ("POS", "XKF1[0]"));
+    assert_eq!((position.source, position.samples.len(), filter.samples.len()), (Source::Estimate, 100, 100));
+    let last = position.samples[99];
+    assert!((last.t_s - 11.98).abs() < 1e-9);
+    // Degrees of 10⁻⁷ are 8 mm from east to west.
+    assert!((last.p_m - Point3::new(3.96, 0.0, 1.98)).norm() < 6e-3, "{}", last.p_m);
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    for turn in [last.attitude, filter.samples[99].attitude] {
+        assert!((turn.unwrap() * Vector3::x() - Vector3::new(0.0, cos, sin)).norm() < 1e-9);
+        assert!((turn.unwrap() * Vector3::z() - Vector3::new(0.0, -sin, cos)).norm() < 1e-9);
+    }
+    let last = filter.samples[99];
+    assert_eq!(last.v_m_s, Some(Vector3::new(2.0, 0.0, 1.0)));
+    // ArduPilot's 3.96 m east are degrees over 111 318.845 cos φ, which are 75 495.6 m on the ground.
+    let east = 3.96 / (111_318.845 * 47.3977_f64.to_radians().cos()) * 75_495.57;
+    assert!((last.p_m - Point3::new(east, 0.5, 1.98)).norm() < 4e-3, "{} {east}", last.p_m);
+    let event = |t_s, kind, words: &str| Event { t_s, kind, words: words.into() };
+    let events = [
+        event(10.1, EventKind::TookOff, "EV not landed"),
+        event(10.1, EventKind::MissionBegins, "MODE AUTO"),
+        event(11.6, EventKind::Geofence, "ERR subsystem 9, code 1"),
+        event(11.6, EventKind::MissionEnds, "MODE RTL"),
+        event(12.0, EventKind::Landed, "EV land complete"),
+    ];
+    assert_eq!(log.events, events);
+    let [first, second] = &log.progress[..] else { panic!("{:?}", log.progress) };
+    assert_eq!((first.item, first.t_s, second.item, second.t_s), (1, 10.1, 2, 11.0));
+    assert!((first.target_m.unwrap() - Point3::new(2e-4 * 75_495.57, 0.0, 12.0)).norm() < 0.01, "{first:?}");
+    assert!(log.notes.is_empty(), "{:?}", log.notes);
+}
+
+#[test]
+fn what_is_cut_or_spoiled_is_told_by_its_byte() {
+    let whole = flight();
+    let cut = whole.len() - 12 - 20;
+    let log = parsed(&whole[..cut]);
+    assert!(log.notes[0].ends_with("the log ends within a message; read as far as that"), "{:?}", log.notes);
+    let mut spoiled = whole.clone();
+    let at = whole.len() - 12 - 46;
+    spoiled[at] = 0;
+    let told = format!("byte {at}: no message; read on at byte {}", whole.len() - 12);
+    assert_eq!(parsed(&spoiled).notes, [told]);
+    let mut log = Bin::new();
+    log.describe(3, 23, "POS", "QLLf", "TimeUS,Lat,Lng,Alt");
+    log.describe(10, 44, "FMTU", "QBNN", "TimeUS,FmtType,UnitIds,MultIds");
+    log.message(10, &[&[0; 8], &[3], b"sDUf\0\0\0\0\0\0\0\0\0\0\0\0", b"FGG0\0\0\0\0\0\0\0\0\0\0\0\0"]);
+    log.message(3, &[&[1; 20]]);
+    let told = refusal(&log.0, "a.bin");
+    assert!(
+        told.contains("without any motion (POS: `Alt` has the unit `f` and the multiplier `0`: not read)"),
+        "{told}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn flips_and_cuts_are_answers(place in 0_usize..40_000, bit in 0_u8..8, cut in 0_usize..40_000) {
+        let mut bytes = flight();
+        let (place, cut) = (place % bytes.len(), cut % bytes.len());
+        bytes[place] ^= 1 << bit;
+        drop(parse(&bytes, "a.bin"));
+        drop(parse(&bytes[..cut], "a.bin"));
+    }
+}
