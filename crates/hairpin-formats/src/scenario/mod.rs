@@ -22,6 +22,7 @@ mod user_controller;
 mod user_score;
 mod user_target;
 mod whole;
+mod world_of;
 mod write;
 
 use std::path::Path;
@@ -38,6 +39,7 @@ pub(crate) use python::{driver, held};
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub(crate) use write::MADE_BY;
+pub use world_of::{NamedWorld, named_world};
 pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 
 use crate::bounds::{self, MOST_TEXT_BYTES};
