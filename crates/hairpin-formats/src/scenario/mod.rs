@@ -38,8 +38,8 @@ pub use guest::kept_in;
 pub(crate) use python::{driver, held};
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
-pub(crate) use write::MADE_BY;
 pub use world_of::{NamedWorld, named_world};
+pub(crate) use write::MADE_BY;
 pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 
 use crate::bounds::{self, MOST_TEXT_BYTES};

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness};
 use hairpin::judgement::Swiftness;
+use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
 use hairpin_formats::waypoints;
@@ -19,8 +20,8 @@ pub(super) struct Ready {
     pub(super) cases: Vec<Case>,
     /// Results of the same cases in simulation.
     pub(super) simulated: Vec<CaseResult>,
-    /// What the only case is called, where it is a mission's.
-    mission: Option<String>,
+    /// Where the cases' plans are.
+    of: Of,
     pub(super) place: Option<Placement>,
     /// Whether the world that it was flown in is known.
     pub(super) in_world: bool,
@@ -29,6 +30,13 @@ pub(super) struct Ready {
     pub(super) accept: f64,
     /// What its user has to know, in sentences.
     pub(super) notes: Vec<String>,
+}
+
+/// Where cases are from.
+enum Of {
+    Campaign(CampaignFolder),
+    /// What the only one is called.
+    Mission(String),
 }
 
 impl Ready {
@@ -56,7 +64,7 @@ impl Ready {
         let world = settings.world.as_deref().map(|name| world(name, origin.as_ref())).transpose()?;
         let sets: Vec<Set> = world.iter().map(|world| world.set.clone()).chain(settings.sets.iter().cloned()).collect();
         let Work { folder, setup } = open_to_read_as(folder, &sets)?;
-        let mut cases = folder.read_cases()?;
+        let mut cases = folder.read_cases_without_profiles()?;
         if let Some(id) = &settings.case {
             cases.retain(|case| case.id() == *id);
             if cases.is_empty() {
@@ -71,7 +79,7 @@ impl Ready {
                 .to_owned()
         });
         let simulated = folder.read_results()?;
-        Self::with(setup, cases, simulated, None, (true, notes.into_iter().collect()))
+        Self::with(setup, cases, simulated, Of::Campaign(folder), (true, notes.into_iter().collect()))
     }
 
     fn of_mission(file: &Path, robot: Option<&str>, settings: &LogSettings) -> Result<Self, Problem> {
@@ -108,26 +116,46 @@ impl Ready {
         } else {
             vec!["no --world: neither obstacles nor the world's bounds are judged".to_owned()]
         };
-        Self::with(setup, vec![case], Vec::new(), Some(name), (in_world, notes))
+        Self::with(setup, vec![case], Vec::new(), Of::Mission(name), (in_world, notes))
     }
 
     fn with(
         setup: Setup,
         cases: Vec<Case>,
         simulated: Vec<CaseResult>,
-        mission: Option<String>,
+        of: Of,
         (in_world, notes): (bool, Vec<String>),
     ) -> Result<Self, Problem> {
         // Without its world a robot's own scenario says nothing of where that is.
         let placed = |scenario: &Scenario| Placement::of(scenario).map_err(Problem::input);
         let place = if in_world { placed(&setup.scenario)? } else { None };
         let (swiftness, accept) = (setup.swiftness(), setup.scenario.executor().accept);
-        Ok(Self { setup, cases, simulated, mission, place, in_world, swiftness, accept, notes })
+        Ok(Self { setup, cases, simulated, of, place, in_world, swiftness, accept, notes })
     }
 
     /// What a case is called in sentences.
     pub(super) fn name_of(&self, case: &Case) -> String {
-        self.mission.clone().unwrap_or_else(|| case.id())
+        match &self.of {
+            Of::Campaign(_) => case.id(),
+            Of::Mission(name) => name.clone(),
+        }
+    }
+
+    /// A case with its plan, which deviations may be measured from.
+    ///
+    /// # Errors
+    /// The folder's files are broken.
+    pub(super) fn whole(&self, case: &Case) -> Result<Case, Problem> {
+        let mut whole = case.clone();
+        if let Of::Campaign(folder) = &self.of {
+            folder.read_witness(&mut whole)?;
+            let legs = whole.witness.as_ref().and_then(Witness::legs);
+            if legs.is_some_and(|legs| legs + 1 != whole.waypoints.len()) {
+                let what = format!("case {}: its plan has another number of legs than between its waypoints", case.id());
+                return Err(Problem::of_file(folder.path(), what));
+            }
+        }
+        Ok(whole)
     }
 }
 

@@ -67,7 +67,8 @@ pub(super) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
     let mut broken: Option<(f64, &str)> = None;
     for sample in samples.iter().filter(|sample| sample.t_s < until) {
         if invalid(sample.t_s).is_some() {
-            broken.get_or_insert((left.samples.last().map_or(start, |before: &Sample| before.t_s), "no valid position"));
+            broken
+                .get_or_insert((left.samples.last().map_or(start, |before: &Sample| before.t_s), "no valid position"));
             continue;
         }
         let span = left.samples.last().map(|before| (before.t_s, sample.t_s - before.t_s));

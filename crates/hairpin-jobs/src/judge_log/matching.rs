@@ -31,9 +31,10 @@ impl Matched {
     /// `mean 0.21 m; next best 0042 at 3.9 m`.
     pub fn words(&self) -> String {
         let by = if self.by_targets { "by its waypoints' targets, " } else { "" };
-        let next = self.next.as_ref().map_or(", the only case".to_owned(), |(case, far)| {
-            format!("; next best {case} at {far:.2} m")
-        });
+        let next = self
+            .next
+            .as_ref()
+            .map_or(", the only case".to_owned(), |(case, far)| format!("; next best {case} at {far:.2} m"));
         format!("{by}mean {:.2} m{next}", self.mean_m)
     }
 }

@@ -42,7 +42,8 @@ pub(super) fn judge(
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
     let samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
-    let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
+    let progress =
+        logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
     let (case, matched) = match &against.cases[..] {
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
@@ -80,7 +81,7 @@ pub(super) fn judge(
     };
     if left.samples.len() >= 2 {
         let log = judged.log(&left)?;
-        found.flown = Some(judge_flown(&against.setup, case, &log).map_err(Problem::input)?);
+        found.flown = Some(judge_flown(&against.setup, &against.whole(case)?, &log).map_err(Problem::input)?);
     }
     Ok(told::judged(file, found, &against.setup))
 }

@@ -94,13 +94,17 @@ fn what_keeps_its_limit_passes_and_what_does_not_fails() {
     let (sentence, code) = said(&log(100.0, 0.41));
     assert_eq!(code, 0, "{sentence}");
     assert!(
-        sentence.starts_with("PASS m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.41 m ≤ 0.50 m, t = 2.00 s, leg 0→1"),
+        sentence.starts_with(
+            "PASS m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.41 m ≤ 0.50 m, t = 2.00 s, leg 0→1"
+        ),
         "{sentence}"
     );
     let (sentence, code) = said(&log(100.0, 0.65));
     assert_eq!(code, 1);
     assert!(
-        sentence.starts_with("FAIL m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.65 m > 0.50 m, t = 2.00 s, leg 0→1"),
+        sentence.starts_with(
+            "FAIL m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.65 m > 0.50 m, t = 2.00 s, leg 0→1"
+        ),
         "{sentence}"
     );
     let found = judged_as(&log(100.0, 0.41), |_, _| {}).unwrap().found.unwrap();
@@ -197,7 +201,10 @@ fn a_log_that_does_not_know_its_place_decides_nothing() {
                  judge motion capture or raise the limit";
     assert_eq!((sentence.as_str(), code), (words, 5));
     let (sentence, code) = said(&with(0.45, [0.1, 0.0]));
-    assert!(code == 5 && sentence.contains("0.45 m ≤ 0.50 m, but the log's own eph is 0.1 m, so that it may be more"), "{sentence}");
+    assert!(
+        code == 5 && sentence.contains("0.45 m ≤ 0.50 m, but the log's own eph is 0.1 m, so that it may be more"),
+        "{sentence}"
+    );
     // Sideways it is off, so that only what it knows sideways counts.
     assert_eq!(said(&with(0.65, [0.1, 3.0])).1, 1);
     assert_eq!(said(&with(0.30, [0.05, 0.05])).1, 0);
@@ -258,16 +265,25 @@ fn a_log_that_lies_elsewhere_is_refused_and_moved_by_name_only() {
     };
     for (turn, by) in [(0.0, Vector3::new(3.0, -2.0, 0.5)), (73.5, Vector3::zeros())] {
         let refused = judged_as(&moved(turn, by), |_, _| {}).unwrap_err();
-        for words in ["does not begin where its mission does", "m from waypoint 0 of m, (4.00, 4.00, 5.00) m", "--offset", "--turn"] {
+        for words in [
+            "does not begin where its mission does",
+            "m from waypoint 0 of m, (4.00, 4.00, 5.00) m",
+            "--offset",
+            "--turn",
+        ] {
             assert!(refused.contains(words), "{words}: {refused}");
         }
     }
     let far = judged_as(&moved(0.0, Vector3::new(3.0, -2.0, 0.5)), |_, _| {}).unwrap_err();
     assert!(far.contains("3.64 m") && far.contains("--offset -3.00,2.00,-0.50"), "{far}");
-    let named = judged_as(&moved(0.0, Vector3::new(3.0, -2.0, 0.5)), |s, _| s.frame.offset_m = [-3.0, 2.0, -0.5]).unwrap();
+    let named =
+        judged_as(&moved(0.0, Vector3::new(3.0, -2.0, 0.5)), |s, _| s.frame.offset_m = [-3.0, 2.0, -0.5]).unwrap();
     assert_eq!(named.verdict.exit_code, 0, "{}", named.verdict.sentence);
     assert_eq!(named.found.unwrap().frame.named().unwrap(), "moved by (-3, 2, -0.5) m (--offset)");
-    assert_eq!(judged_as(&moved(73.5, Vector3::zeros()), |s, _| s.frame.turn_deg = -73.5).unwrap().verdict.exit_code, 0);
+    assert_eq!(
+        judged_as(&moved(73.5, Vector3::zeros()), |s, _| s.frame.turn_deg = -73.5).unwrap().verdict.exit_code,
+        0
+    );
     // Half a metre within the acceptance is not taken off either: it is deviation.
     let near = judged_as(&moved(0.0, Vector3::new(0.0, 0.6, 0.0)), |_, _| {}).unwrap();
     assert_eq!(near.verdict.exit_code, 1, "{}", near.verdict.sentence);
@@ -323,7 +339,11 @@ fn legs_are_the_missions_own_where_it_tells_them() {
     // A leg that begins too late is deviation, which no nearest leg would show.
     log.progress[3].t_s = 4.5;
     let verdict = judged_as(&log, |_, _| {}).unwrap().verdict;
-    assert!(verdict.exit_code == 1 && verdict.sentence.contains("2.45 m > 0.50 m, t = 4.49 s, leg 0→1"), "{}", verdict.sentence);
+    assert!(
+        verdict.exit_code == 1 && verdict.sentence.contains("2.45 m > 0.50 m, t = 4.49 s, leg 0→1"),
+        "{}",
+        verdict.sentence
+    );
     // Without targets they are counted: take-off and landing beside the waypoints.
     log.progress = [-9.0, -5.0, 0.0, 3.9, 7.9].iter().enumerate().map(|(i, t)| step(*t, i as u32, None)).collect();
     let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
@@ -348,17 +368,24 @@ fn obstacles_need_not_have_been_there() {
         })
         .unwrap()
     };
-    let radius = |judged: &JudgedLog| judged.found.as_ref().unwrap().flown.as_ref().unwrap().measures.min_clearance.unwrap();
+    let radius =
+        |judged: &JudgedLog| judged.found.as_ref().unwrap().flown.as_ref().unwrap().measures.min_clearance.unwrap();
     let straight = judge(0.0, 100.0);
     let hit = judge(0.5, 100.0);
     assert!((radius(&straight) - radius(&hit) - 0.5).abs() < 1e-6);
     assert!(hit.verdict.exit_code == 1 && hit.verdict.sentence.contains("clearance"), "{}", hit.verdict.sentence);
-    assert_eq!(straight.verdict.exit_code, if radius(&straight) > 0.06 { 0 } else { 1 }, "{}", straight.verdict.sentence);
+    assert_eq!(
+        straight.verdict.exit_code,
+        if radius(&straight) > 0.06 { 0 } else { 1 },
+        "{}",
+        straight.verdict.sentence
+    );
 }
 
 #[test]
 fn a_mission_needs_a_robot_and_a_limit() {
-    let none = |change: &dyn Fn(&mut LogSettings)| judged_as(&log(100.0, 0.3), |settings, _| change(settings)).unwrap_err();
+    let none =
+        |change: &dyn Fn(&mut LogSettings)| judged_as(&log(100.0, 0.3), |settings, _| change(settings)).unwrap_err();
     let robot = none(&|s| {
         let Against::Mission { robot, .. } = &mut s.against else { unreachable!() };
         *robot = None;
@@ -368,7 +395,8 @@ fn a_mission_needs_a_robot_and_a_limit() {
     assert!(limit.contains("spec"), "{limit}");
     let other = none(&|s| s.sets = vec![("task.length".into(), "4".into())]);
     assert!(other.contains("only spec can be set"), "{other}");
-    let unjudged = judged_as(&log(100.0, 0.65), |s, _| s.sets = vec![("spec".into(), "\"none\"".into())]).unwrap().verdict;
+    let unjudged =
+        judged_as(&log(100.0, 0.65), |s, _| s.sets = vec![("spec".into(), "\"none\"".into())]).unwrap().verdict;
     assert!(unjudged.exit_code == 0 && unjudged.sentence.starts_with("UNJUDGED m"), "{}", unjudged.sentence);
 }
 
@@ -388,7 +416,11 @@ fn a_folder_with_a_broken_log_judges_the_others() {
     let judged = judge_log(&settings, &crate::Unwatched).unwrap();
     assert_eq!(judged.logs.iter().map(|log| log.outcome).collect::<Vec<_>>(), [Outcome::Pass, Outcome::Invalid]);
     let count = judged.count.as_ref().unwrap();
-    assert!(count.sentence.starts_with("INCONCLUSIVE 0/2 (flown, logs, 2 logs): 1 within spec, 1 invalid"), "{}", count.sentence);
+    assert!(
+        count.sentence.starts_with("INCONCLUSIVE 0/2 (flown, logs, 2 logs): 1 within spec, 1 invalid"),
+        "{}",
+        count.sentence
+    );
     assert_eq!(judged.exit_code(), 5);
     let broken = &judged.logs[1].verdict.sentence;
     assert!(broken.contains("b.tum") && broken.contains("line 1"), "{broken}");

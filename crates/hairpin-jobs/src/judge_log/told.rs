@@ -71,8 +71,12 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         let last = flown.measures.legs.iter().rposition(|leg| leg.time > 0.0).unwrap_or(0);
         let of = flown.measures.legs.len() + 1;
         let why = found.ended.clone().unwrap_or_else(|| "the log ends".into());
-        let on = format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1);
-        return (Outcome::Inconclusive, inconclusive(case, how, &with(on, &nearest(flown).into_iter().collect::<Vec<_>>())));
+        let on =
+            format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1);
+        return (
+            Outcome::Inconclusive,
+            inconclusive(case, how, &with(on, &nearest(flown).into_iter().collect::<Vec<_>>())),
+        );
     }
     if let [first, rest @ ..] = &flown.doubts[..] {
         let rest: Vec<String> = rest.iter().map(|doubt| in_words(doubt, found)).collect();
@@ -118,7 +122,8 @@ fn nearest(flown: &Flown) -> Option<String> {
         let legs = m.legs.iter().enumerate();
         legs.max_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg)
     };
-    let deviation = limits.deviation.map(|limit| value("deviation", m.max_deviation, limit, "m", m.t_worst, m.leg_worst));
+    let deviation =
+        limits.deviation.map(|limit| value("deviation", m.max_deviation, limit, "m", m.t_worst, m.leg_worst));
     let clearance = || {
         let leg = worst_leg(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
         Some(value("clearance", m.min_clearance?, limits.clearance?, "m", m.t_clearance, leg))
@@ -142,7 +147,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
     let value = finding(&doubt.value);
     match doubt.why {
         Why::Accuracy { which, sigma } => {
-            let other = if found.source.others.is_empty() { "judge motion capture" } else { "judge motion capture (--source)" };
+            let other =
+                if found.source.others.is_empty() { "judge motion capture" } else { "judge motion capture (--source)" };
             let (more, limit) = if doubt.value.is_lower_limit() { ("less", "lower") } else { ("more", "raise") };
             let kept = if doubt.value.is_lower_limit() {
                 doubt.value.value >= doubt.value.limit
@@ -215,10 +221,13 @@ impl Found {
         let more = [frame.altitude(), frame.named()].into_iter().flatten();
         let frame: Vec<String> = [format!("{}, {}", frame.log, frame.how)].into_iter().chain(more).collect();
         line("frame", format!("{}; not aligned, in space or in time", frame.join("; ")));
-        line("case", match &self.matched {
-            Some(matched) => format!("matched to case {} ({})", self.case, matched.words()),
-            None => self.case.clone(),
-        });
+        line(
+            "case",
+            match &self.matched {
+                Some(matched) => format!("matched to case {} ({})", self.case, matched.words()),
+                None => self.case.clone(),
+            },
+        );
         let span = self.span_s.map_or("nothing".into(), |[from, to]| format!("t = {from:.1} … {to:.1} s"));
         let ended = self.ended.as_ref().map_or(String::new(), |ended| format!("; ended by {ended}"));
         line("judged", format!("{span}{ended}; legs by {}", self.legs_by.words()));
@@ -242,7 +251,8 @@ impl Found {
                     format!("flown {flown:.2} m, simulated {simulated:.2} m at worst: {:+.2} m", flown - simulated),
                 );
             }
-            if flown.measures.acceleration_source == AccelerationSource::Position && flown.limits.acceleration.is_some() {
+            if flown.measures.acceleration_source == AccelerationSource::Position && flown.limits.acceleration.is_some()
+            {
                 line("note", "accelerations are second differences of positions".into());
             }
         }

@@ -137,9 +137,7 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
 fn refuted(swiftness: Swiftness, flight: &Flight) -> Swiftness {
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| flight.track.channel(name));
     let fastest = match columns {
-        [Some(x), Some(y), Some(z)] => {
-            (0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i]).norm()).fold(0.0, f64::max)
-        }
+        [Some(x), Some(y), Some(z)] => (0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i]).norm()).fold(0.0, f64::max),
         _ => 0.0,
     };
     Swiftness { speed: swiftness.speed.filter(|speed| *speed >= fastest), ..swiftness }
@@ -222,7 +220,8 @@ impl Looked<'_> {
         for (i, close) in self.close.iter().enumerate() {
             let Some(bound) = close.until_next.map(|bound| bound + self.sigma(i, close.off).along) else { continue };
             if bound > limit {
-                let ends = [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
+                let ends =
+                    [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
                 let own = self.rate(limit - ends[0].max(ends[1]));
                 rate = rate.and_then(|rate| Some(rate.max(own?)));
                 if bound > most {
@@ -254,16 +253,12 @@ impl Looked<'_> {
             way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - from).dot(&direction))
         };
         let own = beyond(leg, &self.waypoints[leg + 1]);
-        let before = (leg > 0).then(|| beyond(leg - 1, &nearest_point(p, &self.waypoints[leg], &self.waypoints[leg + 1])));
+        let before =
+            (leg > 0).then(|| beyond(leg - 1, &nearest_point(p, &self.waypoints[leg], &self.waypoints[leg + 1])));
         before.map_or(own, |before| own.max(before))
     }
 
-    fn clearance(
-        &self,
-        measures: &Measures,
-        limit: Option<f64>,
-        clearance: Option<&Clearance<'_>>,
-    ) -> Option<Doubt> {
+    fn clearance(&self, measures: &Measures, limit: Option<f64>, clearance: Option<&Clearance<'_>>) -> Option<Doubt> {
         let (limit, clearance, least) = (limit?, clearance?, measures.min_clearance?);
         let legs = measures.legs.iter().enumerate();
         let of = |leg: &judgement::LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
