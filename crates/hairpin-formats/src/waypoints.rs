@@ -13,6 +13,7 @@ use thiserror::Error;
 use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_BYTES};
 use crate::delimited::{Cut, Row, Table};
+use crate::folder::is_of_a_motion;
 use crate::frames::Geodetic;
 use crate::geodetic;
 use crate::placement::Placement;
@@ -169,7 +170,8 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> 
 }
 
 /// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. A file in degrees is placed
-/// by `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both.
+/// by `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both; so are the
+/// motions that it writes.
 ///
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere
@@ -178,7 +180,7 @@ pub fn read_folder(folder: &Path, scenario: &Scenario, farthest: f64) -> Result<
     let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
     let entries = fs::read_dir(folder).map_err(refuse)?;
     let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
-    paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")));
+    paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) && !is_motion(path));
     let in_metres = |path: &PathBuf| in_metres(path).is_some_and(|twin| paths.contains(&twin));
     let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !in_metres(path)).collect();
     kept.sort();
@@ -194,6 +196,17 @@ pub fn read_folder(folder: &Path, scenario: &Scenario, farthest: f64) -> Result<
         Ok(Mission { waypoints, rounded, name, environment })
     };
     kept.into_iter().map(one).collect()
+}
+
+/// Whether a file is a motion that `export` wrote: by its name and, as a mission may be called so too, its first column.
+fn is_motion(path: &Path) -> bool {
+    let named = path.file_name().and_then(|name| name.to_str()).is_some_and(is_of_a_motion);
+    let first = |bytes: Vec<u8>| bytes.split(|byte| *byte == b',').next().map(<[u8]>::to_vec);
+    named
+        && bounds::read_table(path)
+            .ok()
+            .and_then(first)
+            .is_some_and(|column| [&b"t"[..], b"Duration"].contains(&&column[..]))
 }
 
 /// The file in metres that a file in degrees may have beside it.

@@ -165,9 +165,15 @@ pub(crate) struct Export {
     /// Campaign folder
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
-    /// Formats, separated by commas; the files go into the campaign folder
+    /// Formats, separated by commas; the files go into OUT/export
     #[arg(long, value_enum, value_delimiter = ',', required = true)]
     pub(crate) to: Vec<Format>,
+    /// This case alone; repeatable
+    #[arg(long, value_name = "ID", conflicts_with = "worst")]
+    pub(crate) case: Vec<usize>,
+    /// The N worst cases alone
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) worst: Option<u32>,
     /// One JSON object on stdout: the files
     #[arg(long)]
     pub(crate) json: bool,
@@ -176,9 +182,9 @@ pub(crate) struct Export {
 /// Formats of `export`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// missions/CASE.csv: x_m,y_m,z_m
+    /// CASE.csv: x_m,y_m,z_m
     Waypoints,
-    /// missions/CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by world.origin or the map's EPSG code
+    /// CASE.geodetic.csv: lat_deg,lon_deg,alt_amsl_m,relative_alt_m by world.origin or the map's EPSG code
     Geodetic,
     /// CASE.planned.csv and CASE-RUN.csv: poses in time, quaternions w first
     Csv,

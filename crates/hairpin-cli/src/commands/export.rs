@@ -1,7 +1,8 @@
 //! `hairpin export`: a campaign's trajectories as files that other programs open.
 
+use hairpin::campaign::CaseNumber;
 use hairpin_jobs::Problem;
-use hairpin_jobs::export::{self, Language, Written};
+use hairpin_jobs::export::{self, Language, Which, Written};
 use serde_json::json;
 
 use crate::args::{Export, Format};
@@ -10,7 +11,7 @@ use crate::exit::DONE;
 
 /// Runs the command: 0 when everything is written that there is to write.
 pub(crate) fn run(asked: &Export) -> Result<u8, Problem> {
-    let campaign = export::Export::open(&asked.folder)?;
+    let campaign = export::Export::open(&asked.folder, &which(asked))?;
     let mut formats = Vec::new();
     let mut all = Written::default();
     for format in &asked.to {
@@ -43,6 +44,15 @@ pub(crate) fn run(asked: &Export) -> Result<u8, Problem> {
         console::say(&object.to_string());
     }
     Ok(DONE)
+}
+
+/// The cases that were asked for.
+fn which(asked: &Export) -> Which {
+    match asked.worst {
+        Some(count) => Which::Worst(count as usize),
+        None if asked.case.is_empty() => Which::All,
+        None => Which::Named(asked.case.iter().copied().map(CaseNumber).collect()),
+    }
 }
 
 /// The format as the job knows it.

@@ -220,7 +220,7 @@ fn agree(kind: usize, seed: u64) -> bool {
     read(&["export", "a", "--to", formats]);
     let judged = json(here, &["judge", "a"]);
     if kind != 3 {
-        read(&["execute", "one", "--missions", "a/missions"]);
+        read(&["execute", "one", "--missions", "a/export"]);
         read(&["judge", "one"]);
     } else {
         let module = json(here, &["export", "a", "--to", "rapid"]);
@@ -229,7 +229,7 @@ fn agree(kind: usize, seed: u64) -> bool {
                 read(&["import", file, "--check", "--cell", "a/scenario.toml"]);
             }
         }
-        read(&["import", "a/0000.mod"]);
+        read(&["import", "a/export/0000.mod"]);
     }
     if judged["counts"]["fail"] == 1 {
         read(&["replay", "a/repro/0000.json"]);

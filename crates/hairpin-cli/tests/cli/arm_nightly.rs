@@ -44,7 +44,7 @@ fn record(place: &Path, folder: &str, to: &str, changed: impl Fn(f64, [f64; 3]) 
     fs::create_dir_all(place.join(to)).unwrap();
     for case in 0..2 {
         for run in 0..3 {
-            let text = fs::read_to_string(place.join(folder).join(format!("{case:04}-{run}.csv"))).unwrap();
+            let text = fs::read_to_string(place.join(folder).join(format!("export/{case:04}-{run}.csv"))).unwrap();
             let mut lines = text.lines();
             let names: Vec<&str> = lines.next().unwrap().split(',').collect();
             let column = |name: &str| names.iter().position(|found| *found == name).unwrap();

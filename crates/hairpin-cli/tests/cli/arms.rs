@@ -44,11 +44,11 @@ fn what_new_writes_runs_and_can_be_verified_and_exported() {
     let exported = hairpin(place.path(), &["export", "out/arm", "--to", "rapid,urscript,krl,csv", "--json"]);
     assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
     for name in ["0000.mod", "0000_slow.mod", "0001.pgf", "0000.script", "0001.src", "0001.dat", "0000-1.csv"] {
-        assert!(place.path().join("out/arm").join(name).is_file(), "{name}");
+        assert!(place.path().join("out/arm/export").join(name).is_file(), "{name}");
     }
     // The planned joints, for ROS.
     assert_eq!(code(&hairpin(place.path(), &["export", "out/arm", "--to", "joint-trajectory"])), 0);
-    let text = fs::read_to_string(place.path().join("out/arm/0001.joint_trajectory.json")).unwrap();
+    let text = fs::read_to_string(place.path().join("out/arm/export/0001.joint_trajectory.json")).unwrap();
     let message: Value = serde_json::from_str(&text).unwrap();
     let points = message["points"].as_array().unwrap();
     assert_eq!((&message["joint_names"][5], points[0]["positions"].as_array().unwrap().len()), (&"joint_6".into(), 6));
@@ -59,9 +59,9 @@ fn what_new_writes_runs_and_can_be_verified_and_exported() {
             && (fifth(points.last().unwrap()) - 30f64.to_radians()).abs() < 1e-3
     );
     // The module that was written is one that the check of modules has nothing against.
-    let module = place.path().join("out/arm/0000.mod");
+    let module = place.path().join("out/arm/export/0000.mod");
     assert!(fs::read_to_string(&module).unwrap().contains("PROC stress()"));
-    let check = hairpin(place.path(), &["import", "out/arm/0000.mod", "--check", "--robot", "irb120"]);
+    let check = hairpin(place.path(), &["import", "out/arm/export/0000.mod", "--check", "--robot", "irb120"]);
     assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
 }
 
@@ -73,7 +73,7 @@ fn every_move_can_be_clocked_on_the_controller() {
     assert_eq!(code(&hairpin(place.path(), &["max-load", "--cloud", "p.csv", "irb120", "--out", "ml"])), 0);
     let exported = hairpin(place.path(), &["export", "ml", "--to", "arc-clock"]);
     assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
-    let module = fs::read_to_string(place.path().join("ml/arc_clock.mod")).unwrap();
+    let module = fs::read_to_string(place.path().join("ml/export/arc_clock.mod")).unwrap();
     let driven: Vec<&str> = module.lines().filter(|line| line.trim_start().starts_with("clock_arc ")).collect();
     assert!(driven.len() >= 12 && module.contains("MODULE hairpin_clock"), "{module}");
     // What it would log, with 100 ms and one more for each next reading.
@@ -148,7 +148,7 @@ fn a_program_that_was_changed_is_found() {
     // A module of its own, as earlier versions kept them, stands for the one of the table.
     assert_eq!(code(&hairpin(place.path(), &["export", "arm", "--to", "rapid"])), 0);
     let path = place.path().join("arm/programs/0000.mod");
-    let text = fs::read_to_string(place.path().join("arm/0000.mod")).unwrap();
+    let text = fs::read_to_string(place.path().join("arm/export/0000.mod")).unwrap();
     fs::write(&path, &text).unwrap();
     assert_eq!(code(&hairpin(place.path(), &["verify", "arm"])), 0);
     let target = text.lines().find(|line| line.contains("robtarget")).unwrap();
@@ -192,7 +192,7 @@ fn clouds_need_nothing_but_an_arm() {
     let way: f64 = path.windows(2).map(|pair| distance(&rows[pair[0] as usize], &rows[pair[1] as usize])).sum();
     assert!((answer["cost"].as_f64().unwrap() - way).abs() < 0.01, "{answer} {way}");
     assert_eq!(code(&hairpin(place.path(), &["export", "ml", "--to", "rapid"])), 0);
-    let module = fs::read_to_string(place.path().join("ml/0000.mod")).unwrap();
+    let module = fs::read_to_string(place.path().join("ml/export/0000.mod")).unwrap();
     assert!(module.contains(&format!("MoveJ p{:02}", path[0])) && module.contains(&format!("MoveL p{:02}", path[5])));
     // Where points may come twice, programs come back to them and load the arm more.
     let twice = ["max-load", "--cloud", "p.csv", "irb120", "--visits", "2", "--out", "twice", "--json"];
@@ -302,7 +302,7 @@ fn arcs_are_searched_with_straight_moves_and_load_the_arm_more() {
         assert_eq!(code(&stress), 0, "{}", String::from_utf8_lossy(&stress.stderr));
         let exported = hairpin(place.path(), &["export", out, "--to", "rapid"]);
         assert_eq!(code(&exported), 0, "{}", String::from_utf8_lossy(&exported.stderr));
-        let module = place.path().join(out).join("0000.mod");
+        let module = place.path().join(out).join("export/0000.mod");
         let check = hairpin(place.path(), &["import", module.to_str().unwrap(), "--check", "--robot", "irb120"]);
         assert_eq!(code(&check), 0, "{}", String::from_utf8_lossy(&check.stdout));
         let proof: Value =

@@ -131,7 +131,7 @@ fn a_program_of_the_users_flies_them_as_well() {
     assert_eq!((&object["exit_code"], &object["baseline"]), (&json!(4), &Value::Null), "{object}");
     // Missions that were made elsewhere stand by themselves.
     run(here, &["export", "a", "--to", "waypoints"]);
-    run(here, &["execute", "a", "--missions", "a/missions"]);
+    run(here, &["execute", "a", "--missions", "a/export"]);
     assert!(!here.join("a/baseline.parquet").exists());
     // Programs of arms are drawn as well.
     let arm =

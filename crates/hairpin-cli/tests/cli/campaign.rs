@@ -79,13 +79,13 @@ fn exported_waypoints_fly_again_as_missions() {
     run(folder.path(), &[&SMALL[..], &["--out", "a"]].concat());
     let (code, _, error) = run(folder.path(), &["export", "a", "--to", "waypoints,csv,tum"]);
     assert_eq!(code, 0, "{error}");
-    let text = fs::read_to_string(folder.path().join("a/missions/0002.csv")).unwrap();
+    let text = fs::read_to_string(folder.path().join("a/export/0002.csv")).unwrap();
     assert!(text.starts_with("x_m,y_m,z_m\n") && text.lines().count() == 9, "{text}");
     for name in ["0002.planned.csv", "0002-0.csv", "0002.ref.tum", "0002.exec.tum"] {
-        assert!(folder.path().join("a").join(name).is_file(), "{name}");
+        assert!(folder.path().join("a/export").join(name).is_file(), "{name}");
     }
     let before = json(folder.path(), &["judge", "a"]);
-    run(folder.path(), &["execute", "a", "--missions", "a/missions"]);
+    run(folder.path(), &["execute", "a", "--missions", "a/export"]);
     let after = json(folder.path(), &["judge", "a"]);
     assert_eq!(before["worst"], after["worst"], "the same waypoints fly the same flight");
 
@@ -135,12 +135,12 @@ fn waypoints_on_earth_need_the_cages_place() {
     run(folder.path(), &[&SMALL[..], &["--out", "a", "--set", origin]].concat());
     let (code, out, error) = run(folder.path(), &["export", "a", "--to", "geodetic,waypoints"]);
     assert_eq!(code, 0, "{out}{error}");
-    let text = fs::read_to_string(folder.path().join("a/missions/0001.geodetic.csv")).unwrap();
+    let text = fs::read_to_string(folder.path().join("a/export/0001.geodetic.csv")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!((lines[0], lines.len()), ("lat_deg,lon_deg,alt_amsl_m,relative_alt_m", 9));
     assert!(lines[1..].iter().all(|line| line.starts_with("47.397") && line.contains(",8.545")), "{text}");
     // Both kinds of file side by side: those in metres fly.
-    assert_eq!(json(folder.path(), &["execute", "a", "--missions", "a/missions"])["counts"]["cases"], 4);
+    assert_eq!(json(folder.path(), &["execute", "a", "--missions", "a/export"])["counts"]["cases"], 4);
 
     // The demo's world may have a place of its own, so one without is asked for by name.
     let unplaced = fs::read_to_string(folder.path().join("a/scenario.toml")).unwrap();
@@ -213,7 +213,7 @@ fn values_drawn_for_plans_are_kept_and_ranked() {
     }
     // With other words for it: missions made elsewhere were drawn by nobody.
     run(here, &["export", "a", "--to", "waypoints"]);
-    json(here, &["execute", "a", "--missions", "a/missions"]);
+    json(here, &["execute", "a", "--missions", "a/export"]);
     let told = json(here, &["judge", "a"]);
     let keys: Vec<&str> =
         told["influences"].as_array().unwrap().iter().map(|one| one["key"].as_str().unwrap()).collect();

@@ -42,15 +42,15 @@ fn executor(folder: &Path, name: &str, line: &str) -> String {
 }
 
 #[test]
-fn exports_stand_in_the_campaign_folder_and_are_told() {
+fn exports_stand_in_a_folder_of_the_campaign_and_are_told() {
     let place = tempfile::tempdir().unwrap();
     run(place.path(), &[&SMALL[..], &["--out", "a"]].concat());
     let (object, error) = json(place.path(), &["export", "a", "--to", "waypoints,csv,tum"]);
     assert!(error.is_empty(), "{error}");
     let told: Vec<&str> = object["files"].as_array().unwrap().iter().map(|file| file.as_str().unwrap()).collect();
-    let names = ["missions/0000.csv", "missions/0001.csv", "0000.planned.csv", "0000-0.csv", "0001.planned.csv"];
+    let names = ["0000.csv", "0001.csv", "0000.planned.csv", "0000-0.csv", "0001.planned.csv"];
     let more = ["0001-0.csv", "0000.ref.tum", "0000.exec.tum", "0001.ref.tum", "0001.exec.tum"];
-    let expected: Vec<String> = names.iter().chain(&more).map(|name| format!("a/{name}")).collect();
+    let expected: Vec<String> = names.iter().chain(&more).map(|name| format!("a/export/{name}")).collect();
     assert_eq!(told, expected);
     assert!(told.iter().all(|file| place.path().join(file).is_file()));
     assert_eq!((&object["attitude_unknown"], &object["missing"]), (&json!([]), &json!([])));
@@ -59,10 +59,36 @@ fn exports_stand_in_the_campaign_folder_and_are_told() {
     assert!(error.contains("evo_ape"), "it says who opens them: {error}");
 
     // What was made of flights goes with them; other people's files stay.
-    fs::write(place.path().join("a/mine.csv"), "1").unwrap();
+    for name in ["a/mine.csv", "a/export/mine.csv"] {
+        fs::write(place.path().join(name), "1").unwrap();
+    }
     run(place.path(), &["execute", "a"]);
-    assert!(!place.path().join("a/0000.exec.tum").exists() && !place.path().join("a/0000-0.csv").exists());
-    assert!(place.path().join("a/mine.csv").is_file() && place.path().join("a/missions/0001.csv").is_file());
+    let there = |name: &str| place.path().join("a").join(name).exists();
+    assert!(!there("export/0000.exec.tum") && !there("export/0000-0.csv"));
+    assert!(there("mine.csv") && there("export/mine.csv") && there("export/0001.csv"), "missions are of the cases");
+    // Another campaign in their place has none of them.
+    run(place.path(), &[&SMALL[..], &["--out", "a", "--force"]].concat());
+    assert!(!there("export/0001.csv") && there("export/mine.csv"));
+}
+
+#[test]
+fn a_few_cases_are_exported_by_name_or_the_worst() {
+    let place = tempfile::tempdir().unwrap();
+    run(place.path(), &[&SMALL[..], &["--set", "generate.search.cases=3", "--out", "a"]].concat());
+    let files = |more: &[&str]| {
+        let (object, _) = json(place.path(), &[&["export", "a", "--to", "waypoints"], more].concat());
+        object["files"].as_array().unwrap().iter().map(|file| file.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(files(&["--case", "0002", "--case", "1"]), ["a/export/0001.csv", "a/export/0002.csv"]);
+    let worst = json(place.path(), &["judge", "a"]).0["worst"]["case"].as_str().unwrap().to_owned();
+    assert_eq!(files(&["--worst", "1"]), [format!("a/export/{worst}.csv")]);
+    for (more, words) in [
+        (["--case", "7"], ["--case 0007", "the cases 0000, 0001, 0002"]),
+        (["--worst", "4"], ["--worst 4", "at most 3"]),
+    ] {
+        let (code, _, error) = run(place.path(), &[&["export", "a", "--to", "waypoints"][..], &more].concat());
+        assert!(code == 2 && words.iter().all(|word| error.contains(word)), "{error}");
+    }
 }
 
 #[test]
@@ -75,14 +101,14 @@ fn an_unknown_attitude_is_said_wherever_one_would_be_read() {
     assert!(error.contains("2 runs came without q_wxyz"), "{error}");
     assert_eq!(json(place.path(), &["judge", "a"]).0["counts"]["attitude_unknown"], 2);
     let (object, error) = json(place.path(), &["export", "a", "--to", "tum"]);
-    assert_eq!(object["attitude_unknown"], json!(["a/0000.exec.tum", "a/0001.exec.tum"]));
-    assert!(error.contains("attitude is unknown in 2 files, such as a/0000.exec.tum"), "{error}");
+    assert_eq!(object["attitude_unknown"], json!(["a/export/0000.exec.tum", "a/export/0001.exec.tum"]));
+    assert!(error.contains("attitude is unknown in 2 files, such as a/export/0000.exec.tum"), "{error}");
     // A plan without a witness has no attitudes either.
     let steps = ["--set", "generate.reach=hull", "--set", "generate.timing.step_s=1.0", "--out", "b"];
     run(place.path(), &[&SMALL[..], &steps].concat());
     let (object, _) = json(place.path(), &["export", "b", "--to", "tum,csv"]);
     let unknown = ["0000.ref.tum", "0001.ref.tum", "0000.planned.csv", "0001.planned.csv"];
-    assert_eq!(object["attitude_unknown"], json!(unknown.map(|name| format!("b/{name}"))));
+    assert_eq!(object["attitude_unknown"], json!(unknown.map(|name| format!("b/export/{name}"))));
 }
 
 #[test]
@@ -91,7 +117,7 @@ fn what_has_no_track_is_told_and_hides_nothing_else() {
     let broken = executor(place.path(), "broken.py", "if mission['case'] == '0001': raise SystemExit('no')");
     run(place.path(), &[&SMALL[..], &["--executor", &broken, "--out", "a"]].concat());
     let (object, _) = json(place.path(), &["export", "a", "--to", "tum"]);
-    assert_eq!(object["files"], json!(["a/0000.ref.tum", "a/0000.exec.tum"]));
+    assert_eq!(object["files"], json!(["a/export/0000.ref.tum", "a/export/0000.exec.tum"]));
     assert_eq!(object["missing"], json!(["case 0001 has no .tum: its executor failed"]));
 }
 

@@ -122,7 +122,7 @@ fn a_folder_in_the_place_of_a_file_is_told() {
         ("junit.xml", &["judge", "a"]),
         ("report.html", &["report", "a"]),
         ("executions/part-00000.parquet", &["execute", "a"]),
-        ("missions/0002.csv", &["export", "a", "--to", "waypoints"]),
+        ("export/0002.csv", &["export", "a", "--to", "waypoints"]),
         (".lock", &["judge", "a"]),
     ] {
         let broken = folder.path().join("a");

@@ -60,7 +60,7 @@ fn a_rovers_campaign_is_driven_judged_proven_and_driven_again() {
     refused(at, &["replay", "long.json"], &["long.json", "drive.legs[1] has 41 segments", "40 at most"]);
     let (code, out, _) = run(at, &["export", "a", "--to", "waypoints,csv,tum"]);
     assert_eq!(code, 0, "{out}");
-    assert_eq!(fs::read_to_string(at.join("a/missions/0000.csv")).unwrap().lines().count(), 5);
+    assert_eq!(fs::read_to_string(at.join("a/export/0000.csv")).unwrap().lines().count(), 5);
 }
 
 /// Plans, runs and proofs of exact kinematics agree with each other, and with nothing else.
@@ -322,7 +322,7 @@ fn a_rover_travels_crabwise_and_stops_for_its_turns() {
     assert!(report.contains("between -10° and 25° of the body"), "and the directions");
     assert!(report.contains("more than 3 N·m") && report.contains("(5, -3, 0) N"), "and the forces");
     json(at, &["export", "a", "--to", "csv"]);
-    let run = fs::read_to_string(at.join("a/0000-0.csv")).unwrap();
+    let run = fs::read_to_string(at.join("a/export/0000-0.csv")).unwrap();
     let names = run.lines().find(|line| line.contains("slip")).unwrap();
     assert!(names.contains("wheel_torque_n_m") && names.contains("travel_direction_rad"), "{names}");
 }

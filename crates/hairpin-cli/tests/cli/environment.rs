@@ -115,13 +115,13 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
     let (_, out, _) = run(here, &["verify", "balls"]);
     assert!(out.contains("the plans of 2/2 cases are clear"), "{out}");
     json(here, &["export", "balls", "--to", "waypoints"]);
-    let exported = fs::read_to_string(here.join("balls/missions/0000.environment.json")).unwrap();
+    let exported = fs::read_to_string(here.join("balls/export/0000.environment.json")).unwrap();
     let exported: Environment = serde_json::from_str(&exported).unwrap();
     assert_eq!(Some(&exported), cases(&here.join("balls"))[0].environment.as_ref());
 
     // Missions are flown among what was exported with them, in another campaign as well.
     looped(here, "generate", "others", &["generate.search.cases=1"]);
-    json(here, &["execute", "others", "--missions", "balls/missions"]);
+    json(here, &["execute", "others", "--missions", "balls/export"]);
     json(here, &["judge", "others"]);
     assert_eq!(cases(&here.join("others"))[0].environment.as_ref(), Some(&exported));
     let ended = |folder: &str| {
@@ -129,8 +129,8 @@ fn obstacles_stand_clear_of_plans_and_in_the_way_of_flights() {
         results.into_iter().map(|result| result.ended).collect::<Vec<_>>()
     };
     assert_eq!(ended("others"), ended("balls"));
-    fs::write(here.join("balls/missions/0001.environment.json"), "{\"wind_m_s\":[1e9,0,0]}").unwrap();
-    refused(here, &["execute", "others", "--missions", "balls/missions"], &["0001.environment.json", "wind_m_s"]);
+    fs::write(here.join("balls/export/0001.environment.json"), "{\"wind_m_s\":[1e9,0,0]}").unwrap();
+    refused(here, &["execute", "others", "--missions", "balls/export"], &["0001.environment.json", "wind_m_s"]);
 
     // Moved to three centimetres less than the robot's radius from the plan, an obstacle is no longer clear of it.
     let kept = CampaignFolder::open_to_write(&here.join("balls")).unwrap();
@@ -282,7 +282,7 @@ fn keep_outs_and_a_force_go_with_the_drives_that_they_were_found_for() {
     json(here, &["select", "rocks", "--cases", "1", "--out", "one"]);
     assert!(cases(&here.join("one"))[0].environment.is_some());
     json(here, &["export", "rocks", "--to", "waypoints"]);
-    let exported = fs::read_to_string(here.join("rocks/missions/0001.environment.json")).unwrap();
+    let exported = fs::read_to_string(here.join("rocks/export/0001.environment.json")).unwrap();
     let exported: Environment = serde_json::from_str(&exported).unwrap();
     assert_eq!(Some(&exported), found[1].environment.as_ref());
     let page = fs::read_to_string(here.join("rocks/report.html")).unwrap();

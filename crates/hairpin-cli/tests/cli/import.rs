@@ -213,9 +213,12 @@ fn what_is_exported_is_read_back() {
     let (code, out, error) = run(place.path(), &["generate", "arm.toml", "--out", "A"]);
     assert_eq!(code, 0, "{out}{error}");
     let mut counts = Vec::new();
-    for (language, file) in
-        [("rapid", "A/0000.mod"), ("rapid", "A/0000.pgf"), ("krl", "A/0000.src"), ("urscript", "A/0000.script")]
-    {
+    for (language, file) in [
+        ("rapid", "A/export/0000.mod"),
+        ("rapid", "A/export/0000.pgf"),
+        ("krl", "A/export/0000.src"),
+        ("urscript", "A/export/0000.script"),
+    ] {
         let (code, out, error) = run(place.path(), &["export", "A", "--to", language]);
         assert_eq!(code, 0, "{out}{error}");
         let (code, out, error) = run(place.path(), &["import", file, "--check"]);
@@ -223,7 +226,7 @@ fn what_is_exported_is_read_back() {
         counts.push(json(place.path(), &["import", file])["certain_moves"].as_i64().unwrap());
     }
     assert!(counts[0] > 4 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
-    fs::remove_file(place.path().join("A/0000.dat")).unwrap();
-    let (code, out, _) = run(place.path(), &["import", "A/0000.src", "--check"]);
+    fs::remove_file(place.path().join("A/export/0000.dat")).unwrap();
+    let (code, out, _) = run(place.path(), &["import", "A/export/0000.src", "--check"]);
     assert!(code == 5 && out.contains("NOT UNDERSTOOD `X") && out.contains("is not declared in this program"), "{out}");
 }

@@ -245,7 +245,7 @@ fn a_second_process_is_told_that_the_folder_is_in_use() {
     // Who only reads need not wait.
     assert_eq!(json(folder.path(), &["verify", "a"])["checked"], 4);
     assert_eq!(run(folder.path(), &["export", "a", "--to", "waypoints"]).0, 0);
-    fs::remove_dir_all(folder.path().join("a/missions")).unwrap();
+    fs::remove_dir_all(folder.path().join("a/export")).unwrap();
     fs::write(folder.path().join("go"), "").unwrap();
     let (code, error) = end(child);
     assert_eq!(code, Some(0), "{error}");

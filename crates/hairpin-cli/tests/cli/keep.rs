@@ -96,7 +96,7 @@ fn what_is_kept_changes_no_result() {
     // The executed motion of every case that is shown.
     let page = String::from_utf8(bytes("none", "report.html")).unwrap();
     assert!(page.contains("\"flown\":") && !page.contains("\"flown\":null"));
-    let lines = |keep: &str| String::from_utf8(bytes(keep, "0003-0.csv")).unwrap().lines().count();
+    let lines = |keep: &str| String::from_utf8(bytes(keep, "export/0003-0.csv")).unwrap().lines().count();
     assert_eq!(lines("none"), lines("all"), "the same samples");
 }
 
@@ -175,7 +175,7 @@ fn programs_that_were_not_kept_run_again() {
     for keep in ["all", "none"] {
         assert_eq!(run(here, &["export", keep, "--to", "csv,rapid"]).0, 0);
     }
-    for run in ["0000-0.csv", "0000-1.csv"] {
+    for run in ["export/0000-0.csv", "export/0000-1.csv"] {
         assert!(bytes("none", run) == bytes("all", run), "{run}: of programs all rows are kept");
     }
     let logs = ["execute", "all", "--logs", "logs/*.csv", "--keep", "worst"];

@@ -122,14 +122,14 @@ fn a_campaign_on_a_map_of_the_earth_is_placed_by_its_plane() {
     assert!(resolved.contains("offset_m = [") && resolved.contains("epsg = 32632"), "{resolved}");
     let (code, out, error) = run(at, &["export", "a", "--to", "geodetic,waypoints"]);
     assert_eq!(code, 0, "{out}{error}");
-    let table = fs::read_to_string(at.join("a/missions/0000.geodetic.csv")).unwrap();
+    let table = fs::read_to_string(at.join("a/export/0000.geodetic.csv")).unwrap();
     let rows: Vec<Vec<f64>> =
         table.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
     assert_eq!(rows.len(), 4);
     assert!((rows[0][0] - start("lat_deg")).abs() < 1e-9 && (399.0..401.0).contains(&rows[0][2]), "{table}");
     // What was written in degrees is read back: the same case, with its plan.
     fs::create_dir(at.join("degrees")).unwrap();
-    fs::rename(at.join("a/missions/0000.geodetic.csv"), at.join("degrees/0000.geodetic.csv")).unwrap();
+    fs::rename(at.join("a/export/0000.geodetic.csv"), at.join("degrees/0000.geodetic.csv")).unwrap();
     assert_eq!(json(at, &["execute", "a", "--missions", "degrees"])["exit_code"], 0);
     for verb in ["verify", "judge"] {
         assert_eq!(run(at, &[verb, "a"]).0, 0, "{verb}");

@@ -18,7 +18,7 @@ impl Exported {
     fn of(place: &Path, campaign: &str) -> Self {
         let (code, text, error) = run(place, &["export", campaign, "--to", "csv"]);
         assert_eq!(code, 0, "{text}{error}");
-        let text = fs::read_to_string(place.join(campaign).join("0000-0.csv")).unwrap();
+        let text = fs::read_to_string(place.join(campaign).join("export/0000-0.csv")).unwrap();
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next().unwrap().split(',').collect();
         let column = |name: &str| names.iter().position(|found| *found == name).unwrap();

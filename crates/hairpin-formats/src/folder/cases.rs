@@ -1,7 +1,6 @@
 //! The cases of a campaign folder: what `generate` writes, and every later part reads.
 
 use std::io;
-use std::path::PathBuf;
 
 use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
 use hairpin::trajectory::Track;
@@ -189,10 +188,5 @@ impl CampaignFolder {
         }
         let Some(part) = self.part_with(table, case)? else { return Ok(None) };
         Ok(part.table((case, 0))?.map(|rows| (rows, part.period())))
-    }
-
-    /// `CASE.planned.csv`: the planned motion as text, exported.
-    pub fn planned_csv_path(&self, case: CaseNumber) -> PathBuf {
-        self.path.join(format!("{case}.planned.csv"))
     }
 }

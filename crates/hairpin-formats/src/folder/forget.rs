@@ -5,11 +5,11 @@ use std::io;
 
 use hairpin::campaign::learn::NAME;
 
-use super::names::ALL_RUNS;
+use super::names::{ALL_RUNS, EXPORT};
 use super::parts::{EXECUTIONS, PROFILES, PROGRAMS, RERUN_FACTS, RERUNS, TRAJECTORIES};
 use super::{
     ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, EXECUTOR, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG,
-    List, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, entries, exports, stands_for,
+    List, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, earlier_exports, entries, exports, exports_of_runs, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -78,6 +78,25 @@ impl CampaignFolder {
         self.remove(&[NAME], &[])
     }
 
+    /// Removes all that was exported: another campaign's files are none of this one's.
+    pub(super) fn forget_exports(&self) -> Result<(), FolderError> {
+        self.remove_exports(&exports().collect::<Vec<_>>())
+    }
+
+    /// Removes the exports that `patterns` stand for, and their folder where nothing else is in it.
+    fn remove_exports(&self, patterns: &[String]) -> Result<(), FolderError> {
+        let (ours, place) = (List::read(&self.path)?.unwrap_or_default(), self.file(EXPORT));
+        for path in if place.is_dir() { entries(&place)? } else { Vec::new() } {
+            let name = format!("{EXPORT}/{}", path.file_name().unwrap_or_default().to_string_lossy());
+            if ours.names(&name) && patterns.iter().any(|pattern| stands_for(pattern, &name)) {
+                fs::remove_file(&path).map_err(|cause| WriteError { path, cause })?;
+            }
+        }
+        // One with other things in it stays.
+        let _ = fs::remove_dir(place);
+        Ok(())
+    }
+
     /// Removes `names`, the tables in `folders`, what was exported, and the executors' logs, which are of runs that go:
     /// of all these, what the folder's list has.
     fn remove(&self, names: &[&str], folders: &[&str]) -> Result<(), FolderError> {
@@ -92,7 +111,8 @@ impl CampaignFolder {
         for name in names {
             remove(name)?;
         }
-        let exports: Vec<String> = exports().collect();
+        self.remove_exports(&exports_of_runs().collect::<Vec<_>>())?;
+        let exports: Vec<String> = earlier_exports().collect();
         for path in entries(&self.path)? {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             if stands_for(LOG, &name) || exports.iter().any(|pattern| stands_for(pattern, &name)) {

@@ -10,7 +10,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::FolderError;
-use super::names::{GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, exports, stands_for};
+use super::names::{GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, earlier_exports, exports, stands_for};
 use crate::atomic;
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::scenario::read_made_by;
@@ -87,7 +87,7 @@ impl List {
 
 /// Every name that hairpin gives, but for the copies of files that a scenario names.
 pub(super) fn all() -> Vec<String> {
-    OURS.iter().map(|name| (*name).to_owned()).chain(exports()).collect()
+    OURS.iter().map(|name| (*name).to_owned()).chain(earlier_exports()).chain(exports()).collect()
 }
 
 /// Whether a campaign without a list is one that an earlier version made: that left its name and version in the

@@ -22,9 +22,9 @@
 //! | `optimum.json` | of arms: the proof that the first program is the heaviest |
 //! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
-//! | `missions/`, `repro/`, `junit.xml`, `report.html` | see the README |
+//! | `repro/`, `junit.xml`, `report.html` | see the README |
+//! | `export/` | what was exported; of earlier versions `missions/` and files in the folder itself |
 //! | `.hairpin` | the names in the folder that are hairpin's own: nothing else in it is replaced or removed |
-//! | `CASE.ref.tum`, `CASE.exec.tum`, `CASE.planned.csv`, `CASE-RUN.csv` | once exported |
 //!
 //! Folders of tables hold parts, `part-00000.parquet` and so on: blocks of whole cases, a row group for each case or
 //! run (of `runs/` one in all). A table may also be one file, `NAME.parquet`; folders of earlier versions have a file
@@ -72,19 +72,22 @@ pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
-use names::{COVERAGE, EXECUTOR, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, exports, stands_for};
-pub(crate) use names::{SCENARIO, is_written_to};
+use names::{
+    COVERAGE, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports, exports,
+    exports_of_runs, stands_for,
+};
+pub(crate) use names::{SCENARIO, is_of_a_motion, is_written_to};
 use recent::Recent;
 pub use run_writer::{Landed, RunWriter};
 
 const LOCK: &str = ".lock";
-const FOLDERS: [&str; 9] =
-    ["trajectories", "profiles", "programs", "executions", "runs", "reruns", "rerun-runs", "missions", "repro"];
+const FOLDERS: [&str; 10] =
+    ["trajectories", "profiles", "programs", "executions", "runs", "reruns", "rerun-runs", "missions", "repro", EXPORT];
 
 /// What [`CampaignFolder::create`] does about a campaign that already stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
-    /// Its cases, runs and results go; `missions/` and `repro/` stay.
+    /// Its cases, runs, results and exports go; `missions/` and `repro/` stay.
     Replace,
     /// It goes on (`--resume`).
     Resume,
@@ -123,6 +126,7 @@ impl CampaignFolder {
         folder.remove_leftovers();
         if existing == Existing::Replace {
             folder.forget_cases()?;
+            folder.forget_exports()?;
             folder.forget_model()?;
         }
         Ok(folder)
@@ -171,7 +175,20 @@ impl CampaignFolder {
         &self.path
     }
 
-    /// `NAME` in the folder, for files that others write (`junit.xml`, `missions/0007.plan`).
+    /// Where exports go, made where it is not there yet. What stands there under a name of theirs is hairpin's own.
+    ///
+    /// # Errors
+    /// The folder cannot be made; something of that name stands there that is not hairpin's.
+    pub fn export_folder(&self) -> Result<PathBuf, FolderError> {
+        if let Some(mut list) = List::read(&self.path)? {
+            list.take_in(&self.path, &exports().collect::<Vec<_>>())?;
+        }
+        let place = self.file(EXPORT);
+        atomic::make_folder(&place)?;
+        Ok(place)
+    }
+
+    /// `NAME` in the folder, for files that others write (`junit.xml`).
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }

@@ -77,14 +77,43 @@ pub(super) const OURS: &[&str] = &[
     "arc_clock.mod",
 ];
 
+/// The folder of what is exported.
+pub(super) const EXPORT: &str = "export";
+
 /// How the names of exports end that have a case's number before them.
 const ENDINGS: &[&str] =
     &["planned.csv", "ref.tum", "exec.tum", "joint_trajectory.json", "mod", "pgf", "script", "src", "dat"];
 
-/// What is exported into the folder itself.
-pub(super) fn exports() -> impl Iterator<Item = String> {
+/// How those end that earlier versions did not have.
+const NEWER_ENDINGS: &[&str] = &["setpoints.csv", "setpoints.json", "poly4d.csv", "poly4d.bin", "poly4d.json"];
+
+/// How those end that are missions: a user may have changed them for `execute --missions`, so they stay as long as the
+/// campaign is the same.
+const MISSION_ENDINGS: &[&str] = &["csv", "geodetic.csv", "environment.json", "plan", "params", "waypoints"];
+
+/// What earlier versions exported into the folder itself.
+pub(super) fn earlier_exports() -> impl Iterator<Item = String> {
     let more = ["CASE-RUN.csv", "CASE_slow.mod"].map(str::to_owned);
     ENDINGS.iter().map(|ending| format!("CASE.{ending}")).chain(more)
+}
+
+/// What is exported and goes with the runs that it was made of, below the folder.
+pub(super) fn exports_of_runs() -> impl Iterator<Item = String> {
+    let newer = NEWER_ENDINGS.iter().map(|ending| format!("CASE.{ending}"));
+    let whole = ["CASE_slow.plan", "CASE_slow.params", "arc_clock.mod", "day-card.html"].map(str::to_owned);
+    earlier_exports().chain(newer).chain(whole).map(|name| format!("{EXPORT}/{name}"))
+}
+
+/// All that is exported, below the folder.
+pub(super) fn exports() -> impl Iterator<Item = String> {
+    exports_of_runs().chain(MISSION_ENDINGS.iter().map(|ending| format!("{EXPORT}/CASE.{ending}")))
+}
+
+/// Whether a file of this name is what `export` makes of a motion, not of waypoints.
+pub(crate) fn is_of_a_motion(name: &str) -> bool {
+    ["CASE-RUN.csv", "CASE.planned.csv", "CASE.setpoints.csv", "CASE.poly4d.csv"]
+        .iter()
+        .any(|pattern| stands_for(pattern, name))
 }
 
 /// Whether what hairpin writes into a campaign's folder, and nobody else does, is in this one.
@@ -115,7 +144,7 @@ mod tests {
 
     #[test]
     fn only_our_own_exports_go() {
-        let is_export = |name: &str| exports().any(|pattern| stands_for(&pattern, name));
+        let is_export = |name: &str| exports().any(|pattern| stands_for(&pattern, &format!("export/{name}")));
         for name in [
             "0000.ref.tum",
             "0012.exec.tum",
@@ -124,11 +153,16 @@ mod tests {
             "0117-12.csv",
             "0003.mod",
             "0003_slow.mod",
+            "0003.csv",
+            "0003.plan",
+            "0003_slow.plan",
         ] {
             assert!(is_export(name), "{name}");
         }
-        for name in ["mine.csv", "0000.csv", "000-0.csv", "0000-.csv", "0000-a.csv", "a0000.ref.tum", "0000.tum", ""] {
+        for name in ["mine.csv", "000.csv", "000-0.csv", "0000-.csv", "0000-a.csv", "a0000.ref.tum", "0000.tum", ""] {
             assert!(!is_export(name), "{name}");
         }
+        assert!(is_of_a_motion("0000-0.csv") && is_of_a_motion("0001.setpoints.csv"));
+        assert!(!is_of_a_motion("0000.csv") && !is_of_a_motion("0000.geodetic.csv"));
     }
 }

@@ -233,9 +233,4 @@ impl CampaignFolder {
     pub(super) fn run_path(&self, case: CaseNumber, run: usize) -> PathBuf {
         self.path.join(EXECUTIONS).join(format!("{case}-{run}.parquet"))
     }
-
-    /// `CASE-RUN.csv`: the flight as text, exported.
-    pub fn run_csv_path(&self, case: CaseNumber, run: usize) -> PathBuf {
-        self.path.join(format!("{case}-{run}.csv"))
-    }
 }

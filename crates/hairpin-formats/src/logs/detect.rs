@@ -1,9 +1,12 @@
 //! Which format a log is of, told by its first bytes; among texts by its name, then by its first line.
 
 use super::error::Fault;
+use super::{bag, ulog};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
+    Ulog,
+    Mcap,
     Tum,
     Csv,
 }
@@ -15,13 +18,18 @@ const OTHERS: [(&[u8], &str); 3] = [
     (b"PAR1", "a Parquet table; export it as CSV"),
 ];
 
-const KNOWN: &str =
-    "a log is read as TUM (`t x y z qx qy qz qw`) or CSV (a header such as `t_s,x_m,y_m,z_m,qw,qx,qy,qz`)";
+const KNOWN: &str = "a log is read as PX4 ULog (.ulg), ROS 2 MCAP (.mcap), TUM (`t x y z qx qy qz qw`) or CSV (a header such as `t_s,x_m,y_m,z_m,qw,qx,qy,qz`)";
 
 impl Format {
     pub(super) fn of(bytes: &[u8], name: &str) -> Result<Self, Fault> {
         if let Some((_, what)) = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic)) {
             return Err(Fault::Unknown((*what).into()));
+        }
+        if bytes.starts_with(ulog::MAGIC) {
+            return Ok(Self::Ulog);
+        }
+        if bytes.starts_with(bag::MAGIC) {
+            return Ok(Self::Mcap);
         }
         let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
         match ending.as_deref() {

@@ -3,11 +3,15 @@
 //! Readers convert axes at this door and nowhere else, and align nothing: what a log's frame is, whose stamps it has and who
 //! estimated its poses is told beside them.
 
+mod attitude;
+mod axes;
+mod bag;
 mod detect;
 mod error;
 mod log;
 mod samples;
 mod text;
+mod ulog;
 
 use std::path::Path;
 
@@ -36,6 +40,8 @@ pub fn read(path: &Path) -> Result<Logged, LogError> {
 
 fn parse(bytes: &[u8], name: &str) -> Result<Logged, Fault> {
     let logged = match Format::of(bytes, name)? {
+        Format::Ulog => ulog::read_ulog(bytes),
+        Format::Mcap => bag::read_mcap(bytes),
         Format::Tum => text::read_tum(text::decode(bytes)?, name),
         Format::Csv => text::read_csv(text::decode(bytes)?, name),
     }?;

@@ -1,6 +1,6 @@
 //! Programs of arms in the languages of their controllers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
@@ -29,10 +29,10 @@ pub enum Language {
 const SAMPLE: f64 = 0.01;
 
 /// Writes the program of every case; a case without one, or one that the language cannot hold, is told as missing.
-pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<Written, Problem> {
+pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Language) -> Result<Written, Problem> {
     let mut written = Written::default();
     for case in cases {
-        let mut case = case.clone();
+        let mut case = Case::clone(case);
         work.folder.read_witness(&mut case)?;
         let Some(program) = case.program() else {
             written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
@@ -41,7 +41,7 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
         match texts(work, &case, program, language) {
             Ok(texts) => {
                 for (name, text) in texts {
-                    let path: PathBuf = work.folder.file(&name);
+                    let path: PathBuf = place.join(&name);
                     atomic::write(&path, text.as_bytes())?;
                     written.files.push(path);
                 }
@@ -56,7 +56,7 @@ pub(super) fn write(work: &Work, cases: &[Case], language: Language) -> Result<W
 }
 
 /// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.
-pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
+pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem> {
     let Some(arm) = work.setup.own::<ArmSetup>() else {
         return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
     };
@@ -80,7 +80,7 @@ pub(super) fn write_clock(work: &Work) -> Result<Written, Problem> {
         header: &header,
     });
     let clocked = clocked.map_err(|error| refuse(error.to_string()))?;
-    let path = work.folder.file("arc_clock.mod");
+    let path = place.join("arc_clock.mod");
     atomic::write(&path, clocked.text.as_bytes())?;
     let mut written = Written::all(vec![path]);
     if !clocked.left_out.is_empty() {

@@ -12,14 +12,12 @@ use hairpin_formats::atomic;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
 use crate::consent::Wish;
+use crate::names::named;
 use crate::work::{Work, open_to_change};
 use crate::{Problem, Watch};
 use answers::Answers;
 
 pub use settings::ShrinkSettings;
-
-/// Names that a sentence has room for.
-const LISTED: usize = 12;
 
 /// A violating case that is to be shrunk.
 pub struct Shrinking {
@@ -98,7 +96,7 @@ impl Shrinking {
 fn violating(work: &Work, settings: &ShrinkSettings) -> Result<(Case, CaseResult), Problem> {
     let folder = settings.folder.display();
     let cases = work.folder.read_cases()?;
-    let there = all_named(&cases);
+    let there = named(&cases.iter().map(Case::id).collect::<Vec<_>>(), "case");
     let case = cases.into_iter().find(|case| case.number == settings.case);
     let case = case.ok_or_else(|| Problem::input(format!("--case {}: {folder} has {there}", settings.case.0)))?;
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case.number);
@@ -107,17 +105,6 @@ fn violating(work: &Work, settings: &ShrinkSettings) -> Result<(Case, CaseResult
         return Err(Problem::input(format!("case {} does not violate: there is nothing to shrink", case.id())));
     }
     Ok((case, result))
-}
-
-/// `the cases 0001, 0003, 0004`; of many the first ones and the last.
-fn all_named(cases: &[Case]) -> String {
-    let names: Vec<String> = cases.iter().map(Case::id).collect();
-    match names.as_slice() {
-        [] => "no cases".into(),
-        [one] => format!("the case {one} alone"),
-        [some @ .., last] if names.len() > LISTED => format!("the cases {}, … {last}", some[..LISTED - 1].join(", ")),
-        all => format!("the cases {}", all.join(", ")),
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Logs of each format, as their writers write them, and spoiled.
 
 mod text;
+mod ulog;
+mod write_ulog;
 
 use super::*;
 

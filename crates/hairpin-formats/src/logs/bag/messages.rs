@@ -1,0 +1,112 @@
+//! Messages of ROS 2 that tell a motion, by their definitions in `common_interfaces`.
+
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
+
+use super::cdr::{Cdr, NoMessage};
+
+/// No robot is further from where it began, m.
+const FARTHEST_M: f64 = 1e7;
+/// How far from 1 the length of a quaternion may be.
+const QUATERNION: f64 = 1e-2;
+/// Bytes of a stamped pose at least: stamp, frame's length, seven numbers.
+const POSE: usize = 4 + 4 + 4 + 56;
+
+/// Types that are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Pose,
+    Odometry,
+    Path,
+    Joints,
+}
+
+impl Kind {
+    pub(super) fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "geometry_msgs/msg/PoseStamped" => Self::Pose,
+            "nav_msgs/msg/Odometry" => Self::Odometry,
+            "nav_msgs/msg/Path" => Self::Path,
+            "sensor_msgs/msg/JointState" => Self::Joints,
+            _ => return None,
+        })
+    }
+}
+
+/// Stamp in ns, and the frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Header<'a> {
+    pub(super) stamp_ns: i64,
+    pub(super) frame: &'a str,
+}
+
+/// A pose with its header; `attitude` where the quaternion is one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pose<'a> {
+    pub(super) header: Header<'a>,
+    pub(super) p_m: Point3<f64>,
+    pub(super) attitude: Option<UnitQuaternion<f64>>,
+    pub(super) v_m_s: Option<Vector3<f64>>,
+    pub(super) accuracy_m: Option<[f64; 2]>,
+}
+
+fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, NoMessage> {
+    let (seconds, nanoseconds) = (cdr.i32()?, cdr.u32()?);
+    let stamp_ns = i64::from(seconds) * 1_000_000_000 + i64::from(nanoseconds);
+    Ok(Header { stamp_ns, frame: cdr.string()? })
+}
+
+fn place(cdr: &mut Cdr) -> Result<(Point3<f64>, Option<UnitQuaternion<f64>>), NoMessage> {
+    let p = cdr.numbers::<3>()?;
+    let [x, y, z, w] = cdr.numbers()?;
+    if !p.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M) {
+        return Err(NoMessage);
+    }
+    let q = Quaternion::new(w, x, y, z);
+    let is_turn = (q.norm() - 1.0).abs() < QUATERNION;
+    Ok((p.into(), is_turn.then(|| UnitQuaternion::from_quaternion(q))))
+}
+
+pub(super) fn pose<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
+    let header = header(cdr)?;
+    let (p_m, attitude) = place(cdr)?;
+    Ok(Pose { header, p_m, attitude, v_m_s: None, accuracy_m: None })
+}
+
+/// The twist of an odometry is in the child's frame, the body.
+pub(super) fn odometry<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
+    let header = header(cdr)?;
+    cdr.string()?;
+    let (p_m, attitude) = place(cdr)?;
+    let covariance = cdr.numbers::<36>()?;
+    let linear = Vector3::from(cdr.numbers::<3>()?);
+    let v_m_s = attitude.filter(|_| linear.iter().all(|v| v.is_finite())).map(|turn| turn * linear);
+    // All zeros is how publishers say that they do not know.
+    let variances = [covariance[0].max(covariance[7]), covariance[14]];
+    let known = variances.iter().all(|of| of.is_finite() && *of >= 0.0) && variances != [0.0; 2];
+    Ok(Pose { header, p_m, attitude, v_m_s, accuracy_m: known.then(|| variances.map(f64::sqrt)) })
+}
+
+/// The poses of a path, with its own frame where a pose has none.
+pub(super) fn path<'a>(cdr: &mut Cdr<'a>) -> Result<Vec<Pose<'a>>, NoMessage> {
+    let Header { frame, .. } = header(cdr)?;
+    let length = cdr.length(POSE)?;
+    let one = |_| {
+        let mut one = pose(cdr)?;
+        if one.header.frame.is_empty() {
+            one.header.frame = frame;
+        }
+        Ok(one)
+    };
+    (0..length).map(one).collect()
+}
+
+/// Names and positions of joints, with the header's stamp.
+pub(super) fn joints<'a>(cdr: &mut Cdr<'a>) -> Result<(i64, Vec<&'a str>, Vec<f64>), NoMessage> {
+    let Header { stamp_ns, .. } = header(cdr)?;
+    let names = (0..cdr.length(4)?).map(|_| cdr.string()).collect::<Result<Vec<_>, _>>()?;
+    let positions = (0..cdr.length(8)?).map(|_| cdr.f64()).collect::<Result<Vec<_>, _>>()?;
+    if names.len() != positions.len() || !positions.iter().all(|q| q.is_finite()) {
+        return Err(NoMessage);
+    }
+    Ok((stamp_ns, names, positions))
+}

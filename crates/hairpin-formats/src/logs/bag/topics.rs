@@ -1,0 +1,198 @@
+//! What was recorded of one topic.
+
+use super::super::error::Fault;
+use super::super::log::{Clock, Joints, LoggedMotion, Sample, Source};
+use super::super::samples::Budget;
+use super::cdr::{Cdr, NoMessage};
+use super::messages::{Kind, Pose, joints, odometry, path, pose};
+
+/// Sets of joints that one topic may tell of, by turns.
+const MOST_SETS: usize = 16;
+
+/// One topic.
+#[derive(Debug)]
+pub(super) struct Topic {
+    pub(super) name: String,
+    kind: Kind,
+    frame: Option<String>,
+    samples: Vec<Sample>,
+    sets: Vec<Set>,
+    /// When each sample, or row, was received, s.
+    received: Vec<f64>,
+    paths: usize,
+    /// Whether any header has a stamp.
+    stamped: bool,
+    seen: bool,
+    /// Messages that are none of the type, and where the first is.
+    broken: usize,
+    first_broken: usize,
+    /// Samples in another frame than the first.
+    elsewhere: usize,
+}
+
+#[derive(Debug)]
+struct Set {
+    names: Vec<String>,
+    times: Vec<f64>,
+    received: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Topic {
+    pub(super) fn of(name: String, kind: Kind) -> Self {
+        let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
+        let (broken, first_broken, elsewhere) = Default::default();
+        Self { name, kind, frame, samples, sets, received, paths, stamped, seen, broken, first_broken, elsewhere }
+    }
+
+    pub(super) fn push(&mut self, data: &[u8], received_ns: u64, offset: usize, budget: &mut Budget) -> Result<(), Fault> {
+        self.seen = true;
+        let taken = Cdr::of(data).and_then(|mut cdr| self.take(&mut cdr, received_ns as f64 * 1e-9));
+        match taken {
+            Ok(samples) => (0..samples).try_for_each(|_| budget.take()),
+            Err(NoMessage) => {
+                if self.broken == 0 {
+                    self.first_broken = offset;
+                }
+                self.broken += 1;
+                Ok(())
+            }
+        }
+    }
+
+    /// Takes a message, and says of how many samples it was.
+    fn take(&mut self, cdr: &mut Cdr, received_s: f64) -> Result<usize, NoMessage> {
+        match self.kind {
+            Kind::Pose => {
+                let pose = pose(cdr)?;
+                Ok(self.sample(&pose, received_s))
+            }
+            Kind::Odometry => {
+                let pose = odometry(cdr)?;
+                Ok(self.sample(&pose, received_s))
+            }
+            Kind::Path => {
+                let poses = path(cdr)?;
+                self.paths += 1;
+                let rises = poses.windows(2).all(|pair| pair[0].header.stamp_ns < pair[1].header.stamp_ns);
+                // A path is the whole way each time; the last that has times counts.
+                if rises && poses.len() > 1 {
+                    self.samples.clear();
+                    self.received.clear();
+                    return Ok(poses.iter().map(|pose| self.sample(pose, received_s)).sum());
+                }
+                Ok(0)
+            }
+            Kind::Joints => self.row(cdr, received_s),
+        }
+    }
+
+    fn sample(&mut self, pose: &Pose, received_s: f64) -> usize {
+        let frame = self.frame.get_or_insert_with(|| pose.header.frame.to_owned());
+        if frame != pose.header.frame {
+            self.elsewhere += 1;
+            return 0;
+        }
+        self.stamped |= pose.header.stamp_ns != 0;
+        self.received.push(received_s);
+        self.samples.push(Sample {
+            t_s: pose.header.stamp_ns as f64 * 1e-9,
+            p_m: pose.p_m,
+            attitude: pose.attitude,
+            v_m_s: pose.v_m_s,
+            accuracy_m: pose.accuracy_m,
+        });
+        1
+    }
+
+    fn row(&mut self, cdr: &mut Cdr, received_s: f64) -> Result<usize, NoMessage> {
+        let (stamp_ns, names, positions) = joints(cdr)?;
+        if names.is_empty() {
+            return Ok(0);
+        }
+        let order = |set: &Set| -> Option<Vec<usize>> {
+            let places = set.names.iter().map(|name| names.iter().position(|other| other == name));
+            places.collect::<Option<Vec<_>>>().filter(|places| places.len() == names.len())
+        };
+        let known = self.sets.iter().enumerate().find_map(|(index, set)| Some((index, order(set)?)));
+        let (index, order) = match known {
+            Some(known) => known,
+            None if self.sets.len() < MOST_SETS => {
+                let names = names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+                let order = (0..names.len()).collect();
+                self.sets.push(Set { names, times: Vec::new(), received: Vec::new(), rows: Vec::new() });
+                (self.sets.len() - 1, order)
+            }
+            None => return Err(NoMessage),
+        };
+        self.stamped |= stamp_ns != 0;
+        let set = &mut self.sets[index];
+        set.times.push(stamp_ns as f64 * 1e-9);
+        set.received.push(received_s);
+        set.rows.push(order.into_iter().map(|place| positions[place]).collect());
+        // A row of many joints counts for more than one of few.
+        Ok(names.len().div_ceil(8))
+    }
+
+    /// Whether there are messages, and none has a stamp in its header.
+    pub(super) fn is_without_stamps(&self) -> bool {
+        !self.stamped && (!self.samples.is_empty() || !self.sets.is_empty())
+    }
+
+    /// Adds what moved, by one clock; its frame where it has one, and what is to be told of it.
+    pub(super) fn finish(
+        self,
+        clock: Clock,
+        motions: &mut Vec<LoggedMotion>,
+        all: &mut Vec<Joints>,
+    ) -> (Option<(String, String)>, Vec<String>) {
+        let Self { name, samples, sets, received, mut frame, .. } = self;
+        let mut notes = Vec::new();
+        if self.broken > 0 {
+            notes.push(format!("{name}: {} messages that are none of its type, the first at byte {}", self.broken, self.first_broken));
+        }
+        if self.elsewhere > 0 {
+            notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));
+        }
+        if self.kind == Kind::Path && self.seen {
+            let which = match (samples.is_empty(), clock) {
+                (true, _) => "none has poses with stamps that rise: a plan, not a motion",
+                (false, Clock::Header) => "the last one with stamps is read",
+                (false, _) => "its poses have no time by the recorder's clock: not read",
+            };
+            notes.push(format!("{name}: {} paths; {which}", self.paths));
+        }
+        let is_timeless = self.kind == Kind::Path && clock != Clock::Header;
+        if !samples.is_empty() && !is_timeless {
+            let mut rows: Vec<(f64, Sample)> = samples.into_iter().map(|sample| (sample.t_s, sample)).collect();
+            if clock == Clock::Receive {
+                rows.iter_mut().zip(received).for_each(|((t_s, sample), at)| (*t_s, sample.t_s) = (at, at));
+            }
+            let samples: Vec<Sample> = rising(rows, &name, &mut notes).into_iter().map(|(_, sample)| sample).collect();
+            let (resets, invalid) = Default::default();
+            motions.push(LoggedMotion { name: name.clone(), source: Source::Untold, samples, resets, invalid });
+        } else {
+            frame = None;
+        }
+        let many = sets.len() > 1;
+        for (index, set) in sets.into_iter().enumerate() {
+            let times = if clock == Clock::Receive { set.received } else { set.times };
+            let name = if many { format!("{name}[{index}]") } else { name.clone() };
+            let rows = rising(times.into_iter().zip(set.rows).collect(), &name, &mut notes);
+            let (times_s, positions_rad) = rows.into_iter().unzip();
+            all.push(Joints { name, joints: set.names, times_s, positions_rad });
+        }
+        (frame.map(|frame| (name, frame)), notes)
+    }
+}
+
+/// Rows in the order of their times, one each.
+fn rising<T>(mut rows: Vec<(f64, T)>, name: &str, notes: &mut Vec<String>) -> Vec<(f64, T)> {
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let before = rows.len();
+    rows.dedup_by(|later, first| later.0 <= first.0);
+    if rows.len() < before {
+        notes.push(format!("{name}: {} messages with a stamp that was there before", before - rows.len()));
+    }
+    rows
+}

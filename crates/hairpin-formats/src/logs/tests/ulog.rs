@@ -1,0 +1,218 @@
+//! PX4's ULog.
+
+use nalgebra::{Point3, Vector3};
+use proptest::prelude::*;
+
+use super::write_ulog::{ATTITUDE, POSITION, Position, Ulog, flight, singles};
+use super::*;
+use crate::frames::Geodetic;
+
+fn event(t_s: f64, kind: EventKind, words: &str) -> Event {
+    Event { t_s, kind, words: words.into() }
+}
+
+fn parsed(bytes: &[u8]) -> Logged {
+    parse(bytes, "a.ulg").unwrap()
+}
+
+fn fault(bytes: &[u8]) -> String {
+    refusal(bytes, "a.ulg")
+}
+
+/// A log of positions alone.
+fn positions(samples: &[Position]) -> Ulog {
+    let mut log = Ulog::new();
+    log.message(b'F', POSITION.as_bytes());
+    log.subscribe(0, 0, "vehicle_local_position");
+    for sample in samples {
+        log.data(0, &[&sample.bytes()]);
+    }
+    log
+}
+
+fn at(t_us: u64, ned: [f32; 3]) -> Position {
+    Position { t_us, ned, ..Position::STILL }
+}
+
+#[test]
+fn a_flight_is_read_in_east_north_up() {
+    let log = parsed(&flight());
+    assert_eq!((log.format, log.clock), ("PX4 ULog", Clock::SinceBoot));
+    let reference = Geodetic { lat_deg: 47.3977, lon_deg: 8.5456, alt_amsl_m: 488.0 };
+    assert_eq!(log.frame, LogFrame::Enu(Some(reference)));
+    let [motion] = &log.motions[..] else { panic!("{:?}", log.motions.len()) };
+    assert_eq!((&motion.name[..], motion.source, motion.samples.len()), ("vehicle_local_position", Source::Estimate, 100));
+    let last = motion.samples[99];
+    // The raw data's stamp, not the message's, which is 2 ms later.
+    assert!((last.t_s - 11.98).abs() < 1e-9);
+    // 3.96 m north on PX4's sphere are 3.96 M/R on the ellipsoid: M(47.4°) = 6 370 100 m and 488 m of height.
+    assert!((last.p_m - Point3::new(0.5, 3.96, 1.98)).norm() < 2e-3, "{}", last.p_m);
+    assert!((last.p_m.x - 0.5 * 6_390_100.0 / 6_371_000.0).abs() < 1e-4, "{}", last.p_m);
+    assert_eq!(last.v_m_s, Some(Vector3::new(0.0, 2.0, 1.0)));
+    assert_eq!(last.accuracy_m, Some([0.25, 0.5]));
+    // Nose north and 30° up: forward and up as directions of ENU.
+    let turn = last.attitude.unwrap();
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    assert!((turn * Vector3::x() - Vector3::new(0.0, cos, sin)).norm() < 1e-6);
+    assert!((turn * Vector3::z() - Vector3::new(0.0, -sin, cos)).norm() < 1e-6);
+    assert_eq!(
+        log.events,
+        [
+            event(10.0, EventKind::Landed, "landed"),
+            event(10.1, EventKind::TookOff, "took off"),
+            event(10.1, EventKind::MissionBegins, "nav_state AUTO_MISSION"),
+            event(11.6, EventKind::Geofence, "geofence_max_alt_triggered"),
+            event(11.6, EventKind::MissionEnds, "nav_state AUTO_RTL, asked for AUTO_MISSION"),
+            event(11.6, EventKind::Failsafe, "failsafe, nav_state AUTO_RTL"),
+        ]
+    );
+    let [first, second] = &log.progress[..] else { panic!("{:?}", log.progress) };
+    assert_eq!((first.item, second.item), (1, 2));
+    // 10⁻⁴° north of the reference, 12 m above it: a hundredth of a metre in eleven, by the meridian's radius.
+    let north = 1e-4_f64.to_radians() * 6_370_588.0;
+    assert!((first.target_m.unwrap() - Point3::new(0.0, north, 12.0)).norm() < 1e-3, "{first:?}");
+    assert!((second.target_m.unwrap().y - 2.0 * north).abs() < 1e-3);
+    assert!((log.dropouts[0].from_s - 11.00005).abs() < 1e-9 && (log.dropouts[0].to_s - 11.12005).abs() < 1e-9);
+    assert_eq!(log.notes, ["PX4 1.15.2", "SDLOG_PROFILE 1", "1 topics that say nothing of the motion are not read"]);
+}
+
+#[test]
+fn jumps_and_what_is_no_estimate_are_told() {
+    let delta = [1.0, -2.0, 0.5, 0.3];
+    let log = positions(&[
+        at(0, [0.0; 3]),
+        Position { counters: [1, 0, 0], delta, ..at(100_000, [1.0, -2.0, 0.0]) },
+        Position { counters: [1, 1, 1], delta, ..at(200_000, [1.0, -2.0, 0.5]) },
+        Position { counters: [4, 1, 1], delta, ..at(300_000, [1.0, -2.0, 0.5]) },
+        Position { counters: [4, 1, 1], dead_reckoning: true, ..at(400_000, [1.0; 3]) },
+        Position { counters: [4, 1, 1], valid: false, ..at(500_000, [f32::NAN; 3]) },
+        Position { counters: [4, 1, 1], ..at(600_000, [1.0; 3]) },
+        Position { counters: [4, 1, 1], reference: [47.3977, 8.546, 488.0], ..at(700_000, [1.0; 3]) },
+        Position { counters: [4, 1, 1], reference: [47.3977, 8.546, 488.0], valid: false, ..at(800_000, [1.0; 3]) },
+    ]);
+    let log = parsed(&log.0);
+    let [motion] = &log.motions[..] else { panic!() };
+    let resets: Vec<_> = motion.resets.iter().map(|reset| (reset.t_s, reset.by_m)).collect();
+    let wanted = [
+        (0.1, Some(Vector3::new(-2.0, 1.0, 0.0))),
+        (0.2, Some(Vector3::new(0.0, 0.0, -0.5))),
+        (0.3, None),
+        (0.7, None),
+    ];
+    assert_eq!(resets, wanted.map(|(t_s, by_m)| (t_s, by_m)));
+    let spans: Vec<_> = motion.invalid.iter().map(|span| [span.from_s, span.to_s]).collect();
+    assert_eq!(spans, [[0.4, 0.6], [0.8, 0.8]]);
+    assert_eq!(motion.samples.len(), 8);
+    // 4·10⁻⁴° of longitude at 47.4° are 30 m: what moved is the reference, not the vehicle on Earth that it says.
+    assert!((motion.samples[6].p_m.x - 1.0 - 30.2).abs() < 0.1, "{}", motion.samples[6].p_m);
+    let told = log.notes.join("\n");
+    assert!(told.contains("the heading was reset by 17.2° at t = 0.20 s"), "{told}");
+    assert!(told.contains("its reference on Earth moved 1 times") && told.contains("no `vehicle_attitude` beside it"));
+}
+
+#[test]
+fn who_measured_it_stands_before_who_estimated_it() {
+    let mut log = Ulog::new();
+    let odometry = "vehicle_mocap_odometry:uint64_t timestamp;uint64_t timestamp_sample;float[3] position;float[4] q;\
+                    float[3] velocity;float[3] position_variance;uint8_t pose_frame;uint8_t velocity_frame;";
+    for format in [POSITION, &POSITION.replacen("position:", "position_groundtruth:", 1), odometry, ATTITUDE] {
+        log.message(b'F', format.as_bytes());
+    }
+    log.subscribe(0, 0, "vehicle_local_position");
+    log.subscribe(0, 1, "vehicle_local_position_groundtruth");
+    log.subscribe(0, 2, "vehicle_mocap_odometry");
+    log.subscribe(1, 3, "vehicle_local_position");
+    for t in [0_u64, 20_000] {
+        log.data(0, &[&at(t, [1.0, 2.0, 3.0]).bytes()]);
+        log.data(3, &[&at(t, [1.0, 2.0, 3.0]).bytes()]);
+        log.data(1, &[&at(t, [1.0, 2.0, 3.0]).bytes()]);
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        // Nose east, and 1 m/s to its right, which is south.
+        let parts = [singles([1.0, 2.0, 3.0]), singles([half, 0.0, 0.0, half]), singles([0.0, 1.0, 0.0]), singles([0.04; 3])];
+        log.data(2, &[&t.to_le_bytes(), &t.to_le_bytes(), &parts.concat(), &[1, 3]]);
+    }
+    let log = parsed(&log.0);
+    let order: Vec<_> = log.motions.iter().map(|motion| (&motion.name[..], motion.source)).collect();
+    let wanted = [
+        ("vehicle_mocap_odometry", Source::MotionCapture),
+        ("vehicle_local_position_groundtruth", Source::GroundTruth),
+        ("vehicle_local_position", Source::Estimate),
+        ("vehicle_local_position[1]", Source::Estimate),
+    ];
+    assert_eq!(order, wanted);
+    // Motion capture is about a point of the room.
+    assert_eq!(log.frame, LogFrame::Enu(None));
+    let sample = log.motions[0].samples[1];
+    assert_eq!(sample.p_m, Point3::new(2.0, 1.0, -3.0));
+    assert!((sample.v_m_s.unwrap() - Vector3::new(0.0, -1.0, 0.0)).norm() < 1e-6, "{sample:?}");
+    assert!((sample.attitude.unwrap() * Vector3::x() - Vector3::x()).norm() < 1e-6);
+    assert!((sample.accuracy_m.unwrap()[0] - 0.2).abs() < 1e-6);
+}
+
+#[test]
+fn a_log_that_is_cut_is_read_as_far_as_it_goes() {
+    let whole = flight();
+    let cut = parsed(&whole[..whole.len() - 30]);
+    assert!(cut.motions[0].samples.len() >= 98);
+    assert!(cut.notes.iter().any(|note| note.ends_with("the file ends within a message; read as far as that")), "{:?}", cut.notes);
+    assert_eq!(fault(&whole[..12]), ", byte 12: the file ends within its header of 16 bytes");
+    let told = fault(&whole[..200]);
+    assert!(told.starts_with(": a PX4 ULog log without any motion (byte ") && told.contains("ends within a message"), "{told}");
+}
+
+#[test]
+fn a_message_that_is_spoiled_is_told_and_the_next_in_step_is_read() {
+    let whole = flight();
+    let sync = whole.windows(8).rposition(|bytes| bytes == [0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12]).unwrap() - 3;
+    // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the string (14).
+    let spoiled = sync - 17 - 5;
+    assert_eq!(whole[spoiled + 2], b'O');
+    let mut bytes = whole.clone();
+    bytes[spoiled + 2] = b'o';
+    let log = parsed(&bytes);
+    let told = format!("byte {spoiled}: no message: size 2, type 0x6f; read on at byte {sync}, where the log is in step again");
+    assert!(log.notes.contains(&told), "{:?}", log.notes);
+    assert_eq!(log.motions[0].samples.len(), 100);
+    let mut flags = whole.clone();
+    flags[16 + 3 + 8] = 4;
+    assert_eq!(fault(&flags), ", byte 27: flags 0x04 of a newer ULog, which no reader may read that does not know them");
+    let mut log = Ulog::new();
+    log.message(b'F', b"vehicle_local_position:uint64_t timestamp;vehicle_local_position x;");
+    log.subscribe(0, 0, "vehicle_local_position");
+    assert_eq!(fault(&log.0), ", byte 129: the format `vehicle_local_position` holds itself");
+    let mut log = Ulog::new();
+    log.message(b'F', b"a:uint64_t timestamp;b[60000] x;");
+    log.message(b'F', b"b:double[60000] x;");
+    log.subscribe(0, 0, "a");
+    assert!(fault(&log.0).ends_with("the format `b` is larger than 65535 bytes"), "{}", fault(&log.0));
+    let mut log = positions(&[at(0, [0.0; 3])]);
+    log.data(0, &[&[0; 20]]);
+    let told = parsed(&log.0).notes.join("\n");
+    assert!(told.contains("20 bytes of data of `vehicle_local_position`, must be 106; read as far as that"), "{told}");
+}
+
+#[test]
+fn what_was_appended_is_read_behind_a_message_that_stops() {
+    let mut log = positions(&[at(0, [0.0; 3])]);
+    let end = log.0.len() + 10;
+    log.data(0, &[&at(1_000, [9.0; 3]).bytes()]);
+    log.0.truncate(end);
+    log.data(0, &[&at(3_000, [1.0; 3]).bytes()]);
+    log.0[16 + 3 + 8] = 1;
+    log.0[16 + 3 + 16..][..8].copy_from_slice(&(end as u64).to_le_bytes());
+    let read = parsed(&log.0);
+    assert_eq!(read.motions[0].samples.iter().map(|sample| sample.t_s).collect::<Vec<_>>(), [0.002, 0.003]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn flips_and_cuts_are_answers(place in 0_usize..20_000, bit in 0_u8..8, cut in 0_usize..20_000) {
+        let mut bytes = flight();
+        let (place, cut) = (place % bytes.len(), cut % bytes.len());
+        bytes[place] ^= 1 << bit;
+        drop(parse(&bytes, "a.ulg"));
+        drop(parse(&bytes[..cut], "a.ulg"));
+    }
+}
