@@ -56,7 +56,10 @@ pub(super) fn judge(
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
     let own = judged.own_part(samples)?;
     let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
-    let is_done = course.as_ref().is_some_and(Course::is_done);
+    // The autopilot's own acceptance may be wider than the scenario's.
+    let says_so = span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
+    let is_done =
+        course.as_ref().is_some_and(|course| course.is_done() || (says_so && course.is_whole(case.waypoints.len())));
     let near_last = |sample: &Sample| (sample.p_m - case.waypoints[case.waypoints.len() - 1]).norm() <= against.accept;
     let finished = is_done || own.last().is_some_and(near_last);
     let name = against.name_of(case);
