@@ -8,6 +8,7 @@ mod compare;
 mod experiment;
 mod explain;
 mod import;
+mod judge;
 mod keys;
 mod learn;
 mod max_load;
@@ -34,11 +35,12 @@ pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
 pub(crate) use import::Import;
+pub(crate) use judge::{AltitudeName, Judge};
 pub(crate) use keys::Keys;
 pub(crate) use learn::Learn;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use pipeline::{
-    Campaign, Execute, Export, Format, Generate, Judge, Keep, Kept, Replay, ReportArguments, Stress, Verify,
+    Campaign, Execute, Export, Format, Generate, Keep, Kept, Replay, ReportArguments, Stress, Verify,
 };
 pub(crate) use requirements::Requirements;
 pub(crate) use resources::{Kernels, Threads};
@@ -77,8 +79,8 @@ pub(crate) enum Command {
     Generate(Generate),
     /// Fly the trajectories of a campaign folder: the second part
     Execute(Execute),
-    /// Judge the flights of a campaign folder: the third part
-    Judge(Judge),
+    /// Judge the flights of a campaign folder: the third part; or logs of real ones: judge LOG|FOLDER --campaign OUT
+    Judge(Box<Judge>),
     /// Learn a score from the flights of campaign folders: learn OUT --out MODEL, then score = "learned:MODEL"
     Learn(Learn),
     /// Integrate every control witness of a campaign by independent code

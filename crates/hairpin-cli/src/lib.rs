@@ -66,7 +66,7 @@ fn command(arguments: Arguments) -> Result<u8, Problem> {
         Command::Stress(stress) => commands::stress::run(&stress, watch),
         Command::Generate(generate) => commands::generate::run(&generate, watch),
         Command::Execute(execute) => commands::execute::run(&execute, watch),
-        Command::Judge(judge) => commands::judge::run(&judge),
+        Command::Judge(judge) => commands::judge::run(&judge, watch),
         Command::Learn(learn) => commands::learn::run(&learn),
         Command::Verify(verify) => commands::verify::run(&verify),
         Command::Replay(replay) => commands::replay::run(&replay, watch),

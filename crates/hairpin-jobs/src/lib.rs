@@ -17,6 +17,7 @@ pub mod export;
 pub mod generate;
 pub mod import;
 pub mod judge;
+pub mod judge_log;
 pub mod learn;
 pub mod max_load;
 mod missions;

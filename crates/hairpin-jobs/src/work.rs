@@ -284,6 +284,17 @@ pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
     Ok(Work { folder, setup })
 }
 
+/// Opens a campaign folder to read it, its scenario changed by `sets` here and not there.
+///
+/// # Errors
+/// As of [`open_to_read`]; a key that does not fit.
+pub(crate) fn open_to_read_as(path: &Path, sets: &[Set]) -> Result<Work, Problem> {
+    let folder = CampaignFolder::open(path)?;
+    let setup = resolve(&folder, sets)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
+    Ok(Work { folder, setup })
+}
+
 fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
     let name = folder.file("scenario.toml");
     Ok(read_kept(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)

@@ -35,6 +35,14 @@ pub(super) fn pair(text: &str) -> Result<[f64; 2], String> {
     Ok([finite(first.trim()).map_err(|_| refuse())?, finite(second.trim()).map_err(|_| refuse())?])
 }
 
+/// Three finite numbers.
+pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
+    match list(text)[..] {
+        [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+        _ => Err("must be three finite numbers, such as -1.5,2,0.4".into()),
+    }
+}
+
 /// Three finite numbers, the last more than 0.
 pub(super) fn triple(text: &str) -> Result<[f64; 3], String> {
     match list(text)[..] {

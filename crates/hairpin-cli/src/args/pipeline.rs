@@ -132,21 +132,6 @@ pub(crate) struct Execute {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Judge {
-    /// Campaign folder
-    #[arg(value_name = "OUT")]
-    pub(crate) folder: PathBuf,
-    /// Override one key of spec; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) sets: Vec<String>,
-    /// One JSON object on stdout
-    #[arg(long)]
-    pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) threads: Threads,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct Verify {
     /// Campaign folder
     #[arg(value_name = "OUT")]

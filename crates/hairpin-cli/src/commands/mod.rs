@@ -15,6 +15,7 @@ mod findings;
 pub(crate) mod generate;
 pub(crate) mod import;
 pub(crate) mod judge;
+mod judge_log;
 pub(crate) mod learn;
 pub(crate) mod max_load;
 pub(crate) mod new;

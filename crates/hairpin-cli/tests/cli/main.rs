@@ -26,6 +26,7 @@ mod grammar;
 mod guests;
 mod import;
 mod interruptions;
+mod judge_logs;
 mod keep;
 mod learn;
 mod maps;

@@ -22,6 +22,7 @@ mod user_controller;
 mod user_score;
 mod user_target;
 mod whole;
+mod world_of;
 mod write;
 
 use std::path::Path;
@@ -37,6 +38,7 @@ pub use guest::kept_in;
 pub(crate) use python::{driver, held};
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
+pub use world_of::{NamedWorld, named_world};
 pub(crate) use write::MADE_BY;
 pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 

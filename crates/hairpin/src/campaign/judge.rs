@@ -252,7 +252,7 @@ pub(super) fn settings<'a>(
         (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
         _ => Reference::Leg,
     };
-    Settings { reference, corner: terms.corner, clearance }
+    Settings { reference, corner: terms.corner, clearance, breaks: &[] }
 }
 
 /// The motion that deviations from the path are measured from.

@@ -18,6 +18,7 @@ use super::user_code::UserCode;
 use super::user_score::LegScorer;
 use super::user_target::RunMeter;
 use super::vary;
+use crate::judgement::Swiftness;
 use crate::math::simd::Simd;
 
 mod steered;
@@ -230,6 +231,11 @@ impl Setup {
     /// Whether a place (m, world frame) lies where its robot cannot be: outside of its world.
     pub fn is_outside(&self, place: &Point3<f64>) -> bool {
         self.kind.is_outside(place)
+    }
+
+    /// How fast its robot can be and become.
+    pub fn swiftness(&self) -> Swiftness {
+        self.kind.swiftness()
     }
 
     /// Whether its motion is programs, which are measured move by move.

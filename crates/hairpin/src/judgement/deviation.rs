@@ -38,6 +38,8 @@ pub(super) struct Off {
     pub(super) distance: Option<f64>,
     /// Where on the path it belongs, m, if the reference is one.
     pub(super) place: Option<Point3<f64>>,
+    /// The path's segment that this lies on.
+    pub(super) segment: usize,
 }
 
 /// How far every sample is from the reference.
@@ -53,7 +55,7 @@ pub(super) fn deviations(
         (p - waypoints[leg]).norm() < settings.corner || (p - waypoints[leg + 1]).norm() < settings.corner
     };
     let samples = positions.iter().zip(legs);
-    let of = |distance| Off { distance, place: None };
+    let of = |distance| Off { distance, place: None, segment: 0 };
     match settings.reference {
         Reference::Leg => Ok(samples.map(|(p, &l)| of((!in_corner(p, l)).then(|| from_leg(p, l)))).collect()),
         Reference::NearestLeg => {
@@ -62,7 +64,12 @@ pub(super) fn deviations(
         }
         Reference::Path(path) => {
             let places = path_places(positions, weights, path)?.into_iter().zip(positions);
-            Ok(places.map(|(place, p)| Off { distance: Some((p - place).norm()), place: Some(place) }).collect())
+            let of = |((place, segment), p): ((Point3<f64>, usize), &Point3<f64>)| Off {
+                distance: Some((p - place).norm()),
+                place: Some(place),
+                segment,
+            };
+            Ok(places.map(of).collect())
         }
     }
 }
@@ -70,8 +77,12 @@ pub(super) fn deviations(
 /// Segments of a path that one piece of its assignment may stand for: so many pieces at most.
 const PATH_PIECES: usize = 1024;
 
-/// The place on the path that every sample belongs to by monotone assignment.
-fn path_places(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Result<Vec<Point3<f64>>, JudgementError> {
+/// The place on the path that every sample belongs to by monotone assignment, and the segment that it lies on.
+fn path_places(
+    positions: &[Point3<f64>],
+    weights: &[f64],
+    path: &Track,
+) -> Result<Vec<(Point3<f64>, usize)>, JudgementError> {
     if path.len() < 2 {
         return Err(JudgementError::Path { found: path.len() });
     }
@@ -88,8 +99,9 @@ fn path_places(positions: &[Point3<f64>], weights: &[f64], path: &Track) -> Resu
     let place = |(p, piece): (&Point3<f64>, usize)| {
         let first = pieces[piece].owner.saturating_sub(margin);
         let end = (pieces[piece].owner + stride + margin).min(segments);
-        let on = |i: usize| nearest_point(p, &path.position(i), &path.position(i + 1));
-        let nearer = |a: Point3<f64>, b: Point3<f64>| if (p - b).norm() < (p - a).norm() { b } else { a };
+        let on = |i: usize| (nearest_point(p, &path.position(i), &path.position(i + 1)), i);
+        let nearer =
+            |a: (Point3<f64>, usize), b: (Point3<f64>, usize)| if (p - b.0).norm() < (p - a.0).norm() { b } else { a };
         (first + 1..end).map(on).fold(on(first), nearer)
     };
     Ok(positions.iter().zip(assigned).map(place).collect())

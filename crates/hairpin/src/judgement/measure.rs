@@ -58,7 +58,7 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<Measures, JudgementError> {
     check(track, waypoints, settings)?;
     let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
-    let weights = time_weights(track.times());
+    let weights = time_weights(track.times(), settings);
     let (legs, leg_source) = legs_flown(track, waypoints, &positions, &weights)?;
     let off = deviations(&positions, &weights, waypoints, &legs, settings)?;
 
@@ -70,7 +70,7 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     };
     measure_deviation(&mut measures, track.times(), &weights, &legs, &off);
     measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs, &off);
-    measure_acceleration(&mut measures, track, &positions, &legs);
+    measure_acceleration(&mut measures, track, &positions, &legs, settings);
     measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
     if let Some(margins) = track.channel("tip_over_margin_deg") {
         measure_tip_over(&mut measures, track.times(), margins, &legs);
@@ -88,7 +88,7 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
             measures.legs[leg].saturation_share = mean(Some(leg));
         }
     }
-    measure_effort(&mut measures, track, &weights, &legs);
+    measure_effort(&mut measures, track, &weights, &legs, settings);
     Ok(measures)
 }
 
@@ -103,12 +103,26 @@ pub fn deviation_of_samples(
 ) -> Result<Vec<Option<f64>>, JudgementError> {
     check(track, waypoints, settings)?;
     let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
-    let weights = time_weights(track.times());
+    let weights = time_weights(track.times(), settings);
     let (legs, _) = legs_flown(track, waypoints, &positions, &weights)?;
     Ok(deviations(&positions, &weights, waypoints, &legs, settings)?.into_iter().map(|off| off.distance).collect())
 }
 
-fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {
+/// The leg that every sample belongs to, as [`measure`] has it.
+///
+/// # Errors
+/// [`JudgementError`].
+pub fn legs_of_samples(
+    track: &Track,
+    waypoints: &[Point3<f64>],
+    settings: &Settings,
+) -> Result<Vec<usize>, JudgementError> {
+    check(track, waypoints, settings)?;
+    let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
+    Ok(legs_flown(track, waypoints, &positions, &time_weights(track.times(), settings))?.0)
+}
+
+pub(super) fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {
     if track.is_empty() {
         return Err(JudgementError::NoSamples);
     }
@@ -127,12 +141,12 @@ fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Resul
 }
 
 /// The time each sample stands for, s: half of each neighbouring interval. One sample alone counts 1.
-fn time_weights(times: &[f64]) -> Vec<f64> {
-    let last = times.len() - 1;
-    if last == 0 {
+pub(super) fn time_weights(times: &[f64], settings: &Settings) -> Vec<f64> {
+    if times.len() == 1 {
         return vec![1.0];
     }
-    (0..=last).map(|i| 0.5 * (times[(i + 1).min(last)] - times[i.saturating_sub(1)])).collect()
+    let half = |(before, after): (usize, usize)| 0.5 * (times[after] - times[before]);
+    (0..times.len()).map(|i| half(settings.neighbours(i, times.len()))).collect()
 }
 
 /// Greatest and mean distance off the path (m), the mean weighted by the time that each sample stands for; samples
@@ -194,7 +208,13 @@ fn measure_overshoot(
 
 /// Accelerations |Δv|/Δt (m/s²): over two intervals where the track tells velocities, at its two ends over one; else of
 /// the velocities between three positions. Beside it the rate of the speed alone, |Δ|v||/Δt, which bends leave out.
-fn measure_acceleration(measures: &mut Measures, track: &Track, positions: &[Point3<f64>], legs: &[usize]) {
+fn measure_acceleration(
+    measures: &mut Measures,
+    track: &Track,
+    positions: &[Point3<f64>],
+    legs: &[usize],
+    settings: &Settings,
+) {
     let times = track.times();
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
     let told = match columns {
@@ -207,12 +227,11 @@ fn measure_acceleration(measures: &mut Measures, track: &Track, positions: &[Poi
     let velocities: Vec<Vector3<f64>> = told.unwrap_or_else(between);
     measures.acceleration_source =
         if has_velocity { AccelerationSource::Velocity } else { AccelerationSource::Position };
-    let last = times.len() - 1;
     for (i, &leg) in legs.iter().enumerate() {
+        let (before, after) = settings.neighbours(i, times.len());
         let (a, b, span) = if has_velocity {
-            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
-            (a, b, times[b] - times[a])
-        } else if i > 0 && i < last {
+            (before, after, times[after] - times[before])
+        } else if before < i && i < after {
             (i - 1, i, 0.5 * (times[i + 1] - times[i - 1]))
         } else {
             continue;
@@ -283,7 +302,7 @@ fn measure_tilt(measures: &mut Measures, track: &Track, legs: &[usize]) {
 
 /// ∫ Σ_k q̈_k² dt in rad²/s³, second differences at unequal steps weighted by the samples' times; the two end samples
 /// have none.
-fn measure_effort(measures: &mut Measures, track: &Track, weights: &[f64], legs: &[usize]) {
+fn measure_effort(measures: &mut Measures, track: &Track, weights: &[f64], legs: &[usize], settings: &Settings) {
     let joints: Vec<&[f64]> = (1..).map_while(|k| track.channel(&format!("q{k}_rad"))).collect();
     if joints.is_empty() {
         return;
@@ -291,6 +310,10 @@ fn measure_effort(measures: &mut Measures, track: &Track, weights: &[f64], legs:
     let times = track.times();
     let mut of_legs = vec![0.0; measures.legs.len()];
     for i in 1..times.len().saturating_sub(1) {
+        let (earlier, later) = settings.neighbours(i, times.len());
+        if earlier == i || later == i {
+            continue;
+        }
         let (before, after) = (times[i] - times[i - 1], times[i + 1] - times[i]);
         let squared = |q: &&[f64]| {
             let bend = ((q[i + 1] - q[i]) / after - (q[i] - q[i - 1]) / before) / (0.5 * (before + after));

@@ -9,15 +9,18 @@
 //!                                              └ Stress: the one number that a search or a model is about
 //! cases of a campaign ─ share (as they were chosen), statistics ─▶ verdict: one sentence, one exit code
 //! two sets of runs ─ paired: signed rank, medians, Holm ─▶ whether one is worse than chance has it
+//! a log, and the robot's bounds ─ look_closely ─▶ what no moment between samples exceeds
 //! an arm's recordings + PlannedPath ─ moves ─▶ each move: deviation, lateness, trend, regression
 //! ```
 //!
 //! Nothing here asks how a motion came about: the judge gets obstacles as a distance function and a reference as
 //! points, so that what judges our simulator judges hardware. Larger is worse, but for clearances and margins. Maxima
-//! are over samples; the judge proves nothing between them.
+//! are over samples; what may hide between them is bounded by how fast the robot can be (`between`), which a log needs and
+//! a simulation does not.
 
 mod apart;
 mod assign;
+pub mod between;
 mod chosen;
 mod deviation;
 pub mod measure;
@@ -35,8 +38,9 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
+pub use between::{Close, Swiftness, look_closely, most_between};
 pub use chosen::Chosen;
-pub use measure::{deviation_of_samples, measure};
+pub use measure::{deviation_of_samples, legs_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use quantile::{Quantile, exceeded_by};
@@ -46,4 +50,7 @@ pub use statistics::{
     Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
 };
 pub use stress::Stress;
-pub use verdict::{Beside, Claim, Judged, Verdict, Worst, inconclusive, invalid, nothing_feasible, verdict};
+pub use verdict::{
+    Beside, Claim, Judged, Verdict, Worst, finding, inconclusive, invalid, nothing_feasible, unjudged, verdict,
+    violated, within_spec,
+};

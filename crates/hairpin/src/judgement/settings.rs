@@ -37,6 +37,20 @@ pub struct Settings<'a> {
     pub corner: f64,
     /// Distance to obstacles; without it clearance is not measured.
     pub clearance: Option<&'a Clearance<'a>>,
+    /// Samples, rising, before which the recording has a gap or a jump: nothing is differenced across one, and no time
+    /// of it counts. The first sample is none.
+    pub breaks: &'a [usize],
+}
+
+impl Settings<'_> {
+    /// The samples before and after sample `index` of the `len` that a track has, itself where there is none or a break
+    /// lies between.
+    pub(super) fn neighbours(&self, index: usize, len: usize) -> (usize, usize) {
+        let begins = |sample: usize| sample == 0 || self.breaks.binary_search(&sample).is_ok();
+        let before = if begins(index) { index } else { index - 1 };
+        let after = if index + 1 >= len || begins(index + 1) { index } else { index + 1 };
+        (before, after)
+    }
 }
 
 /// Why a track cannot be judged.

@@ -198,6 +198,21 @@ pub fn inconclusive(case: &str, how: &[&str], reason: &str) -> Verdict {
     Verdict::of(&format!("INCONCLUSIVE {case} ({}): {reason}", how.join(", ")), 5)
 }
 
+/// `PASS 0117 (flown, log_23.ulg, motion capture): 0.41 m ≤ 0.50 m, …`; exit 0.
+pub fn within_spec(case: &str, how: &[&str], finding: &str) -> Verdict {
+    Verdict::of(&format!("PASS {case} ({}): {finding}", how.join(", ")), 0)
+}
+
+/// `FAIL 0117 (flown, log_23.ulg, motion capture): 0.65 m > 0.50 m, …`; exit 1.
+pub fn violated(case: &str, how: &[&str], finding: &str) -> Verdict {
+    Verdict::of(&format!("FAIL {case} ({}): {finding}", how.join(", ")), 1)
+}
+
+/// `UNJUDGED 0117 (flown, log_23.ulg, motion capture): …`; exit 0: nothing was asked for.
+pub fn unjudged(case: &str, how: &[&str], finding: &str) -> Verdict {
+    Verdict::of(&format!("UNJUDGED {case} ({}): {finding}", how.join(", ")), 0)
+}
+
 fn how(judged: &Judged) -> String {
     let runs = if judged.runs == 1 { "1 run each".into() } else { format!("{} runs each", judged.runs) };
     let parts: Vec<&str> = judged.how.iter().copied().chain([runs.as_str()]).collect();
@@ -243,9 +258,9 @@ fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     if parts.is_empty() { vec!["nothing to judge".into()] } else { parts }
 }
 
-fn worst_and_where(worst: &Worst) -> String {
-    let violation = worst.value;
-    let finding = violation.event().unwrap_or_else(|| {
+/// What was measured and its limit, as `0.65 m > 0.50 m`, or what happened.
+pub fn finding(violation: &Violation) -> String {
+    violation.event().unwrap_or_else(|| {
         let (value, limit) = violation.printed();
         let relation = match (violation.is_lower_limit(), violation.value.total_cmp(&violation.limit)) {
             (false, std::cmp::Ordering::Greater) => ">",
@@ -259,7 +274,12 @@ fn worst_and_where(worst: &Worst) -> String {
             what => &format!("{what} "),
         };
         format!("{name}{value} {relation} {limit}")
-    });
+    })
+}
+
+fn worst_and_where(worst: &Worst) -> String {
+    let violation = worst.value;
+    let finding = finding(violation);
     let mut sentence = format!(
         "worst {finding}, case {}, t = {:.2} s, leg {}→{}",
         worst.case,

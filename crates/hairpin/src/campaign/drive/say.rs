@@ -9,7 +9,7 @@ use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, reached_within, word,
 };
 use crate::campaign::{Case, Tally};
-use crate::judgement::Clearance;
+use crate::judgement::{Clearance, Swiftness};
 use crate::robot::rover::Rover;
 use crate::simulation::Controlled;
 use crate::trajectory::Track;
@@ -104,6 +104,11 @@ impl Say for DriveSetup {
         let (places, radius) = (&self.keep_out, self.radius());
         (!self.scenario.world.keep_out.is_empty())
             .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
+    }
+
+    /// The vehicle's own limit of speed. How suddenly bumps turn its velocity nothing bounds.
+    fn swiftness(&self) -> Swiftness {
+        Swiftness { speed: Some(self.rover.limits.speed).filter(|speed| speed.is_finite()), acceleration: None }
     }
 }
 

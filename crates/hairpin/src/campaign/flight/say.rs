@@ -9,7 +9,7 @@ use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, reached_within, surface,
 };
 use crate::campaign::{Case, Tally};
-use crate::judgement::Clearance;
+use crate::judgement::{Clearance, Swiftness};
 use crate::math::rotation::angle_between;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
 use crate::simulation::{Acceptance, Controlled, ControllerKind};
@@ -94,6 +94,14 @@ impl Say for FlightSetup {
         let (world, radius) = (&self.world, self.robot.clearance_radius);
         (!world.obstacles().is_empty())
             .then(|| Box::new(move |p: &Point3<f64>| world.obstacle_distance(p) - radius) as Box<Clearance<'_>>)
+    }
+
+    /// Top speed v, and ‖dv/dt‖ ≤ T/m + g + (c₁ v + c₂ v²)/m: full thrust, weight and drag, all one way.
+    fn swiftness(&self) -> Swiftness {
+        let robot = &*self.robot;
+        let speed = Some(robot.max_speed).filter(|speed| speed.is_finite());
+        let drag = speed.map_or(0.0, |v| robot.drag_linear * v + robot.drag_quadratic * v * v);
+        Swiftness { speed, acceleration: Some((robot.max_thrust() + drag) / robot.mass + robot.gravity) }
     }
 }
 

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Axis, Drawing, Programs};
 use crate::campaign::{Case, Tally};
-use crate::judgement::Clearance;
+use crate::judgement::{Clearance, Swiftness};
 use crate::trajectory::Flight;
 
 /// The robot in words.
@@ -133,6 +133,11 @@ pub(in crate::campaign) trait Say {
     /// Distance (m) of the robot, a ball or a disc about its origin, from what it must not meet; `None` where there is
     /// nothing.
     fn clearance(&self) -> Option<Box<Clearance<'_>>>;
+
+    /// How fast it can be and become, for what may hide between the samples of a log; nothing where nothing bounds it.
+    fn swiftness(&self) -> Swiftness {
+        Swiftness::default()
+    }
 
     /// What it has where its motion is a program.
     fn programs(&self) -> Option<&dyn Programs> {

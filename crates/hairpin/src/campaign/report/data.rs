@@ -199,7 +199,7 @@ pub fn shown(
     };
     let (mut distances, mut judged) = (Vec::new(), Vec::new());
     if let Some(track) = &flown {
-        let settings = Settings { reference, corner, clearance: None };
+        let settings = Settings { reference, corner, ..Settings::default() };
         let everywhere = Settings { corner: 0.0, ..settings };
         let all = deviation_of_samples(track, &case.waypoints, &everywhere)?;
         distances = all.into_iter().map(Option::unwrap_or_default).collect();

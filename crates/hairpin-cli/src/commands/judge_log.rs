@@ -1,0 +1,155 @@
+//! `hairpin judge LOG|FOLDER`: a header and a sentence for each log, a line with counts for a folder.
+
+use hairpin::campaign::report::violation;
+use hairpin::campaign::{Doubt, Flown, Why};
+use hairpin::judgement::finding;
+use hairpin_jobs::judge_log::{
+    Against, Altitude, Cut, Found, FrameSettings, JudgedLog, JudgedLogs, LogSettings, judge_log,
+};
+use hairpin_jobs::{Problem, Watch};
+use serde_json::{Value, json};
+
+use crate::args::{AltitudeName, Judge};
+use crate::{console, settings};
+
+/// Runs the command.
+pub(super) fn run(asked: &Judge, against: Against, watch: &dyn Watch) -> Result<u8, Problem> {
+    let settings = LogSettings {
+        path: asked.path.clone(),
+        against,
+        world: asked.world.clone(),
+        sets: settings::split(&asked.sets)?,
+        case: asked.case.clone(),
+        frame: FrameSettings {
+            turn_deg: asked.turn,
+            offset_m: asked.offset,
+            altitude: match asked.altitude {
+                AltitudeName::Relative => Altitude::Relative,
+                AltitudeName::Amsl => Altitude::Amsl,
+            },
+        },
+        source: asked.source.clone(),
+        from_s: asked.from,
+        to_s: asked.to,
+    };
+    let judged = judge_log(&settings, watch)?;
+    if asked.json {
+        console::say(&object(&judged).to_string());
+    } else {
+        in_words(&judged);
+    }
+    Ok(judged.exit_code())
+}
+
+fn in_words(judged: &JudgedLogs) {
+    for log in &judged.logs {
+        if let Some(found) = &log.found {
+            for [label, value] in found.lines() {
+                console::say(&format!("{label}: {value}"));
+            }
+            console::say("");
+        }
+        console::say(&log.verdict.sentence);
+    }
+    if let Some(count) = &judged.count {
+        console::say(&count.sentence);
+    }
+}
+
+fn object(judged: &JudgedLogs) -> Value {
+    let only = judged.logs.first().map(|log| &log.verdict);
+    let whole = judged.count.as_ref().or(only);
+    let count = |word: &str| judged.logs.iter().filter(|log| log.outcome.word() == word).count();
+    json!({
+        "verdict": whole.map(|verdict| &verdict.sentence),
+        "exit_code": judged.exit_code(),
+        "counts": {
+            "logs": judged.logs.len(), "pass": count("pass"), "fail": count("fail"),
+            "inconclusive": count("inconclusive"), "invalid": count("invalid"), "unjudged": count("unjudged"),
+        },
+        "logs": judged.logs.iter().map(log).collect::<Vec<_>>(),
+    })
+}
+
+fn log(log: &JudgedLog) -> Value {
+    let mut object = json!({
+        "file": log.file, "verdict": log.verdict.sentence, "exit_code": log.verdict.exit_code,
+        "status": log.outcome.word(), "evidence": "flown", "aligned": false,
+    });
+    if let (Some(found), Value::Object(all)) = (&log.found, &mut object)
+        && let Value::Object(more) = found_object(found)
+    {
+        all.extend(more);
+    }
+    object
+}
+
+fn found_object(found: &Found) -> Value {
+    let (source, frame) = (&found.source, &found.frame);
+    json!({
+        "case": found.case,
+        "matched": found.matched.as_ref().map(|matched| json!({
+            "by": if matched.by_targets { "targets" } else { "track" },
+            "mean_m": matched.mean_m,
+            "next": matched.next.as_ref().map(|(case, mean_m)| json!({ "case": case, "mean_m": mean_m })),
+        })),
+        "source": {
+            "format": source.format, "topic": source.topic, "who": source.words, "clock": source.clock,
+            "samples": source.samples, "rate_hz": finite(source.rate_hz), "accuracy": source.has_accuracy,
+            "others": source.others,
+        },
+        "frame": {
+            "log": frame.log, "how": frame.how, "by_earth": frame.by_earth,
+            "altitude_difference_m": frame.altitude_difference_m, "altitude_applied": frame.altitude_applied,
+            "turn_deg": frame.named.turn_deg, "offset_m": frame.named.offset_m,
+        },
+        "span_s": found.span_s,
+        "legs_by": found.legs_by.word(),
+        "ended": found.ended,
+        "finished": found.finished,
+        "cuts": found.cuts.iter().map(cut).collect::<Vec<_>>(),
+        "measures": found.flown.as_ref().map(measures),
+        "simulated_max_deviation_m": found.simulated_m,
+        "gap_m": found.flown.as_ref().zip(found.simulated_m).map(|(flown, m)| flown.measures.max_deviation - m),
+        "notes": found.notes,
+    })
+}
+
+fn cut(cut: &Cut) -> Value {
+    json!({ "t_s": cut.t_s, "what": cut.words, "lost_s": cut.lost_s, "to_the_end": cut.to_the_end })
+}
+
+fn measures(flown: &Flown) -> Value {
+    let m = &flown.measures;
+    json!({
+        "max_deviation_m": m.max_deviation,
+        "mean_deviation_m": m.mean_deviation,
+        "t_worst_s": m.t_worst,
+        "leg_worst": m.leg_worst,
+        "between_samples_m": finite(flown.most_between),
+        "max_speed_bound_m_s": flown.swiftness.speed,
+        "max_acceleration_bound_m_s2": flown.swiftness.acceleration,
+        "max_overshoot_m": m.max_overshoot(),
+        "max_acceleration_m_s2": m.max_acceleration,
+        "min_clearance_m": m.min_clearance,
+        "total_time_s": m.total_time,
+        "statistics": flown.statistics.map(|s| json!({
+            "max": s.max, "mean": s.mean, "median": s.median, "min": s.min, "rmse": s.rmse, "sse": s.sse, "std": s.std,
+        })),
+        "violations": flown.violations.iter().map(violation).collect::<Vec<_>>(),
+        "doubts": flown.doubts.iter().map(doubt).collect::<Vec<_>>(),
+    })
+}
+
+fn doubt(doubt: &Doubt) -> Value {
+    let why = match doubt.why {
+        Why::Between { most, rate_hz } => json!({ "between_samples": finite(most), "needed_rate_hz": rate_hz }),
+        Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
+    };
+    json!({ "value": finding(&doubt.value), "t_s": doubt.value.at, "leg": doubt.value.leg, "why": why })
+}
+
+/// Infinite is `null`.
+fn finite(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}

@@ -1,0 +1,164 @@
+//! What logs are judged against, ready: cases, robot, world, limits, and where on Earth that is.
+
+use std::path::Path;
+
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness};
+use hairpin::judgement::Swiftness;
+use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::placement::Placement;
+use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
+use hairpin_formats::waypoints;
+
+use super::{Against, LogSettings};
+use crate::Problem;
+use crate::sets::Set;
+use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
+
+/// What logs are judged against.
+pub(super) struct Ready {
+    pub(super) setup: Setup,
+    pub(super) cases: Vec<Case>,
+    /// Results of the same cases in simulation.
+    pub(super) simulated: Vec<CaseResult>,
+    /// Where the cases' plans are.
+    of: Of,
+    pub(super) place: Option<Placement>,
+    /// Whether the world that it was flown in is known.
+    pub(super) in_world: bool,
+    pub(super) swiftness: Swiftness,
+    /// A waypoint counts as reached within this, m.
+    pub(super) accept: f64,
+    /// What its user has to know, in sentences.
+    pub(super) notes: Vec<String>,
+}
+
+/// Where cases are from.
+enum Of {
+    Campaign(CampaignFolder),
+    /// What the only one is called.
+    Mission(String),
+}
+
+impl Ready {
+    /// What `settings` name.
+    ///
+    /// # Errors
+    /// As of [`super::judge_log`].
+    pub(super) fn of(settings: &LogSettings) -> Result<Self, Problem> {
+        check_tables(&settings.sets, &["spec"])?;
+        let ready = match &settings.against {
+            Against::Campaign(folder) => Self::of_campaign(folder, settings)?,
+            Against::Mission { file, robot } => Self::of_mission(file, robot.as_deref(), settings)?,
+        };
+        if ready.setup.has_programs() {
+            return Err(Problem::input(
+                "arms are judged by their joints: hairpin execute OUT --logs 'PATTERN', then hairpin judge OUT",
+            ));
+        }
+        Ok(ready)
+    }
+
+    fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
+        let before = open_to_read(folder)?;
+        let origin = before.setup.scenario.origin();
+        let world = settings.world.as_deref().map(|name| world(name, origin.as_ref())).transpose()?;
+        let sets: Vec<Set> = world.iter().map(|world| world.set.clone()).chain(settings.sets.iter().cloned()).collect();
+        let Work { folder, setup } = open_to_read_as(folder, &sets)?;
+        let mut cases = folder.read_cases_without_profiles()?;
+        if let Some(id) = &settings.case {
+            cases.retain(|case| case.id() == *id);
+            if cases.is_empty() {
+                return Err(Problem::input(format!("--case {id}: {} has no such case", folder.path().display())));
+            }
+        }
+        if cases.is_empty() {
+            return Err(Problem::of_file(folder.path(), "a campaign without a case"));
+        }
+        let notes = world.filter(|world| world.is_elsewhere).map(|_| {
+            "--world has another origin than the campaign, whose own stays: its obstacles are taken to be in the campaign's frame"
+                .to_owned()
+        });
+        let simulated = folder.read_results()?;
+        Self::with(setup, cases, simulated, Of::Campaign(folder), (true, notes.into_iter().collect()))
+    }
+
+    fn of_mission(file: &Path, robot: Option<&str>, settings: &LogSettings) -> Result<Self, Problem> {
+        if settings.case.is_some() {
+            return Err(Problem::input("--case is of a campaign; --mission is one case"));
+        }
+        let named = settings.world.as_deref().map(|name| world(name, None)).transpose()?;
+        let mut sets = Vec::new();
+        let base = match (robot, &settings.world, &named) {
+            (Some(robot), ..) => {
+                // The shipped scenario that the robot is put into has limits of its own, which nobody asked for here.
+                sets.push(("spec".to_owned(), "{}".to_owned()));
+                sets.extend(named.iter().map(|world| world.set.clone()));
+                robot
+            }
+            (None, Some(scenario), Some(world)) if world.is_scenario => scenario,
+            _ => {
+                return Err(Problem::input(
+                    "a mission says neither which robot flew it nor in which world: --robot R (a robot's name or file), \
+                     --world W (a scenario's with its robot, or beside --robot a world's)",
+                ));
+            }
+        };
+        sets.extend(settings.sets.iter().cloned());
+        let setup = setup_for(base, &sets)?;
+        check_asked(&setup.scenario, file)?;
+        let farthest = setup.handed().farthest;
+        let (waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let case = Case::bare(CaseNumber(0), setup.scenario.seed(), waypoints);
+        let in_world = named.is_some();
+        let notes = if in_world {
+            Vec::new()
+        } else {
+            vec!["no --world: neither obstacles nor the world's bounds are judged".to_owned()]
+        };
+        Self::with(setup, vec![case], Vec::new(), Of::Mission(name), (in_world, notes))
+    }
+
+    fn with(
+        setup: Setup,
+        cases: Vec<Case>,
+        simulated: Vec<CaseResult>,
+        of: Of,
+        (in_world, notes): (bool, Vec<String>),
+    ) -> Result<Self, Problem> {
+        // Without its world a robot's own scenario says nothing of where that is.
+        let placed = |scenario: &Scenario| Placement::of(scenario).map_err(Problem::input);
+        let place = if in_world { placed(&setup.scenario)? } else { None };
+        let (swiftness, accept) = (setup.swiftness(), setup.scenario.executor().accept);
+        Ok(Self { setup, cases, simulated, of, place, in_world, swiftness, accept, notes })
+    }
+
+    /// What a case is called in sentences.
+    pub(super) fn name_of(&self, case: &Case) -> String {
+        match &self.of {
+            Of::Campaign(_) => case.id(),
+            Of::Mission(name) => name.clone(),
+        }
+    }
+
+    /// A case with its plan, which deviations may be measured from.
+    ///
+    /// # Errors
+    /// The folder's files are broken.
+    pub(super) fn whole(&self, case: &Case) -> Result<Case, Problem> {
+        let mut whole = case.clone();
+        if let Of::Campaign(folder) = &self.of {
+            folder.read_witness(&mut whole)?;
+            let legs = whole.witness.as_ref().and_then(Witness::legs);
+            if legs.is_some_and(|legs| legs + 1 != whole.waypoints.len()) {
+                let what = format!("case {}: its plan has another number of legs than between its waypoints", case.id());
+                return Err(Problem::of_file(folder.path(), what));
+            }
+        }
+        Ok(whole)
+    }
+}
+
+fn world(name: &str, origin: Option<&hairpin::campaign::scenario::Origin>) -> Result<NamedWorld, Problem> {
+    named_world(name, origin).map_err(|why| Problem::input(format!("--world {name}: {why}")))
+}

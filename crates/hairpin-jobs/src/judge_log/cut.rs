@@ -1,0 +1,141 @@
+//! What of a log is no motion, or was not recorded: jumps of the estimate, gaps, spans without a valid pose. It is cut out
+//! and told.
+
+use hairpin::judgement::Swiftness;
+use hairpin_formats::logs::{LoggedMotion, Sample, Span};
+
+/// Room for noise in what is taken for a jump, m.
+const ROOM_M: f64 = 0.1;
+/// Announced jumps below this are none, m.
+const LEAST_RESET_M: f64 = 1e-3;
+/// An interval so many times longer than the middle one is a gap …
+const GAP: f64 = 5.0;
+/// … and where the logger says that it lost something, so many times.
+const GAP_OF_DROPOUT: f64 = 1.5;
+
+/// What was cut out of a log.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cut {
+    /// When, s of the log.
+    pub t_s: f64,
+    /// What was found: `position reset of 1.2 m`.
+    pub words: String,
+    /// How much is not judged for it, s.
+    pub lost_s: f64,
+    /// Whether nothing after it is judged.
+    pub to_the_end: bool,
+}
+
+impl Cut {
+    /// As it stands in the sentence.
+    pub fn in_words(&self) -> String {
+        let (t, lost) = (self.t_s, self.lost_s);
+        match self.to_the_end {
+            true => format!("{} at t = {t:.1} s; {lost:.1} s after it not judged", self.words),
+            false => format!("{} at t = {t:.1} s not judged", self.words),
+        }
+    }
+}
+
+/// What is left of a log.
+pub(super) struct Left {
+    pub(super) samples: Vec<Sample>,
+    /// Samples before which something was cut out.
+    pub(super) breaks: Vec<usize>,
+    pub(super) cuts: Vec<Cut>,
+}
+
+/// Cuts `samples`, a part of `motion` in the world's frame that rises in time.
+pub(super) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], swiftness: &Swiftness) -> Left {
+    let mut cuts = Vec::new();
+    let (start, end) = match (samples.first(), samples.last()) {
+        (Some(first), Some(last)) => (first.t_s, last.t_s),
+        _ => return Left { samples: Vec::new(), breaks: Vec::new(), cuts },
+    };
+    let announced = motion.resets.iter().filter(|reset| reset.t_s > start && reset.t_s <= end);
+    let announced = announced.filter_map(|reset| match reset.by_m.map(|by| by.norm()) {
+        Some(by) if by < LEAST_RESET_M => None,
+        Some(by) => Some((reset.t_s, format!("position reset of {}", length(by)))),
+        None => Some((reset.t_s, "position reset of unknown size".to_owned())),
+    });
+    let jump = jumps(samples, swiftness).map(|(t, by)| (t, format!("position jump of {}", length(by))));
+    let first = announced.chain(jump).min_by(|a, b| a.0.total_cmp(&b.0));
+    let until = first.as_ref().map_or(f64::INFINITY, |(t, _)| *t);
+    let invalid = |t: f64| motion.invalid.iter().find(|span| (span.from_s..=span.to_s).contains(&t));
+    let middle = middle_interval(samples);
+    let mut left = Left { samples: Vec::new(), breaks: Vec::new(), cuts: Vec::new() };
+    let mut broken: Option<(f64, &str)> = None;
+    for sample in samples.iter().filter(|sample| sample.t_s < until) {
+        if invalid(sample.t_s).is_some() {
+            broken
+                .get_or_insert((left.samples.last().map_or(start, |before: &Sample| before.t_s), "no valid position"));
+            continue;
+        }
+        let span = left.samples.last().map(|before| (before.t_s, sample.t_s - before.t_s));
+        let lost = |from: f64| dropouts.iter().any(|gap| gap.from_s < sample.t_s && gap.to_s > from);
+        let gap = span.and_then(|(from, span)| match span / middle {
+            times if times > GAP_OF_DROPOUT && lost(from) => Some((from, "gap (the logger dropped messages)")),
+            times if times > GAP => Some((from, "gap")),
+            _ => None,
+        });
+        if let Some((from, words)) = broken.take().or(gap) {
+            let lost_s = sample.t_s - from;
+            cuts.push(Cut { t_s: from, words: format!("{words} of {lost_s:.1} s"), lost_s, to_the_end: false });
+            if !left.samples.is_empty() {
+                left.breaks.push(left.samples.len());
+            }
+        }
+        left.samples.push(*sample);
+    }
+    if let Some((from, words)) = broken {
+        let lost_s = end.min(until) - from;
+        cuts.push(Cut { t_s: from, words: format!("{words} of {lost_s:.1} s"), lost_s, to_the_end: false });
+    }
+    if let Some((t_s, words)) = first {
+        cuts.push(Cut { t_s, words, lost_s: end - t_s, to_the_end: true });
+    }
+    Left { cuts, ..left }
+}
+
+/// The first step that no limit of the robot explains, and its length, m.
+///
+/// A step of c m within h s is a jump where c > v̂ h + 0.1 m. With velocities logged v̂ = ½ (‖v₀‖ + ‖v₁‖) + ¼ a h, which
+/// no motion exceeds in the mean; else the top speed. Without either, where the mean velocities of two intervals differ by
+/// more than ½ a (h₀ + h₁) and 0.1 m of way.
+fn jumps(samples: &[Sample], swiftness: &Swiftness) -> Option<(f64, f64)> {
+    let speeds = |i: usize| Some(0.5 * (samples[i].v_m_s?.norm() + samples[i - 1].v_m_s?.norm()));
+    for i in 1..samples.len() {
+        let (span, way) = (samples[i].t_s - samples[i - 1].t_s, samples[i].p_m - samples[i - 1].p_m);
+        let by_velocity = speeds(i).zip(swiftness.acceleration).map(|(mean, a)| mean + 0.25 * a * span);
+        let fastest = match (by_velocity, swiftness.speed) {
+            (Some(a), Some(b)) if samples[i].v_m_s.is_some_and(|v| v.norm() <= b) => Some(a.min(b)),
+            (Some(a), _) => Some(a),
+            (None, speed) => speed,
+        };
+        let explained = match fastest {
+            Some(fastest) => way.norm() <= fastest * span + ROOM_M,
+            None => match (swiftness.acceleration, i > 1) {
+                (Some(most), true) => {
+                    let before = samples[i - 1].t_s - samples[i - 2].t_s;
+                    let expected = (samples[i - 1].p_m - samples[i - 2].p_m) * (span / before);
+                    (way - expected).norm() <= 0.5 * most * (span + before) * span + ROOM_M
+                }
+                _ => true,
+            },
+        };
+        if !explained {
+            return Some((samples[i].t_s, way.norm()));
+        }
+    }
+    None
+}
+
+fn middle_interval(samples: &[Sample]) -> f64 {
+    let mut spans: Vec<f64> = samples.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
+    spans.sort_unstable_by(f64::total_cmp);
+    spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY)
+}
+
+fn length(metres: f64) -> String {
+    if metres < 0.1 { format!("{metres:.3} m") } else { format!("{metres:.1} m") }
+}

@@ -1,0 +1,165 @@
+//! Which leg is flown when, and which part of a log is the mission: by the log's own mission state where it has one, else
+//! by monotone assignment along the path.
+
+use hairpin_formats::logs::{Event, EventKind, Logged, Progress, Sample};
+use nalgebra::Point3;
+
+/// Who tells the leg.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LegsBy {
+    /// The log's mission state, whose items have the waypoints' places.
+    Targets,
+    /// The log's mission state, by the number of its items.
+    Count,
+    /// Monotone assignment along the path.
+    Assigned,
+}
+
+impl LegsBy {
+    /// The word in JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Targets => "targets",
+            Self::Count => "count",
+            Self::Assigned => "assigned",
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Targets => "the log's mission state (its items' targets are the waypoints)",
+            Self::Count => "the log's mission state (its items counted)",
+            Self::Assigned => "monotone assignment along the path",
+        }
+    }
+}
+
+/// The part of a log in which its robot may have been at its mission.
+pub(super) struct Mission {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// What ended it.
+    pub(super) ended: Option<String>,
+    /// Whether the log itself says when it began.
+    pub(super) is_told: bool,
+}
+
+/// From where on the autopilot flies the mission until it no longer does: return, hold, landing, a pilot, a failsafe, a
+/// fence. What comes after the first end is another matter, even where the mission is taken up again.
+pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Mission {
+    let begins = logged.events.iter().find(|event| event.kind == EventKind::MissionBegins).map(|event| event.t_s);
+    let asked = from_s.unwrap_or(f64::NEG_INFINITY);
+    let from = begins.unwrap_or(f64::NEG_INFINITY).max(asked);
+    let takes_off = |after: f64| logged.events.iter().any(|e| e.kind == EventKind::TookOff && e.t_s >= after);
+    let flew = |before: f64| logged.events.iter().any(|e| e.kind == EventKind::TookOff && e.t_s < before);
+    let ends = |event: &&Event| match event.kind {
+        EventKind::MissionEnds | EventKind::Failsafe | EventKind::Geofence => event.t_s > from,
+        // Standing on the ground before it takes off is no landing.
+        EventKind::Landed => event.t_s > from && (flew(event.t_s) || !takes_off(event.t_s)),
+        EventKind::MissionBegins | EventKind::TookOff => false,
+    };
+    let end = logged.events.iter().filter(ends).min_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    let end = end.filter(|end| to_s.is_none_or(|to| end.t_s <= to));
+    Mission {
+        from_s: from,
+        to_s: end.map_or(to_s.unwrap_or(f64::INFINITY), |end| end.t_s),
+        ended: end.map(|end| format!("{} at t = {:.1} s", end.words, end.t_s)),
+        is_told: begins.is_some() || !logged.progress.is_empty(),
+    }
+}
+
+/// When the mission flew to which waypoint: rising in both.
+pub(super) struct Course {
+    pub(super) by: LegsBy,
+    /// From when on (s) to which waypoint.
+    steps: Vec<(f64, usize)>,
+    /// When it went on behind the last one, s.
+    done_s: Option<f64>,
+}
+
+impl Course {
+    /// The leg that is flown at `t`: `None` before it left the first waypoint, and after the last one.
+    pub(super) fn leg_at(&self, t: f64) -> Option<usize> {
+        if self.done_s.is_some_and(|done| t >= done) {
+            return None;
+        }
+        let step = self.steps.partition_point(|(from, _)| *from <= t).checked_sub(1)?;
+        self.steps[step].1.checked_sub(1)
+    }
+
+    /// Whether it flew to all of `waypoints`.
+    pub(super) fn is_whole(&self, waypoints: usize) -> bool {
+        self.steps.last().is_some_and(|(_, last)| last + 1 == waypoints)
+    }
+
+    /// Whether it went on behind the last waypoint.
+    pub(super) fn is_done(&self) -> bool {
+        self.done_s.is_some()
+    }
+}
+
+/// The course that the log's mission state tells over `waypoints`, which count as met within `accept` m; `None` where it
+/// has none, or its items are not the waypoints.
+pub(super) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
+    if progress.is_empty() {
+        return None;
+    }
+    if progress.iter().any(|step| step.target_m.is_some()) {
+        return by_targets(progress, waypoints, accept);
+    }
+    let last = waypoints.len() - 1;
+    // Our own column `leg`, as the reader of CSV hands it on, numbers waypoints; behind the last one it says so.
+    if logged.format == "CSV" {
+        let steps: Vec<_> = progress.iter().map(|step| (step.t_s, (step.item as usize).min(last))).collect();
+        let rises = steps.windows(2).all(|pair| pair[0].1 <= pair[1].1);
+        return rises.then_some(Course { by: LegsBy::Count, steps, done_s: None });
+    }
+    let mut items: Vec<u32> = progress.iter().map(|step| step.item).collect();
+    items.dedup();
+    let follow = items.windows(2).all(|pair| pair[0] < pair[1]);
+    // Take-off before and landing behind, or neither.
+    let skipped = match items.len().checked_sub(waypoints.len())? {
+        0 => 0,
+        2 => 1,
+        _ => return None,
+    };
+    if !follow {
+        return None;
+    }
+    let waypoint = |item: u32| items.iter().position(|known| *known == item)?.checked_sub(skipped);
+    let told = progress.iter().filter_map(|step| Some((step.t_s, waypoint(step.item)?)));
+    let (steps, behind): (Vec<_>, Vec<_>) = told.partition(|(_, waypoint)| *waypoint <= last);
+    Some(Course { by: LegsBy::Count, steps, done_s: behind.first().map(|(t, _)| *t) })
+}
+
+/// Each target is the next waypoint, or a later one, that lies within `accept` of it; targets before the first and
+/// behind the last are take-off and landing. Waypoints may be passed over only where the mission never says that it
+/// flies there: then it is no mission over these.
+fn by_targets(progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
+    let last = waypoints.len() - 1;
+    let (mut steps, mut next, mut done_s): (Vec<(f64, usize)>, usize, Option<f64>) = (Vec::new(), 0, None);
+    for step in progress {
+        let Some(target) = step.target_m else { continue };
+        let near = |waypoint: &Point3<f64>| (target - waypoint).norm() <= accept;
+        if steps.last().is_some_and(|(_, current)| near(&waypoints[*current])) {
+            continue;
+        }
+        if next <= last && near(&waypoints[next]) {
+            steps.push((step.t_s, next));
+            next += 1;
+        } else if next > last {
+            done_s = done_s.or(Some(step.t_s));
+        } else if next > 0 {
+            return None;
+        }
+    }
+    (next >= 2).then_some(Course { by: LegsBy::Targets, steps, done_s })
+}
+
+/// The first sample within `accept` m of `place`, or how near (m) the nearest comes.
+pub(super) fn first_near(samples: &[Sample], place: &Point3<f64>, accept: f64) -> Result<usize, f64> {
+    let far = |sample: &Sample| (sample.p_m - place).norm();
+    let found = samples.iter().position(|sample| far(sample) <= accept);
+    found.ok_or_else(|| samples.iter().map(far).fold(f64::INFINITY, f64::min))
+}

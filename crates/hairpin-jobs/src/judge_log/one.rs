@@ -1,0 +1,200 @@
+//! One log, from its file to its sentence.
+
+use std::path::Path;
+
+use hairpin::campaign::{Case, Log, judge_flown};
+use hairpin::judgement::{Settings, legs_of_samples};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
+use hairpin_formats::logs::{self, Logged, Progress, Sample};
+use nalgebra::Isometry3;
+
+use super::against::Ready;
+use super::cut::{Left, cut};
+use super::frame::IntoWorld;
+use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
+use super::{Found, JudgedLog, LogSettings, matching, source, told};
+use crate::Problem;
+
+/// Judges the log in `file`.
+///
+/// # Errors
+/// As of [`super::judge_log`] of a single log.
+pub(super) fn judge_file(file: &Path, against: &Ready, settings: &LogSettings) -> Result<JudgedLog, Problem> {
+    let logged = logs::read(file).map_err(Problem::input)?;
+    judge(file, &logged, against, settings).map_err(|problem| match problem {
+        Problem::Input(sentence) => Problem::of_file(file, sentence),
+        other => other,
+    })
+}
+
+/// Judges a log that was read from `file`.
+///
+/// # Errors
+/// It fits no case or does not lie where its mission begins.
+pub(super) fn judge(
+    file: &Path,
+    logged: &Logged,
+    against: &Ready,
+    settings: &LogSettings,
+) -> Result<JudgedLog, Problem> {
+    let (motion, source) = source::choose(logged, settings.source.as_deref())?;
+    let frame = IntoWorld::of(&logged.frame, against.place.as_ref(), &settings.frame)?;
+    let span = mission(logged, [settings.from_s, settings.to_s]);
+    let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
+    let samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
+    let progress =
+        logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
+    let (case, matched) = match &against.cases[..] {
+        [only] => (only, None),
+        cases if samples.is_empty() => (&cases[0], None),
+        cases => {
+            let found = matching::matched(cases, &samples, (logged, &progress, against.accept))?;
+            (found.0, Some(found.1))
+        }
+    };
+    let course = course(logged, &progress, &case.waypoints, against.accept);
+    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
+    let own = judged.own_part(samples)?;
+    let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
+    // The autopilot's own acceptance may be wider than the scenario's.
+    let says_so = span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
+    let is_done =
+        course.as_ref().is_some_and(|course| course.is_done() || (says_so && course.is_whole(case.waypoints.len())));
+    let near_last = |sample: &Sample| (sample.p_m - case.waypoints[case.waypoints.len() - 1]).norm() <= against.accept;
+    let finished = is_done || own.last().is_some_and(near_last);
+    let name = against.name_of(case);
+    let simulated = against.simulated.iter().find(|result| result.case == case.number);
+    let mut notes = logged.notes.clone();
+    if !logged.progress.is_empty() && course.is_none() {
+        notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
+    }
+    let mut found = Found {
+        case: name,
+        matched,
+        source,
+        frame: frame.told,
+        span_s: left.samples.first().zip(left.samples.last()).map(|(first, last)| [first.t_s, last.t_s]),
+        legs_by: course.as_ref().map_or(LegsBy::Assigned, |course| course.by),
+        cuts: left.cuts.clone(),
+        ended: span.ended.clone(),
+        finished,
+        flown: None,
+        simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
+        notes,
+    };
+    if left.samples.len() >= 2 {
+        let log = judged.log(&left)?;
+        found.flown = Some(judge_flown(&against.setup, &against.whole(case)?, &log).map_err(Problem::input)?);
+    }
+    Ok(told::judged(file, found, &against.setup))
+}
+
+struct Judging<'a> {
+    logged: &'a Logged,
+    against: &'a Ready,
+    span: &'a Mission,
+    course: Option<&'a Course>,
+    case: &'a Case,
+    /// Whether its place is known by the Earth's.
+    by_earth: bool,
+}
+
+impl Judging<'_> {
+    /// The samples between waypoints: from where the mission left the first one on, until it went on behind the last.
+    /// Where it does not say, from where the robot first is at the first one; of a log that says nothing at all that
+    /// must be its first sample, for it may as well lie elsewhere.
+    fn own_part(&self, samples: Vec<Sample>) -> Result<Vec<Sample>, Problem> {
+        let (start, accept) = (self.case.waypoints[0], self.against.accept);
+        if let Some(course) = self.course {
+            let own: Vec<Sample> = samples.into_iter().filter(|sample| course.leg_at(sample.t_s).is_some()).collect();
+            // Targets are places: they were found where the waypoints are.
+            let told = self.by_earth || course.by == LegsBy::Targets;
+            return match own.first() {
+                Some(first) if !told && (first.p_m - start).norm() > accept && course.leg_at(first.t_s) == Some(0) => {
+                    Err(self.elsewhere(first, (first.p_m - start).norm()))
+                }
+                _ => Ok(own),
+            };
+        }
+        let Some(first) = samples.first() else { return Ok(samples) };
+        let far = (first.p_m - start).norm();
+        if far <= accept {
+            return Ok(samples);
+        }
+        if !self.span.is_told && !self.by_earth {
+            return Err(self.elsewhere(first, far));
+        }
+        match first_near(&samples, &start, accept) {
+            Ok(near) => Ok(samples[near..].to_vec()),
+            Err(nearest) => Err(Problem::input(format!(
+                "it never is within {accept} m of waypoint 0 of {}, {}; the nearest is {nearest:.2} m: not aligned, \
+                 --offset X,Y,Z and --turn DEG move it by name",
+                self.against.name_of(self.case),
+                place(&start)
+            ))),
+        }
+    }
+
+    /// Why a log whose frame is only taken for the world's is refused.
+    fn elsewhere(&self, first: &Sample, far: f64) -> Problem {
+        let (start, p) = (self.case.waypoints[0], first.p_m);
+        let move_by = start - p;
+        Problem::input(format!(
+            "its frame is not told to be the world's, and it does not begin where its mission does: {} at t = {:.1} s, {far:.2} m \
+             from waypoint 0 of {}, {}, with {} m accepted. Nothing is aligned: --offset {:.2},{:.2},{:.2} (after --turn DEG) \
+             moves it by name, --from S begins later, --case ID names another case",
+            place(&p),
+            first.t_s,
+            self.against.name_of(self.case),
+            place(&start),
+            self.against.accept,
+            move_by.x,
+            move_by.y,
+            move_by.z,
+        ))
+    }
+
+    /// What is left as a log to be judged.
+    fn log(&self, left: &Left) -> Result<Log, Problem> {
+        let samples = &left.samples;
+        let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
+            name: name.into(),
+            values: samples.iter().map(of).collect(),
+        };
+        let mut channels = Vec::new();
+        if samples.iter().all(|sample| sample.v_m_s.is_some()) {
+            for (axis, name) in ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().enumerate() {
+                channels.push(column(name, &|sample| sample.v_m_s.map_or(0.0, |v| v[axis])));
+            }
+        }
+        if samples.iter().any(|sample| sample.attitude.is_none()) {
+            channels.push(column(ATTITUDE_UNKNOWN, &|_| 1.0));
+        }
+        if let Some(course) = self.course {
+            channels.push(column("leg", &|sample| course.leg_at(sample.t_s).unwrap_or_default() as f64));
+        }
+        let pose = |sample: &Sample| Isometry3::from_parts(sample.p_m.into(), sample.attitude.unwrap_or_default());
+        let times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
+        let refuse = |error| Problem::input(format!("{}: {error}", self.logged.format));
+        let of = |channels| Track::new(times.clone(), samples.iter().map(pose).collect(), channels).map_err(refuse);
+        let mut track = of(channels.clone())?;
+        if self.course.is_none() {
+            let settings = Settings { breaks: &left.breaks, ..Settings::default() };
+            let legs = legs_of_samples(&track, &self.case.waypoints, &settings).map_err(Problem::input)?;
+            channels.push(Channel { name: "leg".into(), values: legs.into_iter().map(|leg| leg as f64).collect() });
+            track = of(channels)?;
+        }
+        let accuracy = if samples.iter().any(|sample| sample.accuracy_m.is_some()) {
+            samples.iter().map(|sample| sample.accuracy_m).collect()
+        } else {
+            Vec::new()
+        };
+        let reached = vec![Some(0.0); self.case.waypoints.len()];
+        let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
+        Ok(Log { flight, breaks: left.breaks.clone(), accuracy, in_world: self.against.in_world })
+    }
+}
+
+fn place(p: &nalgebra::Point3<f64>) -> String {
+    format!("({:.2}, {:.2}, {:.2}) m", p.x, p.y, p.z)
+}

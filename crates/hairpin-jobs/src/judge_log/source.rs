@@ -1,0 +1,86 @@
+//! Where a log's poses and times are from: chosen by rank, named, and no other is mixed in.
+
+use hairpin_formats::logs::{Clock, Logged, LoggedMotion, Source};
+
+use crate::Problem;
+
+/// Where a log's poses and times are from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SourceTold {
+    /// The log's format.
+    pub format: &'static str,
+    /// The topic.
+    pub topic: String,
+    /// Who says where the robot was: `motion capture`, `ground truth`, `EKF2 estimate`, `source not told`.
+    pub words: &'static str,
+    /// Whether it says how accurate it is.
+    pub has_accuracy: bool,
+    /// Other topics with poses.
+    pub others: Vec<String>,
+    /// Whose stamps the times are.
+    pub clock: &'static str,
+    /// Samples.
+    pub samples: usize,
+    /// Samples a second, by the middle interval.
+    pub rate_hz: f64,
+}
+
+/// The motion that is judged: the one of the topic asked for, else the best ranked: motion capture, ground truth, the
+/// vehicle's own estimate.
+///
+/// # Errors
+/// There is none, or none of that name.
+pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a LoggedMotion, SourceTold), Problem> {
+    let names = || logged.motions.iter().map(|motion| motion.name.as_str()).collect::<Vec<_>>().join(", ");
+    let usable = |motion: &&LoggedMotion| motion.samples.len() >= 2;
+    let motion = match asked {
+        Some(topic) => logged.motions.iter().find(|motion| motion.name == topic).ok_or_else(|| {
+            Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {}", names()))
+        })?,
+        None => logged.motions.iter().filter(usable).min_by_key(|motion| motion.source).ok_or_else(|| {
+            let joints =
+                if logged.joints.is_empty() { "" } else { "; its joints are judged by hairpin execute --logs" };
+            Problem::input(format!("a {} log without two poses{joints}", logged.format))
+        })?,
+    };
+    let others = logged.motions.iter().filter(|other| other.name != motion.name);
+    let mut spans: Vec<f64> = motion.samples.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
+    spans.sort_unstable_by(f64::total_cmp);
+    let middle = spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY);
+    let told = SourceTold {
+        format: logged.format,
+        topic: motion.name.clone(),
+        words: words(motion.source, logged.format),
+        has_accuracy: motion.samples.iter().any(|sample| sample.accuracy_m.is_some()),
+        others: others.map(|other| other.name.clone()).collect(),
+        clock: match logged.clock {
+            Clock::SinceBoot => "since the vehicle's boot",
+            Clock::Header => "of the messages' headers",
+            Clock::Receive => "of the recorder, when it received the messages",
+            Clock::File => "of the file's first column",
+        },
+        samples: motion.samples.len(),
+        rate_hz: 1.0 / middle,
+    };
+    Ok((motion, told))
+}
+
+fn words(source: Source, format: &str) -> &'static str {
+    match (source, format) {
+        (Source::MotionCapture, _) => "motion capture",
+        (Source::GroundTruth, _) => "ground truth",
+        (Source::Estimate, "PX4 ULog") => "EKF2 estimate",
+        (Source::Estimate, "ArduPilot DataFlash") => "EKF estimate",
+        (Source::Estimate, _) => "estimate",
+        (Source::Untold, _) => "source not told",
+    }
+}
+
+impl SourceTold {
+    /// As it stands in the sentence: an estimate that does not say how good it is is named there.
+    pub(super) fn in_sentence(&self) -> String {
+        let estimated = self.words.contains("estimate") || self.words == "source not told";
+        let without = if estimated && !self.has_accuracy { " without accuracy" } else { "" };
+        format!("{}{without}", self.words)
+    }
+}

@@ -1,0 +1,430 @@
+//! Logs made by hand, whose right answer is known by construction: each with its sentence and its exit code.
+
+use std::fs;
+use std::path::Path;
+
+use hairpin_formats::frames::Geodetic;
+use hairpin_formats::logs::{
+    Clock, Event, EventKind, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span,
+};
+use nalgebra::{Point3, Rotation3, Vector3};
+use tempfile::TempDir;
+
+use super::against::Ready;
+use super::*;
+
+const SPEED: f64 = 5.0;
+
+/// Two legs of 20 m, flown at 5 m/s.
+fn corners() -> [Point3<f64>; 3] {
+    [Point3::new(4.0, 4.0, 5.0), Point3::new(24.0, 4.0, 5.0), Point3::new(24.0, 24.0, 5.0)]
+}
+
+/// Where the robot is `t` s after the start: `off` m beside the middle of the first leg, none at its ends.
+fn place(t: f64, off: f64) -> Point3<f64> {
+    let along = SPEED * t;
+    if along <= 20.0 {
+        let beside = (std::f64::consts::PI * along / 20.0).sin();
+        return corners()[0] + Vector3::new(along, off * beside * beside, 0.0);
+    }
+    corners()[1] + Vector3::new(0.0, (along - 20.0).min(20.0), 0.0)
+}
+
+fn samples(rate: f64, off: f64) -> Vec<Sample> {
+    let of = |i: usize| {
+        let t_s = i as f64 / rate;
+        Sample { t_s, p_m: place(t_s, off), attitude: None, v_m_s: None, accuracy_m: None }
+    };
+    (0..=(8.0 * rate) as usize).map(of).collect()
+}
+
+fn motion(name: &str, source: Source, samples: Vec<Sample>) -> LoggedMotion {
+    LoggedMotion { name: name.into(), source, samples, resets: Vec::new(), invalid: Vec::new() }
+}
+
+fn log(rate: f64, off: f64) -> Logged {
+    Logged {
+        format: "PX4 ULog",
+        clock: Clock::SinceBoot,
+        frame: LogFrame::Enu(None),
+        motions: vec![motion("vehicle_local_position", Source::Estimate, samples(rate, off))],
+        joints: Vec::new(),
+        progress: Vec::new(),
+        events: Vec::new(),
+        dropouts: Vec::new(),
+        notes: Vec::new(),
+    }
+}
+
+fn settings(here: &Path, sets: &[(&str, &str)]) -> LogSettings {
+    let file = here.join("m.csv");
+    let rows = corners().map(|p| format!("{},{},{}\n", p.x, p.y, p.z)).concat();
+    fs::write(&file, format!("x_m,y_m,z_m\n{rows}")).unwrap();
+    LogSettings {
+        path: here.join("log_24.ulg"),
+        against: Against::Mission { file, robot: Some("flightgoggles".into()) },
+        world: None,
+        sets: sets.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect(),
+        case: None,
+        frame: FrameSettings::default(),
+        source: None,
+        from_s: None,
+        to_s: None,
+    }
+}
+
+const HALF: &[(&str, &str)] = &[("spec.deviation.max_m", "0.5")];
+
+fn judged_as(logged: &Logged, change: impl FnOnce(&mut LogSettings, &Path)) -> Result<JudgedLog, String> {
+    let here = TempDir::new().unwrap();
+    let mut settings = settings(here.path(), HALF);
+    change(&mut settings, here.path());
+    let against = Ready::of(&settings).map_err(|problem| problem.to_string())?;
+    one::judge(&settings.path, logged, &against, &settings).map_err(|problem| problem.to_string())
+}
+
+/// The sentence and its exit code.
+fn said(logged: &Logged) -> (String, u8) {
+    let verdict = judged_as(logged, |_, _| {}).unwrap().verdict;
+    (verdict.sentence, verdict.exit_code)
+}
+
+#[test]
+fn what_keeps_its_limit_passes_and_what_does_not_fails() {
+    let (sentence, code) = said(&log(100.0, 0.41));
+    assert_eq!(code, 0, "{sentence}");
+    assert!(
+        sentence.starts_with(
+            "PASS m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.41 m ≤ 0.50 m, t = 2.00 s, leg 0→1"
+        ),
+        "{sentence}"
+    );
+    let (sentence, code) = said(&log(100.0, 0.65));
+    assert_eq!(code, 1);
+    assert!(
+        sentence.starts_with(
+            "FAIL m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.65 m > 0.50 m, t = 2.00 s, leg 0→1"
+        ),
+        "{sentence}"
+    );
+    let found = judged_as(&log(100.0, 0.41), |_, _| {}).unwrap().found.unwrap();
+    // Mean of sin² over the first half of the flight and of nothing over the second.
+    let statistics = found.flown.unwrap().statistics.unwrap();
+    assert!((statistics.mean - 0.41 / 4.0).abs() < 1e-3 && (statistics.max - 0.41).abs() < 1e-9, "{statistics:?}");
+    assert!(found.finished && found.legs_by == LegsBy::Assigned);
+}
+
+/// Ten samples a second: at a bound of a m/s² up to a/800 m hide between two.
+#[test]
+fn what_may_hide_between_samples_is_open_and_the_rate_that_decides_is_named() {
+    let judged = judged_as(&log(10.0, 0.46), |_, _| {}).unwrap();
+    let sentence = &judged.verdict.sentence;
+    assert_eq!(judged.verdict.exit_code, 5, "{sentence}");
+    for words in [
+        "INCONCLUSIVE m (flown, log_24.ulg, EKF2 estimate without accuracy): 0.46 m ≤ 0.50 m in samples at 10 Hz, but ",
+        "may hide between two of them (speed ≤ ",
+        "acceleration ≤ ",
+        "log positions at ",
+        "etc/logging/logger_topics.txt",
+        "no SDLOG_PROFILE",
+    ] {
+        assert!(sentence.contains(words), "{words}: {sentence}");
+    }
+    let flown = judged.found.unwrap().flown.unwrap();
+    let a = flown.swiftness.acceleration.unwrap();
+    assert!((flown.most_between - 0.46 - a * 0.01 / 8.0).abs() < 2e-3, "{} {a}", flown.most_between);
+    // The rate that is named decides.
+    let Some(hairpin::campaign::Why::Between { rate_hz: Some(rate), .. }) = flown.doubts.first().map(|doubt| doubt.why)
+    else {
+        panic!("{:?}", flown.doubts)
+    };
+    assert_eq!(said(&log(rate.ceil(), 0.46)).1, 0);
+    // A limit that is far away is kept at any rate, and what is not PX4's is told no profile.
+    assert_eq!(said(&log(10.0, 0.2)).1, 0);
+    let (sentence, _) = said(&Logged { format: "TUM", ..log(10.0, 0.46) });
+    assert!(sentence.contains("Hz or faster") && !sentence.contains("SDLOG"), "{sentence}");
+}
+
+#[test]
+fn resets_end_what_can_be_judged() {
+    let mut announced = log(100.0, 0.3);
+    announced.motions[0].resets = vec![Reset { t_s: 3.0, by_m: Some(Vector3::new(1.2, 0.0, 0.0)) }];
+    let (sentence, code) = said(&announced);
+    let words = "INVALID m (flown, log_24.ulg, EKF2 estimate without accuracy): position reset of 1.2 m at t = 3.0 s; 5.0 s after it not judged";
+    assert_eq!((sentence.as_str(), code), (words, 5));
+    // One that nobody announced, too: the robot cannot have been so fast.
+    let mut silent = log(100.0, 0.3);
+    silent.motions[0].samples.iter_mut().filter(|s| s.t_s >= 3.0).for_each(|s| s.p_m.x += 1.2);
+    let (sentence, code) = said(&silent);
+    // 1.2 m and the 5 cm that were flown.
+    assert!(sentence.contains("position jump of 1.3 m at t = 3.0 s; 5.0 s after it not judged"), "{sentence}");
+    assert_eq!(code, 5);
+    // What was violated before is a fact.
+    let mut violated = log(100.0, 0.65);
+    violated.motions[0].resets = announced.motions[0].resets.clone();
+    let (sentence, code) = said(&violated);
+    assert!(code == 1 && sentence.starts_with("FAIL") && sentence.contains("position reset of 1.2 m"), "{sentence}");
+    // And where nothing is left, nothing is judged.
+    let mut first = log(100.0, 0.3);
+    first.motions[0].resets = vec![Reset { t_s: 0.005, by_m: None }];
+    let (sentence, code) = said(&first);
+    assert!(code == 5 && sentence.contains("nothing is left to judge"), "{sentence}");
+}
+
+#[test]
+fn gaps_and_spans_without_a_position_are_cut_out_and_told() {
+    let mut gap = log(100.0, 0.3);
+    gap.motions[0].samples.retain(|s| s.t_s <= 3.0 || s.t_s >= 3.5);
+    let (sentence, code) = said(&gap);
+    assert!(code == 5 && sentence.contains("gap of 0.5 s at t = 3.0 s not judged"), "{sentence}");
+    gap.dropouts = vec![Span { from_s: 3.1, to_s: 3.4 }];
+    assert!(said(&gap).0.contains("the logger dropped messages"));
+    let mut reckoning = log(100.0, 0.3);
+    reckoning.motions[0].invalid = vec![Span { from_s: 1.0, to_s: 2.0 }];
+    let (sentence, code) = said(&reckoning);
+    assert!(code == 5 && sentence.contains("INVALID") && sentence.contains("no valid position of 1.0 s"), "{sentence}");
+    // What lies in them does not count: the worst moment was one.
+    let mut worst = log(100.0, 0.65);
+    worst.motions[0].invalid = vec![Span { from_s: 0.8, to_s: 3.2 }];
+    assert_eq!(said(&worst).1, 5);
+}
+
+#[test]
+fn a_log_that_does_not_know_its_place_decides_nothing() {
+    let with = |off: f64, accuracy: [f64; 2]| {
+        let mut log = log(100.0, off);
+        log.motions[0].samples.iter_mut().for_each(|s| s.accuracy_m = Some(accuracy));
+        log
+    };
+    let (sentence, code) = said(&with(0.65, [0.9, 0.1]));
+    let words = "INCONCLUSIVE m (flown, log_24.ulg, EKF2 estimate): 0.65 m > 0.50 m, but the log's own eph is 0.9 m; \
+                 judge motion capture or raise the limit";
+    assert_eq!((sentence.as_str(), code), (words, 5));
+    let (sentence, code) = said(&with(0.45, [0.1, 0.0]));
+    assert!(
+        code == 5 && sentence.contains("0.45 m ≤ 0.50 m, but the log's own eph is 0.1 m, so that it may be more"),
+        "{sentence}"
+    );
+    // Sideways it is off, so that only what it knows sideways counts.
+    assert_eq!(said(&with(0.65, [0.1, 3.0])).1, 1);
+    assert_eq!(said(&with(0.30, [0.05, 0.05])).1, 0);
+    // Motion capture goes before it.
+    let mut both = with(0.65, [0.9, 0.1]);
+    both.motions.push(motion("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.41)));
+    let judged = judged_as(&both, |_, _| {}).unwrap();
+    assert!(judged.verdict.sentence.contains("motion capture): 0.41 m ≤ 0.50 m"), "{}", judged.verdict.sentence);
+    assert_eq!(judged.found.unwrap().source.others, ["vehicle_local_position"]);
+    let asked = judged_as(&both, |settings, _| settings.source = Some("vehicle_local_position".into())).unwrap();
+    assert!(asked.verdict.sentence.contains("EKF2 estimate): 0.65 m"), "{}", asked.verdict.sentence);
+    let none = judged_as(&both, |settings, _| settings.source = Some("gps".into())).unwrap_err();
+    assert!(none.contains("--source gps") && none.contains("vehicle_mocap_odometry"), "{none}");
+}
+
+fn event(t_s: f64, kind: EventKind, words: &str) -> Event {
+    Event { t_s, kind, words: words.into() }
+}
+
+#[test]
+fn what_ends_the_mission_ends_judgement_and_is_told() {
+    for (kind, words) in [
+        (EventKind::MissionEnds, "nav_state AUTO_RTL"),
+        (EventKind::Failsafe, "failsafe"),
+        (EventKind::Geofence, "geofence_result: breached"),
+    ] {
+        let mut log = log(100.0, 0.3);
+        log.events = vec![event(0.0, EventKind::MissionBegins, "nav_state AUTO_MISSION"), event(6.0, kind, words)];
+        // What comes after is not judged.
+        log.motions[0].samples.iter_mut().filter(|s| s.t_s > 6.0).for_each(|s| s.p_m.z += 0.6);
+        let (sentence, code) = said(&log);
+        let on = format!("{words} at t = 6.0 s, on leg 1→2 of 3 waypoints: what was left of the mission is not judged");
+        assert!(code == 5 && sentence.starts_with("INCONCLUSIVE") && sentence.contains(&on), "{sentence}");
+    }
+    // Landing after the last waypoint is as it should be; standing before take-off is no landing.
+    let mut landed = log(100.0, 0.3);
+    landed.events = vec![
+        event(0.0, EventKind::MissionBegins, "nav_state AUTO_MISSION"),
+        event(0.0, EventKind::Landed, "landed"),
+        event(0.0, EventKind::TookOff, "took off"),
+        event(8.0, EventKind::MissionEnds, "nav_state AUTO_LAND"),
+    ];
+    let judged = judged_as(&landed, |_, _| {}).unwrap();
+    assert_eq!(judged.verdict.exit_code, 0, "{}", judged.verdict.sentence);
+    assert_eq!(judged.found.unwrap().ended.unwrap(), "nav_state AUTO_LAND at t = 8.0 s");
+    // A log that merely stops short was not finished either; by name a part is judged.
+    let short = judged_as(&log(100.0, 0.3), |settings, _| settings.to_s = Some(6.0)).unwrap().verdict;
+    assert!(short.exit_code == 5 && short.sentence.contains("the log ends, on leg 1→2"), "{}", short.sentence);
+}
+
+#[test]
+fn a_log_that_lies_elsewhere_is_refused_and_moved_by_name_only() {
+    let moved = |turn_deg: f64, by: Vector3<f64>| {
+        let mut log = log(100.0, 0.3);
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn_deg.to_radians());
+        log.motions[0].samples.iter_mut().for_each(|s| s.p_m = turn * s.p_m + by);
+        log
+    };
+    for (turn, by) in [(0.0, Vector3::new(3.0, -2.0, 0.5)), (73.5, Vector3::zeros())] {
+        let refused = judged_as(&moved(turn, by), |_, _| {}).unwrap_err();
+        for words in [
+            "does not begin where its mission does",
+            "m from waypoint 0 of m, (4.00, 4.00, 5.00) m",
+            "--offset",
+            "--turn",
+        ] {
+            assert!(refused.contains(words), "{words}: {refused}");
+        }
+    }
+    let far = judged_as(&moved(0.0, Vector3::new(3.0, -2.0, 0.5)), |_, _| {}).unwrap_err();
+    assert!(far.contains("3.64 m") && far.contains("--offset -3.00,2.00,-0.50"), "{far}");
+    let named =
+        judged_as(&moved(0.0, Vector3::new(3.0, -2.0, 0.5)), |s, _| s.frame.offset_m = [-3.0, 2.0, -0.5]).unwrap();
+    assert_eq!(named.verdict.exit_code, 0, "{}", named.verdict.sentence);
+    assert_eq!(named.found.unwrap().frame.named().unwrap(), "moved by (-3, 2, -0.5) m (--offset)");
+    assert_eq!(
+        judged_as(&moved(73.5, Vector3::zeros()), |s, _| s.frame.turn_deg = -73.5).unwrap().verdict.exit_code,
+        0
+    );
+    // Half a metre within the acceptance is not taken off either: it is deviation.
+    let near = judged_as(&moved(0.0, Vector3::new(0.0, 0.6, 0.0)), |_, _| {}).unwrap();
+    assert_eq!(near.verdict.exit_code, 1, "{}", near.verdict.sentence);
+}
+
+/// Axes of a cage whose x points to 73.5° in east and north, by the compass: nothing of our conversions is used.
+#[test]
+fn logs_with_a_place_on_earth_come_into_the_world_by_its_origin() {
+    let (lat, lon, alt): (f64, f64, f64) = (38.0335530, -78.5079772, 180.0);
+    let heading = 73.5_f64.to_radians();
+    let (x, y) = (Vector3::new(heading.sin(), heading.cos(), 0.0), Vector3::new(-heading.cos(), heading.sin(), 0.0));
+    // The log's origin is 12 m north and 7 m east of the cage's corner and 0.7 m higher: metres a degree at this latitude.
+    let phi = lat.to_radians();
+    let north = 111_132.92 - 559.82 * (2.0 * phi).cos() + 1.175 * (4.0 * phi).cos();
+    let east = 111_412.84 * phi.cos() - 93.5 * (3.0 * phi).cos();
+    let origin = Geodetic { lat_deg: lat + 12.0 / north, lon_deg: lon + 7.0 / east, alt_amsl_m: alt + 0.7 };
+    let mut log = log(100.0, 0.3);
+    log.frame = LogFrame::Enu(Some(origin));
+    log.motions[0].samples.iter_mut().for_each(|s| {
+        let enu = x * s.p_m.x + y * s.p_m.y + Vector3::z() * s.p_m.z;
+        s.p_m = Point3::from(enu - Vector3::new(7.0, 12.0, 0.0));
+        s.v_m_s = None;
+    });
+    let world = |settings: &mut LogSettings, _: &Path| settings.world = Some("cage-30m".into());
+    let judged = judged_as(&log, world).unwrap();
+    let found = judged.found.unwrap();
+    assert!(found.frame.by_earth && !found.frame.altitude_applied);
+    assert!((found.frame.altitude_difference_m.unwrap() - 0.7).abs() < 1e-3);
+    let worst = found.flown.unwrap().measures.max_deviation;
+    assert!((worst - 0.3).abs() < 2e-3 && judged.verdict.exit_code == 0, "{worst} {}", judged.verdict.sentence);
+    // By name the altitude counts, and with it the log is 0.7 m too high.
+    let amsl = judged_as(&log, |settings, here| {
+        world(settings, here);
+        settings.frame.altitude = Altitude::Amsl;
+    });
+    let amsl = amsl.unwrap();
+    let worst = amsl.found.unwrap().flown.unwrap().measures.max_deviation;
+    assert!(amsl.verdict.exit_code == 1 && (worst - (0.49_f64 + 0.09).sqrt()).abs() < 2e-3, "{worst}");
+}
+
+#[test]
+fn legs_are_the_missions_own_where_it_tells_them() {
+    let step = |t_s: f64, item: u32, target: Option<Point3<f64>>| Progress { t_s, item, target_m: target };
+    // Take-off, a speed item, three waypoints, landing.
+    let up = Point3::new(4.0, 4.0, 2.0);
+    let [a, b, c] = corners().map(Some);
+    let mut log = log(100.0, 0.3);
+    log.progress =
+        vec![step(-9.0, 0, Some(up)), step(-5.0, 2, a), step(0.0, 3, b), step(3.9, 4, c), step(7.9, 5, Some(up))];
+    let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!((found.legs_by, found.finished), (LegsBy::Targets, true));
+    assert!(found.span_s.unwrap()[1] < 7.9, "{:?}", found.span_s);
+    // A leg that begins too late is deviation, which no nearest leg would show.
+    log.progress[3].t_s = 4.5;
+    let verdict = judged_as(&log, |_, _| {}).unwrap().verdict;
+    assert!(
+        verdict.exit_code == 1 && verdict.sentence.contains("2.45 m > 0.50 m, t = 4.49 s, leg 0→1"),
+        "{}",
+        verdict.sentence
+    );
+    // Without targets they are counted: take-off and landing beside the waypoints.
+    log.progress = [-9.0, -5.0, 0.0, 3.9, 7.9].iter().enumerate().map(|(i, t)| step(*t, i as u32, None)).collect();
+    let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!((found.legs_by, found.finished), (LegsBy::Count, true));
+    // A mission over other waypoints tells nothing of these.
+    log.progress = vec![step(0.0, 1, a), step(4.0, 2, Some(up))];
+    let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!(found.legs_by, LegsBy::Assigned);
+    assert!(found.notes.iter().any(|note| note.contains("not the waypoints")));
+}
+
+#[test]
+fn obstacles_need_not_have_been_there() {
+    let judge = |off: f64, rate: f64| {
+        judged_as(&log(rate, off), |settings, here| {
+            let world = here.join("w.toml");
+            // 0.6 m beside the middle of the first leg.
+            let ball = "[[obstacles]]\nname = \"ball\"\nsphere = { center_m = [14, 6, 5], radius_m = 1.4 }\n";
+            fs::write(&world, format!("size_m = [30, 30, 30]\n{ball}")).unwrap();
+            settings.world = Some(world.to_string_lossy().into_owned());
+            settings.sets = vec![("spec.clearance.min_m".into(), "0.05".into())];
+        })
+        .unwrap()
+    };
+    let radius =
+        |judged: &JudgedLog| judged.found.as_ref().unwrap().flown.as_ref().unwrap().measures.min_clearance.unwrap();
+    let straight = judge(0.0, 100.0);
+    let hit = judge(0.5, 100.0);
+    assert!((radius(&straight) - radius(&hit) - 0.5).abs() < 1e-6);
+    assert!(hit.verdict.exit_code == 1 && hit.verdict.sentence.contains("clearance"), "{}", hit.verdict.sentence);
+    assert_eq!(
+        straight.verdict.exit_code,
+        if radius(&straight) > 0.06 { 0 } else { 1 },
+        "{}",
+        straight.verdict.sentence
+    );
+}
+
+#[test]
+fn a_mission_needs_a_robot_and_a_limit() {
+    let none =
+        |change: &dyn Fn(&mut LogSettings)| judged_as(&log(100.0, 0.3), |settings, _| change(settings)).unwrap_err();
+    let robot = none(&|s| {
+        let Against::Mission { robot, .. } = &mut s.against else { unreachable!() };
+        *robot = None;
+    });
+    assert!(robot.contains("--robot R") && robot.contains("--world W"), "{robot}");
+    let limit = none(&|s| s.sets.clear());
+    assert!(limit.contains("spec"), "{limit}");
+    let other = none(&|s| s.sets = vec![("task.length".into(), "4".into())]);
+    assert!(other.contains("only spec can be set"), "{other}");
+    let unjudged =
+        judged_as(&log(100.0, 0.65), |s, _| s.sets = vec![("spec".into(), "\"none\"".into())]).unwrap().verdict;
+    assert!(unjudged.exit_code == 0 && unjudged.sentence.starts_with("UNJUDGED m"), "{}", unjudged.sentence);
+}
+
+#[test]
+fn a_folder_with_a_broken_log_judges_the_others() {
+    let here = TempDir::new().unwrap();
+    let logs = here.path().join("logs");
+    fs::create_dir(&logs).unwrap();
+    let rows: Vec<String> = samples(100.0, 0.3)
+        .iter()
+        .map(|s| format!("{} {} {} {} 0 0 0 1\n", s.t_s, s.p_m.x, s.p_m.y, s.p_m.z))
+        .collect();
+    fs::write(logs.join("a.tum"), rows.concat()).unwrap();
+    fs::write(logs.join("b.tum"), "0 1 2 three 0 0 0 1\n").unwrap();
+    fs::write(logs.join("notes.md"), "no log").unwrap();
+    let mut settings = LogSettings { path: logs, ..settings(here.path(), HALF) };
+    let judged = judge_log(&settings, &crate::Unwatched).unwrap();
+    assert_eq!(judged.logs.iter().map(|log| log.outcome).collect::<Vec<_>>(), [Outcome::Pass, Outcome::Invalid]);
+    let count = judged.count.as_ref().unwrap();
+    assert!(
+        count.sentence.starts_with("INCONCLUSIVE 0/2 (flown, logs, 2 logs): 1 within spec, 1 invalid"),
+        "{}",
+        count.sentence
+    );
+    assert_eq!(judged.exit_code(), 5);
+    let broken = &judged.logs[1].verdict.sentence;
+    assert!(broken.contains("b.tum") && broken.contains("line 1"), "{broken}");
+    // Alone it is wrong input.
+    settings.path.push("b.tum");
+    assert!(matches!(judge_log(&settings, &crate::Unwatched), Err(Problem::Input(_))));
+}

@@ -1,0 +1,262 @@
+//! What a log came to, as one sentence.
+
+use std::path::Path;
+
+use hairpin::campaign::scenario::Asked;
+use hairpin::campaign::{Doubt, Flown, Setup, Why};
+use hairpin::judgement::{
+    AccelerationSource, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated, within_spec,
+};
+use hairpin_formats::quote::shortened;
+
+use super::remedy::log_at;
+use super::{Found, JudgedLog, Outcome};
+use crate::Problem;
+
+/// A log that was judged.
+pub(super) fn judged(file: &Path, found: Found, setup: &Setup) -> JudgedLog {
+    let name = file_name(file);
+    let source = found.source.in_sentence();
+    let how = ["flown", name.as_str(), source.as_str()];
+    let (outcome, verdict) = verdict(&found, &how, setup.scenario.asked());
+    JudgedLog { file: file.into(), verdict, outcome, found: Some(found) }
+}
+
+/// A log of a folder that cannot be judged.
+pub(super) fn unreadable(file: &Path, problem: &Problem) -> JudgedLog {
+    let why = problem.to_string();
+    let verdict = invalid("log", &["flown", &file_name(file)], &format!("not judged: {}", shortened(&why)));
+    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None }
+}
+
+/// The line with counts.
+pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
+    let of = |outcome: Outcome| logs.iter().filter(|log| log.outcome == outcome).count();
+    let [pass, fail, open, invalid, unjudged] =
+        [Outcome::Pass, Outcome::Fail, Outcome::Inconclusive, Outcome::Invalid, Outcome::Unjudged].map(of);
+    let all = logs.len();
+    let how = format!("(flown, {}, {all} logs)", file_name(folder));
+    let counts = [(pass, "within spec"), (fail, "in violation"), (open, "inconclusive"), (invalid, "invalid")];
+    let mut words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    words.extend((unjudged > 0).then(|| format!("{unjudged} unjudged: spec = \"none\"")));
+    let words = words.join(", ");
+    let (start, code) = match (fail, open + invalid) {
+        (1.., _) => (format!("FAIL {fail}/{all}"), 1),
+        (0, 1..) => (format!("INCONCLUSIVE 0/{all}"), 5),
+        (0, 0) if unjudged > 0 => (format!("UNJUDGED {all}"), 0),
+        (0, 0) => (format!("PASS {pass}/{all}"), 0),
+    };
+    Verdict::of(&format!("{start} {how}: {words}"), code)
+}
+
+fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
+    let case = &found.case;
+    let cuts: Vec<String> = found.cuts.iter().map(super::Cut::in_words).collect();
+    let with = |mut sentence: String, more: &[String]| {
+        more.iter().for_each(|part| sentence.push_str(&format!("; {part}")));
+        sentence
+    };
+    let Some(flown) = &found.flown else {
+        let nothing = "nothing is left to judge".to_owned();
+        let why: Vec<String> = cuts.into_iter().chain(found.ended.clone()).collect();
+        return (Outcome::Invalid, invalid(case, how, &with(nothing, &why)));
+    };
+    if let Some(violation) = flown.violations.first() {
+        return (Outcome::Fail, violated(case, how, &with(where_and_when(violation), &cuts)));
+    }
+    if let [first, rest @ ..] = &cuts[..] {
+        return (Outcome::Invalid, invalid(case, how, &with(first.clone(), rest)));
+    }
+    if !found.finished {
+        let last = flown.measures.legs.iter().rposition(|leg| leg.time > 0.0).unwrap_or(0);
+        let of = flown.measures.legs.len() + 1;
+        let why = found.ended.clone().unwrap_or_else(|| "the log ends".into());
+        let on =
+            format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1);
+        return (
+            Outcome::Inconclusive,
+            inconclusive(case, how, &with(on, &nearest(flown).into_iter().collect::<Vec<_>>())),
+        );
+    }
+    if let [first, rest @ ..] = &flown.doubts[..] {
+        let rest: Vec<String> = rest.iter().map(|doubt| in_words(doubt, found)).collect();
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(in_words(first, found), &rest)));
+    }
+    if asked != Asked::Limits {
+        let m = &flown.measures;
+        let worst = format!(
+            "deviation {:.2} m at worst, t = {:.2} s, leg {}→{}; nothing was asked for: spec = \"none\"",
+            m.max_deviation,
+            m.t_worst,
+            m.leg_worst,
+            m.leg_worst + 1
+        );
+        return (Outcome::Unjudged, unjudged(case, how, &worst));
+    }
+    if flown.limits.miss(&flown.measures) {
+        let why = "nothing that `spec` limits is measured in a log";
+        return (Outcome::Inconclusive, inconclusive(case, how, why));
+    }
+    let between = flown.limits.deviation.map(|_| format!("at most {:.2} m between samples", flown.most_between));
+    let best = nearest(flown).unwrap_or_else(|| "within all limits".into());
+    (Outcome::Pass, within_spec(case, how, &with(best, &between.into_iter().collect::<Vec<_>>())))
+}
+
+/// `0.65 m > 0.50 m, t = 12.34 s, leg 4→5`.
+fn where_and_when(violation: &Violation) -> String {
+    format!("{}, t = {:.2} s, leg {}→{}", finding(violation), violation.at, violation.leg, violation.leg + 1)
+}
+
+/// The value that is told where none is over its limit: the deviation, else the first that is limited.
+fn nearest(flown: &Flown) -> Option<String> {
+    let (m, limits) = (&flown.measures, &flown.limits);
+    let value = |what: &str, value: f64, limit: f64, unit: &str, at: f64, leg: usize| Violation {
+        what: what.into(),
+        value,
+        limit,
+        unit: unit.into(),
+        at,
+        leg,
+    };
+    let worst_leg = |of: fn(&hairpin::judgement::LegMeasures) -> f64| {
+        let legs = m.legs.iter().enumerate();
+        legs.max_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg)
+    };
+    let deviation =
+        limits.deviation.map(|limit| value("deviation", m.max_deviation, limit, "m", m.t_worst, m.leg_worst));
+    let clearance = || {
+        let leg = worst_leg(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
+        Some(value("clearance", m.min_clearance?, limits.clearance?, "m", m.t_clearance, leg))
+    };
+    let overshoot = || {
+        let leg = worst_leg(|leg| leg.overshoot);
+        Some(value("overshoot", m.max_overshoot(), limits.overshoot?, "m", m.t_overshoot, leg))
+    };
+    let acceleration = || {
+        let leg = worst_leg(|leg| leg.max_acceleration);
+        Some(value("acceleration", m.max_acceleration, limits.acceleration?, "m/s²", m.t_acceleration, leg))
+    };
+    let last = m.legs.len().saturating_sub(1);
+    let time = || Some(value("total-time", m.total_time, limits.total_time?, "s", m.total_time, last));
+    let told = deviation.or_else(clearance).or_else(overshoot).or_else(acceleration).or_else(time)?;
+    Some(where_and_when(&told))
+}
+
+/// Why a limit is open, and what would decide it.
+fn in_words(doubt: &Doubt, found: &Found) -> String {
+    let value = finding(&doubt.value);
+    match doubt.why {
+        Why::Accuracy { which, sigma } => {
+            let other =
+                if found.source.others.is_empty() { "judge motion capture" } else { "judge motion capture (--source)" };
+            let (more, limit) = if doubt.value.is_lower_limit() { ("less", "lower") } else { ("more", "raise") };
+            let kept = if doubt.value.is_lower_limit() {
+                doubt.value.value >= doubt.value.limit
+            } else {
+                doubt.value.value <= doubt.value.limit
+            };
+            let may = if kept { format!(", so that it may be {more}") } else { String::new() };
+            format!("{value}, but the log's own {which} is {} m{may}; {other} or {limit} the limit", digits(sigma))
+        }
+        Why::Between { most, rate_hz } if most.is_finite() => {
+            let bounds = found.flown.as_ref().map_or(String::new(), bounds);
+            let most = apart(most, doubt.value.limit);
+            format!(
+                "{value} in samples at {:.0} Hz, but {most} m may hide between two of them{bounds}; {}",
+                found.source.rate_hz,
+                log_at(rate_hz, found.source.format)
+            )
+        }
+        Why::Between { .. } => {
+            format!(
+                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them",
+                found.source.rate_hz
+            )
+        }
+    }
+}
+
+fn bounds(flown: &Flown) -> String {
+    let speed = flown.swiftness.speed.map(|v| format!("speed ≤ {v:.1} m/s"));
+    let acceleration = flown.swiftness.acceleration.map(|a| format!("acceleration ≤ {a:.1} m/s²"));
+    let parts: Vec<String> = speed.into_iter().chain(acceleration).collect();
+    if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
+}
+
+/// A number with as many decimals as it takes to tell it from its limit.
+fn apart(value: f64, limit: f64) -> String {
+    let decimals = (2..=6).find(|d| format!("{value:.d$}", d = *d) != format!("{limit:.d$}", d = *d)).unwrap_or(6);
+    format!("{value:.decimals$}")
+}
+
+fn digits(sigma: f64) -> String {
+    if sigma >= 0.095 { format!("{sigma:.1}") } else { format!("{sigma:.3}") }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+impl Found {
+    /// What is told before the sentence, label and value.
+    pub fn lines(&self) -> Vec<[String; 2]> {
+        let mut lines = Vec::new();
+        let mut line = |label: &str, value: String| lines.push([label.to_owned(), value]);
+        let source = &self.source;
+        let others =
+            if source.others.is_empty() { String::new() } else { format!("; not used: {}", source.others.join(", ")) };
+        line(
+            "poses",
+            format!(
+                "{}, {} ({}), {} samples at {:.4} Hz, stamps {}{others}",
+                source.format,
+                source.topic,
+                source.in_sentence(),
+                source.samples,
+                (1e3 * source.rate_hz).round() / 1e3,
+                source.clock
+            ),
+        );
+        let frame = &self.frame;
+        let more = [frame.altitude(), frame.named()].into_iter().flatten();
+        let frame: Vec<String> = [format!("{}, {}", frame.log, frame.how)].into_iter().chain(more).collect();
+        line("frame", format!("{}; not aligned, in space or in time", frame.join("; ")));
+        line(
+            "case",
+            match &self.matched {
+                Some(matched) => format!("matched to case {} ({})", self.case, matched.words()),
+                None => self.case.clone(),
+            },
+        );
+        let span = self.span_s.map_or("nothing".into(), |[from, to]| format!("t = {from:.1} … {to:.1} s"));
+        let ended = self.ended.as_ref().map_or(String::new(), |ended| format!("; ended by {ended}"));
+        line("judged", format!("{span}{ended}; legs by {}", self.legs_by.words()));
+        for cut in &self.cuts {
+            line("cut out", cut.in_words());
+        }
+        if let Some(flown) = &self.flown {
+            if let Some(s) = flown.statistics {
+                line(
+                    "deviation",
+                    format!(
+                        "max {:.3} m, mean {:.3} m, median {:.3} m, min {:.3} m, rmse {:.3} m, sse {:.3} m², std {:.3} m",
+                        s.max, s.mean, s.median, s.min, s.rmse, s.sse, s.std
+                    ),
+                );
+            }
+            if let Some(simulated) = self.simulated_m {
+                let flown = flown.measures.max_deviation;
+                line(
+                    "gap",
+                    format!("flown {flown:.2} m, simulated {simulated:.2} m at worst: {:+.2} m", flown - simulated),
+                );
+            }
+            if flown.measures.acceleration_source == AccelerationSource::Position && flown.limits.acceleration.is_some()
+            {
+                line("note", "accelerations are second differences of positions".into());
+            }
+        }
+        self.notes.iter().for_each(|note| line("note", note.clone()));
+        lines
+    }
+}

@@ -1,0 +1,315 @@
+//! A log of the real robot against the waypoints of a case: what its samples break, what may hide between them, and what
+//! its own accuracy leaves open.
+
+use std::borrow::Cow;
+
+use nalgebra::{Point3, Vector3};
+use thiserror::Error;
+
+use super::judge::{reference, settings};
+use super::scenario::DeviationFrom;
+use super::{Case, Mistake, Setup};
+use crate::judgement::{
+    self, Clearance, Close, JudgementError, Limits, Measures, Settings, Statistics, Swiftness, Violation, look_closely,
+    measure, most_between,
+};
+use crate::math::segment::nearest_point;
+use crate::trajectory::Flight;
+
+/// What of a log is judged.
+#[derive(Debug, Clone)]
+pub struct Log {
+    /// What was flown, world frame, with the channel `leg`; [`judge_flown`] looks for the moment it left the world.
+    pub flight: Flight,
+    /// Samples before which something was cut out.
+    pub breaks: Vec<usize>,
+    /// Horizontal and vertical standard deviation of every sample's position, m; empty where nothing is said of any.
+    pub accuracy: Vec<Option<[f64; 2]>>,
+    /// Whether the world is known that it moved in: where it is not, neither obstacles nor bounds are judged.
+    pub in_world: bool,
+}
+
+/// Why a limit that the samples keep, or break, is open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Why {
+    /// Between two samples it may have been broken.
+    Between {
+        /// What may have been, in the unit of the limit; infinite where nothing bounds it.
+        most: f64,
+        /// Samples a second that would decide, 1/s; `None` where none do.
+        rate_hz: Option<f64>,
+    },
+    /// The log itself does not know its place any better.
+    Accuracy {
+        /// `eph` or `epv`.
+        which: &'static str,
+        /// Its standard deviation, m.
+        sigma: f64,
+    },
+}
+
+/// A limit that is open.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// What the samples came to.
+    pub value: Violation,
+    /// Why that does not decide.
+    pub why: Why,
+}
+
+/// What a log came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flown {
+    /// Of its samples.
+    pub measures: Measures,
+    /// Of the samples' deviations, each counted once.
+    pub statistics: Option<Statistics>,
+    /// What it is held against.
+    pub limits: Limits,
+    /// What it violates whatever hides between samples, and however inaccurate they are as they say, gravest first.
+    pub violations: Vec<Violation>,
+    /// What is open.
+    pub doubts: Vec<Doubt>,
+    /// The largest deviation that may hide between samples, m; infinite where nothing bounds it.
+    pub most_between: f64,
+    /// What bounds it.
+    pub swiftness: Swiftness,
+}
+
+/// Why a log cannot be judged.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FlownError {
+    /// A case of a folder that was edited.
+    #[error(transparent)]
+    Mistake(#[from] Mistake),
+    /// It has nothing to measure.
+    #[error(transparent)]
+    Judgement(#[from] JudgementError),
+}
+
+/// Judges `log` as a run of `case`.
+///
+/// A limit of distance is violated for certain where a sample exceeds it by more than the standard deviation that the
+/// log claims there, in the direction in which it is off: σ² = (e_h σ_h)² + (e_v σ_v)², e the unit vector from the
+/// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
+/// samples does ([`look_closely`]). Everything else is a doubt. Accelerations, durations and attitudes are judged by the
+/// samples alone.
+///
+/// # Errors
+/// [`FlownError`].
+pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, FlownError> {
+    let around = setup.around(case)?;
+    let setup: &Setup = &around;
+    let mut terms = setup.scenario.head().terms;
+    // Why a log ends its reader says.
+    terms.limits.unfinished = false;
+    let path = (terms.from == DeviationFrom::Path).then(|| reference(setup, case, None)).flatten();
+    let clearance = if log.in_world { setup.kind().clearance() } else { None };
+    let settings = Settings { breaks: &log.breaks, ..settings(&terms, path.as_ref(), clearance.as_deref()) };
+    let measures = measure(&log.flight.track, &case.waypoints, &settings)?;
+    let enough = terms.limits.deviation.unwrap_or(f64::INFINITY);
+    let swiftness = refuted(setup.swiftness(), &log.flight);
+    let close = look_closely(&log.flight.track, &case.waypoints, &settings, &swiftness, enough)?;
+    let mut flight = Cow::Borrowed(&log.flight);
+    if let Some(left) = log.in_world.then(|| left_world(setup, log)).flatten() {
+        flight.to_mut().left_world = Some(left);
+    }
+    let mut broken = judgement::violations(&measures, &flight, &terms.limits);
+    let looked = Looked { log, close: &close, waypoints: &case.waypoints, swiftness: &swiftness };
+    let mut doubts = Vec::new();
+    for (what, doubt) in [
+        ("deviation", looked.deviation(&measures, terms.limits.deviation)),
+        ("overshoot", looked.overshoot(&measures, terms.limits.overshoot, &settings)),
+        ("clearance", looked.clearance(&measures, terms.limits.clearance, settings.clearance)),
+    ] {
+        if let Some(doubt) = doubt {
+            broken.retain(|violation| violation.what != what);
+            doubts.push(doubt);
+        }
+    }
+    let deviations: Vec<f64> = close.iter().filter_map(|close| Some(close.off?.norm())).collect();
+    let most_between = close.iter().filter_map(|close| close.until_next).fold(measures.max_deviation, f64::max);
+    let statistics = Statistics::of(&deviations);
+    Ok(Flown { measures, statistics, limits: terms.limits, violations: broken, doubts, most_between, swiftness })
+}
+
+/// What bounds the robot, without a speed that the log itself shows it to exceed.
+fn refuted(swiftness: Swiftness, flight: &Flight) -> Swiftness {
+    let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| flight.track.channel(name));
+    let fastest = match columns {
+        [Some(x), Some(y), Some(z)] => (0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i]).norm()).fold(0.0, f64::max),
+        _ => 0.0,
+    };
+    Swiftness { speed: swiftness.speed.filter(|speed| *speed >= fastest), ..swiftness }
+}
+
+/// When it was first outside its world for certain: with all that lies within its accuracy, s.
+fn left_world(setup: &Setup, log: &Log) -> Option<f64> {
+    let track = &log.flight.track;
+    let outside = |i: usize| {
+        let (p, [across, up]) = (track.position(i), log.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2]));
+        let ways = [Vector3::x() * across, Vector3::y() * across, Vector3::z() * up];
+        setup.is_outside(&p) && ways.iter().all(|way| setup.is_outside(&(p + way)) && setup.is_outside(&(p - way)))
+    };
+    (0..track.len()).find(|i| outside(*i)).map(|i| track.times()[i])
+}
+
+struct Looked<'a> {
+    log: &'a Log,
+    close: &'a [Close],
+    waypoints: &'a [Point3<f64>],
+    swiftness: &'a Swiftness,
+}
+
+/// A standard deviation (m) and which of the log's two it is mostly.
+#[derive(Clone, Copy)]
+struct Sigma {
+    along: f64,
+    which: &'static str,
+    claimed: f64,
+}
+
+impl Looked<'_> {
+    /// Of sample `i` in the direction `off`, or in whichever is worse.
+    fn sigma(&self, i: usize, off: Option<Vector3<f64>>) -> Sigma {
+        let [across, up] = self.log.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2]);
+        let [own_across, own_up] = match off.and_then(|off| off.try_normalize(0.0)) {
+            Some(way) => [across * libm::hypot(way.x, way.y), up * way.z.abs()],
+            None => [across, up],
+        };
+        let along = if off.is_some() { libm::hypot(own_across, own_up) } else { across.max(up) };
+        let (which, claimed) = if own_up > own_across { ("epv", up) } else { ("eph", across) };
+        Sigma { along, which, claimed }
+    }
+
+    /// The interval after sample `i`, s, and how far (m) the motion may bulge out of it; `None` before a break.
+    fn after(&self, i: usize) -> Option<(f64, f64)> {
+        let track = &self.log.flight.track;
+        let next = (i + 1 < track.len() && self.log.breaks.binary_search(&(i + 1)).is_err()).then_some(i + 1)?;
+        let span = track.times()[next] - track.times()[i];
+        Some((span, self.swiftness.bulge(span, (track.position(next) - track.position(i)).norm())))
+    }
+
+    /// Samples a second with which `margin` m are not exceeded between them.
+    fn rate(&self, margin: f64) -> Option<f64> {
+        let by_acceleration = self.swiftness.acceleration.map(|a| (a / (8.0 * margin)).sqrt());
+        let by_speed = self.swiftness.speed.map(|v| v / (2.0 * margin));
+        let least = by_acceleration.into_iter().chain(by_speed).fold(f64::INFINITY, f64::min);
+        (margin > 0.0 && least.is_finite()).then_some(least)
+    }
+
+    fn deviation(&self, measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
+        let limit = limit?;
+        let samples = || {
+            let all = self.close.iter().enumerate();
+            all.filter_map(|(i, close)| Some((i, close.off?.norm(), self.sigma(i, close.off))))
+        };
+        let value = |at: f64, value: f64, leg: usize| violation("deviation", value, limit, at, leg);
+        let worst = value(measures.t_worst, measures.max_deviation, measures.leg_worst);
+        let times = self.log.flight.track.times();
+        if measures.max_deviation > limit {
+            let certain = samples().any(|(_, off, sigma)| off - sigma.along > limit);
+            let (_, _, sigma) = samples().find(|(i, ..)| times[*i] == measures.t_worst)?;
+            return (!certain).then_some(Doubt { value: worst, why: sigma.doubt() });
+        }
+        let unsure = samples().filter(|(_, off, sigma)| off + sigma.along > limit);
+        if let Some((i, off, sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
+            return Some(Doubt { value: value(times[i], off, self.close[i].leg), why: sigma.doubt() });
+        }
+        let (mut most, mut rate, mut at) = (0.0, Some(0.0_f64), 0);
+        for (i, close) in self.close.iter().enumerate() {
+            let Some(bound) = close.until_next.map(|bound| bound + self.sigma(i, close.off).along) else { continue };
+            if bound > limit {
+                let ends =
+                    [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
+                let own = self.rate(limit - ends[0].max(ends[1]));
+                rate = rate.and_then(|rate| Some(rate.max(own?)));
+                if bound > most {
+                    (most, at) = (bound, i);
+                }
+            }
+        }
+        let off = self.close[at].off.map_or(0.0, |off| off.norm());
+        let value = value(times[at], off, self.close[at].leg);
+        (most > limit).then_some(Doubt { value, why: Why::Between { most, rate_hz: rate } })
+    }
+
+    fn overshoot(&self, measures: &Measures, limit: Option<f64>, settings: &Settings) -> Option<Doubt> {
+        let limit = limit?;
+        let legs = measures.legs.iter().enumerate();
+        let leg = legs.max_by(|a, b| a.1.overshoot.total_cmp(&b.1.overshoot)).map_or(0, |(leg, _)| leg);
+        let value = violation("overshoot", measures.max_overshoot(), limit, measures.t_overshoot, leg);
+        // Against a path overshoot is measured from the samples' places on it, which between samples nobody knows.
+        let by_leg = !matches!(settings.reference, judgement::Reference::Path(_));
+        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { self.beyond(p, leg) } else { 0.0 };
+        self.of_distance(value, false, &beyond)
+    }
+
+    /// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and the one before; it changes
+    /// by no more than the way.
+    fn beyond(&self, p: &Point3<f64>, leg: usize) -> f64 {
+        let way = |leg: usize| self.waypoints[leg + 1] - self.waypoints[leg];
+        let beyond = |leg: usize, from: &Point3<f64>| {
+            way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - from).dot(&direction))
+        };
+        let own = beyond(leg, &self.waypoints[leg + 1]);
+        let before =
+            (leg > 0).then(|| beyond(leg - 1, &nearest_point(p, &self.waypoints[leg], &self.waypoints[leg + 1])));
+        before.map_or(own, |before| own.max(before))
+    }
+
+    fn clearance(&self, measures: &Measures, limit: Option<f64>, clearance: Option<&Clearance<'_>>) -> Option<Doubt> {
+        let (limit, clearance, least) = (limit?, clearance?, measures.min_clearance?);
+        let legs = measures.legs.iter().enumerate();
+        let of = |leg: &judgement::LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
+        let leg = legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg);
+        let value = violation("clearance", least, limit, measures.t_clearance, leg);
+        self.of_distance(value, true, &|p, _| clearance(p))
+    }
+
+    /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one
+    /// that must not fall short. Where the leg changes between two samples it changes where that is least.
+    fn of_distance(&self, value: Violation, lower: bool, of: &dyn Fn(&Point3<f64>, usize) -> f64) -> Option<Doubt> {
+        // Falling short is exceeding, the other way round.
+        let turn = |x: f64| if lower { -x } else { x };
+        let (track, limit) = (&self.log.flight.track, turn(value.limit));
+        let at = |i: usize, leg: usize| turn(of(&track.position(i), leg));
+        let values: Vec<f64> = (0..track.len()).map(|i| at(i, self.close[i].leg)).collect();
+        let sigma = |i: usize| self.sigma(i, None);
+        let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+        if turn(value.value) > limit {
+            let certain = (0..values.len()).any(|i| values[i] - sigma(i).along > limit);
+            return (!certain && sigma(worst).along > 0.0).then(|| Doubt { value, why: sigma(worst).doubt() });
+        }
+        if let Some(i) = (0..values.len()).find(|i| values[*i] + sigma(*i).along > limit) {
+            return Some(Doubt { value, why: sigma(i).doubt() });
+        }
+        let (mut most, mut rate) = (f64::NEG_INFINITY, Some(0.0_f64));
+        for i in 0..values.len() {
+            let Some((_, bulge)) = self.after(i) else { continue };
+            let enough = limit - sigma(i).along;
+            let on = |leg: usize| {
+                let ends = [i, i + 1].map(|k| (track.position(k), at(k, leg)));
+                most_between(&|p| turn(of(p, leg)), ends, bulge, enough)
+            };
+            let legs = [self.close[i].leg, self.close[i + 1].leg];
+            let bound = if legs[0] == legs[1] { on(legs[0]) } else { on(legs[0]).min(on(legs[1])) };
+            if bound > enough {
+                most = most.max(bound);
+                let own = self.rate(enough - values[i].max(values[i + 1]));
+                rate = rate.and_then(|rate| Some(rate.max(own?)));
+            }
+        }
+        (most > f64::NEG_INFINITY).then(|| Doubt { value, why: Why::Between { most: turn(most), rate_hz: rate } })
+    }
+}
+
+impl Sigma {
+    fn doubt(self) -> Why {
+        Why::Accuracy { which: self.which, sigma: self.claimed }
+    }
+}
+
+fn violation(what: &str, value: f64, limit: f64, at: f64, leg: usize) -> Violation {
+    Violation { what: what.into(), value, limit, unit: "m".into(), at, leg }
+}
