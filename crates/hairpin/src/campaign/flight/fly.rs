@@ -61,6 +61,7 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
         fixed_velocity: execute.fixed_velocity_m_s,
         segment_times: execute.segment_times,
         goto_speed: execute.goto_speed_m_s,
+        bandwidth: execute.bandwidth.unwrap_or(1.0),
     }
 }
 
@@ -100,6 +101,7 @@ fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
         accept: order.accept,
         time_limit: order.time_limit,
         walls: execute.walls,
+        latency: execute.latency_s.unwrap_or(0.0),
         simd: setup.simd,
         ..FlySettings::default()
     }

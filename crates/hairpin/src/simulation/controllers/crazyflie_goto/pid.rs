@@ -39,29 +39,32 @@ pub(super) struct Pid {
     weight: f64,
     /// Largest velocity asked for on each axis, m/s.
     max_velocity: f64,
+    /// How many times as fast as the firmware's the loops are.
+    bandwidth: f64,
     height: f64,
     velocity: Vector3<f64>,
 }
 
 impl Pid {
     /// For a robot of `weight` N that is asked for at most `max_velocity` m/s on each axis.
-    pub(super) fn new(weight: f64, max_velocity: f64) -> Self {
-        Self { weight, max_velocity, height: 0.0, velocity: Vector3::zeros() }
+    pub(super) fn new(weight: f64, max_velocity: f64, bandwidth: f64) -> Self {
+        Self { weight, max_velocity, bandwidth, height: 0.0, velocity: Vector3::zeros() }
     }
 
     /// One turn towards the set point `to`, m.
     pub(super) fn follow(&mut self, dt: f64, now: &FlightState, to: &Vector3<f64>) -> FlightCommand {
         let error = to - now.position;
         self.height += error.z * dt;
-        let asked = error * POSITION + Vector3::z() * (HEIGHT_I * self.height);
+        let b = self.bandwidth;
+        let asked = error * (POSITION * b) + Vector3::z() * (HEIGHT_I * b * b * self.height);
         let wanted = asked.map(|v| v.clamp(-self.max_velocity, self.max_velocity));
         let error = wanted - now.velocity;
         self.velocity += error * dt;
         let tilt = |axis: usize| {
-            let degrees: f64 = TILT_P * error[axis] + TILT_I * self.velocity[axis];
+            let degrees: f64 = TILT_P * b * error[axis] + TILT_I * b * b * self.velocity[axis];
             degrees.clamp(-MAX_TILT, MAX_TILT).to_radians()
         };
-        let up = THRUST_P * error.z + THRUST_I * self.velocity.z;
+        let up = THRUST_P * b * error.z + THRUST_I * b * b * self.velocity.z;
         let units = HOVER + 1000.0 * up.clamp(-MAX_CORRECTION, MAX_CORRECTION);
         let thrust = self.weight * (units.clamp(LEAST, MOST) / HOVER);
         FlightCommand::Attitude { thrust, attitude: tilted(tilt(0), -tilt(1)) }

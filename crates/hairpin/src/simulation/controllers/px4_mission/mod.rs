@@ -47,12 +47,12 @@ pub(crate) struct Px4Mission {
 
 impl Px4Mission {
     /// For a robot, which may be slower than the parameters.
-    pub(crate) fn new(robot: &Quadrotor) -> Self {
+    pub(crate) fn new(robot: &Quadrotor, bandwidth: f64) -> Self {
         Self {
             mass: robot.mass,
             max_speed: robot.max_speed,
             guidance: Guidance::new(),
-            tracking: Tracking::new(robot),
+            tracking: Tracking::new(robot, bandwidth),
             point: None,
             climbs: false,
         }
