@@ -3,6 +3,48 @@
 //! Readers convert axes at this door and nowhere else, and align nothing: what a log's frame is, whose stamps it has and who
 //! estimated its poses is told beside them.
 
+mod detect;
+mod error;
 mod log;
+mod samples;
+mod text;
 
+use std::path::Path;
+
+pub use error::{LogError, Place};
 pub use log::{Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span};
+pub use samples::MOST_SAMPLES;
+
+use crate::bounds;
+use detect::Format;
+use error::Fault;
+
+/// Bytes of a log at most: hours of all that a vehicle logs.
+pub const MOST_LOG_BYTES: u64 = 1_000_000_000;
+
+/// The log at `path`, whose format is told by its content; among texts, a name that ends in `.tum` or `.csv` decides.
+///
+/// # Errors
+/// The file cannot be read, is of no format that is known, or breaks its format, with the byte or line where it does; it
+/// holds no motion, or more samples than [`MOST_SAMPLES`].
+pub fn read(path: &Path) -> Result<Logged, LogError> {
+    let bytes =
+        bounds::read(path, MOST_LOG_BYTES).map_err(|cause| LogError::Unreadable { path: path.into(), cause })?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    parse(&bytes, &name).map_err(|fault| fault.of(path))
+}
+
+fn parse(bytes: &[u8], name: &str) -> Result<Logged, Fault> {
+    let logged = match Format::of(bytes, name)? {
+        Format::Tum => text::read_tum(text::decode(bytes)?, name),
+        Format::Csv => text::read_csv(text::decode(bytes)?, name),
+    }?;
+    if logged.motions.is_empty() && logged.joints.is_empty() {
+        let notes = if logged.notes.is_empty() { String::new() } else { format!(" ({})", logged.notes.join("; ")) };
+        return Err(Fault::Nothing(format!("a {} log without any motion{notes}", logged.format)));
+    }
+    Ok(logged)
+}
+
+#[cfg(test)]
+mod tests;
