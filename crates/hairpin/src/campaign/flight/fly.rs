@@ -3,9 +3,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
+use super::fit;
 use super::place::place;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, LegByLeg, Order, Same};
+use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
@@ -26,6 +27,10 @@ impl Act for FlightSetup {
     /// Of a stranger's controller nobody knows how far it looks ahead.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         (self.controller.is_none() && !controller(self).kind.plans_ahead()).then_some(self)
+    }
+
+    fn fittable(&self) -> Result<Fittable, String> {
+        fit::fittable(self, &controller(self))
     }
 
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {

@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn on_the_set_point_it_hovers() {
-        let (thrust, attitude) = asked(&mut Pid::new(0.3, 1.1), [1.0; 3], [0.0; 3], [1.0; 3]);
+        let (thrust, attitude) = asked(&mut Pid::new(0.3, 1.1, 1.0), [1.0; 3], [0.0; 3], [1.0; 3]);
         assert_eq!((thrust, attitude), (0.3, UnitQuaternion::identity()));
     }
 
@@ -106,8 +106,8 @@ mod tests {
     #[test]
     fn tilt_and_thrust_are_the_closed_forms_within_their_limits() {
         for (to, velocity, degrees) in [(0.1, 0.0, 25.0 * 0.2), (5.0, 1.0, 25.0 * 0.1), (5.0, 0.0, 20.0)] {
-            let ahead = asked(&mut Pid::new(1.0, 1.1), [0.0; 3], [velocity, 0.0, 0.0], [to, 0.0, 0.0]).1;
-            let left = asked(&mut Pid::new(1.0, 1.1), [0.0; 3], [0.0, velocity, 0.0], [0.0, to, 0.0]).1;
+            let ahead = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0; 3], [velocity, 0.0, 0.0], [to, 0.0, 0.0]).1;
+            let left = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0; 3], [0.0, velocity, 0.0], [0.0, to, 0.0]).1;
             let up = |q: UnitQuaternion<f64>| q * Vector3::z();
             // The integral of one turn adds less than 0.03°.
             let sine = f64::to_radians(degrees).sin();
@@ -115,7 +115,7 @@ mod tests {
             assert!((up(left).y - sine).abs() < 5e-4 && up(left).x == 0.0, "{to}: {:?}", up(left));
         }
         for (climb, sink, units) in [(0.2, 0.0, 36.0 + 25.0 * 0.4), (9.0, 0.0, 36.0 + 25.0 * 1.1), (0.0, 9.0, 20.0)] {
-            let thrust = asked(&mut Pid::new(1.0, 1.1), [0.0, 0.0, sink], [0.0; 3], [0.0, 0.0, climb]).0;
+            let thrust = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0, 0.0, sink], [0.0; 3], [0.0, 0.0, climb]).0;
             assert!((thrust - units / 36.0).abs() < 0.01, "{climb} {sink}: {thrust}");
         }
     }
