@@ -47,6 +47,9 @@ const START: f64 = 1.0;
 /// there are any.
 const OUTPUTS: [usize; 9] = [0, 0, 1, 2, 2, 3, 4, 4, 5];
 
+/// How many numbers outputs have.
+pub(super) const OUTPUT_NUMBERS: usize = 6;
+
 /// The log's side of a comparison.
 #[derive(Debug, Clone)]
 pub(super) struct Compared {

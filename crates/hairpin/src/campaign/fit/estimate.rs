@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::FitError;
-use super::compare::Flown;
+use super::compare::{Compared, Flown, OUTPUT_NUMBERS};
 use super::gap::{Gap, deviation};
 use super::simulate::Loops;
+use super::whiten::{Filter, Leg, filters, whitened};
 use crate::campaign::Setup;
 use crate::campaign::kind::Adjustable;
 use crate::judgement::{SIGMA_95, student_quantile};
@@ -145,6 +146,7 @@ struct Found {
     readings: Vec<(Reading, Option<[f64; 2]>)>,
     written: Vec<f64>,
     stretches: usize,
+    colour: Vec<Filter>,
 }
 
 /// The objective on the logs `which`, by the residuals' function.
@@ -178,6 +180,41 @@ fn objective<'a>(
     Objective { residuals, output, block, begins, parameters: parameters.collect() }
 }
 
+/// Residuals of the logs `which`, filtered leg by leg; `None` where one is not simulated.
+fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: &[Filter]) -> Option<Vec<f64>> {
+    let logs = loops.residuals(theta, which)?;
+    let mut all = Vec::new();
+    for (log, residuals) in which.iter().zip(&logs) {
+        let compared = &loops.compared[*log];
+        legs(compared, residuals).for_each(|leg| whitened(leg, &compared.outputs, filters, &mut all));
+    }
+    Some(all)
+}
+
+/// The filters that leave residuals of `theta` without memory.
+fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
+    let logs = loops.residuals(theta, which)?;
+    let mut found = vec![Filter::NONE; OUTPUT_NUMBERS];
+    // Logs may have different outputs: those of one kind at once.
+    for outputs in which.iter().map(|log| &loops.compared[*log].outputs) {
+        let alike = which.iter().zip(&logs).filter(|(log, _)| loops.compared[**log].outputs == *outputs);
+        let legs: Vec<Leg> = alike.flat_map(|(log, residuals)| legs(&loops.compared[*log], residuals)).collect();
+        for (number, filter) in filters(&legs, outputs).into_iter().enumerate() {
+            found[number] = filter;
+        }
+    }
+    Some(found)
+}
+
+/// The residuals of a log, leg by leg.
+fn legs<'a>(compared: &'a Compared, residuals: &'a [Vec<f64>]) -> impl Iterator<Item = Leg<'a>> {
+    let mut from = 0;
+    compared.samples.chunk_by(|(a, _), (b, _)| a == b).map(move |leg| {
+        from += leg.len();
+        &residuals[from - leg.len()..from]
+    })
+}
+
 impl Found {
     fn of(
         loops: &Loops,
@@ -186,27 +223,28 @@ impl Found {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Self, FitError> {
         // Who is stopped simulates no more, so that all searches end at once.
-        let residuals = |theta: &[f64]| {
-            let all = if stopped() { None } else { loops.residuals(theta, which) };
-            all.map(|logs| logs.into_iter().flatten().flatten().collect())
-        };
-        let objective = objective(loops, which, &residuals);
-        let (stretches, numbers) = (objective.blocks(), given.len());
+        let none = vec![Filter::NONE; OUTPUT_NUMBERS];
+        let raw = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &none) };
+        let coarse = objective(loops, which, &raw);
+        let (stretches, numbers) = (coarse.blocks(), given.len());
         if stretches < numbers + LEAST_FREEDOM {
             let least = numbers + LEAST_FREEDOM;
             return Err(FitError::Few { stretches, stretch_s: STRETCH, least, numbers });
         }
         let over = |error: FitError| if stopped() { FitError::Stopped } else { error };
         let all: Vec<usize> = (0..numbers).collect();
-        let start = descend(&objective, given, &all).ok_or_else(|| over(FitError::NoEffect))?;
-        let mut best = start;
+        let mut start = descend(&coarse, given, &all).ok_or_else(|| over(FitError::NoEffect))?;
         // From elsewhere, where a number that did nothing at first may do something.
         let other: Vec<f64> = loops.numbers.iter().map(|number| number.other).collect();
-        if let Some(found) = descend(&objective, &other, &all)
-            && found.q < best.q
+        if let Some(found) = descend(&coarse, &other, &all)
+            && found.q < start.q
         {
-            best = found;
+            start = found;
         }
+        let colour = colour(loops, &start.theta, which).ok_or_else(|| over(FitError::NoEffect))?;
+        let white = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &colour) };
+        let mut objective = objective(loops, which, &white);
+        let best = descend(&objective, &start.theta, &all).ok_or_else(|| over(FitError::NoEffect))?;
         let free = acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
         let spread = spread(&objective, &best, &free).ok_or_else(|| over(FitError::NoEffect))?;
         let t = student_quantile(spread.freedom, SIGMA_95);
@@ -221,12 +259,18 @@ impl Found {
         }
         let told: Vec<usize> = free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect();
         let mut start = given.to_vec();
-        told.iter().for_each(|own| start[*own] = best.theta[*own]);
+        // With the others as they were given, each goes where it fits best within its interval.
+        for &own in &told {
+            start[own] = best.theta[own];
+            if let Some([low, high]) = readings[own].1 {
+                objective.parameters[own] = Parameter { low, high, ..objective.parameters[own] };
+            }
+        }
         let written = match told.is_empty() {
             true => start,
             false => descend(&objective, &start, &told).map_or(start, |found| found.theta),
         };
-        Ok(Self { free, told, best, spread, readings, written, stretches })
+        Ok(Self { free, told, best, spread, readings, written, stretches, colour })
     }
 
     /// The numbers that are told, from the logs `which` alone.
@@ -234,9 +278,7 @@ impl Found {
         if self.told.is_empty() {
             return Some(self.written.clone());
         }
-        let residuals = |theta: &[f64]| {
-            loops.residuals(theta, which).map(|logs| logs.into_iter().flatten().flatten().collect())
-        };
+        let residuals = |theta: &[f64]| residuals(loops, theta, which, &self.colour);
         descend(&objective(loops, which, &residuals), &self.written, &self.told).map(|found| found.theta)
     }
 

@@ -11,6 +11,7 @@ mod estimate;
 mod gap;
 mod passages;
 mod simulate;
+mod whiten;
 
 pub use compare::Flown;
 pub use error::FitError;

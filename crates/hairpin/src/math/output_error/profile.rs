@@ -10,7 +10,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::descend::{Descent, descend};
+use super::descend::{Descent, descend, settle};
 use super::objective::Objective;
 use super::spread::Spread;
 
@@ -56,6 +56,7 @@ fn end(
         return Side::Open(bound);
     }
     let others: Vec<usize> = free.iter().copied().filter(|other| *other != own).collect();
+    let jacobian = spread.jacobian.clone().remove_column(k);
     let follow = followers(&spread.curvature, k);
     // What was looked at, nearest inside and outside: distance from the centre and √(rise).
     let (mut inside, mut outside) = ((0.0, 0.0), None::<(f64, f64)>);
@@ -67,8 +68,13 @@ fn end(
         for (index, other) in others.iter().enumerate() {
             start[*other] += follow[index] * sign * away;
         }
-        let height = match descend(objective, &start, &others) {
-            Some(there) => (there.q - at.q).max(0.0).sqrt(),
+        // Derivatives of the centre do until the end is met; there they are taken anew, lest Q be told too high.
+        let settled = settle(objective, &start, &others, &jacobian);
+        let height = |found: &Descent| (found.q - at.q).max(0.0).sqrt();
+        let height = match settled {
+            Some(settled) if height(&settled) < (1.0 - NEAR) * limit => height(&settled),
+            Some(settled) if height(&settled) > 2.0 * limit => height(&settled),
+            Some(settled) => descend(objective, &settled.theta, &others).map_or(height(&settled), |found| height(&found)),
             // Nothing is simulated out there.
             None => 3.0 * limit,
         };

@@ -26,6 +26,7 @@ pub struct Spread {
     pub white: DMatrix<f64>,
     /// Blocks less parameters.
     pub freedom: usize,
+    pub(super) jacobian: DMatrix<f64>,
 }
 
 /// The spread about `at` of the parameters `free`. `None` where too few blocks or parameters without effect leave none.
@@ -60,7 +61,7 @@ pub fn spread(objective: &Objective, at: &Descent, free: &[usize]) -> Option<Spr
     let back = |c: &DMatrix<f64>| DMatrix::from_fn(n, n, |a, b| c[(a, b)] * scale[a] * scale[b]);
     let white = (whole + DMatrix::identity(n, n) * RIDGE).try_inverse()?;
     let covariance = back(&(sum * ((m - 1) as f64 / m as f64)));
-    Some(Spread { covariance, curvature: h, white: back(&white), freedom })
+    Some(Spread { covariance, curvature: h, white: back(&white), freedom, jacobian })
 }
 
 /// Against rounding where parameters are confounded, of a matrix with ones on its diagonal.
