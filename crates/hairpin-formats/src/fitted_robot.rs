@@ -1,5 +1,5 @@
-//! A robot's file after a fit: the table that it was, with the numbers that logs told, each marked `estimated` twice, for
-//! people in a comment and for readers in `[estimated]`.
+//! A robot's file after a fit: the table that it was, with the numbers that logs told, each marked `estimated` twice,
+//! for people in a comment and for readers in `[estimated]`.
 
 use serde_json::{Map, Value, json};
 
@@ -14,8 +14,8 @@ pub struct FittedNumber {
     pub interval: Option<[f64; 2]>,
 }
 
-/// A robot file as TOML: `robot`, the table of a resolved scenario, with `numbers` in it. `head` are lines of comment; `from`
-/// says what the numbers are estimated from, and `name` is the robot's.
+/// A robot file as TOML: `robot`, the table of a resolved scenario, with `numbers` in it. `head` are lines of comment;
+/// `from` says what the numbers are estimated from, and `name` is the robot's.
 ///
 /// # Errors
 /// A table that TOML cannot hold, in a sentence's part.
@@ -94,7 +94,8 @@ mod tests {
         let shipped = crate::library::quadrotors().find(|robot| robot.name == "anafi-real").unwrap();
         let before: QuadrotorDescription = toml::from_str(shipped.text).unwrap();
         let robot = serde_json::to_value(&before).unwrap();
-        let drag = FittedNumber { key: "drag_quadratic_n_s2_m2".into(), value: 0.123_456, interval: Some([0.11, 0.13]) };
+        let drag =
+            FittedNumber { key: "drag_quadratic_n_s2_m2".into(), value: 0.123_456, interval: Some([0.11, 0.13]) };
         let lag = FittedNumber { key: "rotor_time_constant_s".into(), value: 0.03, interval: None };
         let written = text(&robot, ("mine", &["From logs.".to_owned()], "5 logs"), &[drag, lag]).unwrap();
         let after: QuadrotorDescription = toml::from_str(&written).unwrap();

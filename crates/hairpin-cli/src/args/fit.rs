@@ -8,9 +8,10 @@ use super::keys::Keys;
 use super::numbers::small_share;
 use super::resources::{Kernels, Threads};
 
-/// Estimates thrust to weight, drag, rotor lag, latency and the controller's bandwidth from logs of flights that a controller
-/// of ours flew or that is taken for one, by output error with profile likelihood; what the logs do not show is told as
-/// `not identifiable`. Writes a robot file. Exit code 0; 5 where nothing is told, or the fit is no better on logs that it has not seen.
+/// Estimates thrust to weight, drag, rotor lag, latency and the controller's bandwidth from logs of flights that a
+/// controller of ours flew or that is taken for one, by output error with profile likelihood; what the logs do not show
+/// is told as `not identifiable`. Writes a robot file. Exit code 0; 5 where nothing is told, or the fit is no better on
+/// logs that it has not seen.
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("flown").required(true).args(["mission", "campaign"])))]
 pub(crate) struct Fit {
@@ -29,7 +30,8 @@ pub(crate) struct Fit {
     /// Campaign folder whose cases the logs are flights of; its scenario says who steers
     #[arg(long, value_name = "DIR")]
     pub(crate) campaign: Option<PathBuf>,
-    /// Share of the logs, the last ones, that the fit does not see and is tried on; each by a fit to the others if not given
+    /// Share of the logs, the last ones, that the fit does not see and is tried on; each by a fit to the others if not
+    /// given
     #[arg(long, value_name = "P", value_parser = small_share, allow_negative_numbers = true)]
     pub(crate) holdout: Option<f64>,
     #[command(flatten)]

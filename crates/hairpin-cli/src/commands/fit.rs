@@ -72,7 +72,8 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
         })
     };
     let confounded = fit.confounded.as_ref().map(|it| {
-        let direction: serde_json::Map<_, _> = it.direction.iter().map(|(field, share)| ((*field).to_owned(), json!(share))).collect();
+        let direction: serde_json::Map<_, _> =
+            it.direction.iter().map(|(field, share)| ((*field).to_owned(), json!(share))).collect();
         json!({ "direction": direction, "relative_deviation": it.deviation })
     });
     json!({
@@ -91,11 +92,20 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
     let all = fit.estimates.len();
     let words = match (code, fit.unseen) {
         (DONE, Some([before, after])) => {
-            format!("FITTED {} of {all} numbers (estimated): {before:.3} m from logs that the fit has not seen becomes {after:.3} m", told(found))
+            format!(
+                "FITTED {} of {all} numbers (estimated): {before:.3} m from logs that the fit has not seen becomes {after:.3} m",
+                told(found)
+            )
         }
-        (DONE, None) => format!("FITTED {} of {all} numbers (estimated): whether it helps on another log is not shown by one", told(found)),
+        (DONE, None) => format!(
+            "FITTED {} of {all} numbers (estimated): whether it helps on another log is not shown by one",
+            told(found)
+        ),
         (_, Some([before, after])) if told(found) > 0 => {
-            format!("INCONCLUSIVE: {} of {all} numbers are told, but {before:.3} m from logs that the fit has not seen becomes {after:.3} m", told(found))
+            format!(
+                "INCONCLUSIVE: {} of {all} numbers are told, but {before:.3} m from logs that the fit has not seen becomes {after:.3} m",
+                told(found)
+            )
         }
         _ => format!("INCONCLUSIVE: none of {all} numbers is identifiable from these logs"),
     };
@@ -118,7 +128,9 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
         ));
     }
     let of = |it: Deviation| format!("{} / {}", number(Some(it.rmse_m)), number(Some(it.max_m)));
-    let mut rows = vec![["log", "as given, m (rmse / max)", "fitted", "by a fit that has not seen it"].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        ["log", "as given, m (rmse / max)", "fitted", "by a fit that has not seen it"].map(str::to_owned).to_vec(),
+    ];
     for gap in &fit.gaps {
         rows.push(vec![gap.log.clone(), of(gap.before), of(gap.after), gap.unseen.map_or("–".into(), of)]);
     }

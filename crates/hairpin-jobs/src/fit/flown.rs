@@ -24,7 +24,10 @@ impl Missions {
     pub(super) fn of_file(file: &Path, setup: &Setup) -> Result<Self, Problem> {
         let (points, _) = waypoints::read(file, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
         if points.len() < 2 {
-            return Err(Problem::of_file(file, format!("a mission needs at least 2 waypoints, this has {}", points.len())));
+            return Err(Problem::of_file(
+                file,
+                format!("a mission needs at least 2 waypoints, this has {}", points.len()),
+            ));
         }
         Ok(Self::One(file.display().to_string(), Box::new(Case::bare(CaseNumber(0), 0, points))))
     }
@@ -40,7 +43,9 @@ impl Missions {
         let case = number.parse::<usize>().ok().and_then(|number| cases.iter().find(|case| case.number.0 == number));
         let case = case.ok_or_else(|| {
             let (folder, of) = (folder.display(), cases.len());
-            let sentence = format!("no case of {folder}, which has {of}: logs are called as `export` does, CASE-RUN.csv or CASE.exec.tum");
+            let sentence = format!(
+                "no case of {folder}, which has {of}: logs are called as `export` does, CASE-RUN.csv or CASE.exec.tum"
+            );
             Problem::of_file(file, sentence)
         })?;
         Ok((format!("case {} of {}", case.id(), folder.display()), case))
@@ -69,8 +74,8 @@ pub(super) fn flown(file: &Path, missions: &Missions, watch: &dyn Watch) -> Resu
     Ok(Flown { log: file.display().to_string(), mission, case: case.clone(), track })
 }
 
-/// What of a motion was the mission: from its begin, as far as the log tells it, to what ended it or the first moment at which
-/// the source cannot be relied on.
+/// What of a motion was the mission: from its begin, as far as the log tells it, to what ended it or the first moment
+/// at which the source cannot be relied on.
 fn track(logged: &Logged, motion: &LoggedMotion) -> Result<Track, String> {
     let of = |kind: EventKind| logged.events.iter().find(move |event| event.kind == kind).map(|event| event.t_s);
     let begin = of(EventKind::MissionBegins).unwrap_or(f64::NEG_INFINITY);

@@ -57,8 +57,8 @@ pub struct Fitted {
 /// Fits, and writes the robot's file.
 ///
 /// # Errors
-/// Neither a mission nor a campaign; a robot, campaign, mission or log that cannot be read; a log that is no flight of its
-/// mission; too little in all of them; it was asked to stop.
+/// Neither a mission nor a campaign; a robot, campaign, mission or log that cannot be read; a log that is no flight of
+/// its mission; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
     let (setup, missions) = missions(settings)?;
@@ -67,7 +67,9 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     let held_out = settings.hold_out.map_or(0, |share| (share * logs.len() as f64).ceil() as usize);
     if held_out > 0 && held_out >= logs.len() {
         let of = logs.len();
-        return Err(Problem::input(format!("--holdout leaves nothing to fit to: {held_out} of {of} logs; give more logs")));
+        return Err(Problem::input(format!(
+            "--holdout leaves nothing to fit to: {held_out} of {of} logs; give more logs"
+        )));
     }
     let found = fit::fit(&setup, &logs, &fit::FitSettings { held_out }, &|| watch.stopped());
     let found = found.map_err(|error| match error {
@@ -89,7 +91,8 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
     match (&settings.campaign, &settings.mission) {
         (Some(campaign), None) => {
             let file = Path::new(&settings.robot);
-            let robot = if file.is_file() { absolute(file).to_string_lossy().into_owned() } else { settings.robot.clone() };
+            let robot =
+                if file.is_file() { absolute(file).to_string_lossy().into_owned() } else { settings.robot.clone() };
             let robot = ("robot".to_owned(), Value::from(robot).to_string());
             let sets: Vec<Set> = std::iter::once(robot).chain(settings.sets.iter().cloned()).collect();
             let work = open_with(campaign, &sets)?;
@@ -108,12 +111,13 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
     }
 }
 
-/// The robot's table with what was told. What R leaves out and nobody told is written as it was derived, for what is derived
-/// follows from what was fitted.
+/// The robot's table with what was told. What R leaves out and nobody told is written as it was derived, for what is
+/// derived follows from what was fitted.
 fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) -> Result<String, Problem> {
     let robot = setup.handed().robot;
     let keys = |estimate: &Estimate| {
-        let of_robot = estimate.number.keys.iter().filter_map(|(key, of)| Some((key.strip_prefix("robot.")?.to_owned(), *of)));
+        let of_robot =
+            estimate.number.keys.iter().filter_map(|(key, of)| Some((key.strip_prefix("robot.")?.to_owned(), *of)));
         of_robot.collect::<Vec<_>>()
     };
     let mut numbers = Vec::new();
@@ -128,7 +132,10 @@ fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) ->
     }
     let name = settings.out.file_stem().map_or_else(|| "fitted".into(), |stem| stem.to_string_lossy().into_owned());
     let head = [
-        format!("{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements", setup.robot_name()),
+        format!(
+            "{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements",
+            setup.robot_name()
+        ),
         format!("of the robot. Residual {:.3} m over {from}; what was not told is as it was.", found.residual_m),
     ];
     fitted_robot::text(&robot, (&name, &head, from), &numbers).map_err(|why| Problem::of_file(&settings.out, why))

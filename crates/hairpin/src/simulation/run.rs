@@ -134,8 +134,18 @@ impl Run {
         let loops = ClosedLoop::new(sortie, conditions, settings, seed)?;
         let hazards = Hazards::new(sortie.robot.clearance_radius, settings.walls, &sortie.waypoints[0].coords);
         let to = Due { watch: 0, log: 0, turn: 0 };
-        let mut run =
-            Self { loops, course, hazards, recorder, settings: *settings, every: to, to, tick: 0, late: VecDeque::new(), ended: None };
+        let mut run = Self {
+            loops,
+            course,
+            hazards,
+            recorder,
+            settings: *settings,
+            every: to,
+            to,
+            tick: 0,
+            late: VecDeque::new(),
+            ended: None,
+        };
         run.every =
             Due { watch: run.ticks(WATCH_PERIOD), log: run.ticks(settings.log_period), turn: run.ticks(PERIOD) };
         Ok(run)

@@ -43,8 +43,8 @@ const AFTER: f64 = 2.0;
 /// A log may begin so far from the first waypoint, in radii.
 const START: f64 = 1.0;
 
-/// What a stretch of a track is made of: position, and velocity, thrust axis and the mean of the rotors' squared speeds where
-/// there are any.
+/// What a stretch of a track is made of: position, and velocity, thrust axis and the mean of the rotors' squared speeds
+/// where there are any.
 const OUTPUTS: [usize; 9] = [0, 0, 1, 2, 2, 3, 4, 4, 5];
 
 /// How many numbers outputs have.
@@ -130,7 +130,13 @@ impl Compared {
         let first = usize::from(!rule.timed && begun.len() > 1);
         let mut samples = Vec::new();
         for (leg, &from) in begun.iter().enumerate().skip(first) {
-            let to = if leg < last { begun[leg + 1] } else if rule.timed { end } else { (from + AFTER).min(end) };
+            let to = if leg < last {
+                begun[leg + 1]
+            } else if rule.timed {
+                end
+            } else {
+                (from + AFTER).min(end)
+            };
             let count = ((to - from) / PERIOD).floor() as usize;
             samples.extend((0..count).map(|i| (leg, (i as f64 + 0.5) * PERIOD)));
         }
@@ -154,13 +160,13 @@ fn begins_of_legs(track: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Resu
     passages(track, waypoints, (rule.acceptance, rule.radius))
 }
 
-/// The outputs at `t`, each by a line through the samples within half a period of it, or between the two around it where these
-/// are few; as at its end where the track is over.
+/// The outputs at `t`, each by a line through the samples within half a period of it, or between the two around it
+/// where these are few; as at its end where the track is over.
 fn outputs_at(track: &Track, columns: Columns, t: f64) -> Vec<f64> {
     let times = track.times();
     let t = t.clamp(times[0], times[times.len() - 1]);
-    let near = times.partition_point(|time| *time < t - 0.5 * PERIOD)
-        ..times.partition_point(|time| *time <= t + 0.5 * PERIOD);
+    let near =
+        times.partition_point(|time| *time < t - 0.5 * PERIOD)..times.partition_point(|time| *time <= t + 0.5 * PERIOD);
     let range = if near.len() >= 4 {
         near
     } else {

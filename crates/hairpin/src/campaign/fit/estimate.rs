@@ -11,6 +11,7 @@ use crate::campaign::Setup;
 use crate::campaign::kind::Adjustable;
 use crate::judgement::{SIGMA_95, student_quantile};
 use crate::math::output_error::{Descent, Objective, Parameter, Side, Spread, acting, descend, profile, spread};
+use crate::math::power::square;
 
 /// What is fitted on.
 #[derive(Debug, Clone, Copy, Default)]
@@ -245,7 +246,8 @@ impl Found {
         let white = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &colour) };
         let mut objective = objective(loops, which, &white);
         let best = descend(&objective, &start.theta, &all).ok_or_else(|| over(FitError::NoEffect))?;
-        let free = acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
+        let free =
+            acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
         let spread = spread(&objective, &best, &free).ok_or_else(|| over(FitError::NoEffect))?;
         let t = student_quantile(spread.freedom, SIGMA_95);
         let mut readings = vec![(Reading::NoEffect, None); numbers];
@@ -303,13 +305,13 @@ impl Found {
             [before, squares(&|gap| Some(gap.unseen?.rmse_m))]
         });
         let seen: Vec<&Gap> = which.iter().map(|at| &gaps[*at]).collect();
-        let residual_m = (seen.iter().map(|gap| gap.after.rmse_m.powi(2)).sum::<f64>() / seen.len() as f64).sqrt();
+        let residual_m = (seen.iter().map(|gap| square(gap.after.rmse_m)).sum::<f64>() / seen.len() as f64).sqrt();
         let n = self.free.len();
-        let inflation = (0..n).map(|k| self.spread.covariance[(k, k)] / self.spread.white[(k, k)]).sum::<f64>() / n as f64;
+        let inflation =
+            (0..n).map(|k| self.spread.covariance[(k, k)] / self.spread.white[(k, k)]).sum::<f64>() / n as f64;
         let keys = estimates.iter().filter(|estimate| estimate.is_told());
-        let keys = keys.flat_map(|estimate| {
-            estimate.number.keys.iter().map(|(key, of)| (key.clone(), estimate.value * of))
-        });
+        let keys =
+            keys.flat_map(|estimate| estimate.number.keys.iter().map(|(key, of)| (key.clone(), estimate.value * of)));
         Fit {
             confounded: self.confounded(loops, &estimates),
             keys: keys.collect(),

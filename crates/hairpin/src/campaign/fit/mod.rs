@@ -2,8 +2,8 @@
 //! says is held against what was logged (docs/fit.md).
 //!
 //! What is measured of a log is its motion leg by leg: who flies from waypoint to waypoint begins each leg when it has
-//! reached the last one, so both motions are counted from there. A gust that made the vehicle late on one leg is then not
-//! an error on all that follow.
+//! reached the last one, so both motions are counted from there. A gust that made the vehicle late on one leg is then
+//! not an error on all that follow.
 
 mod compare;
 mod error;

@@ -36,7 +36,8 @@ impl<'a> Loops<'a> {
     /// The keys of the scenario with `theta` in them.
     pub(super) fn draws(&self, theta: &[f64]) -> Vec<(String, Value)> {
         let keys = self.numbers.iter().zip(theta);
-        keys.flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of)))).collect()
+        keys.flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of))))
+            .collect()
     }
 
     fn with(&self, theta: &[f64]) -> Result<Setup, Mistake> {
@@ -57,7 +58,8 @@ impl<'a> Loops<'a> {
         }
     }
 
-    /// Logged less simulated, of the logs `which`, sample by sample, all outputs of each; `None` where one is not simulated.
+    /// Logged less simulated, of the logs `which`, sample by sample, all outputs of each; `None` where one is not
+    /// simulated.
     pub(super) fn residuals(&self, theta: &[f64], which: &[usize]) -> Option<Vec<Vec<Vec<f64>>>> {
         let setup = self.with(theta).ok()?;
         which

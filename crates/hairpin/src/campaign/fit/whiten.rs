@@ -4,9 +4,9 @@
 //! r_i = φ₁ r_{i−1} + φ₂ r_{i−2} + e_i        γ_k = Σ r_i r_{i−k}/n within legs        φ by Yule and Walker
 //! ```
 //!
-//! A filter of residuals, the same for all parameters, leaves output error consistent and brings it near to the estimate of
-//! the least variance (Ljung, System Identification, 2nd ed., 14.4; Prais and Winsten 1954 for a leg's first samples). What it
-//! leaves of colour the spread of stretches takes up.
+//! A filter of residuals, the same for all parameters, leaves output error consistent and brings it near to the
+//! estimate of the least variance (Ljung, System Identification, 2nd ed., 14.4; Prais and Winsten 1954 for a leg's
+//! first samples). What it leaves of colour the spread of stretches takes up.
 
 /// Of an output, of order two.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -24,11 +24,11 @@ pub struct Descent {
     pub(super) value: Value,
 }
 
-/// The minimum of Q over the parameters `free` that is met from `start`, the others as they are there; `None` where there
-/// is no simulation at the start.
+/// The minimum of Q over the parameters `free` that is met from `start`, the others as they are there; `None` where
+/// there is no simulation at the start.
 ///
-/// (H + λ diag H) δ = g, each δ cut to the bounds; λ falls by 10 where Q does and rises by 10 where it does not (Marquardt
-/// 1963). A parameter at a bound that the gradient pushes against is left out of the turn.
+/// (H + λ diag H) δ = g, each δ cut to the bounds; λ falls by 10 where Q does and rises by 10 where it does not
+/// (Marquardt 1963). A parameter at a bound that the gradient pushes against is left out of the turn.
 pub fn descend(objective: &Objective, start: &[f64], free: &[usize]) -> Option<Descent> {
     let mut theta: Vec<f64> = start.iter().zip(&objective.parameters).map(|(x, p)| x.clamp(p.low, p.high)).collect();
     let mut value = objective.at(&theta)?;
@@ -55,15 +55,17 @@ pub fn descend(objective: &Objective, start: &[f64], free: &[usize]) -> Option<D
     Some(Descent { theta, q: value.q, value })
 }
 
-/// The same in few turns with the derivatives `jacobian`, a column for each of `free`, which were taken nearby: a simulation a
-/// turn. Where that ends Q is an upper bound of its minimum.
+/// The same in few turns with the derivatives `jacobian`, a column for each of `free`, which were taken nearby: a
+/// simulation a turn. Where that ends Q is an upper bound of its minimum.
 pub(super) fn settle(objective: &Objective, start: &[f64], free: &[usize], jacobian: &DMatrix<f64>) -> Option<Descent> {
     let mut theta: Vec<f64> = start.iter().zip(&objective.parameters).map(|(x, p)| x.clamp(p.low, p.high)).collect();
     let mut value = objective.at(&theta)?;
     for _ in 0..CHORDS {
         let (h, g) = objective.normal_equations(&value, jacobian, 0..objective.blocks());
         let there = step(objective, &theta, free, (&h, &g), DAMPING);
-        let Some((there, lower)) = there.and_then(|there| objective.at(&there).map(|lower| (there, lower))) else { break };
+        let Some((there, lower)) = there.and_then(|there| objective.at(&there).map(|lower| (there, lower))) else {
+            break;
+        };
         if lower.q >= value.q {
             break;
         }

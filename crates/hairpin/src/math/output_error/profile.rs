@@ -4,9 +4,9 @@
 //! Q_k(x) = min { Q(θ) : θ_k = x }         interval { x : Q_k(x) − Q(θ̂) ≤ t² C_kk/(H⁻¹)_kk }
 //! ```
 //!
-//! With white residuals the rise is χ²₁; with coloured ones C_kk/(H⁻¹)_kk times it (Kent, Robust properties of likelihood
-//! ratio tests, Biometrika 69(1), 1982), and t² takes the place of χ²₁'s quantile as C itself is an estimate of so many
-//! degrees of freedom.
+//! With white residuals the rise is χ²₁; with coloured ones C_kk/(H⁻¹)_kk times it (Kent, Robust properties of
+//! likelihood ratio tests, Biometrika 69(1), 1982), and t² takes the place of χ²₁'s quantile as C itself is an estimate
+//! of so many degrees of freedom.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -74,7 +74,9 @@ fn end(
         let height = match settled {
             Some(settled) if height(&settled) < (1.0 - NEAR) * limit => height(&settled),
             Some(settled) if height(&settled) > 2.0 * limit => height(&settled),
-            Some(settled) => descend(objective, &settled.theta, &others).map_or(height(&settled), |found| height(&found)),
+            Some(settled) => {
+                descend(objective, &settled.theta, &others).map_or(height(&settled), |found| height(&found))
+            }
             // Nothing is simulated out there.
             None => 3.0 * limit,
         };

@@ -6,9 +6,9 @@
 //! C = (m − 1)/m (Σ_b Δ_b Δ_bᵀ + ½ Σ_b (Δ_b Δ_{b+1}ᵀ + Δ_{b+1} Δ_bᵀ))      pairs of blocks that follow each other
 //! ```
 //!
-//! The first sum is the sandwich H⁻¹ (Σ s sᵀ) H⁻¹ with each block's leverage taken out, which few blocks need (Künsch, The
-//! jackknife and the bootstrap for general stationary observations, Ann. Statist. 17(3), 1989; MacKinnon and White 1985); the
-//! second is Bartlett's weight of the neighbour, for what a block leaves to the next (Newey and West 1987).
+//! The first sum is the sandwich H⁻¹ (Σ s sᵀ) H⁻¹ with each block's leverage taken out, which few blocks need (Künsch,
+//! The jackknife and the bootstrap for general stationary observations, Ann. Statist. 17(3), 1989; MacKinnon and White
+//! 1985); the second is Bartlett's weight of the neighbour, for what a block leaves to the next (Newey and West 1987).
 
 use nalgebra::{DMatrix, DVector};
 

@@ -225,7 +225,9 @@ impl QuadrotorDescription {
             _ => false,
         };
         match self.estimated.keys().find(|key| !given(key)) {
-            Some(key) => Err(QuadrotorError::new("estimated", key, "keys of this file that have a number of their own")),
+            Some(key) => {
+                Err(QuadrotorError::new("estimated", key, "keys of this file that have a number of their own"))
+            }
             None => Ok(self.estimated.keys().cloned().collect()),
         }
     }

@@ -75,8 +75,8 @@ fn mission(random: &mut Stream) -> Vec<Point3<f64>> {
     points
 }
 
-/// `count` logs of the vehicle `truth`, each of a mission of its own: positions alone, 20 a second, off by an estimator's
-/// slow drift of 2 cm and by 1 cm from sample to sample.
+/// `count` logs of the vehicle `truth`, each of a mission of its own: positions alone, 20 a second, off by an
+/// estimator's slow drift of 2 cm and by 1 cm from sample to sample.
 pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Vec<Flown> {
     let vehicle = truth.setup(setup);
     let mut random = stream(named_seed(seed, "missions", 0));
@@ -88,10 +88,14 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Ve
         let mut drift = Vector3::from(standard_normals::<3>(&mut noise)) * 0.02;
         let (mut times, mut poses) = (Vec::new(), Vec::new());
         for i in (0..flight.track.len()).step_by(every) {
-            drift = drift * keep + Vector3::from(standard_normals::<3>(&mut noise)) * (0.02 * (1.0 - keep * keep).sqrt());
+            drift =
+                drift * keep + Vector3::from(standard_normals::<3>(&mut noise)) * (0.02 * (1.0 - keep * keep).sqrt());
             let white = Vector3::from(standard_normals::<3>(&mut noise)) * 0.01;
             times.push(flight.track.times()[i]);
-            poses.push(Isometry3::from_parts((flight.track.position(i).coords + drift + white).into(), Default::default()));
+            poses.push(Isometry3::from_parts(
+                (flight.track.position(i).coords + drift + white).into(),
+                Default::default(),
+            ));
         }
         let unknown = Channel { name: crate::trajectory::ATTITUDE_UNKNOWN.into(), values: vec![1.0; times.len()] };
         let track = Track::new(times, poses, vec![unknown]).unwrap();

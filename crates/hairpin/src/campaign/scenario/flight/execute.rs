@@ -43,7 +43,8 @@ pub struct ExecuteSection {
     /// Mean speed of crazyflie-goto; a tenth of the robot's top speed if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goto_speed_m_s: Option<f64>,
-    /// How many times as fast as its own the loops of position and velocity of a controller of ours are; 1 if not given.
+    /// How many times as fast as its own the loops of position and velocity of a controller of ours are; 1 if not
+    /// given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bandwidth: Option<f64>,
     /// A command acts this much later in our simulator; 0 if not given.
