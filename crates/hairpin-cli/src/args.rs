@@ -7,6 +7,7 @@ mod commands;
 mod compare;
 mod experiment;
 mod explain;
+mod fit;
 mod import;
 mod judge;
 mod keys;
@@ -34,6 +35,7 @@ pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
+pub(crate) use fit::Fit;
 pub(crate) use import::Import;
 pub(crate) use judge::{AltitudeName, Judge};
 pub(crate) use keys::Keys;
@@ -91,6 +93,8 @@ pub(crate) enum Command {
     Select(Select),
     /// Propose limits for [spec]: those that 5 % of random feasible cases break
     Calibrate(Calibrate),
+    /// Estimate a flying robot's numbers from logs of its flights, and tell what they do not show
+    Fit(Fit),
     /// Check that a program speaks the executor protocol: what was said, and a sentence for each mistake
     CheckExecutor(CheckExecutor),
     /// Tell why nothing (or little) is feasible, and the smallest change that helps
@@ -144,6 +148,7 @@ impl Command {
             Self::Select(a) => a.json,
             Self::Explain(a) => a.json,
             Self::Calibrate(a) => a.json,
+            Self::Fit(a) => a.json,
             Self::Bench(a) => a.json(),
             Self::CheckExecutor(a) => a.json,
             Self::Steer(a) => a.json,

@@ -18,6 +18,7 @@ mod delimited;
 pub mod epsg;
 pub mod executor;
 pub mod figure;
+pub mod fitted_robot;
 pub mod folder;
 pub mod foreign;
 pub mod frames;

@@ -14,6 +14,7 @@ pub mod differences;
 pub mod execute;
 pub mod explain;
 pub mod export;
+pub mod fit;
 pub mod generate;
 pub mod import;
 pub mod judge;

@@ -279,8 +279,13 @@ pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option
 /// # Errors
 /// There is no campaign in it, or its scenario is broken.
 pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
+    open_with(path, &[])
+}
+
+/// The same with other values of `sets`.
+pub(crate) fn open_with(path: &Path, sets: &[Set]) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = resolve(&folder, &[])?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    let setup = resolve(&folder, sets)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
     Ok(Work { folder, setup })
 }
 

@@ -12,6 +12,7 @@ pub(crate) mod experiment;
 pub(crate) mod explain;
 pub(crate) mod export;
 mod findings;
+pub(crate) mod fit;
 pub(crate) mod generate;
 pub(crate) mod import;
 pub(crate) mod judge;

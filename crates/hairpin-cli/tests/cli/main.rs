@@ -21,6 +21,7 @@ mod executor_in_loop;
 mod executors;
 mod experiment;
 mod explain;
+mod fit;
 mod flaky;
 mod grammar;
 mod guests;

@@ -21,6 +21,7 @@ pub mod drive;
 pub mod execute;
 pub mod executor;
 pub mod explain;
+pub mod fit;
 pub mod flight;
 pub mod flown;
 pub mod full_rate;

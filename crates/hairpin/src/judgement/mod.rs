@@ -47,7 +47,8 @@ pub use quantile::{Quantile, exceeded_by};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, violations};
 pub use statistics::{
-    Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
+    SIGMA_95, Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
+    student_quantile,
 };
 pub use stress::Stress;
 pub use verdict::{

@@ -251,7 +251,7 @@ pub(super) fn beta_share(a: f64, b: f64, x: f64) -> f64 {
 }
 
 /// Standard deviations around the mean of a normal distribution that hold 95 %.
-const SIGMA_95: f64 = 1.959_963_984_540_054;
+pub const SIGMA_95: f64 = 1.959_963_984_540_054;
 /// Terms of the fraction; about the root of the larger argument are needed, 10 000 for a hundred million cases.
 const MOST_TERMS: u32 = 100_000;
 /// Beyond these nobody counts cases.

@@ -19,6 +19,7 @@
 //! | [`enclosing`] | few points and a radius around many | links of arms |
 //! | [`circular`], [`power`] | sin, cos, xⁿ with the same bits everywhere | hot loops |
 //! | [`ridge`] | polynomial ridge regression, cross-validated | learned scores |
+//! | [`output_error`] | min −2 log L of a simulation's outputs, and how far it can rise | fits to logs |
 //! | [`random`] | named streams | everything that draws |
 //! | [`simd`] | which compiled version of a kernel runs | kernels |
 //!
@@ -36,6 +37,7 @@ pub mod interval;
 pub mod jerk_limit;
 pub mod linear;
 pub mod minimum_snap;
+pub mod output_error;
 pub mod outward;
 pub mod polynomial;
 pub mod power;

@@ -61,6 +61,8 @@ pub struct FlySettings {
     pub linger: f64,
     /// Whether leaving the world is a crash.
     pub walls: bool,
+    /// Time from what a controller is told to its command in force, s, rounded to ticks of the rate loop.
+    pub latency: f64,
     /// Version of the ticks to run.
     pub simd: Simd,
 }
@@ -74,6 +76,7 @@ impl Default for FlySettings {
             time_limit: 90.0,
             linger: 2.0,
             walls: false,
+            latency: 0.0,
             simd: Simd::default(),
         }
     }
@@ -84,6 +87,9 @@ impl FlySettings {
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         if !(1e-5..=1e-3).contains(&self.step) {
             return Err(SimulationError::new("step", self.step.to_string(), "from 1e-5 to 1e-3 s"));
+        }
+        if !(0.0..=1.0).contains(&self.latency) {
+            return Err(SimulationError::new("latency", self.latency.to_string(), "from 0 to 1 s"));
         }
         let positive = [("log_period", self.log_period), ("accept", self.accept), ("time_limit", self.time_limit)];
         SimulationError::unless_timed(&positive, self.linger)

@@ -2,8 +2,11 @@
 
 use nalgebra::Point3;
 
+use std::collections::VecDeque;
+
 use super::SimulationError;
 use super::close_loop::{ClosedLoop, FlySettings, Sortie};
+use super::command::FlightCommand;
 use super::controller::{Controlled, Controller, Misbehaviour, OwnController};
 use super::controllers::{ControllerSettings, Pilot};
 use super::course::Course;
@@ -73,6 +76,8 @@ pub(super) struct Run {
     every: Due,
     to: Due,
     tick: u64,
+    /// Commands that do not act yet, and the ticks at which each will, for so many seconds.
+    late: VecDeque<(u64, f64, FlightCommand)>,
     /// Why it ended, once it did.
     pub(super) ended: Option<Ended>,
 }
@@ -129,8 +134,18 @@ impl Run {
         let loops = ClosedLoop::new(sortie, conditions, settings, seed)?;
         let hazards = Hazards::new(sortie.robot.clearance_radius, settings.walls, &sortie.waypoints[0].coords);
         let to = Due { watch: 0, log: 0, turn: 0 };
-        let mut run =
-            Self { loops, course, hazards, recorder, settings: *settings, every: to, to, tick: 0, ended: None };
+        let mut run = Self {
+            loops,
+            course,
+            hazards,
+            recorder,
+            settings: *settings,
+            every: to,
+            to,
+            tick: 0,
+            late: VecDeque::new(),
+            ended: None,
+        };
         run.every =
             Due { watch: run.ticks(WATCH_PERIOD), log: run.ticks(settings.log_period), turn: run.ticks(PERIOD) };
         Ok(run)
@@ -187,7 +202,8 @@ impl Run {
                 self.to.turn = self.every.turn;
                 self.turn(hand, t)?;
             }
-            let ticks = self.to.watch.min(self.to.log).min(self.to.turn);
+            let late = self.act();
+            let ticks = self.to.watch.min(self.to.log).min(self.to.turn).min(late);
             self.to = Due { watch: self.to.watch - ticks, log: self.to.log - ticks, turn: self.to.turn - ticks };
             self.tick += ticks;
             self.loops.fly_at(self.settings.simd, ticks);
@@ -207,9 +223,26 @@ impl Run {
             Ok(ref command) if !Quadrotor::is_finite(command) && !is_lost(&state.position, self.loops.up()) => {
                 return Err(hand.failed(t, Misbehaviour::NotFinite { command: format!("{command:?}") }));
             }
-            Ok(ref command) => self.loops.follow(dt, &state, command),
+            Ok(ref command) if self.settings.latency == 0.0 => self.loops.follow(dt, &state, command),
+            Ok(command) => {
+                let latency = (self.settings.latency / self.loops.period).round() as u64;
+                self.late.push_back((self.tick + latency, dt, command));
+            }
         }
         Ok(())
+    }
+
+    /// Has the commands act whose time has come; ticks to the next.
+    fn act(&mut self) -> u64 {
+        while let Some(&(due, dt, command)) = self.late.front() {
+            if due > self.tick {
+                return due - self.tick;
+            }
+            self.late.pop_front();
+            let state = self.loops.state(self.tick as f64 * self.loops.period);
+            self.loops.follow(dt, &state, &command);
+        }
+        u64::MAX
     }
 
     /// The course's own end and what lingers after it, else the time limit.

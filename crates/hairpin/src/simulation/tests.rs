@@ -463,3 +463,51 @@ fn what_cannot_be_flown_is_refused_with_its_name() {
     flat.rotors = [flat.rotors[0]; 4];
     assert_eq!(refuse(&flat, &two, still, default), "robot.rotors");
 }
+
+/// Pushes sideways by the clock, whatever it is told.
+struct Clocked;
+
+impl Controller<Quadrotor> for Clocked {
+    fn control(&mut self, _: f64, now: &FlightState, _: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
+        Ok(FlightCommand::Acceleration(Vector3::x() * (3.0 * now.t).min(2.0)))
+    }
+}
+
+/// What is ordered by the clock alone is flown as much later as commands are late.
+#[test]
+fn late_commands_move_a_flight_in_time() {
+    let (robot, world) = (flightgoggles(), cage());
+    let waypoints = [[5.0, 5.0, 5.0], [25.0, 5.0, 5.0]].map(Point3::from);
+    let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+    let own = OwnController::new("clocked", |_: &Quadrotor| Clocked);
+    let fly = |latency| {
+        let settings = FlySettings { latency, time_limit: 2.0, ..FlySettings::default() };
+        crate::simulation::fly_with(&sortie, &own, &Conditions::default(), &settings, 1).unwrap().track
+    };
+    // A whole number of turns of the log and of the attitude loop.
+    let (prompt, late) = (fly(0.0), fly(0.08));
+    for i in 0..190 {
+        let off = (prompt.position(i) - late.position(i + 8)).norm();
+        assert!(off < 1e-9, "{i}: {off}");
+    }
+    assert!(prompt.position(190).x > 6.5, "it flew");
+}
+
+/// A loop of twice the bandwidth settles in half of the time, but for the inner loops, whichever controller has it.
+#[test]
+fn bandwidth_is_the_pace_of_a_step() {
+    let (robot, world) = (flightgoggles(), cage());
+    let waypoints = [[5.0, 5.0, 5.0], [5.5, 5.0, 5.0]].map(Point3::from);
+    let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+    for kind in [ControllerKind::StableWaypoint, ControllerKind::Anafi] {
+        let half = |bandwidth| {
+            let controller = ControllerSettings { kind, bandwidth, ..Default::default() };
+            let settings = FlySettings { accept: 0.001, time_limit: 20.0, ..FlySettings::default() };
+            let track = fly(&sortie, &controller, &Conditions::default(), &settings, 1).unwrap().track;
+            let there = (0..track.len()).find(|i| track.position(*i).x > 5.25).unwrap();
+            track.times()[there]
+        };
+        let (slow, own) = (half(0.5), half(1.0));
+        assert!((1.6..2.05).contains(&(slow / own)), "{kind:?}: {slow} s, {own} s");
+    }
+}

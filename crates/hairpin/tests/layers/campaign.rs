@@ -38,7 +38,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["landed"],
     &["executor", "samples"],
     &["execute"],
-    &["calibrate", "trial", "verify", "verdict", "select", "compare", "shrink"],
+    &["calibrate", "fit", "trial", "verify", "verdict", "select", "compare", "shrink"],
     &["generate"],
     &["explain", "assumptions"],
     // What is told of it all.

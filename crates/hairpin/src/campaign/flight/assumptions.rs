@@ -64,8 +64,10 @@ pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
         (None, Some(ours)) => format!("`{}` with {}", ours.word(), ours.gains()),
         (None, None) => return,
     };
+    let faster = execute.bandwidth.map_or(String::new(), |b| format!(", its loops {b} times as fast"));
+    let late = execute.latency_s.map_or(String::new(), |latency| format!("; commands act {latency} s late"));
     said.push(format!(
-        "Simulated: rigid body with rotor lag and drag at {} s, controller {who}; noise {}.",
+        "Simulated: rigid body with rotor lag and drag at {} s, controller {who}{faster}{late}; noise {}.",
         execute.step_s,
         if execute.noise { "on" } else { "off" }
     ));

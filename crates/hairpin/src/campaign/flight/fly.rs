@@ -3,9 +3,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
+use super::fit;
 use super::place::place;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, LegByLeg, Order, Same};
+use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
@@ -26,6 +27,10 @@ impl Act for FlightSetup {
     /// Of a stranger's controller nobody knows how far it looks ahead.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         (self.controller.is_none() && !controller(self).kind.plans_ahead()).then_some(self)
+    }
+
+    fn fittable(&self) -> Result<Fittable, String> {
+        fit::fittable(self, &controller(self))
     }
 
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
@@ -61,6 +66,7 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
         fixed_velocity: execute.fixed_velocity_m_s,
         segment_times: execute.segment_times,
         goto_speed: execute.goto_speed_m_s,
+        bandwidth: execute.bandwidth.unwrap_or(1.0),
     }
 }
 
@@ -100,6 +106,7 @@ fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
         accept: order.accept,
         time_limit: order.time_limit,
         walls: execute.walls,
+        latency: execute.latency_s.unwrap_or(0.0),
         simd: setup.simd,
         ..FlySettings::default()
     }

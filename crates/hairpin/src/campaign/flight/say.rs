@@ -1,5 +1,7 @@
 //! What is said of flights and their cage, and what they are measured against.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
@@ -148,6 +150,7 @@ fn description(robot: &Quadrotor) -> QuadrotorDescription {
         max_speed_m_s: Some(robot.max_speed),
         clearance_radius_m: Some(robot.clearance_radius),
         gravity_m_s2: Some(robot.gravity),
+        estimated: BTreeMap::new(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::Same;
+use super::{Fittable, Same};
 use crate::campaign::Case;
 use crate::campaign::placement::Placement;
 use crate::simulation::{Airborne, SimulationError};
@@ -33,6 +33,14 @@ pub(in crate::campaign) trait Act {
     /// time.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         None
+    }
+
+    /// What logs may tell of it.
+    ///
+    /// # Errors
+    /// Why nothing is fitted, in a sentence's part.
+    fn fittable(&self) -> Result<Fittable, String> {
+        Err("only flights are fitted to logs".into())
     }
 
     /// Obstacles that are asked for, placed in the way of an execution of `case` along `track`, clear of its plan.

@@ -4,6 +4,8 @@
 //! and the thrust to weight; km and the body's radius from the layout; drag from the top speed or the discs; top speed
 //! from thrust and drag. A key that is given is never changed.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix4, Vector3, Vector4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -85,6 +87,20 @@ pub struct QuadrotorDescription {
     /// Gravity; 9.81 if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity_m_s2: Option<f64>,
+    /// Keys of this file whose numbers were estimated from logs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub estimated: BTreeMap<String, EstimatedNumber>,
+}
+
+/// How a number of a robot file was estimated.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EstimatedNumber {
+    /// 95 % interval, in the key's unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
+    /// From what.
+    pub from: String,
 }
 
 /// The `kind` of a quadrotor's file.
@@ -133,7 +149,7 @@ impl QuadrotorDescription {
         if self.name.trim().is_empty() {
             return Err(QuadrotorError::new("name", "\"\"", "a name for reports"));
         }
-        let mut estimated = Vec::new();
+        let mut estimated = self.estimates()?;
         let mass = within("mass_kg", self.mass_kg, 1e-4, 1e4)?;
         let gravity = self.gravity_m_s2.map_or(Ok(9.81), |g| within("gravity_m_s2", g, 0.01, 1000.0))?;
         let rotors = self.layout()?;
@@ -190,6 +206,30 @@ impl QuadrotorDescription {
         };
         check_hover(&robot)?;
         Ok(robot)
+    }
+
+    /// The keys whose numbers the file has and calls estimated.
+    fn estimates(&self) -> Result<Vec<String>, QuadrotorError> {
+        let given = |key: &str| match key {
+            "mass_kg" => true,
+            "inertia_kg_m2" => self.inertia_kg_m2.is_some(),
+            "thrust_coefficient_n_s2" => self.thrust_coefficient_n_s2.is_some(),
+            "moment_coefficient_n_m_s2" => self.moment_coefficient_n_m_s2.is_some(),
+            "rotor_speed_rad_s" => self.rotor_speed_rad_s.is_some(),
+            "thrust_to_weight" => self.thrust_to_weight.is_some(),
+            "rotor_time_constant_s" => self.rotor_time_constant_s.is_some(),
+            "drag_linear_n_s_m" => self.drag_linear_n_s_m.is_some(),
+            "drag_quadratic_n_s2_m2" => self.drag_quadratic_n_s2_m2.is_some(),
+            "aerodynamic_moment_n_m_s2" => self.aerodynamic_moment_n_m_s2.is_some(),
+            "max_speed_m_s" => self.max_speed_m_s.is_some(),
+            _ => false,
+        };
+        match self.estimated.keys().find(|key| !given(key)) {
+            Some(key) => {
+                Err(QuadrotorError::new("estimated", key, "keys of this file that have a number of their own"))
+            }
+            None => Ok(self.estimated.keys().cloned().collect()),
+        }
     }
 
     /// The four rotors, regular: thrust, roll, pitch and yaw can be had independently.
@@ -379,6 +419,17 @@ mod tests {
         let robot = without_speed.build().expect("flyable");
         let drag = robot.drag_quadratic * robot.max_speed.powi(2);
         assert!((drag - pull).abs() < 1e-9 && robot.estimated.contains(&"max_speed_m_s".to_string()));
+    }
+
+    #[test]
+    fn what_logs_told_is_called_estimated() {
+        let mut description = known();
+        let told = EstimatedNumber { interval: Some([2.3, 2.7]), from: "5 logs".into() };
+        description.estimated.insert("thrust_to_weight".into(), told.clone());
+        assert!(description.build().expect("flyable").estimated.contains(&"thrust_to_weight".to_owned()));
+        description.estimated.insert("drag_linear_n_s_m".into(), told);
+        let error = description.build().expect_err("no such number");
+        assert_eq!((error.field.as_str(), error.value.as_str()), ("estimated", "drag_linear_n_s_m"));
     }
 
     #[test]

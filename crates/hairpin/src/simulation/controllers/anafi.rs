@@ -36,8 +36,8 @@ pub(crate) struct Anafi {
 
 impl Anafi {
     /// The controller for a robot, which may be slower than an Anafi.
-    pub(crate) fn new(robot: &Quadrotor) -> Self {
-        Self { cascade: Cascade::new(robot, GAINS) }
+    pub(crate) fn new(robot: &Quadrotor, bandwidth: f64) -> Self {
+        Self { cascade: Cascade::new(robot, GAINS).with_bandwidth(bandwidth) }
     }
 }
 

@@ -30,8 +30,9 @@ pub(crate) struct FixedVelocity {
 
 impl FixedVelocity {
     /// Flies at `speed` m/s, or the robot's top speed if that is less.
-    pub(crate) fn new(robot: &Quadrotor, speed: f64) -> Self {
-        Self { cascade: Cascade::new(robot, Gains { max_speed: speed, ..GAINS }), speed: speed.min(robot.max_speed) }
+    pub(crate) fn new(robot: &Quadrotor, speed: f64, bandwidth: f64) -> Self {
+        let cascade = Cascade::new(robot, Gains { max_speed: speed, ..GAINS }).with_bandwidth(bandwidth);
+        Self { cascade, speed: speed.min(robot.max_speed) }
     }
 }
 

@@ -36,17 +36,20 @@ pub(crate) struct Geometric {
     /// Drag over mass, linear and quadratic.
     drag: (f64, f64),
     most: f64,
+    /// Per position and velocity error, 1/s² and 1/s.
+    gains: (f64, f64),
 }
 
 impl Geometric {
     /// Tracks the planned profile, or a curve with leg times by `rule` where there is none.
-    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes) -> Self {
+    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes, bandwidth: f64) -> Self {
         Self {
             pace: Pace::new(robot, rule),
             curve: None,
             gravity: robot.gravity,
             drag: (robot.drag_linear / robot.mass, robot.drag_quadratic / robot.mass),
             most: robot.max_thrust() / robot.mass,
+            gains: (POSITION * bandwidth * bandwidth, VELOCITY * bandwidth),
         }
     }
 }
@@ -69,7 +72,8 @@ impl Controller<Quadrotor> for Geometric {
         let sample = curve.sample();
         curve.advance(dt);
         let [force, slope, curvature] = thrust_and_derivatives(&sample, self.gravity, self.drag);
-        let error = (sample[0] - now.position) * POSITION + (sample[1] - now.velocity) * VELOCITY;
+        let (position, velocity) = self.gains;
+        let error = (sample[0] - now.position) * position + (sample[1] - now.velocity) * velocity;
         let correction = error * (MAX_CORRECTION * self.gravity / error.norm().max(MAX_CORRECTION * self.gravity));
         let mut wanted = force + correction;
         // Below the horizon the attitude would turn over: keep some thrust up, and no more than there is.

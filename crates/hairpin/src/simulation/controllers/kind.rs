@@ -94,6 +94,9 @@ pub struct ControllerSettings {
     pub segment_times: SegmentTimes,
     /// Mean speed of `CrazyflieGoto`, m/s; a tenth of the robot's top speed if not given.
     pub goto_speed: Option<f64>,
+    /// How much faster than its own the loops of position and velocity are: gains of 1/s times this, of 1/s² times its
+    /// square, the same motion in another time where nothing limits it.
+    pub bandwidth: f64,
 }
 
 impl Default for ControllerSettings {
@@ -103,6 +106,7 @@ impl Default for ControllerSettings {
             fixed_velocity: 2.0,
             segment_times: SegmentTimes::default(),
             goto_speed: None,
+            bandwidth: 1.0,
         }
     }
 }

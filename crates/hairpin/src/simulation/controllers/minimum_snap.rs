@@ -36,8 +36,9 @@ pub(crate) struct MinimumSnap {
 
 impl MinimumSnap {
     /// Along a curve with leg times by `rule`.
-    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes) -> Self {
-        Self { cascade: Cascade::new(robot, GAINS), pace: Pace::new(robot, rule), curve: None }
+    pub(crate) fn new(robot: &Quadrotor, rule: SegmentTimes, bandwidth: f64) -> Self {
+        let cascade = Cascade::new(robot, GAINS).with_bandwidth(bandwidth);
+        Self { cascade, pace: Pace::new(robot, rule), curve: None }
     }
 }
 

@@ -37,21 +37,30 @@ impl Pilot {
     /// Builds the controller for a robot.
     ///
     /// # Errors
-    /// A speed that is given and not positive.
+    /// A speed that is given and not positive, a bandwidth that is not.
     pub(crate) fn new(settings: &ControllerSettings, robot: &Quadrotor) -> Result<Self, SimulationError> {
+        let bandwidth = positive("bandwidth", settings.bandwidth, "finite and > 0")?;
+        let speed = |field, speed| positive(field, speed, "finite and > 0 m/s");
         Ok(match settings.kind {
-            ControllerKind::UnstableWaypoint => Pilot::Waypoint(unstable_waypoint::cascade(robot)),
-            ControllerKind::StableWaypoint => Pilot::Waypoint(stable_waypoint::cascade(robot)),
-            ControllerKind::FixedVelocity => {
-                Pilot::FixedVelocity(FixedVelocity::new(robot, positive("fixed_velocity", settings.fixed_velocity)?))
+            ControllerKind::UnstableWaypoint => {
+                Pilot::Waypoint(unstable_waypoint::cascade(robot).with_bandwidth(bandwidth))
             }
-            ControllerKind::MinimumSnap => Pilot::MinimumSnap(MinimumSnap::new(robot, settings.segment_times)),
-            ControllerKind::Geometric => Pilot::Geometric(Geometric::new(robot, settings.segment_times)),
-            ControllerKind::Anafi => Pilot::Anafi(Anafi::new(robot)),
-            ControllerKind::Px4Mission => Pilot::Px4Mission(Px4Mission::new(robot)),
+            ControllerKind::StableWaypoint => {
+                Pilot::Waypoint(stable_waypoint::cascade(robot).with_bandwidth(bandwidth))
+            }
+            ControllerKind::FixedVelocity => {
+                let speed = speed("fixed_velocity", settings.fixed_velocity)?;
+                Pilot::FixedVelocity(FixedVelocity::new(robot, speed, bandwidth))
+            }
+            ControllerKind::MinimumSnap => {
+                Pilot::MinimumSnap(MinimumSnap::new(robot, settings.segment_times, bandwidth))
+            }
+            ControllerKind::Geometric => Pilot::Geometric(Geometric::new(robot, settings.segment_times, bandwidth)),
+            ControllerKind::Anafi => Pilot::Anafi(Anafi::new(robot, bandwidth)),
+            ControllerKind::Px4Mission => Pilot::Px4Mission(Px4Mission::new(robot, bandwidth)),
             ControllerKind::CrazyflieGoto => {
-                let speed = settings.goto_speed.map(|speed| positive("goto_speed", speed)).transpose()?;
-                Pilot::CrazyflieGoto(CrazyflieGoto::new(robot, speed))
+                let speed = settings.goto_speed.map(|given| speed("goto_speed", given)).transpose()?;
+                Pilot::CrazyflieGoto(CrazyflieGoto::new(robot, speed, bandwidth))
             }
         })
     }
@@ -107,12 +116,11 @@ impl Controller<Quadrotor> for Pilot {
     }
 }
 
-/// A speed, m/s.
-fn positive(field: &'static str, speed: f64) -> Result<f64, SimulationError> {
-    if speed.is_finite() && speed > 0.0 {
-        return Ok(speed);
+fn positive(field: &'static str, value: f64, bound: &'static str) -> Result<f64, SimulationError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
     }
-    Err(SimulationError::new(field, speed.to_string(), "finite and > 0 m/s"))
+    Err(SimulationError::new(field, value.to_string(), bound))
 }
 
 #[cfg(test)]

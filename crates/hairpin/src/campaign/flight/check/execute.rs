@@ -20,6 +20,16 @@ pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     if let Some(speed) = execute.goto_speed_m_s {
         found.above("execute.goto_speed_m_s", speed, 0.0, 100.0, " m/s");
     }
+    if let Some(bandwidth) = execute.bandwidth {
+        found.from("execute.bandwidth", bandwidth, 0.1, 10.0, "");
+        let bound = "left out: gains of ours alone are known";
+        found.require(execute.controller_in_force().is_some(), "execute.bandwidth", bandwidth, bound);
+    }
+    if let Some(latency) = execute.latency_s {
+        found.from("execute.latency_s", latency, 0.0, 1.0, " s");
+        let bound = "left out: a program of yours has its own";
+        found.require(execute.command.is_none(), "execute.latency_s", latency, bound);
+    }
     found.above("execute.timeout_s", execute.timeout_s, 0.0, 1e6, " s");
     found.processes(execute.processes, execute.workers);
 }

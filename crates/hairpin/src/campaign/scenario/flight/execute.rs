@@ -43,6 +43,13 @@ pub struct ExecuteSection {
     /// Mean speed of crazyflie-goto; a tenth of the robot's top speed if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goto_speed_m_s: Option<f64>,
+    /// How many times as fast as its own the loops of position and velocity of a controller of ours are; 1 if not
+    /// given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bandwidth: Option<f64>,
+    /// A command acts this much later in our simulator; 0 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub latency_s: Option<f64>,
     /// Wall-clock limit per mission of `command`, and of a controller of yours.
     pub timeout_s: f64,
     /// Processes of `command`, in the loop of a search and in executing; as many as threads if not given.
@@ -78,6 +85,8 @@ impl Default for ExecuteSection {
             fixed_velocity_m_s: 2.0,
             segment_times: SegmentTimes::SqrtLength,
             goto_speed_m_s: None,
+            bandwidth: None,
+            latency_s: None,
             timeout_s: 60.0,
             processes: None,
             workers: None,

@@ -55,9 +55,9 @@ struct Plan {
 
 impl CrazyflieGoto {
     /// At a mean speed of `speed` m/s, or a tenth of the robot's top speed.
-    pub(crate) fn new(robot: &Quadrotor, speed: Option<f64>) -> Self {
+    pub(crate) fn new(robot: &Quadrotor, speed: Option<f64>, bandwidth: f64) -> Self {
         let speed = speed.unwrap_or(SHARE_OF_TOP_SPEED * robot.max_speed).min(robot.max_speed);
-        let pid = Pid::new(robot.mass * robot.gravity, MAX_VELOCITY.max(PEAK * speed));
+        let pid = Pid::new(robot.mass * robot.gravity, MAX_VELOCITY.max(PEAK * speed), bandwidth);
         Self { speed, pid, plan: None }
     }
 

@@ -39,29 +39,32 @@ pub(super) struct Pid {
     weight: f64,
     /// Largest velocity asked for on each axis, m/s.
     max_velocity: f64,
+    /// How many times as fast as the firmware's the loops are.
+    bandwidth: f64,
     height: f64,
     velocity: Vector3<f64>,
 }
 
 impl Pid {
     /// For a robot of `weight` N that is asked for at most `max_velocity` m/s on each axis.
-    pub(super) fn new(weight: f64, max_velocity: f64) -> Self {
-        Self { weight, max_velocity, height: 0.0, velocity: Vector3::zeros() }
+    pub(super) fn new(weight: f64, max_velocity: f64, bandwidth: f64) -> Self {
+        Self { weight, max_velocity, bandwidth, height: 0.0, velocity: Vector3::zeros() }
     }
 
     /// One turn towards the set point `to`, m.
     pub(super) fn follow(&mut self, dt: f64, now: &FlightState, to: &Vector3<f64>) -> FlightCommand {
         let error = to - now.position;
         self.height += error.z * dt;
-        let asked = error * POSITION + Vector3::z() * (HEIGHT_I * self.height);
+        let b = self.bandwidth;
+        let asked = error * (POSITION * b) + Vector3::z() * (HEIGHT_I * b * b * self.height);
         let wanted = asked.map(|v| v.clamp(-self.max_velocity, self.max_velocity));
         let error = wanted - now.velocity;
         self.velocity += error * dt;
         let tilt = |axis: usize| {
-            let degrees: f64 = TILT_P * error[axis] + TILT_I * self.velocity[axis];
+            let degrees: f64 = TILT_P * b * error[axis] + TILT_I * b * b * self.velocity[axis];
             degrees.clamp(-MAX_TILT, MAX_TILT).to_radians()
         };
-        let up = THRUST_P * error.z + THRUST_I * self.velocity.z;
+        let up = THRUST_P * b * error.z + THRUST_I * b * b * self.velocity.z;
         let units = HOVER + 1000.0 * up.clamp(-MAX_CORRECTION, MAX_CORRECTION);
         let thrust = self.weight * (units.clamp(LEAST, MOST) / HOVER);
         FlightCommand::Attitude { thrust, attitude: tilted(tilt(0), -tilt(1)) }
@@ -95,7 +98,7 @@ mod tests {
 
     #[test]
     fn on_the_set_point_it_hovers() {
-        let (thrust, attitude) = asked(&mut Pid::new(0.3, 1.1), [1.0; 3], [0.0; 3], [1.0; 3]);
+        let (thrust, attitude) = asked(&mut Pid::new(0.3, 1.1, 1.0), [1.0; 3], [0.0; 3], [1.0; 3]);
         assert_eq!((thrust, attitude), (0.3, UnitQuaternion::identity()));
     }
 
@@ -103,8 +106,8 @@ mod tests {
     #[test]
     fn tilt_and_thrust_are_the_closed_forms_within_their_limits() {
         for (to, velocity, degrees) in [(0.1, 0.0, 25.0 * 0.2), (5.0, 1.0, 25.0 * 0.1), (5.0, 0.0, 20.0)] {
-            let ahead = asked(&mut Pid::new(1.0, 1.1), [0.0; 3], [velocity, 0.0, 0.0], [to, 0.0, 0.0]).1;
-            let left = asked(&mut Pid::new(1.0, 1.1), [0.0; 3], [0.0, velocity, 0.0], [0.0, to, 0.0]).1;
+            let ahead = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0; 3], [velocity, 0.0, 0.0], [to, 0.0, 0.0]).1;
+            let left = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0; 3], [0.0, velocity, 0.0], [0.0, to, 0.0]).1;
             let up = |q: UnitQuaternion<f64>| q * Vector3::z();
             // The integral of one turn adds less than 0.03°.
             let sine = f64::to_radians(degrees).sin();
@@ -112,7 +115,7 @@ mod tests {
             assert!((up(left).y - sine).abs() < 5e-4 && up(left).x == 0.0, "{to}: {:?}", up(left));
         }
         for (climb, sink, units) in [(0.2, 0.0, 36.0 + 25.0 * 0.4), (9.0, 0.0, 36.0 + 25.0 * 1.1), (0.0, 9.0, 20.0)] {
-            let thrust = asked(&mut Pid::new(1.0, 1.1), [0.0, 0.0, sink], [0.0; 3], [0.0, 0.0, climb]).0;
+            let thrust = asked(&mut Pid::new(1.0, 1.1, 1.0), [0.0, 0.0, sink], [0.0; 3], [0.0, 0.0, climb]).0;
             assert!((thrust - units / 36.0).abs() < 0.01, "{climb} {sink}: {thrust}");
         }
     }

@@ -47,12 +47,12 @@ pub(crate) struct Px4Mission {
 
 impl Px4Mission {
     /// For a robot, which may be slower than the parameters.
-    pub(crate) fn new(robot: &Quadrotor) -> Self {
+    pub(crate) fn new(robot: &Quadrotor, bandwidth: f64) -> Self {
         Self {
             mass: robot.mass,
             max_speed: robot.max_speed,
             guidance: Guidance::new(),
-            tracking: Tracking::new(robot),
+            tracking: Tracking::new(robot, bandwidth),
             point: None,
             climbs: false,
         }
@@ -123,7 +123,7 @@ mod tests {
     /// The set points along a course whose robot is always where the set point is, 10 ms apart.
     fn set_points(waypoints: &[[f64; 3]], accept: f64) -> Vec<JerkLimited> {
         let waypoints: Vec<Point3<f64>> = waypoints.iter().copied().map(Point3::from).collect();
-        let mut pilot = Px4Mission::new(&flightgoggles());
+        let mut pilot = Px4Mission::new(&flightgoggles(), 1.0);
         let mut points = vec![JerkLimited::at_rest(waypoints[0].coords)];
         let (mut next, mut position) = (1, waypoints[0].coords);
         while next < waypoints.len() || points[points.len() - 1].velocity.norm() > 1e-3 {
@@ -217,8 +217,8 @@ mod tests {
     #[test]
     fn a_slower_robot_bounds_all_speeds() {
         let robot = Quadrotor { max_speed: 1.0, ..flightgoggles() };
-        let (horizontal, vertical) = Px4Mission::new(&robot).limits();
+        let (horizontal, vertical) = Px4Mission::new(&robot, 1.0).limits();
         assert_eq!((horizontal.speed, vertical.speed), (1.0, 1.0));
-        assert!(Px4Mission::new(&robot).period().is_none());
+        assert!(Px4Mission::new(&robot, 1.0).period().is_none());
     }
 }

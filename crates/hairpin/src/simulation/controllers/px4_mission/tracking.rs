@@ -33,6 +33,8 @@ pub(super) struct Tracking {
     /// Thrust per mass, m/s²: all there is.
     all: f64,
     tan_tilt: f64,
+    /// How many times as fast as by the parameters the loops are.
+    bandwidth: f64,
     integral: Vector3<f64>,
     velocity: Option<Vector3<f64>>,
     acceleration: Vector3<f64>,
@@ -40,11 +42,12 @@ pub(super) struct Tracking {
 
 impl Tracking {
     /// At rest.
-    pub(super) fn new(robot: &Quadrotor) -> Self {
+    pub(super) fn new(robot: &Quadrotor, bandwidth: f64) -> Self {
         Self {
             gravity: robot.gravity,
             all: robot.max_thrust() / robot.mass,
             tan_tilt: libm::tan(px4::MPC_TILTMAX_AIR),
+            bandwidth,
             integral: Vector3::zeros(),
             velocity: None,
             acceleration: Vector3::zeros(),
@@ -53,7 +56,8 @@ impl Tracking {
 
     /// Thrust per mass, m/s², world frame, for the next `dt` s.
     pub(super) fn thrust(&mut self, dt: f64, now: &FlightState, point: &JerkLimited) -> Vector3<f64> {
-        let correction = POSITION.component_mul(&(point.position - now.position));
+        let b = self.bandwidth;
+        let correction = (POSITION * b).component_mul(&(point.position - now.position));
         let level = cut_in_second(&correction.xy(), &point.velocity.xy(), px4::MPC_XY_VEL_MAX);
         let climb = (point.velocity.z + correction.z).clamp(-px4::VEL_MAX_DN, px4::MPC_Z_VEL_MAX_UP);
         let mut error = Vector3::new(level.x, level.y, climb) - now.velocity;
@@ -61,10 +65,10 @@ impl Tracking {
             let corner = dt * std::f64::consts::TAU * px4::MPC_VELD_LP;
             self.acceleration += ((now.velocity - before) / dt - self.acceleration) * (corner / (1.0 + corner));
         }
-        let wanted = point.acceleration + VELOCITY_P.component_mul(&error) + self.integral
+        let wanted = point.acceleration + (VELOCITY_P * b).component_mul(&error) + self.integral
             - VELOCITY_D.component_mul(&self.acceleration);
         let force = self.limit(&wanted, &mut error);
-        self.integral += VELOCITY_I.component_mul(&error) * dt;
+        self.integral += (VELOCITY_I * (b * b)).component_mul(&error) * dt;
         self.integral.z = self.integral.z.clamp(-self.gravity, self.gravity);
         force
     }
@@ -86,7 +90,7 @@ impl Tracking {
         let room = (square(most) - square(up)).max(0.0).sqrt();
         let level = level * (room / level.norm().max(room).max(f64::MIN_POSITIVE));
         if wanted.xy().norm_squared() > level.norm_squared() {
-            let missing = (wanted.xy() - level) * LED_BACK;
+            let missing = (wanted.xy() - level) * (LED_BACK / self.bandwidth);
             error.x -= missing.x;
             error.y -= missing.y;
         }
@@ -122,13 +126,13 @@ mod tests {
     #[test]
     fn on_its_set_point_it_hovers_and_follows_what_is_fed_forward() {
         for robot in shipped() {
-            let mut tracking = Tracking::new(&robot);
+            let mut tracking = Tracking::new(&robot, 1.0);
             let here = Vector3::new(1.0, 2.0, 3.0);
             let force = tracking.thrust(0.01, &at(here, Vector3::zeros()), &JerkLimited::at_rest(here));
             assert_eq!(force, Vector3::z() * robot.gravity, "{}", robot.name);
             let v = Vector3::new(2.0, -1.0, 0.5);
             let moving = JerkLimited { position: here, velocity: v, acceleration: Vector3::new(0.3, 0.2, 0.0) };
-            let force = Tracking::new(&robot).thrust(0.01, &at(here, v), &moving);
+            let force = Tracking::new(&robot, 1.0).thrust(0.01, &at(here, v), &moving);
             assert!((force - Vector3::new(0.3, 0.2, robot.gravity)).norm() < 1e-12, "{}: {force}", robot.name);
         }
     }
@@ -137,7 +141,7 @@ mod tests {
     #[test]
     fn what_cannot_be_had_is_given_up_in_order() {
         let robot = flightgoggles();
-        let tracking = Tracking::new(&robot);
+        let tracking = Tracking::new(&robot, 1.0);
         let all = robot.max_thrust() / robot.mass;
         for x in [0.0, 1.0, 9.0, 30.0, 200.0] {
             for z in [-60.0, -9.0, 0.0, 5.0, 20.0, 80.0] {

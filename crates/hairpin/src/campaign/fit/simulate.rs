@@ -1,0 +1,91 @@
+//! The closed loop with other numbers, undisturbed, over the missions of logs.
+
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::FitError;
+use super::compare::{Compared, Flown, Rule};
+use crate::campaign::kind::{Adjustable, Fittable, Order};
+use crate::campaign::{Mistake, Setup};
+use crate::trajectory::Track;
+
+/// Who waits for a robot that is slower than the log's, s beyond the log's end.
+const PATIENCE: f64 = 5.0;
+
+/// A setup without chance, logs, and the rule that they are compared by.
+pub(super) struct Loops<'a> {
+    setup: Setup,
+    pub(super) numbers: Vec<Adjustable>,
+    pub(super) flown: Vec<&'a Flown>,
+    pub(super) compared: Vec<Compared>,
+    pub(super) rule: Rule,
+}
+
+impl<'a> Loops<'a> {
+    pub(super) fn new(setup: &Setup, flown: &'a [Flown]) -> Result<Self, FitError> {
+        let Fittable { calm, numbers, acceptance, timed } = setup.kind().fittable().map_err(FitError::NotFittable)?;
+        if flown.is_empty() {
+            return Err(FitError::NoLogs);
+        }
+        let setup = setup.drawn(&calm).map_err(|mistake| FitError::NotFittable(mistake.to_string()))?;
+        let rule = Rule { acceptance, radius: setup.scenario.executor().accept, timed };
+        let compared: Result<Vec<Compared>, FitError> = flown.iter().map(|one| Compared::of(one, &rule)).collect();
+        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared: compared?, rule })
+    }
+
+    /// The keys of the scenario with `theta` in them.
+    pub(super) fn draws(&self, theta: &[f64]) -> Vec<(String, Value)> {
+        let keys = self.numbers.iter().zip(theta);
+        keys.flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of))))
+            .collect()
+    }
+
+    fn with(&self, theta: &[f64]) -> Result<Setup, Mistake> {
+        self.setup.drawn(&self.draws(theta))
+    }
+
+    /// The motion of mission number `at` with these numbers.
+    fn fly(&self, setup: &Setup, at: usize) -> Result<Track, String> {
+        let case = &self.flown[at].case;
+        let around = setup.around(case).map_err(|mistake| mistake.to_string())?;
+        let time_limit = self.compared[at].end + PATIENCE;
+        let order = Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed };
+        let kind = around.kind();
+        let flight = kind.run(kind.same(), case, &order).map_err(|error| error.to_string())?;
+        match flight.ended.is_crash() {
+            true => Err(format!("it ends in `{}`", flight.ended.word())),
+            false => Ok(flight.track),
+        }
+    }
+
+    /// Logged less simulated, of the logs `which`, sample by sample, all outputs of each; `None` where one is not
+    /// simulated.
+    pub(super) fn residuals(&self, theta: &[f64], which: &[usize]) -> Option<Vec<Vec<Vec<f64>>>> {
+        let setup = self.with(theta).ok()?;
+        which
+            .par_iter()
+            .map(|&at| {
+                let (compared, track) = (&self.compared[at], self.fly(&setup, at).ok()?);
+                let simulated = compared.simulated(&track, &self.flown[at].case.waypoints, &self.rule)?;
+                let differences = compared.logged.iter().zip(&simulated);
+                Some(differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect())
+            })
+            .collect()
+    }
+
+    /// Why the first mission that is not simulated with `theta` is not.
+    pub(super) fn refused(&self, theta: &[f64]) -> Option<FitError> {
+        let told = |at: usize, why: String| FitError::Simulated { mission: self.flown[at].mission.clone(), why };
+        let setup = match self.with(theta) {
+            Ok(setup) => setup,
+            Err(mistake) => return Some(told(0, mistake.to_string())),
+        };
+        (0..self.flown.len()).find_map(|at| match self.fly(&setup, at) {
+            Err(why) => Some(told(at, why)),
+            Ok(track) => {
+                let passed = self.compared[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
+                passed.is_none().then(|| told(at, "it misses a waypoint".into()))
+            }
+        })
+    }
+}

@@ -1,0 +1,105 @@
+//! Vehicles that are not as their file says, flown in gusts, logged by an estimator.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+use serde_json::{Value, json};
+
+use super::super::Flown;
+use crate::campaign::kind::{Adjustable, Fittable};
+use crate::campaign::{Case, CaseNumber, Scenario, Setup, execute_run};
+use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
+use crate::trajectory::{Channel, Track};
+
+/// A cage and a robot of `data/robots/quadrotor`.
+pub(super) fn scenario(robot: &str, controller: &str) -> Setup {
+    let path = format!("{}/../../data/robots/quadrotor/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
+    let robot: Value = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let scenario: Scenario = serde_json::from_value(json!({
+        "hairpin": 1, "robot": robot, "world": { "size_m": [40.0, 40.0, 40.0] },
+        "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },
+        "execute": { "controller": controller }, "spec": "none",
+    }))
+    .unwrap();
+    Setup::new(scenario).unwrap()
+}
+
+/// The numbers of a vehicle.
+pub(super) struct Truth {
+    numbers: Vec<Adjustable>,
+    values: Vec<f64>,
+}
+
+impl Truth {
+    /// Thrust, drag and bandwidth within 30 % of the file's, a lag of 0.6 to 1.6 of it, a latency of up to 0.12 s.
+    pub(super) fn draw(setup: &Setup, seed: u64) -> Self {
+        let Fittable { numbers, .. } = setup.kind().fittable().unwrap();
+        let mut random = stream(named_seed(seed, "truth", 0));
+        let values = numbers.iter().map(|number| {
+            let share = unit(&mut random);
+            match number.field {
+                "latency_s" => 0.12 * share,
+                "rotor_time_constant_s" => number.value * (0.6 + share),
+                "thrust_to_weight" => 1.0 + (number.value - 1.0) * (0.7 + 0.6 * share),
+                _ => number.value * (0.7 + 0.6 * share),
+            }
+        });
+        let values = values.collect();
+        Self { numbers, values }
+    }
+
+    pub(super) fn of(&self, field: &str) -> f64 {
+        self.values[self.numbers.iter().position(|number| number.field == field).unwrap()]
+    }
+
+    /// The setup of the vehicle, in gusts.
+    fn setup(&self, setup: &Setup) -> Setup {
+        let keys = self.numbers.iter().zip(&self.values);
+        let mut draws: Vec<(String, Value)> = keys
+            .flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of))))
+            .collect();
+        draws.push(("world.gusts".into(), json!({ "std_m_s": 0.5, "correlation_s": 2.0 })));
+        draws.push(("execute.noise".into(), json!(true)));
+        setup.drawn(&draws).unwrap()
+    }
+}
+
+/// Waypoints of a mission of about 20 s: legs of 4 to 9 m, well within the cage.
+fn mission(random: &mut Stream) -> Vec<Point3<f64>> {
+    let mut points = vec![Point3::from(Vector3::from([0, 1, 2].map(|_| 12.0 + 16.0 * unit(random))))];
+    while points.len() < 8 {
+        let way = Vector3::from(standard_normals::<3>(random)).normalize() * (4.0 + 5.0 * unit(random));
+        let next = points[points.len() - 1] + way;
+        if next.iter().all(|c| (6.0..34.0).contains(c)) {
+            points.push(next);
+        }
+    }
+    points
+}
+
+/// `count` logs of the vehicle `truth`, each of a mission of its own: positions alone, 20 a second, off by an
+/// estimator's slow drift of 2 cm and by 1 cm from sample to sample.
+pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Vec<Flown> {
+    let vehicle = truth.setup(setup);
+    let mut random = stream(named_seed(seed, "missions", 0));
+    let fly = |number: usize| {
+        let case = Case::bare(CaseNumber(number), named_seed(seed, "gusts", number as u64), mission(&mut random));
+        let flight = execute_run(&vehicle, &case, 0).outcome.unwrap();
+        let mut noise = stream(named_seed(seed, "estimator", number as u64));
+        let (every, keep) = (5, (-0.05f64 / 0.5).exp());
+        let mut drift = Vector3::from(standard_normals::<3>(&mut noise)) * 0.02;
+        let (mut times, mut poses) = (Vec::new(), Vec::new());
+        for i in (0..flight.track.len()).step_by(every) {
+            drift =
+                drift * keep + Vector3::from(standard_normals::<3>(&mut noise)) * (0.02 * (1.0 - keep * keep).sqrt());
+            let white = Vector3::from(standard_normals::<3>(&mut noise)) * 0.01;
+            times.push(flight.track.times()[i]);
+            poses.push(Isometry3::from_parts(
+                (flight.track.position(i).coords + drift + white).into(),
+                Default::default(),
+            ));
+        }
+        let unknown = Channel { name: crate::trajectory::ATTITUDE_UNKNOWN.into(), values: vec![1.0; times.len()] };
+        let track = Track::new(times, poses, vec![unknown]).unwrap();
+        Flown { log: format!("log {number}"), mission: case.id(), case, track }
+    };
+    (0..count).map(fly).collect()
+}
