@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from talk import Talk
 
 ROOT = Path(__file__).resolve().parents[2]
 HAIRPIN = os.environ.get("HAIRPIN_BIN", str(ROOT / "target" / "debug" / "hairpin"))
@@ -42,41 +43,9 @@ def command(kind, mode, *more, trouble="", start=True):
     return words, port
 
 
-class Talk:
-    """What hairpin says, said by hand."""
-
-    def __init__(self, words):
-        self.program = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.ready = self.ask(type="hello", hairpin=2)
-
-    def ask(self, **message):
-        print(json.dumps(message), file=self.program.stdin, flush=True)
-        return json.loads(self.program.stdout.readline())
-
-    def fly(self, points=POINTS, run=0, **more):
-        of = {"case": "0000", "run": run}
-        assert self.ask(type="reset", **of) == {"type": "ready", **of}
-        world = {"origin": {"x_axis_heading_deg": 73.5}}
-        mission = {"type": "mission", **of, "seed": 1, "robot": {}, "world": world, "waypoints_m": points, "accept_m": 0.5,
-                   "yaw_rad": [YAW] * len(points), "limits": {"max_speed_m_s": 2.0, "max_tilt_deg": 35.0},
-                   "accept": {"radius_m": 0.5, "height_m": 0.5}, "time_limit_s": 15.0, "timed": [], **more}
-        answer, rows = self.ask(**mission), []
-        while answer["type"] == "poses":
-            assert (answer["case"], answer["run"]) == ("0000", run)
-            rows += answer["poses"]
-            answer = json.loads(self.program.stdout.readline())
-        return answer, np.array(rows)
-
-    def end(self):
-        self.program.communicate('{"type":"bye"}\n', timeout=10)
-        return self.program.returncode
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.program.terminate()  # it ends what it started
-        self.program.communicate(timeout=10)
+def mission(points=POINTS, **more):
+    return {"robot": {}, "world": {"origin": {"x_axis_heading_deg": 73.5}}, "waypoints_m": points, "accept_m": 0.5, "yaw_rad": [YAW] * len(points),
+            "limits": {"max_speed_m_s": 2.0, "max_tilt_deg": 35.0}, "accept": {"radius_m": 0.5, "height_m": 0.5}, "time_limit_s": 15.0, "timed": [], **more}
 
 
 def turned(q):
@@ -138,7 +107,7 @@ def test_latitudes_and_longitudes_are_metres_again(name):
 def test_a_mission_is_flown(kind, mode, more):
     words, _ = command(kind, mode, *more)
     with Talk(words) as talk:
-        answer, rows = talk.fly()
+        answer, rows = talk.fly(**mission())
         assert answer == {"type": "end", "reason": "done", "case": "0000", "run": 0}
         assert talk.ready["protocol"] == 2 and mode in talk.ready["name"]
         assert talk.end() == 0
@@ -175,7 +144,7 @@ REFUSED = [
 def test_what_is_refused_is_an_error_in_the_autopilots_own_words(kind, mode, trouble, sentence):
     words, _ = command(kind, mode, "--arm-patience-s", "3", "--link-timeout-s", "2", trouble=trouble)
     with Talk(words) as talk:
-        answer, _ = talk.fly()
+        answer, _ = talk.fly(**mission())
         assert answer["type"] == "error" and sentence in answer["message"], answer
         assert talk.end() == 0
 
@@ -184,7 +153,7 @@ def test_what_is_refused_is_an_error_in_the_autopilots_own_words(kind, mode, tro
 def test_who_stops_short_of_an_item_is_flown_to_the_time_limit(kind, mode):
     words, _ = command(kind, mode, trouble="stall")
     with Talk(words) as talk:
-        answer, rows = talk.fly()
+        answer, rows = talk.fly(**mission())
         assert answer["reason"] == "time" and 15.0 <= rows[-1, 0] < 15.1
         assert np.linalg.norm(rows[-1, 1:4] - rows[-100, 1:4]) < 0.01 and rows[-1, 11] == 1
 
@@ -192,7 +161,7 @@ def test_who_stops_short_of_an_item_is_flown_to_the_time_limit(kind, mode):
 def test_a_fall_is_a_crash():
     words, _ = command("ardupilot", "auto", trouble="crash")
     with Talk(words) as talk:
-        answer, rows = talk.fly()
+        answer, rows = talk.fly(**mission())
         assert answer["reason"] == "crash" and rows[-1, 0] < 5.0
 
 
@@ -203,7 +172,7 @@ def test_a_vehicle_that_runs_already_flies_back_to_the_next_start(kind, mode):
     try:
         with Talk(words) as talk:
             for run, points in enumerate([POINTS, POINTS[::-1]]):
-                answer, rows = talk.fly(points, run)
+                answer, rows = talk.fly(run, **mission(points))
                 assert answer["type"] == "end" and answer["reason"] == "done", answer
                 assert np.linalg.norm(rows[0, 1:4] - points[0]) < 0.3
             assert talk.end() == 0
@@ -215,10 +184,10 @@ def test_a_vehicle_that_runs_already_flies_back_to_the_next_start(kind, mode):
 def test_nobody_there_and_nothing_to_start_are_told():
     words, _ = command("px4", "offboard", "--link-timeout-s", "0.3", start=False)
     with Talk(words) as talk:
-        assert "no heartbeat at udpin:127.0.0.1:" in talk.fly()[0]["message"]
+        assert "no heartbeat at udpin:127.0.0.1:" in talk.fly(**mission())[0]["message"]
     words, _ = command("px4", "offboard", "--start", "/no/such/px4", start=False)
     with Talk(words) as talk:
-        assert "--start: " in talk.fly()[0]["message"]
+        assert "--start: " in talk.fly(**mission())[0]["message"]
 
 
 def test_the_stand_in_refuses_what_an_autopilot_refuses():
