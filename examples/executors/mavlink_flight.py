@@ -17,51 +17,15 @@ answers = os.fdopen(os.dup(1), "w")
 os.dup2(2, 1)
 
 from mavlink_frames import World  # noqa: E402
-from mavlink_vehicle import Refused, Vehicle, mavlink  # noqa: E402
+from mavlink_link import Refused, mavlink  # noqa: E402
+from mavlink_setpoints import Timed, Waypoints  # noqa: E402
+from mavlink_vehicle import Vehicle  # noqa: E402
 
 BATCH, LINGER_S, APPROACH_S = 200, 2.0, 120.0
 
 
 def say(**message):
     print(json.dumps(message, allow_nan=False), file=answers, flush=True)
-
-
-class Waypoints:
-    """The set point is the next waypoint; it counts as reached within the mission's cylinder."""
-
-    def __init__(self, mission):
-        self.points, self.accept, self.next, self.arrived = mission["waypoints_m"], mission["accept"], 1, False
-
-    def follow(self, t, position):
-        goal = self.points[self.next]
-        level = math.hypot(goal[0] - position[0], goal[1] - position[1])
-        if level <= self.accept["radius_m"] and abs(goal[2] - position[2]) <= self.accept["height_m"]:
-            self.arrived = self.arrived or self.next == len(self.points) - 1
-            self.next = min(self.next + 1, len(self.points) - 1)
-        return self.next - 1, self.points[self.next], None
-
-
-class Timed:
-    """The set point is the mission's timed motion; a leg ends where that passes its waypoint."""
-
-    def __init__(self, mission):
-        self.timed, self.at, self.arrived = mission["timed"], 0, False
-        self.end, self.accept = mission["waypoints_m"][-1], mission["accept_m"]
-        self.passed, first = [], 0
-        for point in mission["waypoints_m"][1:-1]:
-            first = min(range(first, len(self.timed)), key=lambda i: math.dist(self.timed[i]["p_m"], point))
-            self.passed.append(self.timed[first]["t_s"])
-
-    def follow(self, t, position):
-        while self.at + 1 < len(self.timed) - 1 and self.timed[self.at + 1]["t_s"] <= t:
-            self.at += 1
-        a, b = self.timed[self.at], self.timed[self.at + 1]
-        share = min((t - a["t_s"]) / (b["t_s"] - a["t_s"]), 1.0)
-        over = t >= b["t_s"]
-        self.arrived = over and math.dist(position, self.end) <= self.accept
-        velocity = [0.0, 0.0, 0.0] if over else [(1 - share) * u + share * v for u, v in zip(a["v_m_s"], b["v_m_s"])]
-        leg = sum(t >= passed for passed in self.passed)
-        return leg, [(1 - share) * p + share * q for p, q in zip(a["p_m"], b["p_m"])], velocity
 
 
 class Executor:
@@ -103,7 +67,7 @@ class Executor:
     def meet(self):
         if self.vehicle is None:
             o = self.options
-            self.vehicle = Vehicle(self.address, self.autopilot, o.link_timeout_s, o.rate_hz, o.truth)
+            self.vehicle = Vehicle(self.address, self.autopilot, o.link_timeout_s, o.arm_patience_s, o.rate_hz, o.truth)
             for name, value in o.param:
                 self.vehicle.set_parameter([(name, 1.0)], value)
             self.autopilot.prepare(self.vehicle, o)
@@ -262,7 +226,7 @@ def options_of(autopilot):
     parser.add_argument("--truth", action="store_true", help="poses of the simulation, not of the estimator")
     parser.add_argument("--limits", action="store_true", help="sets the parameters that are the mission's limits")
     parser.add_argument("--param", action="append", type=parameter, default=[], metavar="NAME=VALUE")
-    parser.add_argument("--arm-patience-s", type=float, default=60.0, help="simulated time for its checks to pass")
+    parser.add_argument("--arm-patience-s", type=float, default=60.0, help="simulated time for its estimator and checks")
     parser.add_argument("--link-timeout-s", type=float, default=10.0)
     return parser.parse_args()
 

@@ -22,7 +22,7 @@ m = mavutil.mavlink
 STEP_S, RADIUS_M, GRAVITY = 0.02, 6371000.0, 9.81
 ORIGIN = (47.397742, 8.545594, 488.0)
 HOME_ABOVE_M = 2.0
-READY_S = 2.0  # after its start: until then its estimator is not
+READY_S = 3.0  # after its start: until then its estimator is not
 REAL, WHOLE = m.MAV_PARAM_TYPE_REAL32, m.MAV_PARAM_TYPE_INT32
 ACCEPTED, REJECTED, DENIED, UNSUPPORTED, FAILED = 0, 1, 2, 3, 4
 
@@ -193,7 +193,7 @@ class Fake:
             armed = m.MAV_MODE_FLAG_SAFETY_ARMED if self.armed else 0
             self.send.heartbeat_send(m.MAV_TYPE_QUADROTOR, self.kind.AUTOPILOT, m.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | armed,
                                      self.kind.MODES[self.mode], self.status)
-        elif number == m.MAVLINK_MSG_ID_LOCAL_POSITION_NED:
+        elif number == m.MAVLINK_MSG_ID_LOCAL_POSITION_NED and self.t >= 60.0 + READY_S - 1.0:
             self.send.local_position_ned_send(stamp, *self.p, *self.v)
         elif number == m.MAVLINK_MSG_ID_ATTITUDE_QUATERNION:
             # A little later than the position, as other tasks have it.
@@ -226,6 +226,8 @@ class Fake:
             self.intervals[int(c.param1)] = c.param2 / 1e6
             return ACCEPTED
         if c.command == m.MAV_CMD_REQUEST_MESSAGE and int(c.param1) == m.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN:
+            if self.t < 60.0 + READY_S:
+                return FAILED
             self.send.gps_global_origin_send(round(ORIGIN[0] * 1e7), round(ORIGIN[1] * 1e7), round(ORIGIN[2] * 1000))
             return ACCEPTED
         if c.command == m.MAV_CMD_COMPONENT_ARM_DISARM:

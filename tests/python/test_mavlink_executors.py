@@ -191,7 +191,7 @@ def test_nobody_there_and_nothing_to_start_are_told():
 
 
 def test_the_stand_in_refuses_what_an_autopilot_refuses():
-    from mavlink_vehicle import mavlink, mavutil
+    from mavlink_link import mavlink, mavutil
 
     port = free_port(socket.SOCK_DGRAM)
     vehicle = subprocess.Popen(fake("px4", port))
