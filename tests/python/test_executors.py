@@ -45,3 +45,52 @@ def test_another_simulator_flies_a_campaign(name, tmp_path):
     assert abs(flight["x_m"][-1] - 9) + abs(flight["y_m"][-1] - 7) + abs(flight["z_m"][-1] - 6) < 1.0
     # A tracking controller in calm air neither stands still nor is perfect.
     assert 0.01 < answer["worst"]["max_deviation_m"] < 3
+
+
+# Overshoots where the path turns back, and waits there for ever to have passed the waypoint: a public bug of an autopilot.
+STALLS = '''
+import json, math, sys
+say = lambda **message: print(json.dumps(message), flush=True)
+minus = lambda a, b: [u - v for u, v in zip(a, b)]
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "hello":
+        say(type="ready", protocol=2, name="stalls", deterministic=True)
+    elif message["type"] == "reset":
+        of = {"case": message["case"], "run": message["run"]}
+        say(type="ready", **of)
+    elif message["type"] == "mission":
+        points, rows, leg, stuck, t = message["waypoints_m"], [], 0, False, 0.0
+        p = points[0]
+        while t <= message["time_limit_s"] and leg < len(points) - 1:
+            rows.append([t, *p, 1, 0, 0, 0, None, None, None, leg])
+            goal, t = points[leg + 1], t + 0.05
+            away = math.dist(p, goal)
+            into, out = minus(goal, points[leg]), minus(points[min(leg + 2, len(points) - 1)], goal)
+            if not stuck and away > 0.1:
+                p = [a + 0.1 / away * (b - a) for a, b in zip(p, goal)]
+            elif not stuck and sum(a * b for a, b in zip(into, out)) < 0.0:
+                stuck, p = True, [a + 0.5 * b / math.hypot(*into) for a, b in zip(goal, into)]
+            elif not stuck:
+                leg += 1
+        say(type="poses", poses=rows, **of)
+        say(type="end", reason="time" if leg < len(points) - 1 else "done", **of)
+    elif message["type"] == "bye":
+        break
+'''
+
+
+def test_who_stops_short_of_a_waypoint_for_good_has_stalled_and_shrinks(tmp_path):
+    program, out = tmp_path / "stalls.py", tmp_path / "campaign"
+    program.write_text(STALLS)
+    sets = ['generate.search={ method = "uniform", waypoints = 60, cases = 1 }', "execute.repeat=1", "task.length=6", "task.end_m=[9, 7, 6]",
+            "spec.deviation.max_m=3", "execute.baseline=0"]
+    arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", shlex.join([sys.executable, str(program)]), "--out", str(out), "--json"]
+    done = subprocess.run(arguments + [word for one in sets for word in ("--set", one)], capture_output=True, text=True)
+    answer = json.loads(done.stdout)
+    assert done.returncode == 1 and "of 6 waypoints" in answer["verdict"] and "stood still after" in answer["verdict"], answer
+    done = subprocess.run([HAIRPIN, "shrink", str(out), "--case", "0000", "--budget", "30", "--json"], capture_output=True, text=True)
+    shrunk = json.loads(done.stdout)
+    # A turn back takes three waypoints; of those the second is overshot.
+    assert done.returncode == 0, (shrunk, done.stderr)
+    assert shrunk["what"] == "stalled" and 3 <= shrunk["waypoints"] < shrunk["waypoints_before"] == 6, shrunk
