@@ -9,7 +9,7 @@ use hairpin::campaign::{Case, Evidence};
 use hairpin::math::rotation::between;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::placement::Placement;
-use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
+use hairpin_formats::{atomic, csv, geodetic, missions, tum, waypoints};
 use nalgebra::Isometry3;
 
 use crate::Problem;
@@ -80,7 +80,7 @@ fn write_waypoints(work: &Work, cases: &[Case]) -> Result<Written, Problem> {
     let mut files = cases.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     for case in cases {
         if let Some(environment) = &case.environment {
-            let path = waypoints::environment_path(&place, &case.id());
+            let path = missions::environment_path(&place, &case.id());
             atomic::write_json(&path, environment)?;
             files.push(path);
         }

@@ -3,9 +3,10 @@
 use nalgebra::Point3;
 
 use super::solve::BoatSolver;
-use super::{BoatSetup, knobs, losses, plan, through, verify};
+use super::{BoatSetup, knobs, losses, passes, plan, through, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
 use crate::verification::{EndError, Proof};
@@ -37,6 +38,10 @@ impl Claim for BoatSetup {
 
     fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
         verify::verify(self, case)
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        Ok(passes::passes(self, asked))
     }
 
     fn knobs(&self) -> Knobs {

@@ -3,9 +3,10 @@
 use nalgebra::Point3;
 
 use super::solve::DriveSolver;
-use super::{DriveSetup, knobs, losses, plan, replan, verify};
+use super::{DriveSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::DriveScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -46,6 +47,10 @@ impl Claim for DriveSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, None)
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        passes::passes(self, asked)
     }
 
     fn knobs(&self) -> Knobs {

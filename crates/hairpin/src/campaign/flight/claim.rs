@@ -4,8 +4,9 @@ use nalgebra::Point3;
 
 use super::fly::own_curve;
 use super::solve::FlightSolver;
-use super::{FlightSetup, knobs, losses, plan, replan, verify};
+use super::{FlightSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
@@ -55,6 +56,10 @@ impl Claim for FlightSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, with_lag.flatten())
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        passes::passes(self, asked)
     }
 
     fn knobs(&self) -> Knobs {

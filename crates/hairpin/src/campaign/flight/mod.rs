@@ -11,6 +11,7 @@ mod knobs;
 mod legs;
 mod losses;
 mod place;
+mod passes;
 mod plan;
 mod replan;
 mod say;

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::{Knobs, Same};
 use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::math::random::Stream;
 use crate::simulation::SimulationError;
@@ -74,6 +75,14 @@ pub(in crate::campaign) trait Claim {
     /// Hands the written witness to the verification room, and with it the environment, held to the bounds of `drawn`:
     /// the scenario that the case was searched with. What is found of the two is one proof.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
+
+    /// What is claimed of waypoints that somebody else chose: a witness, or what breaks, leg by leg.
+    ///
+    /// # Errors
+    /// Why nothing is, in a sentence's part.
+    fn passes(&self, _asked: &Demands) -> Result<Passage, String> {
+        Err("missions are checked for flights, drives and boats".into())
+    }
 
     /// The scenario keys that can make more feasible, and what a run can be freed of.
     fn knobs(&self) -> Knobs;
