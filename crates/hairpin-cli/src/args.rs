@@ -2,6 +2,7 @@
 
 mod bench;
 mod calibrate;
+mod check;
 mod check_executor;
 mod commands;
 mod compare;
@@ -28,6 +29,7 @@ use hairpin_formats::template::KINDS;
 
 pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
+pub(crate) use check::Check;
 pub(crate) use check_executor::CheckExecutor;
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
@@ -89,6 +91,8 @@ pub(crate) enum Command {
     Select(Select),
     /// Propose limits for [spec]: those that 5 % of random feasible cases break
     Calibrate(Calibrate),
+    /// Check whether a robot can do a mission made elsewhere: check MISSION --robot R
+    Check(Check),
     /// Check that a program speaks the executor protocol: what was said, and a sentence for each mistake
     CheckExecutor(CheckExecutor),
     /// Tell why nothing (or little) is feasible, and the smallest change that helps
@@ -143,6 +147,7 @@ impl Command {
             Self::Explain(a) => a.json,
             Self::Calibrate(a) => a.json,
             Self::Bench(a) => a.json(),
+            Self::Check(a) => a.json,
             Self::CheckExecutor(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,

@@ -4,8 +4,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
 use hairpin::campaign::Scenario;
+use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
 use nalgebra::Point3;
 use thiserror::Error;
 

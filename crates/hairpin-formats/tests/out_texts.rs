@@ -121,10 +121,7 @@ fn waypoints_come_back_and_mistakes_are_placed() {
     }
     fs::remove_file(&path).unwrap();
     assert!(
-        missions::read_all(place.path(), scenario, FARTHEST_M)
-            .unwrap_err()
-            .to_string()
-            .contains("no .csv file in it")
+        missions::read_all(place.path(), scenario, FARTHEST_M).unwrap_err().to_string().contains("no .csv file in it")
     );
 }
 

@@ -7,6 +7,7 @@
 mod baseline;
 pub mod calibrate;
 pub mod certificate;
+pub mod check;
 pub mod check_executor;
 pub mod compare;
 pub mod consent;
@@ -19,7 +20,7 @@ pub mod import;
 pub mod judge;
 pub mod learn;
 pub mod max_load;
-mod missions;
+pub mod missions;
 pub mod names;
 pub mod optimum;
 mod problem;

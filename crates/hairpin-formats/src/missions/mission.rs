@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use hairpin::campaign::Environment;
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector2};
 
 use crate::frames::Geodetic;
 
@@ -83,6 +83,16 @@ pub enum Outline {
     Circle(Point2<f64>, f64),
     /// Corners.
     Polygon(Vec<Point2<f64>>),
+}
+
+impl Outline {
+    /// Moves it by `by`, m.
+    pub fn shift(&mut self, by: &Vector2<f64>) {
+        match self {
+            Self::Circle(center, _) => *center += by,
+            Self::Polygon(corners) => corners.iter_mut().for_each(|corner| *corner += by),
+        }
+    }
 }
 
 impl Mission {

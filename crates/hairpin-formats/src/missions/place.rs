@@ -47,7 +47,8 @@ pub(super) fn place(
     }
     let mut waypoints = Vec::with_capacity(stations.len());
     for station in &stations {
-        let point = world.from_geodetic(&station.place).map_err(|why| refuse(format!("item {}: {why}", station.item)))?;
+        let point =
+            world.from_geodetic(&station.place).map_err(|why| refuse(format!("item {}: {why}", station.item)))?;
         if (0..3).any(|axis| !(-farthest..=farthest).contains(&point[axis])) {
             let (far, most) = ((point - Point3::origin()).norm() / 1000.0, farthest / 1000.0);
             return Err(refuse(format!("item {}: {far:.1} km from the world's origin, {most} at most", station.item)));
@@ -91,7 +92,9 @@ fn fenced(fence: &PlanFence, world: &Placement) -> Result<Fence, String> {
     };
     let outline = match &fence.outline {
         PlanOutline::Circle(center, radius) => Outline::Circle(at(*center)?, *radius),
-        PlanOutline::Polygon(corners) => Outline::Polygon(corners.iter().map(|corner| at(*corner)).collect::<Result<_, _>>()?),
+        PlanOutline::Polygon(corners) => {
+            Outline::Polygon(corners.iter().map(|corner| at(*corner)).collect::<Result<_, _>>()?)
+        }
     };
     Ok(Fence { keeps_in: fence.keeps_in, outline })
 }

@@ -15,8 +15,9 @@ const PLAN: &str = include_str!("../../tests/fixtures/missions/cage.plan");
 const WPL: &str = include_str!("../../tests/fixtures/missions/cage.waypoints");
 
 fn scenario(origin: bool) -> Scenario {
-    let base = if origin { "quadrotor" } else { "demo-quadrotor" };
-    let setup = setup_for(base, &[]).expect("shipped");
+    let world = ("world".to_owned(), "{ size_m = [90, 90, 90] }".to_owned());
+    let sets = if origin { Vec::new() } else { vec![world] };
+    let setup = setup_for("quadrotor", &sets).expect("shipped");
     assert_eq!(setup.scenario.origin().is_some(), origin);
     setup.scenario.clone()
 }
@@ -91,12 +92,17 @@ fn speeds_holds_and_endings_are_kept() {
     assert_eq!(with("178\t1\t3\t", "178\t0\t4.5\t").speeds, [Some(4.5), Some(4.5)]);
     assert!(with("178\t1\t3\t", "178\t2\t3\t").uncertain[0].words.contains("climbs"));
     // Above sea level: 180 m is home's.
-    let amsl = with("3\t0\t3\t16\t0\t1\t0\t0\t38.03364000\t-78.50784000\t6", "3\t0\t0\t16\t0\t1\t0\t0\t38.03364000\t-78.50784000\t186");
+    let amsl = with(
+        "3\t0\t3\t16\t0\t1\t0\t0\t38.03364000\t-78.50784000\t6",
+        "3\t0\t0\t16\t0\t1\t0\t0\t38.03364000\t-78.50784000\t186",
+    );
     assert!((amsl.waypoints[1].z - 6.0).abs() < 1e-4, "{}", amsl.waypoints[1]);
     // Landing elsewhere is flown to at the altitude before it.
     let lands = with("21\t0\t0\t0\t0\t38.03368000", "21\t0\t0\t0\t0\t38.03375000");
     assert_eq!(lands.waypoints.len(), 4);
-    assert!((lands.waypoints[3].z - 8.0).abs() < 1e-3 && lands.notes.iter().any(|note| note.contains("lands elsewhere")));
+    assert!(
+        (lands.waypoints[3].z - 8.0).abs() < 1e-3 && lands.notes.iter().any(|note| note.contains("lands elsewhere"))
+    );
     // What comes after the way home is not followed.
     let ended = |to: &str| with("5\t0\t3\t21\t", to);
     assert!(ended("5\t0\t3\t20\t").uncertain.is_empty());
@@ -118,19 +124,43 @@ fn what_no_loader_takes_is_placed() {
         ("\"rallyPoints\"", "\"rally\"", "rallyPoints: nothing, must be given, as QGroundControl's loader demands"),
         ("\"circles\": [],", "", "geoFence.circles: nothing"),
         ("\"firmwareType\": 12,", "", "mission.firmwareType: nothing"),
-        ("-78.5079772, 180]", "-78.5079772]", "mission.plannedHomePosition: [38.033553,-78.5079772], must be [latitude"),
+        (
+            "-78.5079772, 180]",
+            "-78.5079772]",
+            "mission.plannedHomePosition: [38.033553,-78.5079772], must be [latitude",
+        ),
         ("\"autoContinue\": true", "\"autoContinue\": 1", "mission.items[0].autoContinue: 1, must be true or false"),
         ("\"frame\": 3", "\"frame\": 4", "mission.items[0].frame: 4 (local, east north up), must be 0"),
         ("\"frame\": 2", "\"frame\": 77", "mission.items[1].frame: 77, must be 0"),
-        ("[0, 0, 0, null, 38.03360000", "[\"a\", 0, 0, null, 38.03360000", "mission.items[0].params[0]: \"a\", must be a number or null"),
-        ("[0, 0, 0, null, 38.03360000", "[0, 0, null, 38.03360000", "mission.items[0].params: 6 values, must be exactly 7"),
-        ("[0, 1, 0, null, 38.03364000", "[0, 1, 0, null, 98.03364000", "params[4] of command 16: 98.03364, must be a latitude"),
-        ("[0, 1, 0, null, 38.03364000, -78.50784000", "[0, 1, 0, null, 38.03364000, null", "params[5] of command 16: null"),
+        (
+            "[0, 0, 0, null, 38.03360000",
+            "[\"a\", 0, 0, null, 38.03360000",
+            "mission.items[0].params[0]: \"a\", must be a number or null",
+        ),
+        (
+            "[0, 0, 0, null, 38.03360000",
+            "[0, 0, null, 38.03360000",
+            "mission.items[0].params: 6 values, must be exactly 7",
+        ),
+        (
+            "[0, 1, 0, null, 38.03364000",
+            "[0, 1, 0, null, 98.03364000",
+            "params[4] of command 16: 98.03364, must be a latitude",
+        ),
+        (
+            "[0, 1, 0, null, 38.03364000, -78.50784000",
+            "[0, 1, 0, null, 38.03364000, null",
+            "params[5] of command 16: null",
+        ),
         ("[0, 1, 0, null, 38.03364000", "[-1, 1, 0, null, 38.03364000", "params[0] of command 16: -1, must be a time"),
         ("[1, 3, -1, 0, 0, 0, 0]", "[1, -3, -1, 0, 0, 0, 0]", "params[1] of command 178: -3, must be a speed"),
         ("38.03368000, -78.50790000, 8]", "38.03364000, -78.50784000, 6]", "Altitude: 8, must be params[6], 6"),
         ("\"command\": 203", "\"command\": 177", "mission.items[3].command: 177 (jump), must be no jump"),
-        ("\"polygon\": [[38.0334, -78.5082], ", "\"polygon\": [[38.0334], ", "geoFence.polygons[0].polygon[0]: [38.0334]"),
+        (
+            "\"polygon\": [[38.0334, -78.5082], ",
+            "\"polygon\": [[38.0334], ",
+            "geoFence.polygons[0].polygon[0]: [38.0334]",
+        ),
     ] {
         let error = told(from, to);
         assert!(error.contains(words), "{from} -> {to}: {error}");
@@ -167,7 +197,9 @@ fn lists_of_items_are_exact() {
         let error = mission(&WPL.replacen(from, to, 1), "a.waypoints", false).unwrap_err();
         assert!(error.contains(words), "{from:?} -> {to:?}: {error}");
     }
-    assert!(mission(&format!("{WPL}\n"), "a.waypoints", false).unwrap_err().contains("line 8: ``, must be no blank line"));
+    assert!(
+        mission(&format!("{WPL}\n"), "a.waypoints", false).unwrap_err().contains("line 8: ``, must be no blank line")
+    );
     assert!(mission(&WPL[..WPL.len() - 1], "a.waypoints", false).is_ok());
 }
 

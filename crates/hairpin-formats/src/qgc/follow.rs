@@ -81,10 +81,8 @@ struct Following {
 /// # Errors
 /// What no autopilot would take, or what nobody could follow.
 pub(super) fn follow(items: &[Item], home: Geodetic, flies: bool) -> Result<Uploaded, Wrong> {
-    let mission =
-        Uploaded { home, stations: Vec::new(), ending: Ending::Stays, notes: Vec::new(), open: Vec::new() };
-    let mut following =
-        Following { mission, speed: None, flies, took_off: false, over: None, yaws: 0 };
+    let mission = Uploaded { home, stations: Vec::new(), ending: Ending::Stays, notes: Vec::new(), open: Vec::new() };
+    let mut following = Following { mission, speed: None, flies, took_off: false, over: None, yaws: 0 };
     for item in items {
         following.item(item)?;
     }
@@ -179,7 +177,11 @@ impl Following {
                 return Err(Wrong::new(format!("{}frame", item.at), "10 (above terrain)", must));
             }
             Frame::Mission => {
-                return Err(Wrong::new(format!("{}frame", item.at), "2 (no place)", "0 or 3 for a command with a place"));
+                return Err(Wrong::new(
+                    format!("{}frame", item.at),
+                    "2 (no place)",
+                    "0 or 3 for a command with a place",
+                ));
             }
         };
         let altitude = item.given(7).map(|z| z + above).filter(|z| z.abs() <= FARTHEST_M);

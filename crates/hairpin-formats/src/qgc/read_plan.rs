@@ -137,7 +137,11 @@ fn check_altitude(keys: &Keys, frame: Frame, altitude: f64) -> Result<(), Wrong>
         return Ok(());
     }
     if let Some(missing) = KEYS.iter().find(|key| !keys.has(key)) {
-        return Err(Wrong::new(keys.path(missing), "nothing", "given: AltitudeMode, Altitude and AMSLAltAboveTerrain all three, or none"));
+        return Err(Wrong::new(
+            keys.path(missing),
+            "nothing",
+            "given: AltitudeMode, Altitude and AMSLAltAboveTerrain all three, or none",
+        ));
     }
     let mode = keys.count(KEYS[0])?;
     let given = keys.number_or_null(KEYS[1])?;
@@ -147,7 +151,11 @@ fn check_altitude(keys: &Keys, frame: Frame, altitude: f64) -> Result<(), Wrong>
         return Ok(());
     }
     let Some((_, name, frames)) = MODES.iter().find(|(number, ..)| *number == mode) else {
-        return Err(Wrong::new(keys.path(KEYS[0]), mode, "0, 1 (above home), 2 (above sea level), 3 or 4 (above terrain)"));
+        return Err(Wrong::new(
+            keys.path(KEYS[0]),
+            mode,
+            "0, 1 (above home), 2 (above sea level), 3 or 4 (above terrain)",
+        ));
     };
     if !frames.contains(&frame) {
         let value = format!("{mode} ({name})");
@@ -224,7 +232,9 @@ impl<'a> Keys<'a> {
     }
 
     fn get(&self, key: &str) -> Result<&'a Value, Wrong> {
-        self.map.get(key).ok_or_else(|| Wrong::new(self.path(key), "nothing", "given, as QGroundControl's loader demands"))
+        self.map
+            .get(key)
+            .ok_or_else(|| Wrong::new(self.path(key), "nothing", "given, as QGroundControl's loader demands"))
     }
 
     fn is(&self, key: &str, wanted: &Value) -> Result<(), Wrong> {
@@ -272,7 +282,8 @@ impl<'a> Keys<'a> {
     /// `[latitude, longitude, altitude]`.
     fn place(&self, key: &str) -> Result<[f64; 3], Wrong> {
         let value = self.get(key)?;
-        let refuse = || Wrong::new(self.path(key), value, "[latitude, longitude, altitude], degrees and m above the sea");
+        let refuse =
+            || Wrong::new(self.path(key), value, "[latitude, longitude, altitude], degrees and m above the sea");
         let [lat, lon] = corner(value, &self.path(key))?;
         let altitude = value.get(2).and_then(Value::as_f64).filter(|z| z.abs() <= 20_000.0);
         Ok([lat, lon, altitude.ok_or_else(refuse)?])

@@ -8,7 +8,17 @@ use crate::frames::Geodetic;
 pub const HEAD: &str = "QGC WPL 110";
 /// Fields of a row.
 const FIELDS: [&str; 12] = [
-    "index", "current", "frame", "command", "param1", "param2", "param3", "param4", "latitude", "longitude", "altitude",
+    "index",
+    "current",
+    "frame",
+    "command",
+    "param1",
+    "param2",
+    "param3",
+    "param4",
+    "latitude",
+    "longitude",
+    "altitude",
     "autocontinue",
 ];
 /// Rows at most: as many items as a plan may have.
@@ -56,7 +66,10 @@ impl<'a> Row<'a> {
         let at = || format!("line {line}");
         let ways = [
             (text.is_empty(), "no blank line"),
-            (text.ends_with('\r'), "a line that ends with a line feed alone, without the carriage return of other systems"),
+            (
+                text.ends_with('\r'),
+                "a line that ends with a line feed alone, without the carriage return of other systems",
+            ),
             (text.starts_with('#'), "no comment"),
         ];
         if let Some((_, must)) = ways.iter().find(|(is_so, _)| *is_so) {

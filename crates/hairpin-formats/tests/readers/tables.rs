@@ -281,8 +281,16 @@ pub(crate) fn samples() -> Vec<Sample> {
         item_row("plan.return", "\"command\": 20"),
         plan_row("plan.hold", "[0, 1, 0, null, 38.0336", "[4, 1, 0, null, 38.0336"),
         plan_row("plan.heading", "[0, 1, 0, null, 38.0336", "[0, 1, 0, 90, 38.0336"),
-        plan_row("plan.home", "\"plannedHomePosition\": [38.033553, -78.5079772, 180]", "\"plannedHomePosition\": [38.033553, -78.5079772, 181]"),
-        plan_row("plan.pattern", "\"type\": \"SimpleItem\"", "\"complexItemType\": \"survey\", \"type\": \"ComplexItem\""),
+        plan_row(
+            "plan.home",
+            "\"plannedHomePosition\": [38.033553, -78.5079772, 180]",
+            "\"plannedHomePosition\": [38.033553, -78.5079772, 181]",
+        ),
+        plan_row(
+            "plan.pattern",
+            "\"type\": \"SimpleItem\"",
+            "\"complexItemType\": \"survey\", \"type\": \"ComplexItem\"",
+        ),
         plan_row("plan.terrain", "\"frame\": 3", "\"frame\": 10"),
         plan_row("plan.local", "\"frame\": 3", "\"frame\": 1"),
         plan_row("plan.no-fence", "\"geoFence\"", "\"fence\""),

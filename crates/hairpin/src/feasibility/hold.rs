@@ -40,11 +40,14 @@ pub fn hold(
     longest: f64,
 ) -> Result<Profile, Vec<(usize, Infeasible)>> {
     let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-    let mut times: Vec<f64> =
-        lengths.iter().enumerate().map(|(leg, length)| match speeds[leg] {
+    let mut times: Vec<f64> = lengths
+        .iter()
+        .enumerate()
+        .map(|(leg, length)| match speeds[leg] {
             Some(speed) => paced(*length, speed, [leg == 0, leg + 1 == lengths.len()]),
             None => first_guess(judge, *length).min(longest),
-        }).collect();
+        })
+        .collect();
     if let Some(leg) = times.iter().position(|time| *time > longest) {
         let margin = longest - times[leg];
         return Err(vec![(leg, Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin })]);

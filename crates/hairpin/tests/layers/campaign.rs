@@ -34,7 +34,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["setup"],
     &["chance", "coverage", "goals", "states"],
     // The jobs.
-    &["mission", "judge"],
+    &["mission", "judge", "rank"],
     &["landed"],
     &["executor", "samples"],
     &["execute"],

@@ -1,6 +1,7 @@
 //! What of trips is claimed, and by whom.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
 
 use super::solve::BoatSolver;
 use super::{BoatSetup, knobs, losses, passes, plan, through, verify};
@@ -42,6 +43,10 @@ impl Claim for BoatSetup {
 
     fn passes(&self, asked: &Demands) -> Result<Passage, String> {
         Ok(passes::passes(self, asked))
+    }
+
+    fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
+        Some(json!({ "size_m": [size.x, size.y], "keep_in_margin_m": 0.0 }))
     }
 
     fn knobs(&self) -> Knobs {

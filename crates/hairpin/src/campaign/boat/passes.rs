@@ -177,7 +177,8 @@ fn refused(leg: usize, why: &BoatInfeasible) -> Broken {
     };
     let (BoatInfeasible::Violates { at, margin, .. } | BoatInfeasible::Unproven { at, margin, .. }) = *why;
     let excess = (-margin).max(0.0);
-    let words = format!("no trip was found: the last one tried breaks the {limit} by {excess:.3} {unit} after {at:.1} s");
+    let words =
+        format!("no trip was found: the last one tried breaks the {limit} by {excess:.3} {unit} after {at:.1} s");
     let certainty = Certainty::NotFound;
     Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess: Some(excess), certainty, words }
 }

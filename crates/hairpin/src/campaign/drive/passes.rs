@@ -81,7 +81,9 @@ fn model(setup: &DriveSetup) -> String {
         Suspension::Level => "the vehicle in the plane",
         _ => "the vehicle settled on the ground at every step",
     };
-    format!("{ground}, waypoints passed with straight wheels; without slip that the plan does not know, latency or wind")
+    format!(
+        "{ground}, waypoints passed with straight wheels; without slip that the plan does not know, latency or wind"
+    )
 }
 
 /// What is looked at.
@@ -150,8 +152,10 @@ impl Looked<'_> {
         let with = |factor: f64| {
             let mut more = own.clone();
             match limit {
-                "curvature" => (more.bounds.most, more.bounds.most_rate) =
-                    (own.bounds.most * factor, own.bounds.most_rate * factor),
+                "curvature" => {
+                    (more.bounds.most, more.bounds.most_rate) =
+                        (own.bounds.most * factor, own.bounds.most_rate * factor)
+                }
                 "slope" => more.limits.tilt = own.limits.tilt * factor,
                 _ => return None,
             }
@@ -162,7 +166,10 @@ impl Looked<'_> {
         let bound = if limit == "slope" { own.limits.tilt.to_degrees() } else { own.bounds.most };
         let excess = factor.map(|factor| (factor - 1.0) * bound).filter(|excess| excess.is_finite());
         let words = match excess {
-            Some(excess) => format!("no drive was found: drives here {}; with {excess:.3} {unit} more of it there is one", why.says()),
+            Some(excess) => format!(
+                "no drive was found: drives here {}; with {excess:.3} {unit} more of it there is one",
+                why.says()
+            ),
             None => format!("no drive was found: drives here {}", why.says()),
         };
         Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess, certainty: Certainty::NotFound, words }

@@ -1,13 +1,14 @@
 //! What of flights is claimed, and by whom.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
 
 use super::fly::own_curve;
 use super::solve::FlightSolver;
 use super::{FlightSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -60,6 +61,10 @@ impl Claim for FlightSetup {
 
     fn passes(&self, asked: &Demands) -> Result<Passage, String> {
         passes::passes(self, asked)
+    }
+
+    fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
+        Some(json!({ "size_m": [size.x, size.y, size.z], "keep_in_margin_m": 0.0 }))
     }
 
     fn knobs(&self) -> Knobs {

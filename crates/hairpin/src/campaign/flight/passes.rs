@@ -4,7 +4,7 @@
 use nalgebra::Point3;
 
 use super::FlightSetup;
-use super::legs::judge;
+use super::legs::judge_up_to;
 use crate::campaign::bounds::LONGEST_LEG_S;
 use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
 use crate::feasibility::certify::{Certificate, Impossible, certify};
@@ -23,9 +23,10 @@ const ROUNDING: f64 = 1e-9;
 /// What the claim says of `asked`.
 ///
 /// # Errors
-/// As [`judge`].
+/// As [`judge_up_to`].
 pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, String> {
-    let judge = judge(setup)?;
+    // What a mission asks for is held to the robot's top speed as well.
+    let judge = judge_up_to(setup, setup.robot.max_speed)?;
     let looked = Looked { setup, judge: &judge, asked };
     let mut legs: Vec<PassedLeg> = asked.waypoints.windows(2).map(|pair| looked.alone(pair)).collect();
     for (number, leg) in legs.iter_mut().enumerate() {
@@ -51,7 +52,8 @@ pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, St
     }
     let whole = flight.len() == legs.len() && legs.iter().all(|leg| leg.broken.is_none());
     let flight = Profile { legs: flight };
-    if let Some(most) = setup.scenario.generate.limits.max_flight_time_s.filter(|most| whole && flight.duration() > *most)
+    if let Some(most) =
+        setup.scenario.generate.limits.max_flight_time_s.filter(|most| whole && flight.duration() > *most)
     {
         broken = Some(Broken {
             waypoint: asked.waypoints.len() - 1,
@@ -180,7 +182,9 @@ impl Looked<'_> {
         let excess = -factor * margin(why);
         let words = match why {
             Infeasible::Violates { at, .. } => {
-                format!("no flight was found: the last one tried breaks the {told} by {excess:.3} {unit} after {at:.2} s")
+                format!(
+                    "no flight was found: the last one tried breaks the {told} by {excess:.3} {unit} after {at:.2} s"
+                )
             }
             Infeasible::Unproven { at, .. } => {
                 format!("no flight was found: of the last one tried the {told} could not be shown to hold at {at:.2} s")

@@ -1,6 +1,7 @@
 //! The claim: what a kind searches, plans and proves.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::Value;
 use thiserror::Error;
 
 use super::{Knobs, Same};
@@ -82,6 +83,11 @@ pub(in crate::campaign) trait Claim {
     /// Why nothing is, in a sentence's part.
     fn passes(&self, _asked: &Demands) -> Result<Passage, String> {
         Err("missions are checked for flights, drives and boats".into())
+    }
+
+    /// The scenario's table of a world of `size` (m, from the origin on) with nothing in it, where there is one.
+    fn open_world(&self, _size: &Vector3<f64>) -> Option<Value> {
+        None
     }
 
     /// The scenario keys that can make more feasible, and what a run can be freed of.
