@@ -45,7 +45,8 @@ pub fn stress(settings: &CampaignSettings, repro: Option<&Path>, watch: &dyn Wat
 }
 
 /// The same of missions made elsewhere, of a folder or file: they are the cases, and beside them what the scenario's
-/// search finds is run, measured and compared with, as random feasible cases are. Nothing of either is judged or counted.
+/// search finds is run, measured and compared with, as random feasible cases are. Nothing of either is judged or
+/// counted.
 ///
 /// # Errors
 /// As of [`stress`]; a file that is no mission, or has something that changes the motion and is not followed.

@@ -6,9 +6,10 @@ use clap::Args;
 
 use super::resources::Kernels;
 
-/// Looks for a witness of a mission made elsewhere by the robot's own claim, at the speeds that the mission demands, and
-/// tells leg by leg what is fastest and which limit is nearest; or tells the first limit that breaks, and by how much.
-/// Exit code 0 where it is feasible, 1 where it is proven not to be, 5 where neither was found out. Nothing is written.
+/// Looks for a witness of a mission made elsewhere by the robot's own claim, at the speeds that the mission demands,
+/// and tells leg by leg what is fastest and which limit is nearest; or tells the first limit that breaks, and by how
+/// much. Exit code 0 where it is feasible, 1 where it is proven not to be, 5 where neither was found out. Nothing is
+/// written.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// The mission: QGC .plan, QGC WPL 110 (.waypoints), CSV (x_m,y_m,z_m or lat_deg,lon_deg,alt_amsl_m)

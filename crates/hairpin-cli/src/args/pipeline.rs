@@ -46,7 +46,8 @@ pub(crate) struct Stress {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
-    /// Judge these missions (QGC .plan, QGC WPL 110, CSV) and compare them with what the search finds, which is not judged
+    /// Judge these missions (QGC .plan, QGC WPL 110, CSV) and compare them with what the search finds, which is not
+    /// judged
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) missions: Option<PathBuf>,
     #[command(flatten)]

@@ -14,7 +14,7 @@
 //! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
-//! | `searched.parquet` | beside missions made elsewhere: what a search found, run alike, as `results.parquet`; not judged |
+//! | `searched.parquet` | beside missions made elsewhere: what a search found, likewise; not judged |
 //! | `missions.json` | of missions made elsewhere: file, frame, what their check said |
 //! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
 //! | `reruns/`, `rerun-runs/` | the same of violations run again with other noise, `run` numbering the times |

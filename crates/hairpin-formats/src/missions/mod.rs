@@ -1,5 +1,5 @@
-//! Missions made elsewhere, whichever program wrote them, in one shape: waypoints in metres of the world, what is asked of
-//! the legs between them, and what of the file is not followed.
+//! Missions made elsewhere, whichever program wrote them, in one shape: waypoints in metres of the world, what is asked
+//! of the legs between them, and what of the file is not followed.
 
 mod error;
 mod mission;

@@ -1,5 +1,5 @@
-//! Places of a mission in a world: by where on Earth the world stands or, where that is not told, about the mission's own
-//! home.
+//! Places of a mission in a world: by where on Earth the world stands or, where that is not told, about the mission's
+//! own home.
 
 use std::path::Path;
 

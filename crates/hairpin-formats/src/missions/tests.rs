@@ -48,7 +48,8 @@ fn a_plan_is_east_north_up_about_its_home_where_the_world_is_nowhere() {
     let expected = [enu(38.0336, -78.5079, 5.0), enu(38.03364, -78.50784, 6.0), enu(38.03368, -78.5079, 8.0)];
     assert_eq!(read.waypoints.len(), 3);
     for (found, expected) in read.waypoints.iter().zip(&expected) {
-        // The tangent plane lies 1.6e-5 m above the ground 14 m away; radii of curvature are good to a fraction of that.
+        // The tangent plane lies 1.6e-5 m above the ground 14 m away; radii of curvature are good to a fraction of
+        // that.
         assert!((found - expected).norm() < 1e-3, "{found} {expected}");
     }
     assert_eq!(read.sources, ["item 1", "item 3", "item 5"]);

@@ -56,8 +56,8 @@ pub(crate) fn compare(work: &Work, results: &[CaseResult]) -> Result<Option<Comp
     Ok(Some(Compared { worst, each, told, words }))
 }
 
-/// `the most stressful mission is up (0000), 0.42 m: above 12 of 20 that a search finds (0.65 of their worst, 0.65 m) and
-/// above 20 of 20 random feasible ones (1.9 of their mean, 0.22 m)`.
+/// `the most stressful mission is up (0000), 0.42 m: above 12 of 20 that a search finds (0.65 of their worst, 0.65 m)
+/// and above 20 of 20 random feasible ones (1.9 of their mean, 0.22 m)`.
 fn in_words(work: &Work, told: &MissionsTold, worst: &Ranked) -> String {
     let name = told.missions.get(worst.case.0).map_or("", |one| one.name.as_str());
     let unit = |of: &Baseline, value: f64| of.told(&work.setup, value);

@@ -182,8 +182,8 @@ impl Setup {
         }
     }
 
-    /// This setup in a world of `size` (m, from the origin on) with nothing in it, which is held to the bounds of worlds
-    /// alone; `None` where its kind of robot has no such world.
+    /// This setup in a world of `size` (m, from the origin on) with nothing in it, which is held to the bounds of
+    /// worlds alone; `None` where its kind of robot has no such world.
     ///
     /// # Errors
     /// A size that no world has.

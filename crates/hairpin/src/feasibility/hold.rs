@@ -189,10 +189,10 @@ mod tests {
         let flight = hold(&judge, &points, &[Some(5.0); 3], 600.0).unwrap();
         let times: Vec<f64> = flight.legs.iter().map(|leg| leg.duration).collect();
         assert_eq!(times, [12.0, 8.0, 16.0]);
-        // Between waypoints that are passed with 5 m/s, in L/5, it flies at 5 m/s but for what drag asks of level ends.
-        for share in [0.0, 0.25, 0.5, 1.0] {
+        // Waypoints are passed with 5 m/s, and the mean between them is as much: level ends and drag shape the rest.
+        for share in [0.0, 1.0] {
             let speed = flight.legs[1].derivative(8.0 * share, 1).norm();
-            assert!((speed - 5.0).abs() < 0.3, "{share}: {speed}");
+            assert!((speed - 5.0).abs() < 1e-9, "{share}: {speed}");
         }
         assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()));
         // Only what is demanded is held: the others take what they need.

@@ -1,5 +1,5 @@
-//! Missions made elsewhere, by the claim of boats: legs from state to state through their waypoints, each passed between
-//! its legs with a speed of a few, or the limits that break.
+//! Missions made elsewhere, by the claim of boats: legs from state to state through their waypoints, each passed
+//! between its legs with a speed of a few, or the limits that break.
 
 use nalgebra::{Point3, Vector2};
 

@@ -40,8 +40,8 @@ struct Reached {
 }
 
 /// The legs between `places` (m), in order: each place is passed with straight wheels, in the direction of the leg that
-/// leads to it, of the one that leads on, or between both; the quickest chain of these is taken. `settings` are those of
-/// each leg; at places of `stops` the speed is 0.
+/// leads to it, of the one that leads on, or between both; the quickest chain of these is taken. `settings` are those
+/// of each leg; at places of `stops` the speed is 0.
 ///
 /// Where no heading leads on, the chain begins anew, so that every leg has an answer of its own. At most 9 legs are
 /// solved for each pair of places.
