@@ -2,6 +2,7 @@
 
 mod bench;
 mod calibrate;
+mod check;
 mod check_executor;
 mod commands;
 mod compare;
@@ -30,6 +31,7 @@ use hairpin_formats::template::KINDS;
 
 pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
+pub(crate) use check::Check;
 pub(crate) use check_executor::CheckExecutor;
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
@@ -95,6 +97,8 @@ pub(crate) enum Command {
     Calibrate(Calibrate),
     /// Estimate a flying robot's numbers from logs of its flights, and tell what they do not show
     Fit(Fit),
+    /// Check whether a robot can do a mission made elsewhere: check MISSION --robot R
+    Check(Check),
     /// Check that a program speaks the executor protocol: what was said, and a sentence for each mistake
     CheckExecutor(CheckExecutor),
     /// Tell why nothing (or little) is feasible, and the smallest change that helps
@@ -150,6 +154,7 @@ impl Command {
             Self::Calibrate(a) => a.json,
             Self::Fit(a) => a.json,
             Self::Bench(a) => a.json(),
+            Self::Check(a) => a.json,
             Self::CheckExecutor(a) => a.json,
             Self::Steer(a) => a.json,
             Self::MaxLoad(a) => a.json,

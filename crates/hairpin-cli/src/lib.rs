@@ -74,6 +74,7 @@ fn command(arguments: Arguments) -> Result<u8, Problem> {
         Command::Explain(explain) => commands::explain::run(&explain, watch),
         Command::Calibrate(asked) => commands::calibrate::run(&asked, watch),
         Command::Fit(asked) => commands::fit::run(&asked, watch),
+        Command::Check(asked) => commands::check::run(&asked, watch),
         Command::CheckExecutor(asked) => commands::check_executor::run(&asked, watch),
         Command::Select(select) => commands::select::run(&select, watch),
         Command::Shrink(shrink) => commands::shrink::run(&shrink, watch),

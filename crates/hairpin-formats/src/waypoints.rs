@@ -1,19 +1,17 @@
 //! Waypoints as CSV, one file a case: `x_m,y_m,z_m`, start first. Written for others, and read from others, who may
 //! also say where on Earth they are: `lat_deg,lon_deg,alt_amsl_m`.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::Scenario;
 use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
-use hairpin::campaign::{Environment, Scenario};
 use nalgebra::Point3;
 use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
-use crate::bounds::{self, MOST_BYTES};
+use crate::bounds;
 use crate::delimited::{Cut, Row, Table};
-use crate::folder::is_of_a_motion;
 use crate::frames::Geodetic;
 use crate::geodetic;
 use crate::placement::Placement;
@@ -23,7 +21,7 @@ const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 /// Why a file is no list of waypoints.
 #[derive(Debug, Error)]
 pub enum WaypointsError {
-    /// The file or folder cannot be read.
+    /// The file cannot be read.
     #[error("cannot read {}: {cause}", path.display())]
     Unreadable {
         /// The file.
@@ -116,12 +114,6 @@ pub enum WaypointsError {
         /// Line, counted from 1.
         line: usize,
     },
-    /// A folder without any mission.
-    #[error("{}: no .csv file in it", path.display())]
-    Empty {
-        /// The folder.
-        path: PathBuf,
-    },
 }
 
 /// The text of a list of waypoints, m. Numbers read back to the same bits.
@@ -136,83 +128,6 @@ pub fn text(waypoints: &[Point3<f64>]) -> String {
 /// The file cannot be written.
 pub fn write(path: &Path, waypoints: &[Point3<f64>]) -> Result<(), WriteError> {
     atomic::write(path, text(waypoints).as_bytes())
-}
-
-/// A mission made elsewhere.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mission {
-    /// Name of its file, without the ending.
-    pub name: String,
-    /// Start first, m.
-    pub waypoints: Vec<Point3<f64>>,
-    /// Whether they were given in degrees, whose last digit is some hundredths of a millimetre.
-    pub rounded: bool,
-    /// What it meets beside them, of the file [`environment_path`] where there is one.
-    pub environment: Option<Environment>,
-}
-
-/// `NAME.environment.json` in the folder of missions.
-pub fn environment_path(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!("{name}.environment.json"))
-}
-
-fn read_environment(path: &Path) -> Result<Option<Environment>, WaypointsError> {
-    let refuse = |cause| WaypointsError::Unreadable { path: path.into(), cause };
-    match bounds::read_text(path, MOST_BYTES) {
-        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
-        // Read as a list, its values would be taken for keys in their order.
-        text => text
-            .and_then(|text| serde_json::from_str::<serde_json::Map<_, _>>(&text).map_err(io::Error::from))
-            .and_then(|keys| serde_json::from_value(keys.into()).map_err(io::Error::from))
-            .map(Some)
-            .map_err(refuse),
-    }
-}
-
-/// Reads the `.csv` files of a folder, sorted by name, and the environments beside them. A file in degrees is placed
-/// by `scenario`, and passed over where the same waypoints lie beside it in metres, as `export` writes both; so are the
-/// motions that it writes.
-///
-/// # Errors
-/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none; a world that is nowhere
-/// on Earth.
-pub fn read_folder(folder: &Path, scenario: &Scenario, farthest: f64) -> Result<Vec<Mission>, WaypointsError> {
-    let refuse = |cause| WaypointsError::Unreadable { path: folder.into(), cause };
-    let entries = fs::read_dir(folder).map_err(refuse)?;
-    let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
-    paths.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) && !is_motion(path));
-    let in_metres = |path: &PathBuf| in_metres(path).is_some_and(|twin| paths.contains(&twin));
-    let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !in_metres(path)).collect();
-    kept.sort();
-    if kept.is_empty() {
-        return Err(WaypointsError::Empty { path: folder.into() });
-    }
-    let one = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let name = name.strip_suffix(geodetic::ENDING).unwrap_or(&stem).to_owned();
-        let environment = read_environment(&environment_path(folder, &name))?;
-        let (waypoints, rounded) = read(path, scenario, farthest)?;
-        Ok(Mission { waypoints, rounded, name, environment })
-    };
-    kept.into_iter().map(one).collect()
-}
-
-/// Whether a file is a motion that `export` wrote: by its name and, as a mission may be called so too, its first column.
-fn is_motion(path: &Path) -> bool {
-    let named = path.file_name().and_then(|name| name.to_str()).is_some_and(is_of_a_motion);
-    let first = |bytes: Vec<u8>| bytes.split(|byte| *byte == b',').next().map(<[u8]>::to_vec);
-    named
-        && bounds::read_table(path)
-            .ok()
-            .and_then(first)
-            .is_some_and(|column| [&b"t"[..], b"Duration"].contains(&&column[..]))
-}
-
-/// The file in metres that a file in degrees may have beside it.
-fn in_metres(path: &Path) -> Option<PathBuf> {
-    let name = path.file_name()?.to_str()?;
-    Some(path.with_file_name(format!("{}.csv", name.strip_suffix(geodetic::ENDING)?)))
 }
 
 /// Reads one file, and whether it is in degrees, which `scenario` places. Columns may stand in any order and others

@@ -5,19 +5,24 @@ use hairpin::campaign::generate::{ByChance, Purpose, by_chance};
 use hairpin::campaign::{self, Baseline, Case, CaseResult, Run, Setup, Status, Stop, Tally, vary};
 
 use crate::execute::{Flown, fly_by_case};
+use crate::generate::found_beside;
 use crate::watch::not_waiting_for;
 use crate::work::Work;
 use crate::{Deadline, Problem, Watch};
 
 /// What the watch is told of.
 const WHAT: &str = "baseline";
+/// And of cases that a search found beside missions.
+const SEARCHED: &str = "searched";
 
 /// Draws and runs as many as `work` asks for, where cases of a search have `flown` to compare with, and they are not
 /// there yet. The file is written once all are measured.
 pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn Watch) -> Result<(), Problem> {
     let setup = &work.setup;
     let wanted = setup.scenario.baseline_cases();
-    let beside_nothing = flown.runs == flown.failed || !tally.missions.is_empty() || setup.recordings().is_some();
+    let beside_nothing = flown.runs == flown.failed || setup.recordings().is_some();
+    // Missions of another robot's kind have no feasible cases to be compared with.
+    let beside_nothing = beside_nothing || (setup.has_programs() && !tally.missions.is_empty());
     if wanted == 0 || beside_nothing || work.folder.read_baseline()?.is_some() {
         return Ok(());
     }
@@ -28,6 +33,19 @@ pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn
     let measured: Result<Vec<CaseResult>, Problem> =
         fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (WHAT, watch))?.into_iter().collect();
     Ok(work.folder.write_baseline(&cases, &measured?)?)
+}
+
+/// Searches as the scenario says and runs what is found, for missions to be compared with; the file is written once all
+/// are measured.
+pub(crate) fn fly_searched(work: &Work, deadline: Deadline, watch: &dyn Watch) -> Result<(), Problem> {
+    if work.folder.read_searched()?.is_some() {
+        return Ok(());
+    }
+    let setup = &work.setup;
+    let cases = found_beside(setup, deadline, watch)?;
+    let measured: Result<Vec<CaseResult>, Problem> =
+        fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (SEARCHED, watch))?.into_iter().collect();
+    Ok(work.folder.write_searched(&cases, &measured?)?)
 }
 
 /// What the cases by chance of a campaign's folder measured; `None` where there are none.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Stop, Tally, learn, planned};
+use hairpin::campaign::{Case, Setup, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
 use rayon::prelude::*;
@@ -52,35 +52,17 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let begun = Instant::now();
-    let code = work.setup.user_code();
-    let code_trouble = || code.iter().find_map(|(key, user)| Some((key, user.trouble()?)));
-    let stopped = || watch.stopped() || deadline.passed() || code_trouble().is_some();
-    let stop = Stop {
-        cancelled: &stopped,
-        progress: &|done, of| watch.progress(WHAT, done, of),
-        clock: &|| begun.elapsed().as_secs_f64(),
-    };
-    let search = |Asked { executor, stop: over }: Asked| {
-        let stop = Stop { cancelled: over, ..stop };
-        not_waiting_for(&code, watch, deadline, || {
-            hairpin::campaign::generate(&work.setup, &known, executor, &stop, &mut |new, tally| {
-                cases.extend_from_slice(new);
-                if at.elapsed() > CHECKPOINT && trouble.is_none() {
-                    trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
-                    (saved, at) = (cases.len(), Instant::now());
-                }
-            })
-        })
-    };
-    let (tally, executor_trouble) = in_the_loop(&work.setup, &stopped, watch, search)?;
-    watch.finished(WHAT);
+    let found = searched(&work.setup, &known, (deadline, watch), &mut |new, tally| {
+        cases.extend_from_slice(new);
+        if at.elapsed() > CHECKPOINT && trouble.is_none() {
+            trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
+            (saved, at) = (cases.len(), Instant::now());
+        }
+    });
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    if let Some((key, trouble)) = code_trouble() {
-        return Err(Problem::input(format!("`{key}` = {trouble}")));
-    }
+    let (tally, executor_trouble) = found?;
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {
         return Err(problem);
@@ -94,7 +76,13 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     {
         work.folder.write_graph(arm, &graph)?;
         // What is claimed is proven, however late it is.
-        optimum::keep(work, arm, &graph, &cases, &Stop { cancelled: &|| watch.stopped(), ..stop })?;
+        let begun = Instant::now();
+        let stop = Stop {
+            cancelled: &|| watch.stopped(),
+            progress: &|done, of| watch.progress(WHAT, done, of),
+            clock: &|| begun.elapsed().as_secs_f64(),
+        };
+        optimum::keep(work, arm, &graph, &cases, &stop)?;
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }
@@ -105,6 +93,52 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     work.folder.write_tally(&tally)?;
     tracing::info!("{} cases from {} graphs", cases.len(), tally.graphs);
     Ok((cases, tally))
+}
+
+/// Searches on from what is `known`, and hands on what is found with the tally so far. Gives the tally in the end, and
+/// what went wrong with the user's program where that was the end of it.
+fn searched(
+    setup: &Setup,
+    known: &Known,
+    (deadline, watch): (Deadline, &dyn Watch),
+    found: &mut (dyn FnMut(&[Case], &Tally) + Send),
+) -> Result<(Tally, Option<Problem>), Problem> {
+    let begun = Instant::now();
+    let code = setup.user_code();
+    let code_trouble = || code.iter().find_map(|(key, user)| Some((key, user.trouble()?)));
+    let stopped = || watch.stopped() || deadline.passed() || code_trouble().is_some();
+    let stop = Stop {
+        cancelled: &stopped,
+        progress: &|done, of| watch.progress(WHAT, done, of),
+        clock: &|| begun.elapsed().as_secs_f64(),
+    };
+    let search = |Asked { executor, stop: over }: Asked| {
+        let stop = Stop { cancelled: over, ..stop };
+        not_waiting_for(&code, watch, deadline, || {
+            hairpin::campaign::generate(setup, known, executor, &stop, &mut |new, tally| found(new, tally))
+        })
+    };
+    let answer = in_the_loop(setup, &stopped, watch, search)?;
+    watch.finished(WHAT);
+    match code_trouble() {
+        Some((key, trouble)) => Err(Problem::input(format!("`{key}` = {trouble}"))),
+        None => Ok(answer),
+    }
+}
+
+/// What the search of `setup` finds, without a folder.
+///
+/// # Errors
+/// Code or a program of the user's that failed; it was asked to stop.
+pub(crate) fn found_beside(setup: &Setup, deadline: Deadline, watch: &dyn Watch) -> Result<Vec<Case>, Problem> {
+    let mut cases = Vec::new();
+    let (_, trouble) =
+        searched(setup, &Known::default(), (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    match trouble {
+        Some(problem) => Err(problem),
+        None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),
+        None => Ok(cases),
+    }
 }
 
 /// The tally of a generation that goes on: cases may come, and what is made of all of them is not there.

@@ -7,6 +7,7 @@
 mod baseline;
 pub mod calibrate;
 pub mod certificate;
+pub mod check;
 pub mod check_executor;
 pub mod compare;
 pub mod consent;
@@ -21,7 +22,7 @@ pub mod judge;
 pub mod judge_log;
 pub mod learn;
 pub mod max_load;
-mod missions;
+pub mod missions;
 pub mod names;
 pub mod optimum;
 mod problem;

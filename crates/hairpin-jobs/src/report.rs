@@ -16,6 +16,7 @@ use crate::Problem;
 use crate::baseline::read_baseline;
 use crate::execute::{run_with_motion, why_lost};
 use crate::judge::with_moves;
+use crate::missions::{compare, read_told, with_compared};
 use crate::work::{Work, open_to_read};
 
 /// A report that was written.
@@ -53,6 +54,7 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
     let verdict = campaign::verdict(&told, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
     let (verdict, regression) = with_moves(&work, &moves, verdict)?;
+    let verdict = with_compared(verdict, compare(&work, &results)?.as_ref());
     let assumptions = assumptions((&work, &told), &cases, &tally, (&moves, regression.as_ref()))?;
     // They are read again for what is shown of them.
     drop((cases, results));
@@ -85,6 +87,16 @@ fn assumptions(
     }
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
+    }
+    if let Some(told) = read_told(work)? {
+        assumptions.extend(told.said());
+        if work.folder.read_searched()?.is_some() {
+            assumptions.push(
+                "What a search of the same scenario finds, run alike, is what missions are compared with (searched.parquet); measured, not \
+                 judged, and counted nowhere."
+                    .into(),
+            );
+        }
     }
     Ok(assumptions)
 }

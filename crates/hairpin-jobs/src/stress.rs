@@ -5,10 +5,11 @@ use std::path::Path;
 use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 
-use crate::baseline::fly_baseline;
-use crate::execute::{check_recordings, fly_missing};
+use crate::baseline::{fly_baseline, fly_searched};
+use crate::execute::{Flown, check_recordings, fly_missing};
 use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
+use crate::missions::{self, adopt};
 use crate::report::write_report;
 use crate::saved::{Replayed, replay_saved, with_saved};
 use crate::work::{CampaignSettings, Work, plan};
@@ -43,6 +44,35 @@ pub fn stress(settings: &CampaignSettings, repro: Option<&Path>, watch: &dyn Wat
     stress_begun(planned.begin()?, deadline, replayed, watch)
 }
 
+/// The same of missions made elsewhere, of a folder or file: they are the cases, and beside them what the scenario's
+/// search finds is run, measured and compared with, as random feasible cases are. Nothing of either is judged or
+/// counted.
+///
+/// # Errors
+/// As of [`stress`]; a file that is no mission, or has something that changes the motion and is not followed.
+pub fn stress_missions(
+    settings: &CampaignSettings,
+    missions: &Path,
+    repro: Option<&Path>,
+    watch: &dyn Watch,
+) -> Result<Stressed, Problem> {
+    let planned = plan(settings, watch)?;
+    let deadline = Deadline::after(settings.time_limit_s);
+    let read = missions::read(&planned.setup, missions, watch)?;
+    let replayed = replay_saved(&planned.setup, &planned.path, repro, watch)?;
+    let work = planned.begin()?;
+    let names: Vec<&str> = read.iter().map(|leg| leg.name.as_str()).collect();
+    let are_there = work.folder.has_tally() && work.folder.read_tally()?.missions == names;
+    if !are_there {
+        adopt(&work, &read)?;
+        work.folder.forget_runs()?;
+    }
+    let (cases, tally) = (work.folder.read_cases()?, work.folder.read_tally()?);
+    let flown = fly_missing(&work, &cases, watch)?;
+    fly_searched(&work, deadline, watch)?;
+    judged((work, cases, tally), flown, replayed, watch)
+}
+
 /// The same in a folder that is open, after what was `replayed`; generation ends at `deadline`.
 ///
 /// # Errors
@@ -56,6 +86,16 @@ pub fn stress_begun(
     let (cases, tally) = find_cases(&work, deadline, watch)?;
     check_recordings(&work, &cases)?;
     let flown = fly_missing(&work, &cases, watch)?;
+    judged((work, cases, tally), flown, replayed, watch)
+}
+
+/// What of a campaign comes after its runs.
+fn judged(
+    (work, cases, tally): (Work, Vec<Case>, Tally),
+    flown: Flown,
+    replayed: Vec<Replayed>,
+    watch: &dyn Watch,
+) -> Result<Stressed, Problem> {
     fly_baseline(&work, &tally, flown, watch)?;
     let judgement = judge_cases(&work, &cases, &tally, &replayed)?;
     let verdict = with_saved(&judgement.verdict, &replayed);

@@ -46,6 +46,10 @@ pub(crate) struct Stress {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
+    /// Judge these missions (QGC .plan, QGC WPL 110, CSV) and compare them with what the search finds, which is not
+    /// judged
+    #[arg(long, value_name = "DIR|FILE")]
+    pub(crate) missions: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) kept: Kept,
     #[command(flatten)]
@@ -97,8 +101,8 @@ pub(crate) struct Execute {
     /// Replace a campaign in --out
     #[arg(long, requires = "out", conflicts_with = "resume")]
     pub(crate) force: bool,
-    /// Fly these waypoint files (CSV: x_m,y_m,z_m) instead of the folder's cases
-    #[arg(long, value_name = "DIR")]
+    /// Fly these missions (QGC .plan, QGC WPL 110, CSV) instead of the folder's cases
+    #[arg(long, value_name = "DIR|FILE")]
     pub(crate) missions: Option<PathBuf>,
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]

@@ -1,11 +1,12 @@
 //! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
 
 use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
-use hairpin::campaign::{Baseline, Case, CaseResult, Status, Tally};
+use hairpin::campaign::{Baseline, Case, CaseResult, Rank, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
 use hairpin_jobs::judge::Judgement;
+use hairpin_jobs::missions::{Compared, Ranked};
 use hairpin_jobs::saved::Replayed;
 use hairpin_jobs::work::Work;
 use serde_json::{Value, json};
@@ -136,6 +137,7 @@ impl Answer<'_> {
             "share": self.share(),
             "baseline": self.judgement.baseline.as_ref().map(baseline),
             "stress_percent": self.judgement.baseline.as_ref().and_then(|it| it.stress_percent(&self.judgement.results)),
+            "missions": self.judgement.missions.as_ref().map(missions),
             "frame": self.header(),
             "worst": worst_first(&self.judgement.results).first().map(|result| {
                 let mut object = worst(result);
@@ -149,6 +151,26 @@ impl Answer<'_> {
             "paths": paths,
         })
     }
+}
+
+/// How stressful missions made elsewhere are, beside what a search finds.
+fn missions(found: &Compared) -> Value {
+    let rank = |rank: &Rank| {
+        let mut object = baseline(&rank.of);
+        object["below"] = json!(rank.below);
+        object["percentile"] = json!(rank.percentile());
+        object["ratio"] = json!(rank.to_worst);
+        object["ratio_to_mean"] = json!(rank.to_mean);
+        object
+    };
+    let one = |one: &Ranked| {
+        let told = found.told.missions.get(one.case.0);
+        json!({
+            "case": one.case.to_string(), "stress": one.stress, "mission": told,
+            "searched": one.searched.as_ref().map(rank), "random": one.random.as_ref().map(rank),
+        })
+    };
+    json!({ "worst": one(&found.worst), "each": found.each.iter().map(one).collect::<Vec<_>>(), "words": found.words })
 }
 
 /// What random feasible cases came to.

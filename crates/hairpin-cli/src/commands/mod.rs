@@ -3,6 +3,7 @@
 mod answer;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
+pub(crate) mod check;
 pub(crate) mod check_executor;
 pub(crate) mod compare;
 pub(crate) mod completions;

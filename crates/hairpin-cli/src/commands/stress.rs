@@ -1,6 +1,6 @@
 //! `hairpin stress`: generate, execute, judge, report.
 
-use hairpin_jobs::stress::{Stressed, stress};
+use hairpin_jobs::stress::{Stressed, stress, stress_missions};
 use hairpin_jobs::{Problem, Watch};
 
 use super::answer::Answer;
@@ -12,7 +12,12 @@ pub(crate) fn run(asked: &Stress, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.campaign.threads);
     let mut settings = settings::campaign(&asked.campaign, asked.executor.as_deref())?;
     settings.sets.extend(settings::record(&asked.kept));
-    Ok(say(&stress(&settings, asked.saved.repro.as_deref(), watch)?, asked.campaign.json))
+    let repro = asked.saved.repro.as_deref();
+    let stressed = match &asked.missions {
+        Some(missions) => stress_missions(&settings, missions, repro, watch)?,
+        None => stress(&settings, repro, watch)?,
+    };
+    Ok(say(&stressed, asked.campaign.json))
 }
 
 /// Says what came of a whole campaign, and gives the exit code.

@@ -93,7 +93,7 @@ fn exported_waypoints_fly_again_as_missions() {
     fs::write(folder.path().join("mine/up.csv"), "x_m,y_m,z_m\n3,3,3\n3,3,9\n9,3,9\n").unwrap();
     assert_eq!(json(folder.path(), &["execute", "a", "--missions", "mine"])["counts"]["cases"], 1);
     let verdict = json(folder.path(), &["judge", "a"]);
-    assert!(verdict["verdict"].as_str().unwrap().contains("unchecked"), "{verdict}");
+    assert!(verdict["verdict"].as_str().unwrap().contains("all 1 witnessed"), "{verdict}");
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod arms;
 mod baseline;
 mod bench;
 mod campaign;
+mod check;
 mod check_executor;
 mod compare;
 mod contract;

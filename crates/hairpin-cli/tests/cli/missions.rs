@@ -20,11 +20,11 @@ fn a_broken_file_is_told_and_costs_nothing() {
     copy(&folder.path().join("a"), &folder.path().join("before"));
     let fly = ["execute", "a", "--missions", "mine"];
     refused(folder.path(), &fly, &["mine", "No such file"]);
-    fs::write(folder.path().join("mine"), FINE).unwrap();
-    refused(folder.path(), &fly, &["mine", "Not a directory"]);
+    fs::write(folder.path().join("mine"), "three\n").unwrap();
+    refused(folder.path(), &fly, &["mine, line 1", "no column `x_m`"]);
     fs::remove_file(folder.path().join("mine")).unwrap();
     fs::create_dir(folder.path().join("mine")).unwrap();
-    refused(folder.path(), &fly, &["mine: no .csv file in it"]);
+    refused(folder.path(), &fly, &["mine: no .csv file in it, nor a .plan"]);
     let long = format!("x_m,y_m,z_m\n{}", "3,3,3\n4,4,4\n".repeat(5001));
     let table: [(&[u8], &[&str]); 16] = [
         (b"", &["line 1", "no column `x_m`"]),
@@ -85,4 +85,75 @@ fn a_waypoint_outside_the_world_is_warned_of_and_flown() {
     let verdict = json(folder.path(), &["judge", "a"]);
     assert_eq!(verdict["exit_code"], 1, "{verdict}");
     assert!(verdict["verdict"].to_string().contains("worst crash"), "{verdict}");
+}
+
+const PLAN: &str = include_str!("../../../hairpin-formats/tests/fixtures/missions/cage.plan");
+
+fn write(folder: &Path, name: &str, text: &str) {
+    fs::create_dir_all(folder.join("mine")).unwrap();
+    fs::write(folder.join("mine").join(name), text).unwrap();
+}
+
+/// Missions are what is counted; what a search finds and what is drawn stands beside them alone.
+#[test]
+fn missions_are_judged_and_compared_with_what_a_search_finds() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a.plan", PLAN);
+    write(folder.path(), "slow.csv", "x_m,y_m,z_m\n3,3,3\n4,3,3\n5,3,3\n");
+    let set = ["--set", "generate.search.cases=3", "--set", "execute.repeat=1", "--set", "execute.baseline=4"];
+    let found =
+        json(folder.path(), &[&["stress", "demo-quadrotor", "--missions", "mine", "--out", "s"][..], &set].concat());
+    assert_eq!(found["counts"]["cases"], 2, "{found}");
+    assert_eq!(found["share"]["cases"], "given", "{found}");
+    let worst = &found["missions"]["worst"];
+    assert_eq!((worst["searched"]["cases"].as_u64(), worst["random"]["cases"].as_u64()), (Some(3), Some(4)), "{worst}");
+    let [stress, most] = [&worst["stress"], &worst["searched"]["worst"]].map(|value| value.as_f64().unwrap());
+    assert!((worst["searched"]["ratio"].as_f64().unwrap() - stress / most).abs() < 1e-12, "{worst}");
+    let each = found["missions"]["each"].as_array().unwrap();
+    assert_eq!(each.len(), 2);
+    assert_eq!(
+        (each[0]["mission"]["name"].as_str(), each[0]["mission"]["feasible"].as_bool()),
+        (Some("a"), Some(true))
+    );
+    // A metre at a time is less stressful than all that is searched for.
+    assert_eq!(each[1]["searched"]["below"], 0, "{each:?}");
+    assert!(found["verdict"].as_str().unwrap().contains("the most stressful mission is"), "{found}");
+    let junit = fs::read_to_string(folder.path().join("s/junit.xml")).unwrap();
+    assert_eq!(junit.matches("<testcase ").count(), 2, "{junit}");
+    let report = fs::read_to_string(folder.path().join("s/report.html")).unwrap();
+    assert!(report.contains("FEASIBLE") && report.contains("searched.parquet"), "nothing of the missions' check");
+    // Their witnesses hold by code that shares nothing with the claim.
+    let verified = json(folder.path(), &["verify", "s"]);
+    assert_eq!((verified["checked"].as_u64(), verified["failed"].as_u64()), (Some(2), Some(0)), "{verified}");
+    // Judged again, from the folder alone, they say the same.
+    assert_eq!(json(folder.path(), &["judge", "s"])["missions"], found["missions"]);
+    // One file alone, and what is not followed is refused.
+    let one = json(folder.path(), &["execute", "s", "--missions", "mine/slow.csv"]);
+    assert_eq!(one["counts"]["cases"], 1, "{one}");
+    assert_eq!(json(folder.path(), &["judge", "s"])["missions"]["worst"]["searched"]["cases"], 3);
+    write(folder.path(), "a.plan", &PLAN.replace("\"command\": 203", "\"command\": 18"));
+    refused(
+        folder.path(),
+        &["execute", "s", "--missions", "mine"],
+        &["a.plan", "item 4 (command 18, loiter for turns)"],
+    );
+}
+
+/// The folder's own search is what missions are compared with, where it was judged.
+#[test]
+fn missions_of_a_judged_campaign_are_compared_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &[&SMALL[..], &["--out", "a"]].concat());
+    mission(folder.path(), FINE);
+    let (code, _, error) = run(folder.path(), &["execute", "a", "--missions", "mine"]);
+    assert_eq!(code, 0, "{error}");
+    let judged = json(folder.path(), &["judge", "a"]);
+    assert_eq!(judged["missions"]["worst"]["searched"]["cases"], 4, "{judged}");
+    assert_eq!(judged["counts"]["cases"], 1);
+    // A stop makes two cases of a mission: each begins and ends at rest.
+    let held = PLAN.replace("[0, 1, 0, null, 38.03364", "[3, 1, 0, null, 38.03364");
+    fs::remove_file(folder.path().join("mine/up.csv")).unwrap();
+    write(folder.path(), "a.plan", &held);
+    let executed = json(folder.path(), &["execute", "a", "--missions", "mine"]);
+    assert_eq!(executed["missions"], serde_json::json!(["a 0-1", "a 1-2"]), "{executed}");
 }

@@ -9,7 +9,8 @@ use super::names::{ALL_RUNS, EXPORT};
 use super::parts::{EXECUTIONS, PROFILES, PROGRAMS, RERUN_FACTS, RERUNS, TRAJECTORIES};
 use super::{
     ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, EXECUTOR, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG,
-    List, MOVES, OPTIMUM, RESULTS, RUNS, WAYPOINTS, earlier_exports, entries, exports, exports_of_runs, stands_for,
+    List, MISSIONS, MOVES, OPTIMUM, RESULTS, RUNS, SEARCHED, WAYPOINTS, earlier_exports, entries, exports,
+    exports_of_runs, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -30,7 +31,8 @@ impl CampaignFolder {
     /// A file cannot be removed.
     pub fn forget_runs(&self) -> Result<(), FolderError> {
         let [coverage, table] = COVERAGE;
-        let made = [ALL_RUNS, BY_CHANCE, EXECUTOR, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
+        let made =
+            [ALL_RUNS, BY_CHANCE, SEARCHED, EXECUTOR, INFLUENCE, MOVES, coverage, table, "junit.xml", "report.html"];
         self.remove(&made, &OF_RUNS)
     }
 
@@ -44,6 +46,8 @@ impl CampaignFolder {
             RESULTS,
             ALL_RUNS,
             BY_CHANCE,
+            SEARCHED,
+            MISSIONS,
             EXECUTOR,
             INFLUENCE,
             MOVES,
@@ -65,9 +69,21 @@ impl CampaignFolder {
     /// # Errors
     /// The file cannot be removed.
     pub fn forget_baseline(&self) -> Result<(), FolderError> {
+        self.remove_one(BY_CHANCE)
+    }
+
+    /// Removes what a search found beside missions, likewise.
+    ///
+    /// # Errors
+    /// The file cannot be removed.
+    pub fn forget_searched(&self) -> Result<(), FolderError> {
+        self.remove_one(SEARCHED)
+    }
+
+    fn remove_one(&self, name: &str) -> Result<(), FolderError> {
         let ours = List::read(&self.path)?.unwrap_or_default();
-        let path = self.file(BY_CHANCE);
-        match if ours.names(BY_CHANCE) { fs::remove_file(&path) } else { Ok(()) } {
+        let path = self.file(name);
+        match if ours.names(name) { fs::remove_file(&path) } else { Ok(()) } {
             Err(cause) if cause.kind() != io::ErrorKind::NotFound => Err(WriteError { path, cause }.into()),
             _ => Ok(()),
         }

@@ -7,8 +7,10 @@ use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::kind::Axis;
 use hairpin::campaign::{Case, CaseResult, Influence};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
-use super::{BY_CHANCE, COVERAGE, CampaignFolder, FolderError, INFLUENCE, MOVES, RESULTS};
+use super::{BY_CHANCE, COVERAGE, CampaignFolder, FolderError, INFLUENCE, MISSIONS, MOVES, RESULTS, SEARCHED};
 use crate::atomic::{self, WriteError};
 use crate::parquet::results::{self, Row};
 
@@ -50,7 +52,43 @@ impl CampaignFolder {
     /// # Errors
     /// The file is broken.
     pub fn read_baseline(&self) -> Result<Option<Vec<CaseResult>>, FolderError> {
-        let path = self.file(BY_CHANCE);
+        self.read_measured_of(BY_CHANCE)
+    }
+
+    /// Writes `searched.parquet`: what a search found beside missions made elsewhere, likewise.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_searched(&self, cases: &[Case], measured: &[CaseResult]) -> Result<(), FolderError> {
+        Ok(results::write(&self.file(SEARCHED), cases, measured)?)
+    }
+
+    /// Reads what they measured, likewise.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_searched(&self) -> Result<Option<Vec<CaseResult>>, FolderError> {
+        self.read_measured_of(SEARCHED)
+    }
+
+    /// Writes `missions.json`: what is told of missions made elsewhere.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_missions(&self, told: &impl Serialize) -> Result<(), FolderError> {
+        self.write_json(MISSIONS, told)
+    }
+
+    /// Reads it; `None` where the cases are none.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn read_missions<T: DeserializeOwned>(&self) -> Result<Option<T>, FolderError> {
+        self.read_json_if_there(MISSIONS)
+    }
+
+    fn read_measured_of(&self, name: &str) -> Result<Option<Vec<CaseResult>>, FolderError> {
+        let path = self.file(name);
         if !path.exists() {
             return Ok(None);
         }

@@ -14,6 +14,8 @@
 //! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
+//! | `searched.parquet` | beside missions made elsewhere: what a search found, likewise; not judged |
+//! | `missions.json` | of missions made elsewhere: file, frame, what their check said |
 //! | `baseline.parquet` | random feasible cases that were run alike, as `results.parquet`; not judged |
 //! | `reruns/`, `rerun-runs/` | the same of violations run again with other noise, `run` numbering the times |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
@@ -71,7 +73,7 @@ pub use graph::graph_decimals;
 pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
-pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MOVES, OPTIMUM, REASONS};
+pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MISSIONS, MOVES, OPTIMUM, REASONS, SEARCHED};
 use names::{
     COVERAGE, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports, exports,
     exports_of_runs, stands_for,

@@ -22,6 +22,10 @@ pub const MOVES: &str = "moves.json";
 pub const BASELINE: &str = "baseline.json";
 /// Random feasible cases that were run alike.
 pub const BY_CHANCE: &str = "baseline.parquet";
+/// What a search found where the cases are missions made elsewhere, run alike.
+pub const SEARCHED: &str = "searched.parquet";
+/// What is told of these missions.
+pub const MISSIONS: &str = "missions.json";
 /// How the largest stress of a search that executes rose.
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
@@ -48,6 +52,8 @@ pub(super) const OURS: &[&str] = &[
     ARCS,
     MOVES,
     BY_CHANCE,
+    SEARCHED,
+    MISSIONS,
     BEST_SO_FAR,
     COVERAGE[0],
     COVERAGE[1],

@@ -128,6 +128,16 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     read_setup(around.text, around.path, Path::new(""), &sets)
 }
 
+/// Whether `name_or_path` means a scenario, shipped or in a file: a robot or a world is none.
+pub fn is_scenario(name_or_path: &str) -> bool {
+    let path = Path::new(name_or_path);
+    if !path.is_file() {
+        return library::scenarios().any(|shipped| shipped.name == name_or_path);
+    }
+    let text = bounds::read_text(path, MOST_TEXT_BYTES).unwrap_or_default();
+    text.parse::<Table>().is_ok_and(|table| table.contains_key("hairpin"))
+}
+
 /// The setup of an arm for the points of a file: that of a shipped name or a file, or a bare cell around a robot's name
 /// or file.
 ///

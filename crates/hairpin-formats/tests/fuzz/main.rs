@@ -19,7 +19,7 @@ use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario::{arm_for, read_setup, rover_for, setup_for};
 use hairpin_formats::steering::{parse as parse_queries, read_start_table, start_table_bytes};
 use hairpin_formats::terrain::{Georeference, Sidecars, read_keep_outs, read_terrain};
-use hairpin_formats::{arcs, cloud, controller_log, costs, logs, mesh, rapid, rotor_speeds, urdf, waypoints};
+use hairpin_formats::{arcs, cloud, controller_log, costs, logs, mesh, missions, rapid, rotor_speeds, urdf, waypoints};
 use mutate::{fuzz, stand};
 use out_campaign::campaign;
 use samples::{AUX, PRJ, collada, fixtures, meshes, modules, numpy, picture, srdf, texts, urdf as urdf_sample};
@@ -193,6 +193,14 @@ fn tables_of_text() {
     let metres = "x_m,y_m,z_m\n1,2,3\n4,5,6\n";
     let degrees = "lat_deg,lon_deg,alt_amsl_m,relative_alt_m\n38.0335,-78.5079,181,1\n38.0336,-78.5079,182,2\n";
     fuzz_file("waypoints.csv", &texts(&[metres, degrees]), |path| drop(waypoints::read(path, scenario, FARTHEST_M)));
+}
+
+#[test]
+fn missions_of_ground_stations() {
+    let scenario = &setup_for("demo-quadrotor", &[]).unwrap().scenario;
+    let read = |path: &Path| drop(missions::read(path, scenario, FARTHEST_M));
+    fuzz_file("a.plan", &texts(&[include_str!("../fixtures/missions/cage.plan")]), read);
+    fuzz_file("a.waypoints", &texts(&[include_str!("../fixtures/missions/cage.waypoints")]), read);
 }
 
 #[test]

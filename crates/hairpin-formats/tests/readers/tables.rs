@@ -7,7 +7,7 @@ use hairpin::campaign::bounds::FARTHEST_M;
 use hairpin::robot::arm::ArmDescription;
 use hairpin_formats::executor::FromExecutor;
 use hairpin_formats::scenario::setup_for;
-use hairpin_formats::{cloud, controller_log, costs, mesh, rapid, urdf, waypoints};
+use hairpin_formats::{cloud, controller_log, costs, mesh, missions, rapid, urdf, waypoints};
 
 use super::{Answer, Sample};
 
@@ -77,6 +77,45 @@ fn of_log(text: &str) -> Answer {
 fn of_waypoints(text: &str) -> Answer {
     let robot = setup_for("demo-quadrotor", &[]).expect("shipped");
     of_file(text, "a.csv", |path| waypoints::read(path, &robot.scenario, FARTHEST_M))
+}
+
+/// What is followed of a mission: what is passed over in words is not.
+fn of_mission(text: &str, name: &str) -> Answer {
+    let robot = setup_for("quadrotor", &[]).expect("shipped");
+    let read = |path: &Path| {
+        let mission = missions::read(path, &robot.scenario, FARTHEST_M)?;
+        Ok::<_, missions::MissionError>((mission.waypoints, mission.speeds, mission.stops, mission.uncertain))
+    };
+    match of_file(text, name, read) {
+        Answer::Read(told) if !told.ends_with("[])") => Answer::Open,
+        other => other,
+    }
+}
+
+fn of_plan(text: &str) -> Answer {
+    of_mission(text, "a.plan")
+}
+
+fn of_wpl(text: &str) -> Answer {
+    of_mission(text, "a.waypoints")
+}
+
+const PLAN: &str = include_str!("../fixtures/missions/cage.plan");
+const WPL: &str = include_str!("../fixtures/missions/cage.waypoints");
+
+fn plan_row(row: &'static str, from: &str, to: &str) -> Sample {
+    assert!(PLAN.contains(from), "{row}: {from}");
+    Sample { row, read: of_plan, without: PLAN.into(), with: PLAN.replacen(from, to, 1) }
+}
+
+/// The plan with `item` in the place of its camera's.
+fn item_row(row: &'static str, item: &str) -> Sample {
+    plan_row(row, "\"command\": 203", item)
+}
+
+fn wpl_row(row: &'static str, from: &str, to: &str) -> Sample {
+    assert!(WPL.contains(from), "{row}: {from}");
+    Sample { row, read: of_wpl, without: WPL.into(), with: WPL.replacen(from, to, 1) }
 }
 
 fn of_costs(text: &str) -> Answer {
@@ -234,6 +273,34 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("waypoints.blank-lines", of_waypoints, WAYPOINTS, "x_m,y_m,z_m\n0,0,1\n\n1,0,1\n"),
         row("waypoints.other-units", of_waypoints, WAYPOINTS, "x_ft,y_ft,z_ft\n0,0,1\n1,0,1\n"),
         row("waypoints.twice", of_waypoints, WAYPOINTS, "x_m,y_m,z_m\n0,0,1\n0,0,1\n"),
+        item_row("plan.speed", "\"command\": 178"),
+        item_row("plan.camera", "\"command\": 206"),
+        item_row("plan.moves", "\"command\": 18"),
+        item_row("plan.unknown", "\"command\": 31000"),
+        item_row("plan.jump", "\"command\": 177"),
+        item_row("plan.return", "\"command\": 20"),
+        plan_row("plan.hold", "[0, 1, 0, null, 38.0336", "[4, 1, 0, null, 38.0336"),
+        plan_row("plan.heading", "[0, 1, 0, null, 38.0336", "[0, 1, 0, 90, 38.0336"),
+        plan_row(
+            "plan.home",
+            "\"plannedHomePosition\": [38.033553, -78.5079772, 180]",
+            "\"plannedHomePosition\": [38.033553, -78.5079772, 181]",
+        ),
+        plan_row(
+            "plan.pattern",
+            "\"type\": \"SimpleItem\"",
+            "\"complexItemType\": \"survey\", \"type\": \"ComplexItem\"",
+        ),
+        plan_row("plan.terrain", "\"frame\": 3", "\"frame\": 10"),
+        plan_row("plan.local", "\"frame\": 3", "\"frame\": 1"),
+        plan_row("plan.no-fence", "\"geoFence\"", "\"fence\""),
+        plan_row("plan.altitudes", "\"AltitudeMode\": 1, ", ""),
+        plan_row("plan.params", "[0, 1, 0, null, 38.0336", "[0, 0, 1, 0, null, 38.0336"),
+        wpl_row("wpl.head", "QGC WPL 110", "QGC WPL 120"),
+        wpl_row("wpl.fields", "0\t1\t0\t16\t", "0\t1\t0\t16 "),
+        wpl_row("wpl.crlf", "110\n", "110\r\n"),
+        wpl_row("wpl.comment", "110\n", "110\n# made by hand\n"),
+        wpl_row("wpl.hold", "3\t16\t0\t1", "3\t16\t5\t1"),
         row("costs.no-arc", of_costs, "0,1\n2,0\n", "0,1\n,0\n"),
         row("costs.not-square", of_costs, "0,1\n2,0\n", "0,1,3\n2,0,3\n"),
         row("clock.readings", of_clock, "arc_ms;2\n0;1;20\n", "arc_ms;2\n0;1;20\n0;1;30\n"),

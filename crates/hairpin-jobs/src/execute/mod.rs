@@ -13,18 +13,17 @@ mod worst;
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Tally;
+use hairpin::campaign::{Case, CaseResult, Status, Tally};
 use hairpin::judgement::Chosen;
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
-use hairpin_formats::waypoints;
 
 use crate::baseline::fly_baseline;
 use crate::consent::{Consent, Wish};
-use crate::missions::adopt;
+use crate::missions::{self, adopt};
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{IfThere, changed_by, check_tables, keep_changes, open_to_change, tell_share};
+use crate::work::{IfThere, Work, changed_by, check_tables, keep_changes, open_to_change, tell_share};
 use crate::{Problem, Watch};
 use beside::beside;
 pub(crate) use by_case::fly_by_case;
@@ -54,7 +53,7 @@ pub struct ExecuteSettings {
     pub replaces: bool,
     /// Keys of `execute`, `vary` and `spec` with other values.
     pub sets: Vec<Set>,
-    /// Folder of waypoint files, which take the place of the folder's cases.
+    /// A mission made elsewhere or a folder of them, which take the place of the folder's cases.
     pub missions: Option<PathBuf>,
     /// Folder of repro files that are run first; those of the campaign folder if not given.
     pub repro: Option<PathBuf>,
@@ -103,9 +102,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let work = open_to_change(path, sets, CHANGED, Some(settings.simd))?;
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
-    let farthest = work.setup.handed().farthest;
-    let read = |missions: &Path| waypoints::read_folder(missions, &work.setup.scenario, farthest);
-    let missions = settings.missions.as_deref().map(read).transpose().map_err(Problem::input)?;
+    let read = |path: &Path| missions::read(&work.setup, path, watch);
+    let missions = settings.missions.as_deref().map(read).transpose()?;
     if missions.is_none() && !work.folder.has_cases() {
         let path = path.display();
         return Err(Problem::input(format!("{path} has no cases yet: hairpin generate, or --missions DIR")));
@@ -124,10 +122,11 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
         settings.consent.mark(path, &typed);
     }
+    let searched = if missions.is_some() { searched_before(&work)? } else { None };
     let cases = match (&missions, kept) {
         (None, Some(cases)) => cases,
         (missions, _) => {
-            adopt(&work, missions.as_deref().unwrap_or_default(), watch)?;
+            adopt(&work, missions.as_deref().unwrap_or_default())?;
             work.folder.read_cases()?
         }
     };
@@ -136,12 +135,36 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     if !settings.resume {
         work.folder.forget_runs()?;
     }
+    if let Some((cases, results)) = searched {
+        work.folder.write_searched(&cases, &results)?;
+    }
     let flown = fly_missing(&work, &cases, watch)?;
     let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
     fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     let trouble = if flown.failed > 0 { first_trouble(&work, &cases)? } else { None };
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, trouble, missions, replayed })
+}
+
+/// What the folder's own search found and was judged, for missions to be compared with; of missions before them, what
+/// those were compared with.
+fn searched_before(work: &Work) -> Result<Option<(Vec<Case>, Vec<CaseResult>)>, Problem> {
+    if !work.folder.has_cases() || !work.folder.has_tally() {
+        return Ok(None);
+    }
+    let (cases, tally) = (work.folder.read_cases()?, work.folder.read_tally()?);
+    let own = tally.missions.is_empty();
+    let results = if own { Some(work.folder.read_results()?) } else { work.folder.read_searched()? };
+    let Some(mut results) = results.filter(|results| !results.is_empty()) else { return Ok(None) };
+    for result in &mut results {
+        // Measured, not judged: nothing of them is counted.
+        (result.violations, result.draws) = (Vec::new(), None);
+        if result.status != Status::ExecutorFailed {
+            result.status = Status::Unjudged;
+        }
+    }
+    let cases = if own { cases } else { results.iter().map(|one| Case::bare(one.case, 0, Vec::new())).collect() };
+    Ok(Some((cases, results)))
 }
 
 /// Who resumes goes on with the same settings, or runs of two kinds would stand side by side.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{Case, Evidence};
 use hairpin::math::rotation::between;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
-use hairpin_formats::{atomic, csv, geodetic, tum, waypoints};
+use hairpin_formats::{atomic, csv, geodetic, missions, tum, waypoints};
 use nalgebra::Isometry3;
 
 use super::placed::placed;
@@ -23,7 +23,7 @@ pub(super) fn write_waypoints(place: &Path, cases: &[&Case]) -> Result<Written, 
     let mut files = cases.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     for case in cases {
         if let Some(environment) = &case.environment {
-            let path = waypoints::environment_path(place, &case.id());
+            let path = missions::environment_path(place, &case.id());
             atomic::write_json(&path, environment)?;
             files.push(path);
         }

@@ -21,6 +21,7 @@ use crate::Problem;
 use crate::baseline::read_baseline;
 use crate::differences::differences;
 use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
+use crate::missions::{Compared, compare, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
@@ -45,6 +46,8 @@ pub struct Judgement {
     pub regression: Option<Regression>,
     /// What random feasible cases came to.
     pub baseline: Option<Baseline>,
+    /// Of missions made elsewhere: how stressful they are beside what a search finds.
+    pub missions: Option<Compared>,
 }
 
 /// A campaign that is judged.
@@ -73,6 +76,7 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
     if !sets.is_empty() {
         if work.folder.read_baseline()?.is_some() && measures_otherwise(&work.setup, &open_to_read(folder)?.setup) {
             work.folder.forget_baseline()?;
+            work.folder.forget_searched()?;
             told.push(format!(
                 "the random feasible cases of {} were measured from another reference, and are removed: hairpin execute flies them anew",
                 folder.display()
@@ -140,6 +144,8 @@ pub(crate) fn judge_cases(
     let baseline = read_baseline(work)?;
     let verdict = campaign::verdict(&told, cases, (&results, baseline.as_ref()), tally);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
+    let missions = compare(work, &results)?;
+    let verdict = with_compared(verdict, missions.as_ref());
     work.folder.write_results(cases, &results)?;
     if work.setup.has_programs() {
         work.folder.write_moves(&moves)?;
@@ -149,7 +155,7 @@ pub(crate) fn judge_cases(
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
-    Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline })
+    Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline, missions })
 }
 
 fn judge_case((work, told): (&Work, &Setup), case: &Case, tally: &Tally, grid: &Grid) -> Result<JudgedCase, Problem> {

@@ -5,7 +5,7 @@ use std::any::Any;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 
 use super::attachments::{Attachments, Resolved};
@@ -181,6 +181,16 @@ impl Setup {
                 None => self.of_draw(around).map(drop),
             },
         }
+    }
+
+    /// This setup in a world of `size` (m, from the origin on) with nothing in it, which is held to the bounds of
+    /// worlds alone; `None` where its kind of robot has no such world.
+    ///
+    /// # Errors
+    /// A size that no world has.
+    pub fn in_the_open(&self, size: &Vector3<f64>) -> Result<Option<Self>, Mistake> {
+        let Some(world) = self.kind.open_world(size) else { return Ok(None) };
+        self.of_draw(vary::apply(&self.scenario, &[("world".into(), world)])?).map(Some)
     }
 
     fn surrounded_by(&self, environment: &Environment) -> Scenario {

@@ -8,6 +8,7 @@
 //! | [`steering`] | which controls lead from state to state? | a leg, or why there is none |
 //! | [`reach`] | which waypoints follow a node? | legs, for any search |
 //! | [`mod@certify`] | could anything fly these waypoints? | yes with a witness, no with a reason, unknown |
+//! | [`mod@hold`] | at speeds that somebody demands? | a witness, or the legs that are refused |
 //! | [`reachability`] | which moves can an arm make between points? | a graph with costs and refusals |
 //! | [`program`] | can an arm execute this program? | findings, move by move |
 //!
@@ -21,6 +22,7 @@
 pub mod boat;
 pub mod certify;
 pub mod collision;
+pub mod hold;
 pub mod limits;
 pub mod program;
 pub mod reach;

@@ -20,7 +20,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     // What a case and its runs are.
     &["full_rate"],
     &["case"],
-    &["clock", "learn", "influence", "placement", "own_controller"],
+    &["clock", "learn", "influence", "passage", "placement", "own_controller"],
     // What files hold beside the keys.
     &["tally", "attachments"],
     // What the kinds have in common.
@@ -34,11 +34,11 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["setup"],
     &["chance", "coverage", "goals", "states"],
     // The jobs.
-    &["mission", "judge"],
+    &["mission", "judge", "rank"],
     &["landed"],
     &["executor", "samples"],
     &["execute"],
-    &["calibrate", "fit", "trial", "verify", "verdict", "select", "compare", "shrink"],
+    &["calibrate", "fit", "trial", "verify", "verdict", "select", "compare", "shrink", "passes"],
     &["generate"],
     &["explain", "assumptions"],
     // What is told of it all.

@@ -1,11 +1,13 @@
 //! What of trips is claimed, and by whom.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
 
 use super::solve::BoatSolver;
-use super::{BoatSetup, knobs, losses, plan, through, verify};
+use super::{BoatSetup, knobs, losses, passes, plan, through, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
 use crate::verification::{EndError, Proof};
@@ -37,6 +39,14 @@ impl Claim for BoatSetup {
 
     fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
         verify::verify(self, case)
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        Ok(passes::passes(self, asked))
+    }
+
+    fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
+        Some(json!({ "size_m": [size.x, size.y], "keep_in_margin_m": 0.0 }))
     }
 
     fn knobs(&self) -> Knobs {

@@ -9,6 +9,7 @@ pub mod keys;
 mod knobs;
 mod legs;
 mod losses;
+mod passes;
 mod plan;
 mod say;
 mod setup;

@@ -1,16 +1,21 @@
 //! What of drives is claimed, and by whom.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
 
 use super::solve::DriveSolver;
-use super::{DriveSetup, knobs, losses, plan, replan, verify};
+use super::{DriveSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::DriveScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
 use crate::verification::{EndError, Proof};
 
+/// Cells along a side of level ground without end, and the least of them, m.
+const OPEN_CELLS: f64 = 400.0;
+const LEAST_CELL_M: f64 = 0.1;
 /// Rate of the timed reference that executors get, Hz: drives are slow.
 const REFERENCE_RATE: f64 = 2.0;
 
@@ -46,6 +51,17 @@ impl Claim for DriveSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, None)
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        passes::passes(self, asked)
+    }
+
+    fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
+        let side = size.x.max(size.y);
+        // Level ground is the same whatever its cells.
+        let cell = (side / OPEN_CELLS).max(LEAST_CELL_M);
+        Some(json!({ "terrain": { "generator": "flat", "size_m": side, "cell_m": cell } }))
     }
 
     fn knobs(&self) -> Knobs {

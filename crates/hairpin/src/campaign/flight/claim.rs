@@ -1,12 +1,14 @@
 //! What of flights is claimed, and by whom.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::{Value, json};
 
 use super::fly::own_curve;
 use super::solve::FlightSolver;
-use super::{FlightSetup, knobs, losses, plan, replan, verify};
+use super::{FlightSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -55,6 +57,14 @@ impl Claim for FlightSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, with_lag.flatten())
+    }
+
+    fn passes(&self, asked: &Demands) -> Result<Passage, String> {
+        passes::passes(self, asked)
+    }
+
+    fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
+        Some(json!({ "size_m": [size.x, size.y, size.z], "keep_in_margin_m": 0.0 }))
     }
 
     fn knobs(&self) -> Knobs {

@@ -15,9 +15,17 @@ use crate::search::Score;
 /// # Errors
 /// A rotor layout without a flatness map, in a sentence's part.
 pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
+    judge_up_to(setup, f64::INFINITY)
+}
+
+/// The same, no faster than `most` (m/s).
+///
+/// # Errors
+/// As [`judge`].
+pub(super) fn judge_up_to(setup: &FlightSetup, most: f64) -> Result<LegJudge, String> {
     let given = &setup.scenario.generate.limits;
     let limits = Limits {
-        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY),
+        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY).min(most),
         max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
     };
     LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())

@@ -11,6 +11,7 @@ mod graph;
 mod knobs;
 mod legs;
 mod losses;
+mod passes;
 mod place;
 mod plan;
 mod replan;

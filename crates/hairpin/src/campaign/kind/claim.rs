@@ -1,10 +1,12 @@
 //! The claim: what a kind searches, plans and proves.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
+use serde_json::Value;
 use thiserror::Error;
 
 use super::{Knobs, Same};
 use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
+use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::math::random::Stream;
 use crate::simulation::SimulationError;
@@ -74,6 +76,19 @@ pub(in crate::campaign) trait Claim {
     /// Hands the written witness to the verification room, and with it the environment, held to the bounds of `drawn`:
     /// the scenario that the case was searched with. What is found of the two is one proof.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
+
+    /// What is claimed of waypoints that somebody else chose: a witness, or what breaks, leg by leg.
+    ///
+    /// # Errors
+    /// Why nothing is, in a sentence's part.
+    fn passes(&self, _asked: &Demands) -> Result<Passage, String> {
+        Err("missions are checked for flights, drives and boats".into())
+    }
+
+    /// The scenario's table of a world of `size` (m, from the origin on) with nothing in it, where there is one.
+    fn open_world(&self, _size: &Vector3<f64>) -> Option<Value> {
+        None
+    }
 
     /// The scenario keys that can make more feasible, and what a run can be freed of.
     fn knobs(&self) -> Knobs;

@@ -16,6 +16,7 @@
 //! | `watch`, `looks` | limits, keep-outs and torque along the predicted motion |
 //! | `pace` | speeds of whole drives |
 //! | `stress`, `straight` | scores of legs, and of straight lines where there are no commands |
+//! | `through` | drives through places that somebody else chose |
 //! | `tally` | reasons of refused legs, counted |
 
 mod clearance;
@@ -29,6 +30,7 @@ mod settings;
 mod straight;
 mod stress;
 mod tally;
+mod through;
 mod watch;
 mod ways;
 
@@ -41,3 +43,4 @@ pub use settings::{DriveLimits, DriveSettings, DriveSite, Manoeuvres};
 pub use straight::StraightLegs;
 pub use stress::{GroundScore, UnknownTerms};
 pub use tally::{DriveTally, LegRefusal};
+pub use through::{Through, ThroughLeg, through};

@@ -1,0 +1,167 @@
+//! A mission's file, or a folder of them.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use hairpin::campaign::{Environment, Scenario};
+
+use super::error::MissionError;
+use super::mission::{Frame, Mission};
+use super::place::place;
+use crate::bounds::{self, MOST_BYTES, MOST_TEXT_BYTES};
+use crate::folder::is_of_a_motion;
+use crate::geodetic;
+use crate::qgc::{read_plan, read_wpl};
+use crate::waypoints;
+
+/// Endings of files that are missions, of which `txt` may be anything.
+const ENDINGS: [&str; 4] = ["csv", "plan", "waypoints", "txt"];
+
+/// `NAME.environment.json` in the folder of missions.
+pub fn environment_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.environment.json"))
+}
+
+fn read_environment(path: &Path) -> Result<Option<Environment>, MissionError> {
+    let refuse = |cause| MissionError::Unreadable { path: path.into(), cause };
+    match bounds::read_text(path, MOST_BYTES) {
+        Err(cause) if cause.kind() == io::ErrorKind::NotFound => Ok(None),
+        // Read as a list, its values would be taken for keys in their order.
+        text => text
+            .and_then(|text| serde_json::from_str::<serde_json::Map<_, _>>(&text).map_err(io::Error::from))
+            .and_then(|keys| serde_json::from_value(keys.into()).map_err(io::Error::from))
+            .map(Some)
+            .map_err(refuse),
+    }
+}
+
+/// Reads the missions of a folder, sorted by name, or the one of a file, with the environments beside them. Places on
+/// Earth are the world's by `scenario`. A table in degrees is passed over where the same waypoints lie beside it in
+/// metres, as `export` writes both; so are the motions that it writes, and text files that are no missions.
+///
+/// # Errors
+/// As [`read`]; a folder that cannot be read or has no such file; an environment that is none.
+pub fn read_all(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Vec<Mission>, MissionError> {
+    let refuse = |cause| MissionError::Unreadable { path: path.into(), cause };
+    if !fs::metadata(path).map_err(refuse)?.is_dir() {
+        return Ok(vec![with_environment(path, scenario, farthest)?]);
+    }
+    let entries = fs::read_dir(path).map_err(refuse)?;
+    let mut paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
+    paths.retain(|path| {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        ENDINGS.contains(&ending.as_str()) && (ending != "txt" || is_wpl(path)) && !is_motion(path)
+    });
+    let in_metres = |path: &PathBuf| in_metres(path).is_some_and(|twin| paths.contains(&twin));
+    let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !in_metres(path)).collect();
+    kept.sort();
+    if kept.is_empty() {
+        return Err(MissionError::Empty { path: path.into() });
+    }
+    let all = kept.into_iter().map(|path| with_environment(path, scenario, farthest));
+    let mut all = all.collect::<Result<Vec<Mission>, _>>()?;
+    let names: Vec<String> = all.iter().map(|mission| mission.name.clone()).collect();
+    for mission in &mut all {
+        if names.iter().filter(|name| **name == mission.name).count() > 1 {
+            mission.name = mission.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        }
+    }
+    Ok(all)
+}
+
+/// Whether a file is a motion that `export` wrote: by its name and, as a mission may be called so too, its first column.
+fn is_motion(path: &Path) -> bool {
+    let named = path.file_name().and_then(|name| name.to_str()).is_some_and(is_of_a_motion);
+    let first = |bytes: Vec<u8>| bytes.split(|byte| *byte == b',').next().map(<[u8]>::to_vec);
+    named
+        && bounds::read_table(path)
+            .ok()
+            .and_then(first)
+            .is_some_and(|column| [&b"t"[..], b"Duration"].contains(&&column[..]))
+}
+
+/// The file in metres that a file in degrees may have beside it.
+fn in_metres(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    Some(path.with_file_name(format!("{}.csv", name.strip_suffix(geodetic::ENDING)?)))
+}
+
+/// Whether a text file says that it is a list of mission items.
+fn is_wpl(path: &Path) -> bool {
+    bounds::read_text(path, MOST_TEXT_BYTES).is_ok_and(|text| text.starts_with("QGC WPL"))
+}
+
+fn with_environment(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, MissionError> {
+    let mission = read(path, scenario, farthest)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let environment = read_environment(&environment_path(folder, &mission.name))?;
+    Ok(Mission { environment, ..mission })
+}
+
+/// Reads one file: a plan, a list of items, or a table, as its ending says or, where it has another, its first signs.
+///
+/// # Errors
+/// The first thing wrong, with its place, value and bound.
+pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, MissionError> {
+    let unreadable = |cause| MissionError::Unreadable { path: path.into(), cause };
+    let wrong = |wrong| MissionError::Wrong { path: path.into(), wrong };
+    match Format::of(path).map_err(unreadable)? {
+        Format::Plan => {
+            let text = bounds::read_json_text(path).map_err(unreadable)?;
+            let plan = read_plan::parse(&text).map_err(wrong)?;
+            place((path, "QGroundControl plan"), (plan.mission, &plan.fences), scenario, farthest)
+        }
+        Format::Wpl => {
+            let text = bounds::read_text(path, MOST_TEXT_BYTES).map_err(unreadable)?;
+            let uploaded = read_wpl::parse(&text).map_err(wrong)?;
+            place((path, "QGC WPL 110"), (uploaded, &[]), scenario, farthest)
+        }
+        Format::Table => {
+            let (waypoints, rounded) = waypoints::read(path, scenario, farthest)?;
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            Ok(Mission {
+                name: name.strip_suffix(geodetic::ENDING).unwrap_or(&stem).to_owned(),
+                path: path.into(),
+                format: "CSV",
+                sources: Vec::new(),
+                speeds: vec![None; waypoints.len() - 1],
+                waypoints,
+                rounded,
+                frame: if rounded { Frame::Placed } else { Frame::World },
+                stops: Vec::new(),
+                notes: Vec::new(),
+                uncertain: Vec::new(),
+                fences: Vec::new(),
+                environment: None,
+            })
+        }
+    }
+}
+
+/// What a file is written in.
+enum Format {
+    Plan,
+    Wpl,
+    Table,
+}
+
+impl Format {
+    fn of(path: &Path) -> io::Result<Self> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "plan" => return Ok(Self::Plan),
+            "waypoints" => return Ok(Self::Wpl),
+            "csv" => return Ok(Self::Table),
+            _ => {}
+        }
+        let bytes = bounds::read(path, MOST_BYTES)?;
+        let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
+        Ok(match first {
+            _ if bytes.starts_with(b"QGC WPL") => Self::Wpl,
+            Some(b'{') => Self::Plan,
+            _ => Self::Table,
+        })
+    }
+}

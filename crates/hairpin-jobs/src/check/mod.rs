@@ -1,0 +1,192 @@
+//! A mission made elsewhere against the claim of a robot: a witness, or the first limit that breaks.
+
+mod fences;
+mod world;
+
+use std::path::PathBuf;
+
+use hairpin::campaign::{Broken, Certainty, Demands, Passage, Setup, passes};
+use hairpin::judgement::Verdict;
+use hairpin::math::simd::Simd;
+use hairpin_formats::missions::{Frame, Mission};
+
+use crate::sets::Set;
+use crate::{Problem, Watch};
+
+/// What is checked.
+#[derive(Debug, Clone, Default)]
+pub struct CheckSettings {
+    /// The mission's file.
+    pub mission: PathBuf,
+    /// A robot's name or file, or a scenario.
+    pub robot: String,
+    /// A world's name or file, a map, or a scenario whose world it is.
+    pub world: Option<String>,
+    /// Keys of the scenario with other values.
+    pub sets: Vec<Set>,
+    /// Version of the kernels.
+    pub simd: Simd,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Checked {
+    /// The mission, in the world that it was checked in.
+    pub mission: Mission,
+    /// What the claim says, leg by leg.
+    pub passage: Passage,
+    /// The answer: `None` where it was not found out.
+    pub feasible: Option<bool>,
+    /// The limit that decides it.
+    pub broken: Option<Broken>,
+    /// The robot's name.
+    pub robot: String,
+    /// The world in words.
+    pub world: String,
+    /// The sentence and its exit code: 0, 1 or 5.
+    pub verdict: Verdict,
+}
+
+/// Checks a mission. Nothing is written.
+///
+/// # Errors
+/// A robot, world or mission that is none, or a robot whose missions are not checked.
+pub fn check(settings: &CheckSettings, watch: &dyn Watch) -> Result<Checked, Problem> {
+    let (setup, mission, world) = world::read(settings, watch)?;
+    let of = setup.with_simd(settings.simd);
+    check_in(&of, mission, world)
+}
+
+/// Checks `mission` in the world of `setup`, in words `world`.
+///
+/// # Errors
+/// A robot whose missions are not checked.
+pub(crate) fn check_in(setup: &Setup, mission: Mission, world: String) -> Result<Checked, Problem> {
+    let stops: Vec<usize> = mission.stops.iter().map(|stop| stop.waypoint).collect();
+    let asked = Demands { waypoints: &mission.waypoints, speeds: &mission.speeds, stops: &stops };
+    let mut passage = passes(setup, &asked).map_err(|why| Problem::of_file(&mission.path, why))?;
+    fences::hold(&mission, &mut passage);
+    let (feasible, broken) = answer(&mission, &passage);
+    let verdict = verdict(setup, &mission, &passage, (feasible, broken.as_ref()));
+    Ok(Checked { mission, passage, feasible, broken, robot: setup.robot_name().to_owned(), world, verdict })
+}
+
+/// Whether it is feasible, and the limit that decides: what is proven to break goes first, unless it comes after what
+/// is not followed.
+fn answer(mission: &Mission, passage: &Passage) -> (Option<bool>, Option<Broken>) {
+    let certain = mission.uncertain.iter().map(|one| one.waypoint).min().unwrap_or(usize::MAX);
+    if let Some(broken) = passage.proven().filter(|broken| broken.waypoint <= certain) {
+        return (Some(false), Some(broken.clone()));
+    }
+    let broken = passage.first().cloned();
+    match broken {
+        None if mission.uncertain.is_empty() => (Some(true), None),
+        broken => (None, broken),
+    }
+}
+
+fn verdict(
+    setup: &Setup,
+    mission: &Mission,
+    passage: &Passage,
+    (feasible, broken): (Option<bool>, Option<&Broken>),
+) -> Verdict {
+    let robot = match setup.caveat() {
+        "" => setup.robot_name().to_owned(),
+        _ => format!("{} stand-in", setup.robot_name()),
+    };
+    let file = mission.path.display();
+    let count = mission.waypoints.len();
+    let at = |broken: &Broken| {
+        let leg = broken.leg.map_or(String::new(), |leg| format!(", leg {leg}→{}", leg + 1));
+        format!("{}{leg}: {}: {}", mission.told(broken.waypoint), broken.limit, broken.words)
+    };
+    match (feasible, broken) {
+        (Some(true), _) => {
+            let length: f64 = passage.legs.iter().map(|leg| leg.length).sum();
+            let time = passage.witness.as_ref().map(|witness| witness.leg_times.iter().sum::<f64>());
+            let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s"));
+            let demanded =
+                if mission.speeds.iter().any(Option::is_some) { ", at the speeds that it demands" } else { "" };
+            Verdict::of(
+                &format!("FEASIBLE {file} (witnessed, {robot}): {count} waypoints, {length:.1} m{time}{demanded}"),
+                0,
+            )
+        }
+        (Some(false), Some(broken)) => Verdict::of(&format!("INFEASIBLE {file} (proven, {robot}): {}", at(broken)), 1),
+        (_, broken) => {
+            let uncertain = mission.uncertain.first().map(|one| one.words.clone());
+            let why = broken.map(at).into_iter().chain(uncertain).collect::<Vec<_>>().join("; ");
+            Verdict::of(&format!("INCONCLUSIVE {file} (not found out, {robot}): {why}"), 5)
+        }
+    }
+}
+
+/// How the mission's places became metres, in words.
+pub fn frame_in_words(mission: &Mission) -> String {
+    match mission.frame {
+        Frame::World => "metres of the world".into(),
+        Frame::Placed => "placed by where on Earth the world stands".into(),
+        Frame::Home(home) => format!(
+            "east, north, up about the mission's own home ({:.7}°, {:.7}°, {:.2} m), as the world is nowhere on Earth",
+            home.lat_deg, home.lon_deg, home.alt_amsl_m
+        ),
+    }
+}
+
+/// `proven` or `not found`: how sure it is that a limit breaks.
+pub fn certainty_word(certainty: Certainty) -> &'static str {
+    match certainty {
+        Certainty::Proven => "proven",
+        Certainty::NotFound => "not found",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+
+    fn checked(text: &str, robot: &str, world: Option<&str>) -> Checked {
+        let place = tempfile::tempdir().unwrap();
+        let mission = place.path().join("mine.csv");
+        std::fs::write(&mission, text).unwrap();
+        let (robot, world) = (robot.to_owned(), world.map(str::to_owned));
+        check(&CheckSettings { mission, robot, world, ..CheckSettings::default() }, &Unwatched).unwrap()
+    }
+
+    const SQUARE: &str = "x_m,y_m,z_m\n3,3,3\n9,3,3\n9,9,4\n3,9,3\n";
+
+    #[test]
+    fn what_can_be_flown_has_a_witness() {
+        for world in [None, Some("cage-30m")] {
+            let found = checked(SQUARE, "flightgoggles", world);
+            assert_eq!((found.feasible, found.verdict.exit_code), (Some(true), 0), "{:?}", found.verdict);
+            let witness = found.passage.witness.unwrap();
+            assert_eq!((witness.leg_times.len(), witness.waypoints.len()), (3, 4));
+            // Nothing is faster alone than its limits let it be.
+            assert!(found.passage.legs.iter().all(|leg| leg.fastest.is_some() && leg.nearest.is_some()));
+        }
+    }
+
+    #[test]
+    fn a_waypoint_outside_the_cage_is_told_with_its_excess() {
+        let found = checked("x_m,y_m,z_m\n3,3,3\n9,3,3\n9,33.5,4\n", "flightgoggles", Some("cage-30m"));
+        let broken = found.broken.unwrap();
+        assert_eq!((found.feasible, broken.waypoint, broken.limit), (Some(false), 2, "cage"));
+        // 30 m less a margin of 2 m.
+        assert!((broken.excess.unwrap() - 5.5).abs() < 1e-9, "{broken:?}");
+        assert_eq!(found.verdict.exit_code, 1);
+    }
+
+    #[test]
+    fn drives_and_boats_are_checked_in_the_open() {
+        for robot in ["car", "rocky8", "cybership-ii"] {
+            let found = checked("x_m,y_m,z_m\n0,0,0\n6,0,0\n12,2,0\n18,2,0\n", robot, None);
+            assert_eq!(found.feasible, Some(true), "{robot}: {:?}", found.verdict);
+            assert!(found.passage.witness.is_some(), "{robot}");
+        }
+        let arm = CheckSettings { mission: "a.csv".into(), robot: "irb120".into(), ..CheckSettings::default() };
+        assert!(check(&arm, &Unwatched).is_err());
+    }
+}

@@ -1,0 +1,96 @@
+//! The world that a mission is checked in: the one that was named, the scenario's, or none at all.
+
+use std::path::Path;
+
+use hairpin::campaign::{Setup, vary};
+use hairpin_formats::missions::{self, Mission};
+use hairpin_formats::scenario::{is_scenario, setup_for, shadowed};
+use nalgebra::Vector3;
+use serde_json::json;
+
+use super::CheckSettings;
+use crate::sets::Set;
+use crate::{Problem, Watch};
+
+/// Room around a mission in the open, m.
+const ROOM_M: f64 = 30.0;
+/// Endings of maps.
+const MAPS: [&str; 5] = ["tif", "tiff", "asc", "png", "npy"];
+
+/// The robot in its world, the mission there, and the world in words.
+pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup, Mission, String), Problem> {
+    let CheckSettings { mission, robot, world, sets, .. } = settings;
+    shadowed(robot).iter().for_each(|note| watch.warn(note));
+    let (setup, name) = match world {
+        Some(world) if is_scenario(world) => {
+            if is_scenario(robot) {
+                return Err(Problem::input(format!(
+                    "--robot {robot} and --world {world} are both scenarios: give a robot's name or file, or one scenario as --robot"
+                )));
+            }
+            let all: Vec<Set> =
+                std::iter::once(("robot".to_owned(), quoted(robot))).chain(sets.iter().cloned()).collect();
+            (setup_for(world, &all)?, world.clone())
+        }
+        Some(world) => {
+            let ending = Path::new(world).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+            let value = match MAPS.contains(&ending.as_str()) {
+                true => format!("{{ terrain = {{ file = {} }} }}", quoted(world)),
+                false => format!("{{ base = {} }}", quoted(world)),
+            };
+            let all: Vec<Set> = std::iter::once(("world".to_owned(), value)).chain(sets.iter().cloned()).collect();
+            (setup_for(robot, &all)?, world.clone())
+        }
+        None => (setup_for(robot, sets)?, robot.clone()),
+    };
+    let given = world.is_some() || is_scenario(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
+    if given {
+        let read = missions::read(mission, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
+        return Ok((setup, read, format!("world of {name}")));
+    }
+    in_the_open((&setup, sets), mission)
+}
+
+/// A robot alone: nothing is around it, and where the mission begins does not matter.
+fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup, Mission, String), Problem> {
+    let setup = &with_its_own_limits(setup, sets)?;
+    let open = |size: &Vector3<f64>| {
+        let none = || format!("missions of {} are not checked", setup.robot_name());
+        setup
+            .in_the_open(size)
+            .map_err(|mistake| Problem::of_file(mission, mistake))?
+            .ok_or_else(|| Problem::input(none()))
+    };
+    let somewhere = open(&Vector3::repeat(2.0 * ROOM_M))?;
+    let mut read = missions::read(mission, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)?;
+    let (mut low, mut high) = (read.waypoints[0].coords, read.waypoints[0].coords);
+    for point in &read.waypoints {
+        (low, high) = (low.inf(&point.coords), high.sup(&point.coords));
+    }
+    let there = open(&(high - low + Vector3::repeat(2.0 * ROOM_M)))?;
+    let shift = Vector3::repeat(ROOM_M) - low;
+    for point in &mut read.waypoints {
+        *point += shift;
+    }
+    for fence in &mut read.fences {
+        fence.outline.shift(&shift.xy());
+    }
+    Ok((there, read, "no world given: no walls, no obstacles, level ground, the robot's own limits".into()))
+}
+
+/// The limits of the example that a robot is put into are none of its own; what was set stays.
+fn with_its_own_limits(setup: &Setup, sets: &[Set]) -> Result<Setup, Problem> {
+    if setup.has_programs() || sets.iter().any(|(key, _)| key.trim().starts_with("generate")) {
+        return Ok(setup.clone());
+    }
+    let scenario = vary::apply(&setup.scenario, &[("generate.limits".into(), json!({}))])?;
+    Ok(setup.changed(scenario)?)
+}
+
+/// A text as TOML has it; of a file where it lies, wherever the scenario does.
+fn quoted(name: &str) -> String {
+    let path = Path::new(name);
+    let file = if path.is_file() { std::path::absolute(path).ok() } else { None };
+    let name = file.map_or_else(|| name.to_owned(), |file| file.to_string_lossy().into_owned());
+    serde_json::Value::from(name).to_string()
+}

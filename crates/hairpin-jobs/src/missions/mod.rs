@@ -1,0 +1,142 @@
+//! Missions that were made elsewhere, in the place of generated cases: checked by the robot's own claim, executed and
+//! judged, and held beside what a search finds.
+
+mod compared;
+mod told;
+
+use std::path::Path;
+
+use hairpin::campaign::{Case, CaseNumber, Evidence, Setup, Tally};
+use hairpin_formats::missions::{Mission, environment_path, read_all};
+use nalgebra::Point3;
+
+use crate::check::{Checked, check_in};
+use crate::generate::keep_cases;
+use crate::work::Work;
+use crate::{Problem, Watch};
+pub use compared::{Compared, Ranked};
+pub(crate) use compared::{compare, with_compared};
+pub(crate) use told::read_told;
+pub use told::{MissionTold, MissionsTold};
+
+/// A mission, or what of it lies between two stops, as a case is made of it.
+pub(crate) struct Leg {
+    /// Its name: the file's, with the waypoints where it is not all of it.
+    pub(crate) name: String,
+    pub(crate) waypoints: Vec<Point3<f64>>,
+    /// What the claim says of the whole mission; `None` where it is not asked.
+    pub(crate) checked: Option<Checked>,
+    pub(crate) mission: Mission,
+}
+
+/// Reads the missions of a folder or file for `setup`, and checks each.
+///
+/// # Errors
+/// A file that is no mission, or has something that changes the motion and is not followed.
+pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<Leg>, Problem> {
+    let all = read_all(path, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
+    let mut legs = Vec::with_capacity(all.len());
+    for mission in all {
+        if let Some(one) = mission.uncertain.first() {
+            return Err(Problem::of_file(
+                &mission.path,
+                format!(
+                    "{}: what would be judged is not the mission; take it out, or cut the mission before it",
+                    one.words
+                ),
+            ));
+        }
+        let file = mission.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if let Some(outside) = mission.waypoints.iter().position(|place| setup.is_outside(place)) {
+            watch.warn(&format!("Warning: {file}: waypoint {outside} lies outside the world"));
+        }
+        for note in &mission.notes {
+            watch.warn(&format!("{file}: {note}"));
+        }
+        // What stands in an environment of its own is not the claim's world.
+        let asked = mission.environment.is_none() && !setup.has_programs();
+        let check = |mission: &Mission| check_in(setup, mission.clone(), "the scenario's world".into()).ok();
+        let checked = if asked { check(&mission) } else { None };
+        if let Some(checked) = checked.as_ref().filter(|checked| checked.feasible != Some(true)) {
+            watch.warn(&checked.verdict.sentence);
+        }
+        legs.extend(between_stops(mission, checked));
+    }
+    Ok(legs)
+}
+
+/// A vehicle that stops begins anew: each part is a case of its own.
+fn between_stops(mission: Mission, checked: Option<Checked>) -> Vec<Leg> {
+    if mission.stops.is_empty() {
+        let (name, waypoints) = (mission.name.clone(), mission.waypoints.clone());
+        return vec![Leg { name, waypoints, checked, mission }];
+    }
+    let last = mission.waypoints.len() - 1;
+    let ends: Vec<usize> =
+        std::iter::once(0).chain(mission.stops.iter().map(|stop| stop.waypoint)).chain([last]).collect();
+    let part = |pair: &[usize]| Leg {
+        name: format!("{} {}-{}", mission.name, pair[0], pair[1]),
+        waypoints: mission.waypoints[pair[0]..=pair[1]].to_vec(),
+        checked: None,
+        mission: mission.clone(),
+    };
+    let mut parts: Vec<Leg> = ends.windows(2).map(part).collect();
+    if let Some(first) = parts.first_mut() {
+        first.checked = checked;
+    }
+    parts
+}
+
+/// Puts missions in the place of the folder's cases, with the environments beside them. A list that equals a case of
+/// the folder keeps that case's plan and evidence, and its environment where it comes without one; any other has the
+/// witness that its check found.
+pub(crate) fn adopt(work: &Work, legs: &[Leg]) -> Result<(), Problem> {
+    let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
+    let mut cases = Vec::with_capacity(legs.len());
+    for (number, Leg { name, waypoints, checked, mission }) in legs.iter().enumerate() {
+        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
+        let same = known.iter().find(|case| match mission.rounded {
+            true => are_rounded(&case.waypoints, waypoints),
+            false => case.waypoints == *waypoints,
+        });
+        let mut case = match same {
+            Some(case) => Case { number: CaseNumber(number), seed, ..case.clone() },
+            None => witnessed(Case::bare(CaseNumber(number), seed, waypoints.clone()), checked.as_ref()),
+        };
+        if let Some(environment) = &mission.environment {
+            let file = environment_path(Path::new(""), name);
+            let refuse = |mistake| Problem::input(format!("{}: {mistake}", file.display()));
+            work.setup.check_environment(environment).map_err(refuse)?;
+            case.environment = Some(environment.clone());
+        }
+        cases.push(case);
+    }
+    let tally =
+        Tally { complete: true, missions: legs.iter().map(|leg| leg.name.clone()).collect(), ..Tally::default() };
+    work.folder.forget_cases()?;
+    keep_cases(work, &cases, 0, &tally)?;
+    Ok(work.folder.write_missions(&MissionsTold::of(legs))?)
+}
+
+/// `case` with the witness of all of the mission, where the check found one.
+fn witnessed(case: Case, checked: Option<&Checked>) -> Case {
+    let passed = checked.and_then(|checked| checked.passage.witness.as_ref());
+    match passed.filter(|passed| passed.waypoints.len() == case.waypoints.len()) {
+        Some(passed) => Case {
+            waypoints: passed.waypoints.clone(),
+            leg_times: passed.leg_times.clone(),
+            evidence: Evidence::Witnessed,
+            witness: Some(passed.witness.clone()),
+            ..case
+        },
+        None => case,
+    }
+}
+
+/// Waypoints in degrees are read back to within this, m.
+const ROUNDING: f64 = 1e-4;
+
+/// Whether `read` are `waypoints` but for the rounding of degrees.
+fn are_rounded(waypoints: &[Point3<f64>], read: &[Point3<f64>]) -> bool {
+    waypoints.len() == read.len() && waypoints.iter().zip(read).all(|(a, b)| (a - b).norm() <= ROUNDING)
+}

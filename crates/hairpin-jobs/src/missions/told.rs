@@ -1,0 +1,79 @@
+//! What a campaign's folder keeps of its missions beside their cases: where they are from, and what their check said.
+
+use serde::{Deserialize, Serialize};
+
+use super::Leg;
+use crate::Problem;
+use crate::check::{certainty_word, frame_in_words};
+use crate::work::Work;
+
+/// All missions of a campaign, a row a case.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct MissionsTold {
+    /// In the order of cases.
+    pub missions: Vec<MissionTold>,
+}
+
+/// A mission.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MissionTold {
+    /// The case's name for people: the file's.
+    pub name: String,
+    /// What its file is written in.
+    pub format: String,
+    /// How its places became metres.
+    pub frame: String,
+    /// Whether it is feasible; null where that was not found out, or not asked.
+    pub feasible: Option<bool>,
+    /// The waypoint, limit and excess of the first limit that breaks.
+    pub waypoint: Option<usize>,
+    /// Its name.
+    pub limit: Option<String>,
+    /// By how much, in its unit.
+    pub excess: Option<f64>,
+    /// `witnessed`, `proven`, `not found`, or `unchecked`.
+    pub evidence: String,
+    /// What the check came to, in words.
+    pub check: String,
+    /// What of the file changes nothing that is judged.
+    pub notes: Vec<String>,
+}
+
+impl MissionsTold {
+    pub(super) fn of(legs: &[Leg]) -> Self {
+        let one = |leg: &Leg| {
+            let checked = leg.checked.as_ref();
+            let broken = checked.and_then(|checked| checked.broken.as_ref());
+            let evidence = match checked {
+                Some(checked) if checked.feasible == Some(true) => "witnessed",
+                Some(_) => broken.map_or("not found", |broken| certainty_word(broken.certainty)),
+                None => "unchecked",
+            };
+            MissionTold {
+                name: leg.name.clone(),
+                format: leg.mission.format.into(),
+                frame: frame_in_words(&leg.mission),
+                feasible: checked.and_then(|checked| checked.feasible),
+                waypoint: broken.map(|broken| broken.waypoint),
+                limit: broken.map(|broken| broken.limit.into()),
+                excess: broken.and_then(|broken| broken.excess),
+                evidence: evidence.into(),
+                check: checked.map_or("not checked".into(), |checked| checked.verdict.sentence.clone()),
+                notes: leg.mission.notes.clone(),
+            }
+        };
+        Self { missions: legs.iter().map(one).collect() }
+    }
+
+    /// The sentences of a report.
+    pub(crate) fn said(&self) -> Vec<String> {
+        let told = self.missions.iter().filter(|one| one.evidence != "unchecked");
+        told.map(|one| format!("Mission {}: {}.", one.name, one.check)).collect()
+    }
+}
+
+/// What the folder of `work` keeps of its missions; `None` where its cases are none.
+pub(crate) fn read_told(work: &Work) -> Result<Option<MissionsTold>, Problem> {
+    Ok(work.folder.read_missions()?)
+}

@@ -1,0 +1,184 @@
+//! Missions made elsewhere, by the claim of boats: legs from state to state through their waypoints, each passed
+//! between its legs with a speed of a few, or the limits that break.
+
+use nalgebra::{Point3, Vector2};
+
+use super::BoatSetup;
+use super::through::is_free;
+use crate::campaign::bounds::LONGEST_PASSAGE_S;
+use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
+use crate::feasibility::boat::{BoatEnd, BoatInfeasible, BoatJudge, BoatLimit};
+use crate::feasibility::steering::LegTiming;
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// Shares of the top speed that a waypoint is passed with where none is demanded; 0: at rest.
+const SHARES: [f64; 4] = [0.9, 0.6, 0.3, 0.0];
+/// The shortest leg time that is tried, s.
+const SHORTEST_S: f64 = 1.0;
+/// A rest-to-rest septic's peak speed by its mean one.
+const PEAK: f64 = 35.0 / 16.0;
+/// A speed within this share of the limit keeps it.
+const ROUNDING: f64 = 1e-9;
+
+/// A state at a waypoint, and how it was come to.
+struct Reached {
+    end: BoatEnd,
+    /// Seconds from the beginning of the chain.
+    cost: f64,
+    from: Option<(usize, ProfileLeg)>,
+}
+
+/// What the claim says of `asked`.
+pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
+    let judge = setup.judge();
+    let points = asked.waypoints;
+    let count = points.len() - 1;
+    let rungs = LegTiming::ladder(SHORTEST_S, LONGEST_PASSAGE_S).rungs();
+    let mut table = vec![states(&judge, asked, 0)];
+    let (mut legs, mut whole) = (Vec::with_capacity(count), true);
+    for leg in 0..count {
+        let length = (points[leg + 1] - points[leg]).xy().norm();
+        let mut one = PassedLeg { length, broken: proven(setup, &judge, asked, leg), ..PassedLeg::default() };
+        let times = match asked.speed(leg) {
+            Some(speed) => {
+                let factor = match [asked.rests(leg), asked.rests(leg + 1)] {
+                    [false, false] => 1.0,
+                    [true, true] => PEAK,
+                    _ => 2.0,
+                };
+                vec![factor * length / speed]
+            }
+            None => rungs.clone(),
+        };
+        let (mut found, mut why): (Vec<Reached>, Option<BoatInfeasible>) = (Vec::new(), None);
+        for state in states(&judge, asked, leg + 1) {
+            let mut best: Option<Reached> = None;
+            for (index, before) in table[leg].iter().enumerate() {
+                let mut judged = times.iter().map(|time| judge.judge(&before.end, &state.end, *time));
+                let solved = judged.find_map(|one| one.map_err(|refused| why = Some(refused)).ok());
+                let Some(solved) = solved else { continue };
+                one.fastest = Some(one.fastest.unwrap_or(f64::INFINITY).min(solved.duration));
+                let cost = before.cost + solved.duration;
+                if best.as_ref().is_none_or(|known| cost < known.cost) {
+                    best = Some(Reached { end: state.end, cost, from: Some((index, solved)) });
+                }
+            }
+            found.extend(best);
+        }
+        if found.is_empty() {
+            whole = false;
+            one.broken = one.broken.or_else(|| why.map(|why| refused(leg, &why)));
+            found = states(&judge, asked, leg + 1);
+        }
+        legs.push(one);
+        table.push(found);
+    }
+    let whole = whole && legs.iter().all(|leg| leg.broken.is_none());
+    let profile = whole.then(|| joined(table));
+    let most = setup.longest();
+    let late = profile.as_ref().map(Profile::duration).filter(|duration| *duration > most);
+    let broken = late.map(|duration| Broken {
+        waypoint: count,
+        leg: None,
+        limit: "duration",
+        unit: "s",
+        excess: Some(duration - most),
+        certainty: Certainty::NotFound,
+        words: format!("the trip takes {duration:.1} s, {most} s at most"),
+    });
+    let witness = profile.filter(|_| broken.is_none()).map(|profile| {
+        for (leg, piece) in legs.iter_mut().zip(&profile.legs) {
+            let speed = |k: u32| piece.derivative(piece.duration * f64::from(k) / 64.0, 1).xy().norm();
+            (leg.time, leg.top_speed) = (Some(piece.duration), Some((0..=64).map(speed).fold(0.0, f64::max)));
+        }
+        Passed {
+            waypoints: points.to_vec(),
+            leg_times: profile.legs.iter().map(|leg| leg.duration).collect(),
+            witness: profile.into(),
+        }
+    });
+    let model = "the boat in the current that is known, bow into its motion at every waypoint; without wind and waves";
+    Passage { legs, witness, broken, model: model.into() }
+}
+
+/// The states that waypoint `number` may be passed in.
+fn states(judge: &BoatJudge, asked: &Demands, number: usize) -> Vec<Reached> {
+    let points = asked.waypoints;
+    let reached = |velocity: [f64; 2]| Reached { end: judge.end(&points[number], velocity), cost: 0.0, from: None };
+    if asked.rests(number) {
+        return vec![reached([0.0; 2])];
+    }
+    let unit = |from: usize| (points[from + 1] - points[from]).xy().try_normalize(1e-9).unwrap_or_else(Vector2::x);
+    let (before, after) = (unit(number - 1), unit(number));
+    let along = (before + after).try_normalize(1e-6).unwrap_or(after);
+    let demanded = [asked.speed(number - 1), asked.speed(number)].into_iter().flatten().reduce(f64::min);
+    let speeds = match demanded {
+        Some(speed) => vec![speed],
+        None => SHARES.map(|share| share * judge.top_speed()).to_vec(),
+    };
+    speeds.into_iter().map(|speed| reached((along * speed).into())).collect()
+}
+
+/// The legs along the quickest chain of `table`.
+fn joined(mut table: Vec<Vec<Reached>>) -> Profile {
+    let (mut legs, mut at) = (Vec::new(), None);
+    while let Some(mut states) = table.pop() {
+        let quickest = states.iter().enumerate().min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+        let Some(index) = at.or(quickest.map(|(index, _)| index)) else { break };
+        let Some((before, leg)) = states.swap_remove(index).from else { break };
+        legs.push(leg);
+        at = Some(before);
+    }
+    legs.reverse();
+    Profile { legs }
+}
+
+/// What no boat can do on leg `leg`, or at the waypoint that it leads to.
+fn proven(setup: &BoatSetup, judge: &BoatJudge, asked: &Demands, leg: usize) -> Option<Broken> {
+    let broken = |waypoint, leg, limit, unit, excess, words| {
+        Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
+    };
+    let ends = if leg == 0 { &[0, 1][..] } else { &[leg + 1][..] };
+    for waypoint in ends {
+        let place: &Point3<f64> = &asked.waypoints[*waypoint];
+        if is_free(setup, place) {
+            continue;
+        }
+        let world = &setup.scenario.world;
+        let outside = (0..2).map(|axis| {
+            let margin = world.keep_in_margin_m;
+            (margin - place[axis]).max(place[axis] - (world.size_m[axis] - margin))
+        });
+        let outside = outside.fold(f64::NEG_INFINITY, f64::max);
+        if outside > 0.0 {
+            let words = format!("it lies {outside:.2} m outside of what the edges and their margin leave");
+            return broken(*waypoint, None, "cage", "m", Some(outside), words);
+        }
+        let near = setup.boat.radius - setup.keep_out.distance(place.x, place.y);
+        let words = format!("it lies {near:.2} m too near to a place to keep out of");
+        return broken(*waypoint, None, "clearance", "m", Some(near), words);
+    }
+    let speed = asked.speed(leg)?;
+    let most = judge.fastest().min(judge.top_speed());
+    let words = format!("{speed} m/s are demanded, {most} m/s is the most");
+    let over = speed > most * (1.0 + ROUNDING);
+    if over { broken(leg + 1, Some(leg), "speed", "m/s", Some(speed - most), words) } else { None }
+}
+
+/// A leg that none was found for.
+fn refused(leg: usize, why: &BoatInfeasible) -> Broken {
+    let (limit, unit) = match why.limit() {
+        BoatLimit::Speed => ("speed", "m/s"),
+        BoatLimit::Surge | BoatLimit::Sway => ("thrust", "N"),
+        BoatLimit::Yaw => ("yaw moment", "N·m"),
+        BoatLimit::Waters => ("cage", "m"),
+        BoatLimit::KeepOut => ("clearance", "m"),
+        BoatLimit::Duration => ("duration", "s"),
+    };
+    let (BoatInfeasible::Violates { at, margin, .. } | BoatInfeasible::Unproven { at, margin, .. }) = *why;
+    let excess = (-margin).max(0.0);
+    let words =
+        format!("no trip was found: the last one tried breaks the {limit} by {excess:.3} {unit} after {at:.1} s");
+    let certainty = Certainty::NotFound;
+    Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess: Some(excess), certainty, words }
+}

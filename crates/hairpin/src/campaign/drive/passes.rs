@@ -1,0 +1,199 @@
+//! Missions made elsewhere, by the claim of drives: boundary-value drives through their waypoints, or the limits that
+//! break.
+
+use nalgebra::Point3;
+
+use super::DriveSetup;
+use super::solve::{DriveSolver, settings};
+use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
+use crate::feasibility::reach::drive::{DriveSettings, LegRefusal, Through, through};
+use crate::robot::rover::Suspension;
+use crate::world::terrain::Terrain;
+
+/// Factors by which a limit is let out to see how much of it a leg would need.
+const LET_OUT: [f64; 8] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0, 16.0];
+/// A speed within this share of the limit keeps it.
+const ROUNDING: f64 = 1e-9;
+
+/// What the claim says of `asked`; heights are the ground's.
+///
+/// # Errors
+/// As of a search.
+pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, String> {
+    let looked = Looked { setup, asked, settings: DriveSettings { leg_m: [0.0, f64::INFINITY], ..settings(setup)? } };
+    let places: Vec<[f64; 2]> = asked.waypoints.iter().map(|p| [p.x, p.y]).collect();
+    let count = places.len() - 1;
+    let proven: Vec<Option<Broken>> = (0..count).map(|leg| looked.proven(leg)).collect();
+    let solver = DriveSolver::new(setup)?;
+    let of_leg = |leg: usize| looked.settings_of(leg);
+    // Where a place is none, no leg to it is looked for.
+    let Through { legs: solved, drive } = if proven.iter().flatten().any(|broken| broken.leg.is_none()) {
+        Through { legs: vec![Err(LegRefusal::Unsolved); count], drive: None }
+    } else {
+        through(&solver.site(), &of_leg, &places, asked.stops)
+    };
+    let misplaced = proven.iter().flatten().any(|broken| broken.leg.is_none());
+    let mut legs = Vec::with_capacity(count);
+    for (leg, (proven, solved)) in proven.into_iter().zip(solved).enumerate() {
+        let [a, b] = [places[leg], places[leg + 1]];
+        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        let mut one = PassedLeg { length, ..PassedLeg::default() };
+        match solved {
+            Ok(solved) => {
+                let most = looked.settings.bounds.most;
+                one.fastest = Some(solved.duration);
+                one.top_speed = Some(looked.settings_of(leg).speed);
+                one.nearest = most.is_finite().then(|| ("curvature", most - solved.curvature, "1/m"));
+                one.broken = proven;
+            }
+            Err(_) if misplaced => one.broken = proven,
+            Err(why) => one.broken = proven.or_else(|| Some(looked.refused(leg, why, &places))),
+        }
+        legs.push(one);
+    }
+    let whole = legs.iter().all(|leg| leg.broken.is_none());
+    let witness = drive.filter(|_| whole).and_then(|drive| {
+        let leg_times: Vec<f64> = (0..count).map(|leg| drive.leg_time(leg)).collect();
+        let waypoints = asked.waypoints.iter().map(|p| looked.on_ground(p)).collect::<Option<_>>()?;
+        Some(Passed { waypoints, leg_times, witness: drive.into() })
+    });
+    let mut broken = None;
+    if let Some(passed) = &witness {
+        for (leg, time) in legs.iter_mut().zip(&passed.leg_times) {
+            leg.time = Some(*time);
+        }
+    } else if whole && looked.speeds_are_alike() {
+        broken = Some(Broken {
+            waypoint: count,
+            leg: None,
+            limit: "speed",
+            unit: "m/s",
+            excess: None,
+            certainty: Certainty::NotFound,
+            words: "each leg is one, but their commands and speeds do not settle together".into(),
+        });
+    }
+    Ok(Passage { legs, witness, broken, model: model(setup) })
+}
+
+fn model(setup: &DriveSetup) -> String {
+    let ground = match setup.rover.suspension {
+        Suspension::Level => "the vehicle in the plane",
+        _ => "the vehicle settled on the ground at every step",
+    };
+    format!(
+        "{ground}, waypoints passed with straight wheels; without slip that the plan does not know, latency or wind"
+    )
+}
+
+/// What is looked at.
+struct Looked<'a> {
+    setup: &'a DriveSetup,
+    asked: &'a Demands<'a>,
+    settings: DriveSettings,
+}
+
+impl Looked<'_> {
+    /// Settings of leg `leg`, at the speed that is demanded of it; turns in place go on as they do.
+    fn settings_of(&self, leg: usize) -> DriveSettings {
+        let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.most_speed()));
+        DriveSettings { speed, ..self.settings.clone() }
+    }
+
+    fn most_speed(&self) -> f64 {
+        let given = self.setup.scenario.generate.limits.speed_m_s.unwrap_or(f64::INFINITY);
+        given.min(self.setup.rover.limits.speed)
+    }
+
+    fn speeds_are_alike(&self) -> bool {
+        let speeds: Vec<f64> = (0..self.asked.waypoints.len() - 1).map(|leg| self.settings_of(leg).speed).collect();
+        speeds.windows(2).all(|pair| pair[0] == pair[1])
+    }
+
+    fn on_ground(&self, place: &Point3<f64>) -> Option<Point3<f64>> {
+        Some(Point3::new(place.x, place.y, self.setup.map.patch(place.x, place.y).ok()?.height))
+    }
+
+    /// What nothing can do on leg `leg`, or at the place that it leads to.
+    fn proven(&self, leg: usize) -> Option<Broken> {
+        let broken = |waypoint, leg, limit, unit, excess, words| {
+            Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
+        };
+        let ends = if leg == 0 { &[0, 1][..] } else { &[leg + 1][..] };
+        for waypoint in ends {
+            let place = &self.asked.waypoints[*waypoint];
+            let ([west, south], [east, north]) = self.setup.map.extent();
+            let beyond = (west - place.x).max(place.x - east).max(south - place.y).max(place.y - north);
+            if beyond > 0.0 {
+                let words = format!("it lies {beyond:.2} m off the map");
+                return broken(*waypoint, None, "map", "m", Some(beyond), words);
+            }
+            if self.on_ground(place).is_none() {
+                return broken(*waypoint, None, "map", "m", None, "the map has no data there".into());
+            }
+            let radius = self.setup.radius();
+            if let Some(nearest) = self.setup.keep_out.nearest(place.x, place.y).filter(|near| near.distance < radius) {
+                let excess = radius - nearest.distance;
+                let words = format!("it lies {excess:.2} m too near to {}", nearest.keep_out.name);
+                return broken(*waypoint, None, "clearance", "m", Some(excess), words);
+            }
+        }
+        let speed = self.asked.speed(leg)?;
+        let most = self.most_speed();
+        let words = format!("{speed} m/s are demanded, {most} m/s is the most");
+        let over = speed > most * (1.0 + ROUNDING);
+        if over { broken(leg + 1, Some(leg), "speed", "m/s", Some(speed - most), words) } else { None }
+    }
+
+    /// A leg that no drive was found for, with how much of the limit one would need.
+    fn refused(&self, leg: usize, why: LegRefusal, places: &[[f64; 2]]) -> Broken {
+        let (limit, unit) = named(why);
+        let own = self.settings_of(leg);
+        let with = |factor: f64| {
+            let mut more = own.clone();
+            match limit {
+                "curvature" => {
+                    (more.bounds.most, more.bounds.most_rate) =
+                        (own.bounds.most * factor, own.bounds.most_rate * factor)
+                }
+                "slope" => more.limits.tilt = own.limits.tilt * factor,
+                _ => return None,
+            }
+            Some(more)
+        };
+        let solved = |factor: &f64| with(*factor).is_some_and(|more| self.beside(leg, &more, places));
+        let factor = LET_OUT.iter().find(|factor| solved(factor)).copied();
+        let bound = if limit == "slope" { own.limits.tilt.to_degrees() } else { own.bounds.most };
+        let excess = factor.map(|factor| (factor - 1.0) * bound).filter(|excess| excess.is_finite());
+        let words = match excess {
+            Some(excess) => format!(
+                "no drive was found: drives here {}; with {excess:.3} {unit} more of it there is one",
+                why.says()
+            ),
+            None => format!("no drive was found: drives here {}", why.says()),
+        };
+        Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess, certainty: Certainty::NotFound, words }
+    }
+
+    /// Whether the leg is one among its neighbours under `more`.
+    fn beside(&self, leg: usize, more: &DriveSettings, places: &[[f64; 2]]) -> bool {
+        let (first, last) = (leg.saturating_sub(1), (leg + 3).min(places.len()));
+        let solver = DriveSolver::new(self.setup);
+        solver.is_ok_and(|solver| {
+            through(&solver.site(), &|_| more.clone(), &places[first..last], &[]).legs[leg - first].is_ok()
+        })
+    }
+}
+
+/// What a refusal is called here, and the unit that it is told in.
+fn named(why: LegRefusal) -> (&'static str, &'static str) {
+    match why {
+        LegRefusal::Detour | LegRefusal::Unsolved | LegRefusal::Curvature => ("curvature", "1/m"),
+        LegRefusal::MapEdge | LegRefusal::NoData => ("map", "m"),
+        LegRefusal::NoRest | LegRefusal::Tilt => ("slope", "°"),
+        LegRefusal::Steering => ("steering rate", "rad/s"),
+        LegRefusal::Torque => ("torque", "N·m"),
+        LegRefusal::Joint => ("joint", "°"),
+        LegRefusal::Belly | LegRefusal::KeepOut => ("clearance", "m"),
+    }
+}

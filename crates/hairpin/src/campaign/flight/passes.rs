@@ -1,0 +1,225 @@
+//! Missions made elsewhere, by the claim of flights: a witness through their waypoints at the speeds that they demand,
+//! or the limits that break.
+
+use nalgebra::Point3;
+
+use super::FlightSetup;
+use super::legs::judge_up_to;
+use crate::campaign::bounds::LONGEST_LEG_S;
+use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
+use crate::feasibility::certify::{Certificate, Impossible, certify};
+use crate::feasibility::hold::{fastest, hold, turns_too_hard};
+use crate::feasibility::steering::{LegJudge, LegTiming};
+use crate::feasibility::{Infeasible, Limit};
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// The shortest leg time that is tried where no speed is demanded, s.
+const SHORTEST_LEG_S: f64 = 0.05;
+/// Instants of a leg at which its speed is looked at.
+const INSTANTS: u32 = 64;
+/// A speed within this share of the limit keeps it.
+const ROUNDING: f64 = 1e-9;
+
+/// What the claim says of `asked`.
+///
+/// # Errors
+/// As [`judge_up_to`].
+pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, String> {
+    // What a mission asks for is held to the robot's top speed as well.
+    let judge = judge_up_to(setup, setup.robot.max_speed)?;
+    let looked = Looked { setup, judge: &judge, asked };
+    let mut legs: Vec<PassedLeg> = asked.waypoints.windows(2).map(|pair| looked.alone(pair)).collect();
+    for (number, leg) in legs.iter_mut().enumerate() {
+        leg.broken = looked.proven(number);
+    }
+    let mut flight: Vec<ProfileLeg> = Vec::new();
+    let mut broken = None;
+    for [first, last] in asked.sections() {
+        match looked.section(first, last) {
+            Ok(profile) => {
+                for (leg, piece) in legs[first..last].iter_mut().zip(&profile.legs) {
+                    (leg.time, leg.top_speed) = (Some(piece.duration), Some(top_speed(piece)));
+                }
+                flight.extend(profile.legs);
+            }
+            Err(refused) => {
+                for one in refused {
+                    let leg = one.leg.unwrap_or(last - 1);
+                    legs[leg].broken.get_or_insert(one);
+                }
+            }
+        }
+    }
+    let whole = flight.len() == legs.len() && legs.iter().all(|leg| leg.broken.is_none());
+    let flight = Profile { legs: flight };
+    if let Some(most) =
+        setup.scenario.generate.limits.max_flight_time_s.filter(|most| whole && flight.duration() > *most)
+    {
+        broken = Some(Broken {
+            waypoint: asked.waypoints.len() - 1,
+            leg: None,
+            limit: "duration",
+            unit: "s",
+            excess: Some(flight.duration() - most),
+            certainty: Certainty::NotFound,
+            words: format!("the flight takes {:.1} s, {most} s at most", flight.duration()),
+        });
+    }
+    let witness = (whole && broken.is_none()).then(|| Passed {
+        waypoints: asked.waypoints.to_vec(),
+        leg_times: flight.legs.iter().map(|leg| leg.duration).collect(),
+        witness: flight.into(),
+    });
+    Ok(Passage { legs, witness, broken, model: model() })
+}
+
+fn model() -> String {
+    "the rigid body with drag, level at every waypoint; without wind and without the lag of its rotors".into()
+}
+
+/// What is looked at.
+struct Looked<'a> {
+    setup: &'a FlightSetup,
+    judge: &'a LegJudge,
+    asked: &'a Demands<'a>,
+}
+
+impl Looked<'_> {
+    /// A leg by itself.
+    fn alone(&self, pair: &[Point3<f64>]) -> PassedLeg {
+        let found = fastest(self.judge, &pair[0], &pair[1], LONGEST_LEG_S);
+        let nearest = found.map(|(_, why)| {
+            let (limit, unit, factor) = named(why.limit());
+            (limit, factor * margin(&why).abs(), unit)
+        });
+        PassedLeg {
+            length: (pair[1] - pair[0]).norm(),
+            fastest: found.map(|(time, _)| time),
+            nearest,
+            ..PassedLeg::default()
+        }
+    }
+
+    /// What no flight can do on leg `leg`, or at the waypoint that it leads to.
+    fn proven(&self, leg: usize) -> Option<Broken> {
+        let points = self.asked.waypoints;
+        let broken = |waypoint, leg, limit, unit, excess, words| {
+            Some(Broken { waypoint, leg, limit, unit, excess: Some(excess), certainty: Certainty::Proven, words })
+        };
+        let ends = if leg == 0 { &[0, 1][..] } else { &[leg + 1][..] };
+        for waypoint in ends {
+            if let Err(why) = self.judge.space().allows(&points[*waypoint], 0.0) {
+                let (limit, unit, _) = named(why.limit());
+                let excess = -margin(&why);
+                let words = match why.limit() {
+                    Limit::Obstacle => format!("it lies {excess:.2} m too near to {}", self.obstacle(&why)),
+                    _ => format!("it lies {excess:.2} m outside of what the walls and their margin leave"),
+                };
+                return broken(*waypoint, None, limit, unit, excess, words);
+            }
+        }
+        let radius = self.setup.robot.clearance_radius;
+        let clear = self.setup.world.segment_distance(&points[leg], &points[leg + 1]) - radius;
+        if clear < 0.0 {
+            let words = format!("its straight line comes {:.2} m too near to an obstacle", -clear);
+            return broken(leg + 1, Some(leg), "clearance", "m", -clear, words);
+        }
+        let speed = self.asked.speed(leg)?;
+        let most = self.judge.top_speed();
+        if speed > most * (1.0 + ROUNDING) {
+            let words = format!("{speed} m/s are demanded, {most} m/s is the most");
+            return broken(leg + 1, Some(leg), "speed", "m/s", speed - most, words);
+        }
+        let passed = |leg: usize| !self.asked.rests(leg) && !self.asked.rests(leg + 1);
+        let before = leg.checked_sub(1).filter(|before| passed(*before) && passed(leg))?;
+        let speeds = [self.asked.speed(before)?, speed];
+        let excess = turns_too_hard(self.judge, [&points[before], &points[leg], &points[leg + 1]], speeds)?;
+        let words = format!("to turn there at {speed} m/s takes {excess:.2} m/s² more than thrust, tilt and drag give");
+        broken(leg, Some(leg), "thrust", "m/s²", excess, words)
+    }
+
+    /// The flight from rest at waypoint `first` to rest at `last`, or what is not known to be flown.
+    fn section(&self, first: usize, last: usize) -> Result<Profile, Vec<Broken>> {
+        let (points, speeds) = (&self.asked.waypoints[first..=last], &self.asked.speeds[first..last]);
+        if speeds.iter().any(Option::is_some) {
+            let refused = hold(self.judge, points, speeds, LONGEST_LEG_S);
+            return refused.map_err(|legs| legs.iter().map(|(leg, why)| self.refused(first + leg, why)).collect());
+        }
+        let timing = LegTiming::ladder(SHORTEST_LEG_S, LONGEST_LEG_S);
+        let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        let sure = |waypoint, leg, limit, unit, excess, words| {
+            let certainty = Certainty::Proven;
+            Err(vec![Broken { waypoint, leg, limit, unit, excess: Some(excess), certainty, words }])
+        };
+        match certify(self.judge, points, &timing, longest) {
+            Certificate::Yes(profile) => Ok(profile),
+            Certificate::Unknown { leg, why } => Err(vec![self.refused(first + leg, &why)]),
+            Certificate::No(Impossible::Waypoint { waypoint, why }) => {
+                let (limit, unit, factor) = named(why.limit());
+                let excess = -factor * margin(&why);
+                sure(first + waypoint, None, limit, unit, excess, "it is not in the free space".into())
+            }
+            Certificate::No(Impossible::Distance { leg, needed }) => {
+                let excess = needed - self.judge.limits().max_speed;
+                let words = format!("no leg takes longer than {LONGEST_LEG_S} s, and this one needs {needed:.2} m/s");
+                sure(first + leg + 1, Some(first + leg), "speed", "m/s", excess, words)
+            }
+            Certificate::No(Impossible::Duration { needed, allowed }) => {
+                let words = format!("it takes {needed:.1} s at least, {allowed:.1} s at most");
+                sure(last, None, "duration", "s", needed - allowed, words)
+            }
+        }
+    }
+
+    /// A leg that no flight was found for.
+    fn refused(&self, leg: usize, why: &Infeasible) -> Broken {
+        let (limit, unit, factor) = named(why.limit());
+        let told = match why.limit() {
+            Limit::Obstacle => format!("{limit} to {}", self.obstacle(why)),
+            Limit::RotorMin => "least rotor speed".into(),
+            _ => limit.to_owned(),
+        };
+        let excess = -factor * margin(why);
+        let words = match why {
+            Infeasible::Violates { at, .. } => {
+                format!(
+                    "no flight was found: the last one tried breaks the {told} by {excess:.3} {unit} after {at:.2} s"
+                )
+            }
+            Infeasible::Unproven { at, .. } => {
+                format!("no flight was found: of the last one tried the {told} could not be shown to hold at {at:.2} s")
+            }
+        };
+        let certainty = Certainty::NotFound;
+        Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess: Some(excess.max(0.0)), certainty, words }
+    }
+
+    fn obstacle(&self, why: &Infeasible) -> &str {
+        let (Infeasible::Violates { part, .. } | Infeasible::Unproven { part, .. }) = *why;
+        self.setup.world.obstacles().get(usize::from(part)).map_or("an obstacle", |obstacle| &obstacle.name)
+    }
+}
+
+/// What a limit is called here, the unit that it is told in, and the factor to that.
+fn named(limit: Limit) -> (&'static str, &'static str, f64) {
+    match limit {
+        Limit::Speed => ("speed", "m/s", 1.0),
+        Limit::Thrust => ("thrust", "of the weight", 1.0),
+        Limit::Tilt => ("tilt", "°", 180.0 / std::f64::consts::PI),
+        Limit::RotorMin | Limit::RotorMax => ("rotor speed", "rad/s", 1.0),
+        Limit::World => ("cage", "m", 1.0),
+        Limit::Obstacle => ("clearance", "m", 1.0),
+        Limit::Duration => ("duration", "s", 1.0),
+    }
+}
+
+fn margin(why: &Infeasible) -> f64 {
+    let (Infeasible::Violates { margin, .. } | Infeasible::Unproven { margin, .. }) = *why;
+    margin
+}
+
+/// The greatest speed on a leg, m/s.
+fn top_speed(leg: &ProfileLeg) -> f64 {
+    let at = |k: u32| leg.derivative(leg.duration * f64::from(k) / f64::from(INSTANTS), 1).norm();
+    (0..=INSTANTS).map(at).fold(0.0, f64::max)
+}

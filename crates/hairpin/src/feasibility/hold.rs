@@ -1,0 +1,250 @@
+//! Flights through waypoints that somebody else chose, at speeds that he demands.
+//!
+//! ```text
+//! a leg of length L at v takes     L/v between waypoints that are passed (with v),
+//!                                  2 L/v from or to rest,   35/16 L/v from rest to rest (its peak is v)
+//! p[t₀, t₁, t₂] = ½ p̈ somewhere:   2 ‖v₂ − v₁‖ / (T₁ + T₂) ≤ max ‖p̈‖, v₁ and v₂ mean velocities
+//! ```
+//!
+//! The second line is necessary for any flight that meets three waypoints at given times, whatever its shape: it is
+//! what says no. A leg that is refused says so of its own shape alone.
+
+use nalgebra::{Point3, Vector3};
+
+use super::limits::{Infeasible, Limit};
+use super::steering::{LegEnd, LegJudge};
+use crate::math::minimum_snap::minimum_snap;
+use crate::trajectory::{Profile, ProfileLeg};
+
+/// Rounds of slowing down after which no flight was found.
+const ROUNDS: usize = 100;
+/// A leg that may take longer gets this much more time.
+const SLOWER: f64 = 1.12;
+/// A rest-to-rest septic's peak speed by its mean one.
+const PEAK: f64 = 35.0 / 16.0;
+/// Halvings of a leg's least time.
+const HALVINGS: u32 = 24;
+
+/// A flight from rest to rest through `waypoints` (m) whose leg k is held at `speeds[k]` (m/s) where that is given; no
+/// leg takes longer than `longest` (s).
+///
+/// Velocities at waypoints point along the minimum-snap curve for the times. Legs without a demand get more time while
+/// they are refused, those with one never.
+///
+/// # Errors
+/// The legs that are refused in the end, with their evidence.
+pub fn hold(
+    judge: &LegJudge,
+    waypoints: &[Point3<f64>],
+    speeds: &[Option<f64>],
+    longest: f64,
+) -> Result<Profile, Vec<(usize, Infeasible)>> {
+    let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+    let mut times: Vec<f64> = lengths
+        .iter()
+        .enumerate()
+        .map(|(leg, length)| match speeds[leg] {
+            Some(speed) => paced(*length, speed, [leg == 0, leg + 1 == lengths.len()]),
+            None => first_guess(judge, *length).min(longest),
+        })
+        .collect();
+    if let Some(leg) = times.iter().position(|time| *time > longest) {
+        let margin = longest - times[leg];
+        return Err(vec![(leg, Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin })]);
+    }
+    let mut share = vec![1.0; waypoints.len()];
+    let mut failed = Vec::new();
+    for _ in 0..ROUNDS {
+        let ends = ends(judge, waypoints, speeds, &times, &share);
+        let judged: Vec<Result<ProfileLeg, Infeasible>> =
+            times.iter().enumerate().map(|(k, time)| judge.judge(&ends[k], &ends[k + 1], *time)).collect();
+        failed = judged.iter().enumerate().filter_map(|(leg, one)| Some((leg, *one.as_ref().err()?))).collect();
+        if failed.is_empty() {
+            return Ok(Profile { legs: judged.into_iter().flatten().collect() });
+        }
+        let mut moved = false;
+        for (leg, _) in failed.iter().filter(|(leg, _)| speeds[*leg].is_none()) {
+            if times[*leg] < longest {
+                times[*leg] = (times[*leg] * SLOWER).min(longest);
+                moved = true;
+            } else {
+                for end in [*leg, leg + 1] {
+                    moved |= share[end] > 0.0;
+                    share[end] = if share[end] > 0.1 { share[end] / SLOWER } else { 0.0 };
+                }
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+    Err(failed)
+}
+
+/// The time of a leg of `length` (m) that is held at `speed` (m/s), s; which of its ends are at rest.
+fn paced(length: f64, speed: f64, at_rest: [bool; 2]) -> f64 {
+    let factor = match at_rest {
+        [false, false] => 1.0,
+        [true, true] => PEAK,
+        _ => 2.0,
+    };
+    factor * length / speed
+}
+
+/// A time in which a leg of this length might be flown, s.
+fn first_guess(judge: &LegJudge, length: f64) -> f64 {
+    (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
+}
+
+/// The level states at the waypoints: along the minimum-snap curve, at the least speed that is demanded beside them.
+fn ends(
+    judge: &LegJudge,
+    waypoints: &[Point3<f64>],
+    speeds: &[Option<f64>],
+    times: &[f64],
+    share: &[f64],
+) -> Vec<LegEnd> {
+    let curve = minimum_snap(waypoints, times).unwrap_or_default();
+    let last = waypoints.len() - 1;
+    let velocity = |k: usize| {
+        if k == 0 || k == last {
+            return Vector3::zeros();
+        }
+        let along = curve.get(k).map_or_else(Vector3::zeros, |c| Vector3::new(c[0][1], c[1][1], c[2][1]));
+        let demanded = [speeds[k - 1], speeds[k]].into_iter().flatten().reduce(f64::min);
+        match demanded {
+            None => along * share[k] * (judge.top_speed() / along.norm()).min(1.0),
+            Some(speed) => {
+                let straight = || (waypoints[k + 1] - waypoints[k - 1]).try_normalize(1e-9);
+                along.try_normalize(1e-6).or_else(straight).unwrap_or_else(Vector3::x) * speed
+            }
+        }
+    };
+    waypoints.iter().enumerate().map(|(k, p)| judge.end(*p, velocity(k))).collect()
+}
+
+/// By how much more than any flight within the limits has the acceleration must be, m/s², that turns from leg to leg at
+/// waypoint 1 of the three of `points` while the mean speeds are `speeds` (m/s); `None`: not shown to be more.
+///
+/// Drag may help to turn: what it takes at the speed limit is added to what thrust does. Without a speed limit nothing
+/// is shown.
+pub fn turns_too_hard(judge: &LegJudge, points: [&Point3<f64>; 3], speeds: [f64; 2]) -> Option<f64> {
+    let cap = judge.limits().max_speed;
+    let [way_in, way_out] = [points[1] - points[0], points[2] - points[1]];
+    let times = [way_in.norm() / speeds[0], way_out.norm() / speeds[1]];
+    let needed = 2.0 * (way_out / times[1] - way_in / times[0]).norm() / (times[0] + times[1]);
+    let [drag, ..] = judge.flatness().level(&(Vector3::x() * cap));
+    let most = judge.most_acceleration() + drag.norm();
+    (cap.is_finite() && needed > most * (1.0 + 1e-9)).then_some(needed - most)
+}
+
+/// The least time, s, in which the straight leg from `a` to `b` (m) is found to be flown from rest to rest, and the
+/// limit that a shorter one meets; none in `longest` (s).
+///
+/// Bisected to 2⁻²⁴ of the bracket.
+pub fn fastest(judge: &LegJudge, a: &Point3<f64>, b: &Point3<f64>, longest: f64) -> Option<(f64, Infeasible)> {
+    let [from, to] = [a, b].map(|p| judge.end(*p, Vector3::zeros()));
+    let refused = |time: f64| judge.judge(&from, &to, time).err();
+    let mut high = first_guess(judge, (b - a).norm()).min(longest);
+    let mut low = 0.0;
+    let mut why = None;
+    while let Some(one) = refused(high) {
+        if high >= longest {
+            return None;
+        }
+        (low, why, high) = (high, Some(one), (high * 1.5).min(longest));
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match refused(middle) {
+            Some(one) => (low, why) = (middle, Some(one)),
+            None => high = middle,
+        }
+    }
+    Some((high, why?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feasibility::limits::Limits;
+    use crate::feasibility::steering::ProofSettings;
+    use crate::feasibility::steering::tests::flightgoggles;
+    use crate::world::World;
+
+    fn judge(max_speed: f64) -> LegJudge {
+        let world = World::new(Vector3::repeat(200.0), 1.0, Vec::new()).unwrap();
+        let limits = Limits { max_speed, max_tilt: 0.7 };
+        LegJudge::new(&flightgoggles(), &world, limits, ProofSettings::default()).unwrap()
+    }
+
+    fn line(xs: &[f64]) -> Vec<Point3<f64>> {
+        xs.iter().map(|x| Point3::new(*x, 50.0, 50.0)).collect()
+    }
+
+    #[test]
+    fn a_straight_line_is_held_at_its_speed() {
+        let judge = judge(8.0);
+        let points = line(&[10.0, 40.0, 80.0, 120.0]);
+        let flight = hold(&judge, &points, &[Some(5.0); 3], 600.0).unwrap();
+        let times: Vec<f64> = flight.legs.iter().map(|leg| leg.duration).collect();
+        assert_eq!(times, [12.0, 8.0, 16.0]);
+        // Waypoints are passed with 5 m/s, and the mean between them is as much: level ends and drag shape the rest.
+        for share in [0.0, 1.0] {
+            let speed = flight.legs[1].derivative(8.0 * share, 1).norm();
+            assert!((speed - 5.0).abs() < 1e-9, "{share}: {speed}");
+        }
+        assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()));
+        // Only what is demanded is held: the others take what they need.
+        let free = hold(&judge, &points, &[None, Some(5.0), None], 600.0).unwrap();
+        assert_eq!(free.legs[1].duration, 8.0);
+        let passed = free.legs[1].derivative(0.0, 1).norm();
+        assert!((passed - 5.0).abs() < 1e-9, "{passed}");
+    }
+
+    /// A point mass that meets three places at given times, by quadrature of the kernel: the least acceleration is a
+    /// constant one, 2 p[t₀, t₁, t₂].
+    #[test]
+    fn a_turn_is_refused_only_where_no_point_mass_could_make_it() {
+        let judge = judge(8.0);
+        let corner = [Point3::new(50.0, 50.0, 50.0), Point3::new(58.0, 50.0, 50.0), Point3::new(58.0, 58.0, 50.0)];
+        let asked = |speed: f64| turns_too_hard(&judge, [&corner[0], &corner[1], &corner[2]], [speed; 2]);
+        let drag = judge.flatness().level(&Vector3::new(8.0, 0.0, 0.0))[0].norm();
+        let most = judge.most_acceleration() + drag;
+        // ‖v₂ − v₁‖ = √2 v over half of 2 · 8/v: √2 v²/8.
+        let needed = |speed: f64| 2f64.sqrt() * speed * speed / 8.0;
+        let least = (most * 8.0 / 2f64.sqrt()).sqrt();
+        assert_eq!(asked(least * 0.999), None);
+        let excess = asked(least * 1.01).unwrap();
+        assert!((excess - (needed(least * 1.01) - most)).abs() < 1e-9);
+        // The constant acceleration meets the three places, and no less does: its second divided difference is exact.
+        let (v, t) = (6.0, 8.0 / 6.0);
+        let a = (Vector3::new(0.0, v, 0.0) - Vector3::new(v, 0.0, 0.0)) / t;
+        let v0 = Vector3::new(v, 0.0, 0.0) - a * t / 2.0;
+        let at = |time: f64| corner[0] + v0 * time + a * (0.5 * time * time);
+        assert!((at(t) - corner[1]).norm() < 1e-9 && (at(2.0 * t) - corner[2]).norm() < 1e-9);
+        assert!((a.norm() - needed(v)).abs() < 1e-9);
+        let unlimited = self::judge(f64::INFINITY);
+        assert_eq!(turns_too_hard(&unlimited, [&corner[0], &corner[1], &corner[2]], [100.0; 2]), None);
+    }
+
+    #[test]
+    fn what_is_refused_says_on_which_leg() {
+        let judge = judge(8.0);
+        let corner = [Point3::new(50.0, 50.0, 50.0), Point3::new(56.0, 50.0, 50.0), Point3::new(56.0, 56.0, 50.0)];
+        let refused = hold(&judge, &corner, &[Some(7.9); 2], 600.0).unwrap_err();
+        assert!(!refused.is_empty() && refused.iter().all(|(leg, _)| *leg < 2), "{refused:?}");
+        assert!(hold(&judge, &corner, &[None; 2], 600.0).is_ok());
+    }
+
+    #[test]
+    fn the_fastest_is_the_border_between_what_is_flown_and_what_is_not() {
+        let judge = judge(3.0);
+        let points = line(&[10.0, 30.0]);
+        let (time, why) = fastest(&judge, &points[0], &points[1], 600.0).unwrap();
+        // 20 m with a peak of 3 m/s: the speed limit decides, drag aside.
+        assert!((time - PEAK * 20.0 / 3.0).abs() < 1e-3, "{time}");
+        assert_eq!(why.limit(), Limit::Speed);
+        assert!(fastest(&judge, &points[0], &points[1], 5.0).is_none());
+    }
+}
