@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn missions_in_degrees_are_the_cases_that_they_were_written_from() {
         let (place, folder) = generated();
-        let export = Export::open(&folder).unwrap();
+        let export = Export::open(&folder, &crate::export::Which::All).unwrap();
         let written = export.write(Format::Geodetic).unwrap().files;
         let missions = place.path().join("degrees");
         std::fs::create_dir(&missions).unwrap();
