@@ -24,6 +24,7 @@ mod explain;
 mod flaky;
 mod grammar;
 mod guests;
+mod hardware;
 mod import;
 mod interruptions;
 mod keep;

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Axis, Drawing, Programs};
+use super::{Axis, Drawing, Programs, Room};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::trajectory::Flight;
@@ -133,6 +133,11 @@ pub(in crate::campaign) trait Say {
     /// Distance (m) of the robot, a ball or a disc about its origin, from what it must not meet; `None` where there is
     /// nothing.
     fn clearance(&self) -> Option<Box<Clearance<'_>>>;
+
+    /// Where its vehicle may be; `None` of what is none.
+    fn room(&self) -> Option<Room> {
+        None
+    }
 
     /// What it has where its motion is a program.
     fn programs(&self) -> Option<&dyn Programs> {
