@@ -44,7 +44,7 @@ pub(crate) use keys::Keys;
 pub(crate) use learn::Learn;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use pipeline::{
-    Campaign, Execute, Export, Format, Generate, Keep, Kept, Replay, ReportArguments, Stress, Verify,
+    Autopilot, Campaign, Execute, Export, Format, Generate, Keep, Kept, Replay, ReportArguments, Stress, Verify,
 };
 pub(crate) use requirements::Requirements;
 pub(crate) use resources::{Kernels, Threads};

@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 use hairpin::campaign::scenario::Origin;
 use hairpin::math::power::power;
 use hairpin::math::rotation::from_rotation_vector;
-use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
 /// WGS 84: semi-major axis, m, and flattening (NGA.STND.0036, 2014).
@@ -64,7 +64,7 @@ fn swapped(pose: &Isometry3<f64>) -> Isometry3<f64> {
     let root = std::f64::consts::FRAC_1_SQRT_2;
     let world = UnitQuaternion::new_unchecked(Quaternion::new(0.0, root, root, 0.0));
     let body = UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0));
-    Isometry3::from_parts(Translation3::new(p.y, p.x, -p.z), world * pose.rotation * body)
+    Isometry3::from_parts(ned_of_enu(&p).into(), world * pose.rotation * body)
 }
 
 /// Yaw of NED (from north, clockwise) of a yaw of ENU (from east, counter-clockwise), and the reverse: 90° − yaw, rad,
@@ -72,6 +72,16 @@ fn swapped(pose: &Isometry3<f64>) -> Isometry3<f64> {
 pub fn other_yaw(yaw: f64) -> f64 {
     let (sin, cos) = libm::sincos(FRAC_PI_2 - yaw);
     libm::atan2(sin, cos)
+}
+
+/// (x, y, z) → (y, x, −z): a vector of east, north, up as north, east, down.
+pub(crate) fn ned_of_enu(v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.y, v.x, -v.z)
+}
+
+/// A turn about up, counter-clockwise, rad.
+pub(crate) fn turned(yaw: f64) -> UnitQuaternion<f64> {
+    from_rotation_vector(&(Vector3::z() * yaw))
 }
 
 /// The cage on Earth.
@@ -98,7 +108,7 @@ impl Cage {
         let place = Geodetic { lat_deg: origin.lat_deg, lon_deg: origin.lon_deg, alt_amsl_m: origin.alt_amsl_m };
         Self {
             origin: *origin,
-            enu_from_cage: from_rotation_vector(&(Vector3::z() * yaw)),
+            enu_from_cage: turned(yaw),
             center: ecef(&place),
             ecef_from_enu: Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[east, north, up])),
         }
@@ -171,6 +181,8 @@ fn unit(sine: f64, cosine: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Translation3;
+
     use super::*;
 
     fn origin(heading: f64) -> Origin {

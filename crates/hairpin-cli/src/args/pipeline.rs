@@ -170,14 +170,23 @@ pub(crate) struct Export {
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
     /// Formats, separated by commas; the files go into OUT/export
-    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    #[arg(long, value_enum, value_delimiter = ',', required_unless_present = "flights")]
     pub(crate) to: Vec<Format>,
+    /// The day card (day-card.html) of the N cases worth flying today
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) flights: Option<u32>,
     /// This case alone; repeatable
     #[arg(long, value_name = "ID", conflicts_with = "worst")]
     pub(crate) case: Vec<usize>,
     /// The N worst cases alone
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) worst: Option<u32>,
+    /// Whose missions plan and wpl are
+    #[arg(long, value_enum, default_value_t = Autopilot::Px4)]
+    pub(crate) autopilot: Autopilot,
+    /// Write for hardware what leaves the keep-in margin all the same; the files record it
+    #[arg(long)]
+    pub(crate) accept_excursion: bool,
     /// One JSON object on stdout: the files
     #[arg(long)]
     pub(crate) json: bool,
@@ -208,6 +217,23 @@ pub(crate) enum Format {
     Mcap,
     /// CASE.ros2.mcap: planned motion, runs and an arm's joints for ROS 2
     McapRos2,
+    /// CASE.plan of QGroundControl, and CASE.params; by world.origin or the map's EPSG code
+    Plan,
+    /// CASE.waypoints (QGC WPL 110), and CASE.params; likewise
+    Wpl,
+    /// CASE.setpoints.csv: t, then place, velocity and acceleration north, east, down of home, and yaw; likewise
+    Setpoints,
+    /// CASE.poly4d.csv and CASE.poly4d.bin, polynomials of the Crazyflie's high-level commander
+    Poly4d,
+}
+
+/// Whose missions are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Autopilot {
+    /// PX4
+    Px4,
+    /// ArduPilot: Copter, or Rover
+    Ardupilot,
 }
 
 #[derive(Debug, Args)]

@@ -26,6 +26,7 @@ mod fit;
 mod flaky;
 mod grammar;
 mod guests;
+mod hardware;
 mod import;
 mod interruptions;
 mod judge_logs;

@@ -1,11 +1,21 @@
-//! Missions as ground stations keep them: QGroundControl's `.plan` and the text that it shares with Mission Planner and
-//! pymavlink, QGC WPL 110.
+//! What ground stations and the autopilots behind them keep: missions as QGroundControl's `.plan` and as QGC WPL 110,
+//! the text that it shares with Mission Planner and pymavlink, and parameter files.
+//!
+//! Neither PX4 nor ArduPilot has missions in local frames: everything here stands on Earth, and heights are above the
+//! home that the mission states.
 
 mod follow;
 mod item;
+pub mod mission;
+pub mod parameters;
+pub mod plan;
 pub mod read_plan;
 pub mod read_wpl;
 mod words;
+pub mod wpl;
 
 pub use follow::{Ending, Open, Station, Uploaded};
 pub use item::Wrong;
+
+#[cfg(test)]
+mod tests;

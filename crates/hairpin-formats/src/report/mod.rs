@@ -3,6 +3,7 @@
 
 mod cases;
 mod data;
+mod day_card;
 mod escape;
 mod more;
 mod page;
@@ -25,6 +26,7 @@ use crate::atomic::{self, WriteError};
 use crate::folder::{CampaignFolder, FolderError};
 use crate::header::Header;
 
+pub use day_card::{DayCard, FlightCard, day_card_html};
 pub use page::html;
 
 /// Cases shown in full at most: the file stays below 8 MB.

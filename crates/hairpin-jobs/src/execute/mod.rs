@@ -182,7 +182,7 @@ fn unchanged(folder: &Path, sets: &[Set]) -> Result<(), Problem> {
 mod tests {
     use super::*;
     use crate::Unwatched;
-    use crate::export::{Export, Format};
+    use crate::export::{Export, ExportSettings, Format};
     use crate::testing::generated;
     use crate::work::open_to_read;
 
@@ -201,7 +201,8 @@ mod tests {
     #[test]
     fn missions_in_degrees_are_the_cases_that_they_were_written_from() {
         let (place, folder) = generated();
-        let export = Export::open(&folder, &crate::export::Which::All).unwrap();
+        let settings = ExportSettings { folder: folder.clone(), ..ExportSettings::default() };
+        let export = Export::open(&settings).unwrap();
         let written = export.write(Format::Geodetic).unwrap().files;
         let missions = place.path().join("degrees");
         std::fs::create_dir(&missions).unwrap();

@@ -1,20 +1,31 @@
 //! A campaign's trajectories as files that other programs open, in `export/` of its folder.
 
 mod chosen;
+mod flights;
+mod hardware;
+mod limits;
 mod mcap;
+mod missions;
 mod motions;
 mod placed;
+mod preflight;
 mod programs;
+mod timed;
+mod way;
 mod written;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hairpin::campaign::Case;
+use hairpin_formats::qgc::mission::Autopilot;
 
 use crate::Problem;
 use crate::work::{Work, open_to_read};
 
+use hardware::Hardware;
+
 pub use chosen::Which;
+pub use missions::MissionFile;
 pub use programs::Language;
 pub use written::Written;
 
@@ -37,33 +48,67 @@ pub enum Format {
     Mcap,
     /// CASE.ros2.mcap: planned motion, runs and an arm's joints for ROS 2.
     McapRos2,
+    /// For autopilots, waypoints on Earth: CASE.plan or CASE.waypoints, and CASE.params.
+    Mission(MissionFile),
+    /// For companion computers, in time about home: CASE.setpoints.csv and CASE.setpoints.json.
+    Setpoints,
+    /// For Crazyflies: CASE.poly4d.csv, CASE.poly4d.bin and CASE.poly4d.json.
+    Poly4d,
+}
+
+/// What is exported, and how.
+#[derive(Debug, Clone, Default)]
+pub struct ExportSettings {
+    /// Campaign folder.
+    pub folder: PathBuf,
+    /// Its cases that are.
+    pub which: Which,
+    /// Whose missions are written.
+    pub autopilot: Autopilot,
+    /// Whether cases that leave the keep-in margin are written for hardware all the same.
+    pub accept_excursion: bool,
 }
 
 /// A campaign that is exported.
 pub struct Export {
     work: Work,
     cases: Vec<Case>,
+    autopilot: Autopilot,
+    accept_excursion: bool,
 }
 
 impl Export {
-    /// The cases `which` of the campaign in `folder`.
+    /// The cases that `settings` name of the campaign in their folder.
     ///
     /// # Errors
     /// The folder is no campaign's, or broken; a case that it has not.
-    pub fn open(folder: &Path, which: &Which) -> Result<Self, Problem> {
+    pub fn open(settings: &ExportSettings) -> Result<Self, Problem> {
+        let ExportSettings { folder, which, autopilot, accept_excursion } = settings;
         let work = open_to_read(folder)?;
         let cases = which.of(&work, work.folder.read_cases_without_profiles()?)?;
-        Ok(Self { cases, work })
+        Ok(Self { cases, work, autopilot: *autopilot, accept_excursion: *accept_excursion })
+    }
+
+    /// Writes the day card of `count` of its cases.
+    ///
+    /// # Errors
+    /// Fewer cases that were measured and stay inside; a file cannot be read or written.
+    pub fn write_day_card(&self, count: usize) -> Result<Written, Problem> {
+        let cases: Vec<&Case> = self.cases.iter().collect();
+        let place = self.work.folder.export_folder()?;
+        flights::write((&self.work, &place), &cases, (count, self.accept_excursion, self.autopilot))
     }
 
     /// Writes all files of a format into the campaign's folder.
     ///
     /// # Errors
-    /// There is nothing to write; a file cannot be read or written.
+    /// There is nothing to write; a case that leaves the keep-in margin, where the format is for hardware; a file
+    /// cannot be read or written.
     pub fn write(&self, format: Format) -> Result<Written, Problem> {
         let work = &self.work;
         let cases: Vec<&Case> = self.cases.iter().collect();
-        let place: PathBuf = work.folder.export_folder()?;
+        let cleared = |word: &str| Hardware::clear(work, &cases, self.accept_excursion, word);
+        let place = work.folder.export_folder()?;
         match format {
             Format::Waypoints => motions::write_waypoints(&place, &cases),
             Format::Geodetic => motions::write_geodetic(work, &place, &cases),
@@ -73,6 +118,11 @@ impl Export {
             Format::McapRos2 => mcap::write(work, &place, &cases, mcap::For::Ros2),
             Format::Program(language) => programs::write(work, &place, &cases, language),
             Format::ArcClock => programs::write_clock(work, &place),
+            Format::Mission(file) => {
+                missions::write((work, &place), &cases, &cleared(file.word())?, (file, self.autopilot))
+            }
+            Format::Setpoints => timed::write_setpoints((work, &place), &cases, &cleared("setpoints")?),
+            Format::Poly4d => timed::write_poly4d((work, &place), &cases, &cleared("poly4d")?),
         }
     }
 }
@@ -85,7 +135,7 @@ mod tests {
     #[test]
     fn files_lie_in_the_campaign() {
         let (_place, folder) = executed();
-        let export = Export::open(&folder, &Which::All).unwrap();
+        let export = Export::open(&ExportSettings { folder: folder.clone(), ..ExportSettings::default() }).unwrap();
         for (format, count) in [
             (Format::Waypoints, 2),
             (Format::Geodetic, 2),
@@ -106,7 +156,11 @@ mod tests {
     #[test]
     fn what_was_not_flown_has_no_pair() {
         let (_place, folder) = generated();
-        let refused = Export::open(&folder, &Which::All).unwrap().write(Format::Tum).unwrap_err().to_string();
+        let refused = Export::open(&ExportSettings { folder: folder.clone(), ..ExportSettings::default() })
+            .unwrap()
+            .write(Format::Tum)
+            .unwrap_err()
+            .to_string();
         assert!(refused.contains("it has not been flown"), "{refused}");
     }
 }

@@ -50,10 +50,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
             Err(why) => written.missing.push(format!("case {}: {why}", case.id())),
         }
     }
-    match written.missing.first() {
-        Some(why) if written.files.is_empty() => Err(Problem::input(why)),
-        _ => Ok(written),
-    }
+    written.or_refused()
 }
 
 /// Writes `arc_clock.mod`, whose procedure clocks every move of the graph from standstill to standstill.

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::attachments::{Attachments, Resolved};
 use super::case::Case;
 use super::check::check_vary;
-use super::kind::{Build, Given, Handed, Kind, Programs, RobotWords};
+use super::kind::{Build, Drawing, Given, Handed, Kind, Programs, RobotWords, Room};
 use super::own_controller::AnyController;
 use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
 use super::user_code::UserCode;
@@ -246,6 +246,22 @@ impl Setup {
     /// How fast its robot can be and become.
     pub fn swiftness(&self) -> Swiftness {
         self.kind.swiftness()
+    }
+
+    /// Where its vehicle may be; `None` of what is none, as arms are.
+    pub fn room(&self) -> Option<Room> {
+        self.kind.room()
+    }
+
+    /// Distance of its robot, about a place (m, world frame), from what it must not meet, m; infinite where there is
+    /// nothing.
+    pub fn clearance_at(&self, place: &Point3<f64>) -> f64 {
+        self.kind.clearance().map_or(f64::INFINITY, |clearance| clearance(place))
+    }
+
+    /// What stands around `places`.
+    pub fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
+        self.kind.drawing(places)
     }
 
     /// Whether its motion is programs, which are measured move by move.

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::{BoatSetup, assumptions, drawing};
 use crate::campaign::bounds::LARGEST_WATERS_M;
-use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say};
+use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::boat::Boat;
@@ -72,6 +72,19 @@ impl Say for BoatSetup {
             ],
             meet: Box::new(|_, flight, meet| samples_met(&flight.track, meet)),
         }
+    }
+
+    fn room(&self) -> Option<Room> {
+        let world = &self.scenario.world;
+        let [x, y] = world.size_m;
+        Some(Room {
+            flies: false,
+            low: Point3::new(0.0, 0.0, f64::NEG_INFINITY),
+            high: Point3::new(x, y, f64::INFINITY),
+            margin: world.keep_in_margin_m,
+            curvature: f64::INFINITY,
+            speed: None,
+        })
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

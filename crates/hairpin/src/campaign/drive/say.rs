@@ -6,7 +6,7 @@ use serde_json::json;
 use super::{DriveSetup, assumptions, drawing};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Say, reached_within, word,
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say, reached_within, word,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
@@ -98,6 +98,18 @@ impl Say for DriveSetup {
             ],
             meet: Box::new(|_, flight, meet| samples_met(&flight.track, meet)),
         }
+    }
+
+    fn room(&self) -> Option<Room> {
+        let (low, high) = self.map.extent();
+        Some(Room {
+            flies: false,
+            low: Point3::new(low[0], low[1], f64::NEG_INFINITY),
+            high: Point3::new(high[0], high[1], f64::INFINITY),
+            margin: 0.0,
+            curvature: if self.rover.limits.turns_in_place { f64::INFINITY } else { self.bounds().most },
+            speed: None,
+        })
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

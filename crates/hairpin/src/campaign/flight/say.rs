@@ -8,7 +8,8 @@ use serde_json::json;
 use super::{FlightSetup, assumptions};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Rotor, Say, reached_within, surface,
+    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Rotor, Say, reached_within,
+    surface,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
@@ -90,6 +91,22 @@ impl Say for FlightSetup {
             ],
             meet: Box::new(legs_met),
         }
+    }
+
+    fn room(&self) -> Option<Room> {
+        let execute = &self.scenario.execute;
+        let speed = match execute.controller_in_force().filter(|_| self.controller.is_none()) {
+            Some(ControllerKind::FixedVelocity) => Some(execute.fixed_velocity_m_s),
+            kind => kind.and_then(ControllerKind::cruise),
+        };
+        Some(Room {
+            flies: true,
+            low: Point3::origin(),
+            high: Point3::from(self.world.size()),
+            margin: self.world.keep_in_margin(),
+            curvature: f64::INFINITY,
+            speed,
+        })
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

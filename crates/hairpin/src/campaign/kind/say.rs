@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Axis, Drawing, Programs};
+use super::{Axis, Drawing, Programs, Room};
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
 use crate::trajectory::Flight;
@@ -137,6 +137,11 @@ pub(in crate::campaign) trait Say {
     /// How fast it can be and become, for what may hide between the samples of a log; nothing where nothing bounds it.
     fn swiftness(&self) -> Swiftness {
         Swiftness::default()
+    }
+
+    /// Where its vehicle may be; `None` of what is none.
+    fn room(&self) -> Option<Room> {
+        None
     }
 
     /// What it has where its motion is a program.

@@ -73,6 +73,11 @@ impl ControllerKind {
         }
     }
 
+    /// Horizontal speed of every mission, where that is its own and not the plan's, m/s.
+    pub fn cruise(self) -> Option<f64> {
+        (self == Self::Px4Mission).then_some(px4_mission::CRUISE)
+    }
+
     /// Whether it looks beyond the next waypoint; the others know of one at a time.
     ///
     /// Those cannot be flown leg by leg ([`Airborne`](crate::simulation::Airborne)).

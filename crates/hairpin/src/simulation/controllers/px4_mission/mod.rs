@@ -33,6 +33,9 @@ use crate::simulation::controller::{Acceptance, Controller, Fault, Reference};
 /// Height above and below within which a waypoint counts as reached, m.
 pub(super) const ACCEPTANCE_HEIGHT: f64 = parameters::NAV_MC_ALT_RAD;
 
+/// Horizontal speed of missions, m/s.
+pub(super) const CRUISE: f64 = parameters::MPC_XY_CRUISE;
+
 /// See the file's first line.
 #[derive(Debug, Clone)]
 pub(crate) struct Px4Mission {

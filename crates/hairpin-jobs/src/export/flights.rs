@@ -1,0 +1,200 @@
+//! The day card: the few cases that are worth flying today, in their order, with what to expect and when to end them.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use hairpin::campaign::digits::number;
+use hairpin::campaign::report::{leg, shown, violation};
+use hairpin::campaign::select::{By, Candidate, Choice};
+use hairpin::campaign::{Case, CaseResult, Environment};
+use hairpin::judgement::{Limits, Measures};
+use hairpin_formats::atomic;
+use hairpin_formats::placement::Placement;
+use hairpin_formats::qgc::mission::Autopilot;
+use hairpin_formats::report::{DayCard, FlightCard, day_card_html};
+
+use super::hardware::{Hardware, PURPOSE, room};
+use super::missions::write_slow;
+use super::preflight::{Cleared, look_at};
+use super::written::Written;
+use crate::Problem;
+use crate::execute::run_with_motion;
+use crate::work::Work;
+
+/// Share of the plan's speeds in the first run of the day.
+const SLOW: f64 = 0.3;
+/// A flight that deviates so many times as far as its runs predict is not what was predicted.
+const BEYOND: f64 = 1.5;
+
+/// `day-card.html` of `count` of `cases`, and `CASE_slow.plan` of the first of them where the world stands on Earth.
+pub(super) fn write(
+    (work, place): (&Work, &Path),
+    cases: &[&Case],
+    (count, accept, autopilot): (usize, bool, Autopilot),
+) -> Result<Written, Problem> {
+    let room = room(work, "day card")?;
+    let results = work.folder.read_results()?;
+    let mut written = Written::default();
+    let mut there: Vec<(&Case, &CaseResult, &Measures, Cleared)> = Vec::new();
+    for case in cases {
+        let result = results.iter().find(|result| result.case == case.number);
+        let Some((result, measures)) = result.and_then(|result| Some((result, result.measures.as_ref()?))) else {
+            written.missing.push(format!("case {} is left out: nothing was measured of it", case.id()));
+            continue;
+        };
+        let cleared = look_at(work, &room, case)?;
+        match cleared.beyond.first().filter(|_| !accept) {
+            Some(beyond) => {
+                written.missing.push(format!("left out by preflight (--accept-excursion takes it in): {beyond}"))
+            }
+            None => there.push((case, result, measures, cleared)),
+        }
+    }
+    if count > there.len() {
+        let why = written.missing.first().map_or(String::new(), |why| format!("; {why}"));
+        return Err(Problem::input(format!(
+            "--flights {count}: must be at most {}, so many of {} cases were executed and judged and stay inside{why}",
+            there.len(),
+            cases.len()
+        )));
+    }
+    let candidates: Vec<Candidate> =
+        there.iter().map(|(case, result, ..)| Candidate::new(case, Some(*result), BTreeSet::new())).collect();
+    let mut chosen = Choice::new(&candidates).best(count, By::Diverse);
+    // The gentlest first: what goes wrong there goes no further.
+    chosen.sort_by(|a, b| there[*a].2.max_deviation.total_cmp(&there[*b].2.max_deviation).then(a.cmp(b)));
+    let mut flights = Vec::new();
+    for (order, index) in chosen.iter().enumerate() {
+        let (case, result, measures, cleared) = &there[*index];
+        let run = run_with_motion(work, case, result.run)?;
+        let planned = work.folder.read_planned(case.number)?;
+        let refuse = |cause| Problem::input(format!("case {}: {cause}", case.id()));
+        let shown = shown(&work.setup, case, result, planned, run.as_ref()).map_err(refuse)?;
+        let rows = rows(work, case, (result, measures, cleared), order)?;
+        flights.push(FlightCard { drawing: work.setup.drawing(&case.waypoints), shown, rows });
+    }
+    let limits = work.setup.scenario.head().terms.limits;
+    let card = DayCard {
+        title: work.setup.robot_name().to_owned(),
+        told: told(work, count, there.len()),
+        abort: abort(&limits, room.margin),
+        flights,
+    };
+    let path = place.join("day-card.html");
+    atomic::write(&path, day_card_html(&card).as_bytes())?;
+    written.files.push(path);
+    let Some((case, .., cleared)) = chosen.first().map(|first| &there[*first]) else { return Ok(written) };
+    match Placement::of(&work.setup.scenario) {
+        Ok(Some(_)) => {
+            let hardware = Hardware { room, cleared: Vec::new(), results: results.clone() };
+            let slow = (SLOW, autopilot);
+            written.files.extend(write_slow((work, place), case, (&hardware, cleared), slow)?);
+            written.told.push(format!(
+                "first case {} at {:.0} % of its speeds: {}_slow.plan",
+                case.id(),
+                100.0 * SLOW,
+                case.id()
+            ));
+        }
+        _ => written
+            .told
+            .push("no slow .plan: the scenario has no `world.origin`; fly the first case slowly by hand first".into()),
+    }
+    let order: Vec<String> = chosen.iter().map(|index| there[*index].0.id()).collect();
+    written.told.push(format!("in the order of the day: {}", order.join(", ")));
+    Ok(written)
+}
+
+/// What is to be expected of a case.
+fn rows(
+    work: &Work,
+    case: &Case,
+    (result, measures, cleared): (&CaseResult, &Measures, &Cleared),
+    order: usize,
+) -> Result<Vec<[String; 2]>, Problem> {
+    let line = |label: &str, value: String| [label.to_owned(), value];
+    let facts = work.folder.facts_of(case.number)?;
+    let deviations: Vec<f64> =
+        facts.iter().filter_map(|run| Some(run.full_rate.as_ref()?.measures.max_deviation)).collect();
+    let over = match (deviations.iter().copied().reduce(f64::min), deviations.iter().copied().reduce(f64::max)) {
+        (Some(least), Some(most)) => format!("{least:.2} to {most:.2} m over {} runs", deviations.len()),
+        _ => format!("{:.2} m in its worst run", measures.max_deviation),
+    };
+    let planned: f64 = case.leg_times.iter().sum();
+    let mut rows = vec![
+        line(
+            "worst moment",
+            format!("t = {:.1} s, leg {}: deviation {over}", measures.t_worst, leg(measures.leg_worst)),
+        ),
+        line(
+            "predicted",
+            match result.violations.is_empty() {
+                true => "within the limits".into(),
+                false => result.violations.iter().map(violation).collect::<Vec<_>>().join("; "),
+            },
+        ),
+        line(
+            "duration",
+            format!("{} s planned, {} s in its worst run", number(Some(planned)), number(Some(measures.total_time))),
+        ),
+        line(
+            "watch",
+            format!("acceleration up to {} m/s²; {}", number(Some(measures.max_acceleration)), saturation(measures)),
+        ),
+        line("evidence", format!("{} for hairpin's plan; seed {}", case.claim(), case.seed)),
+        line(
+            "home",
+            format!(
+                "below waypoint 0: ({:.2}, {:.2}, {:.2}) m of the world",
+                cleared.way.home.x, cleared.way.home.y, cleared.way.home.z
+            ),
+        ),
+    ];
+    if order == 0 {
+        rows.insert(
+            0,
+            line(
+                "first run",
+                format!("slow: {:.0} % of the plan's speeds ({}_slow.plan), then as planned", 100.0 * SLOW, case.id()),
+            ),
+        );
+    }
+    rows.extend(case.environment.as_ref().map(|around| line("meets", Environment::words(around).join("; "))));
+    rows.extend((!cleared.beyond.is_empty()).then(|| line("accepted", cleared.beyond.join("; "))));
+    rows.extend((!cleared.told.is_empty()).then(|| line("preflight", cleared.told.join("; "))));
+    Ok(rows)
+}
+
+fn saturation(measures: &Measures) -> String {
+    measures.saturation_share.map_or("saturation was not told".into(), |share| {
+        format!("a rotor at its limit {:.0} % of the time", 100.0 * share)
+    })
+}
+
+/// What is true of all flights.
+fn told(work: &Work, count: usize, of: usize) -> Vec<String> {
+    let caveat = work.setup.caveat();
+    let mut told = vec![
+        format!(
+            "{count} of {of} cases that stay inside, chosen for stress and for distance from each other; {}",
+            By::Diverse.guarantee()
+        ),
+        "flown from the gentlest to the most stressful; the next one only after the last one went as predicted".into(),
+        "the robot's file says nothing of its battery: compare the durations with what it lasts".into(),
+        format!("{PURPOSE}; predicted for {}", work.setup.robot_name()),
+    ];
+    told.extend((!caveat.is_empty()).then(|| caveat.to_owned()));
+    told
+}
+
+/// When a flight is ended.
+fn abort(limits: &Limits, margin: f64) -> Vec<String> {
+    let mut abort = vec![
+        format!("it comes nearer than {margin} m to a wall, or leaves the fence"),
+        format!("it deviates {BEYOND} times as far as its runs predict, or not where they do"),
+        "position is estimated without its source, the link is lost, or the battery is at its reserve".into(),
+    ];
+    abort.extend(limits.deviation.map(|most| format!("deviation beyond {most} m was not predicted for this case")));
+    abort.extend(limits.clearance.map(|least| format!("it comes nearer than {least} m to an obstacle")));
+    abort
+}
