@@ -233,25 +233,3 @@ proptest! {
         drop(parse(&bytes[..cut], "a.ulg"));
     }
 }
-
-#[test]
-fn zz_temporary_speed() {
-    let mut log = Ulog::new();
-    log.message(b'F', POSITION.as_bytes());
-    log.message(b'F', ATTITUDE.as_bytes());
-    log.subscribe(0, 0, "vehicle_local_position");
-    log.subscribe(0, 1, "vehicle_attitude");
-    for step in 0..150_000_u64 {
-        let t = 10_000_000 + 4_000 * step;
-        log.data(0, &[&at(t, [step as f32 * 0.01, 1.0, 2.0]).bytes()]);
-        log.data(1, &[&super::write_ulog::attitude(t + 1_000, [1.0, 0.0, 0.0, 0.0])]);
-    }
-    let from = std::time::Instant::now();
-    let read = parsed(&log.0);
-    eprintln!(
-        "SPEED {} samples of {} MB in {:?}",
-        read.motions[0].samples.len(),
-        log.0.len() / 1_000_000,
-        from.elapsed()
-    );
-}
