@@ -1,5 +1,5 @@
-//! The records of an MCAP file, with their places: the outermost ones are cut here, so that a spoiled one is told by its byte
-//! and takes no room; what is in chunks is unpacked by the crate `mcap`, within bounds.
+//! The records of an MCAP file, with their places: the outermost ones are cut here, so that a spoiled one is told by
+//! its byte and takes no room; what is in chunks is unpacked by the crate `mcap`, within bounds.
 
 use mcap::records::{Record as Parsed, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -75,8 +75,8 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// Hands over schemas and channels that stand outside of chunks: the summary at the end repeats those of a chunk that
-    /// is spoiled.
+    /// Hands over schemas and channels that stand outside of chunks: the summary at the end repeats those of a chunk
+    /// that is spoiled.
     fn declare(&self, take: &mut Take) -> Result<(), Fault> {
         let mut at = MAGIC.len();
         while let Some((operation, body)) = self.record(at) {

@@ -176,7 +176,8 @@ fn a_message_that_is_spoiled_is_told_and_the_next_in_step_is_read() {
     let whole = flight();
     let sync =
         whole.windows(8).rposition(|bytes| bytes == [0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12]).unwrap() - 3;
-    // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the string (14).
+    // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the
+    // string (14).
     let spoiled = sync - 17 - 5;
     assert_eq!(whole[spoiled + 2], b'O');
     let mut bytes = whole.clone();
