@@ -149,50 +149,28 @@ def test_ros_reads_paths_and_poses(flight):
     assert len(seen["/run_0/pose", "geometry_msgs/msg/PoseStamped"]) == len(rows(flight / "0000-0.csv"))
 
 
-def bag(path, folder):
-    """A bag as rosbag2 lays it: the file and what `ros2 bag reindex` writes beside it."""
-    _, found = summary(path)
-    folder.mkdir()
-    (folder / path.name).write_bytes(path.read_bytes())
-    topics = "".join(
-        "    - topic_metadata:\n"
-        f"        name: {channel.topic}\n        type: {found.schemas[channel.schema_id].name}\n"
-        "        serialization_format: cdr\n        offered_qos_profiles: ''\n"
-        f"      message_count: {found.statistics.channel_message_counts[number]}\n"
-        for number, channel in found.channels.items()
-    )
-    (folder / "metadata.yaml").write_text(
-        "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n  duration:\n    nanoseconds: 1\n"
-        "  starting_time:\n    nanoseconds_since_epoch: 0\n"
-        f"  message_count: {found.statistics.message_count}\n  topics_with_message_count:\n{topics}"
-        "  compression_format: ''\n  compression_mode: ''\n"
-        f"  relative_file_paths:\n    - {path.name}\n"
-    )
-    return folder
-
-
-def messages(path, folder, topic):
+def messages(path, topic):
     from rosbags.rosbag2 import Reader
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS2_HUMBLE)
-    with Reader(bag(path, folder)) as reader:
+    with Reader(path) as reader:
         chosen = [connection for connection in reader.connections if connection.topic == topic]
         assert chosen, topic
         return [store.deserialize_cdr(raw, connection.msgtype) for connection, _, raw in reader.messages(chosen)]
 
 
-def test_rosbags_reads_the_same(flight, tmp_path):
-    [path] = messages(flight / "0000.ros2.mcap", tmp_path / "bag", "/planned")
+def test_rosbags_reads_the_same(flight):
+    [path] = messages(flight / "0000.ros2.mcap", "/planned")
     expected = rows(flight / "0000.planned.csv")
     assert len(path.poses) == len(expected)
     near(path.poses[-1].pose, expected[-1], path.poses[-1].pose.orientation)
 
 
-def test_joints_rise_from_their_start(arm, tmp_path):
+def test_joints_rise_from_their_start(arm):
     import json
 
-    [trajectory] = messages(arm / "0000.ros2.mcap", tmp_path / "bag", "/planned/joints")
+    [trajectory] = messages(arm / "0000.ros2.mcap", "/planned/joints")
     text = json.loads((arm / "0000.joint_trajectory.json").read_text())
     assert trajectory.joint_names == text["joint_names"]
     assert len(trajectory.points) == len(text["points"]) > 2

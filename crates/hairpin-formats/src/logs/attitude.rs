@@ -26,7 +26,8 @@ impl Attitudes {
         self.times.is_empty()
     }
 
-    /// Those at rising stamps: between two near ones on the shortest way from one to the other, else the one that is near.
+    /// Those at rising stamps: between two near ones on the shortest way from one to the other, else the one that is
+    /// near.
     pub(super) fn at(&self, stamps: impl IntoIterator<Item = f64>) -> Vec<Option<UnitQuaternion<f64>>> {
         let mut after = 0;
         let one = |t_s: f64| {

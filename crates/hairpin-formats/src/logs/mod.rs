@@ -1,7 +1,7 @@
 //! Logs of robots that moved, whichever program wrote them, in one shape: metres, seconds, bodies forward, left, up.
 //!
-//! Readers convert axes at this door and nowhere else, and align nothing: what a log's frame is, whose stamps it has and who
-//! estimated its poses is told beside them.
+//! Readers convert axes at this door and nowhere else, and align nothing: what a log's frame is, whose stamps it has
+//! and who estimated its poses is told beside them.
 
 mod attitude;
 mod axes;
@@ -28,9 +28,8 @@ pub const MOST_LOG_BYTES: u64 = 1_000_000_000;
 
 /// The log at `path`, whose format is told by its content; among texts, a name that ends in `.tum` or `.csv` decides.
 ///
-/// # Errors
-/// The file cannot be read, is of no format that is known, or breaks its format, with the byte or line where it does; it
-/// holds no motion, or more samples than [`MOST_SAMPLES`].
+/// # Errors The file cannot be read, is of no format that is known, or breaks its format, with the byte or line where
+/// it does; it holds no motion, or more samples than [`MOST_SAMPLES`].
 pub fn read(path: &Path) -> Result<Logged, LogError> {
     let bytes =
         bounds::read(path, MOST_LOG_BYTES).map_err(|cause| LogError::Unreadable { path: path.into(), cause })?;

@@ -33,7 +33,8 @@ pub struct Recording<'a> {
     pub facts: Vec<(&'a str, String)>,
 }
 
-/// The motion of an arm's joints. `times_s` rise strictly by a nanosecond at least; one row a time, rad, as long as `names`.
+/// The motion of an arm's joints. `times_s` rise strictly by a nanosecond at least; one row a time, rad, as long as
+/// `names`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointMotion<'a> {
     /// In topics: `planned`.

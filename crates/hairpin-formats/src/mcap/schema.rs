@@ -1,5 +1,5 @@
-//! Foxglove's schemas (docs.foxglove.dev, "Schemas"; `foxglove-sdk`, `schemas/proto`) as the descriptors that a file must carry,
-//! for the messages that are written and all that they may hold.
+//! Foxglove's schemas (docs.foxglove.dev, "Schemas"; `foxglove-sdk`, `schemas/proto`) as the descriptors that a file
+//! must carry, for the messages that are written and all that they may hold.
 
 use super::protobuf::Message;
 

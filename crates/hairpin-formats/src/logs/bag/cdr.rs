@@ -1,5 +1,5 @@
-//! Numbers and strings as ROS 2 writes them: Common Data Representation of either byte order (OMG DDSI-RTPS 2.3, 10.5; CDR of
-//! CORBA 3.3, part 2, 9.3), aligned to their size behind a head of four bytes.
+//! Numbers and strings as ROS 2 writes them: Common Data Representation of either byte order (OMG DDSI-RTPS 2.3, 10.5;
+//! CDR of CORBA 3.3, part 2, 9.3), aligned to their size behind a head of four bytes.
 
 /// What is left of a message, and where in it.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,5 @@
-//! The records of an MCAP file, with their places: the outermost ones are cut here, so that a spoiled one is told by its byte
-//! and takes no room; what is in chunks is unpacked by the crate `mcap`, within bounds.
+//! The records of an MCAP file, with their places: the outermost ones are cut here, so that a spoiled one is told by
+//! its byte and takes no room; what is in chunks is unpacked by the crate `mcap`, within bounds.
 
 use mcap::records::{Record as Parsed, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -57,6 +57,7 @@ impl<'a> Records<'a> {
 
     /// Hands over all records that are read, in the order of the file.
     pub(super) fn each(&mut self, take: &mut Take) -> Result<(), Fault> {
+        self.declare(take)?;
         let mut at = MAGIC.len();
         loop {
             let Some((operation, body)) = self.record(at) else {
@@ -72,6 +73,20 @@ impl<'a> Records<'a> {
             }
             at += HEAD + body.len();
         }
+    }
+
+    /// Hands over schemas and channels that stand outside of chunks: the summary at the end repeats those of a chunk
+    /// that is spoiled.
+    fn declare(&self, take: &mut Take) -> Result<(), Fault> {
+        let mut at = MAGIC.len();
+        while let Some((operation, body)) = self.record(at) {
+            if matches!(operation, op::SCHEMA | op::CHANNEL) {
+                // What is wrong with one is told where it stands.
+                drop(hand(operation, body, at, take)?);
+            }
+            at += HEAD + body.len();
+        }
+        Ok(())
     }
 
     fn record(&self, at: usize) -> Option<(u8, &'a [u8])> {

@@ -14,7 +14,8 @@ const TOGETHER: f64 = 0.05;
 /// An origin that moves by less has not moved, m.
 const SAME: f64 = 0.01;
 
-/// Modes by number, of the vehicles that hairpin knows: what flies a mission, what is flown from outside, and others by name.
+/// Modes by number, of the vehicles that hairpin knows: what flies a mission, what is flown from outside, and others
+/// by name.
 const COPTER: [(f64, &str); 8] = [
     (0.0, "STABILIZE"),
     (2.0, "ALT_HOLD"),

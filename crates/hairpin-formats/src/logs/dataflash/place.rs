@@ -1,4 +1,5 @@
-//! ArduPilot's local metres are degrees times a constant (`AP_Common/Location.cpp`): undone before positions meet places.
+//! ArduPilot's local metres are degrees times a constant (`AP_Common/Location.cpp`): undone before positions meet
+//! places.
 
 use hairpin::campaign::scenario::Origin;
 use nalgebra::Vector3;
@@ -8,7 +9,8 @@ use crate::frames::{Cage, Geodetic};
 /// `LOCATION_SCALING_FACTOR`, metres of a degree of latitude: a sphere of 6378.1 km.
 const METRES: f64 = 0.011_131_884_502_145_034 * 1e7;
 
-/// Latitude, longitude in degrees and altitude in m, where they are a place; 0, 0 is how a receiver says that it has none.
+/// Latitude, longitude in degrees and altitude in m, where they are a place; 0, 0 is how a receiver says that it has
+/// none.
 pub(super) fn geodetic([lat_deg, lon_deg, alt_amsl_m]: [f64; 3]) -> Option<Geodetic> {
     let place = Geodetic { lat_deg, lon_deg, alt_amsl_m };
     is_place(&place).then_some(place)

@@ -1,5 +1,5 @@
-//! The messages of a DataFlash log, which describes itself (ArduPilot's `AP_Logger/README.md` and `LogStructure.h`): each begins
-//! with two fixed bytes and its type, and FMT says how long messages of a type are and what is in them.
+//! The messages of a DataFlash log, which describes itself (ArduPilot's `AP_Logger/README.md` and `LogStructure.h`):
+//! each begins with two fixed bytes and its type, and FMT says how long messages of a type are and what is in them.
 
 use std::collections::BTreeMap;
 
@@ -28,8 +28,8 @@ pub(super) struct Format {
     fields: Vec<(String, u8, usize)>,
 }
 
-/// Fields that are read, with the units that they may have where a log tells them (FMTU; `m`, `n` for m/s, `d` for degrees, `D`,
-/// `U` and `h` for degrees of latitude, longitude and heading).
+/// Fields that are read, with the units that they may have where a log tells them (FMTU; `m`, `n` for m/s, `d` for
+/// degrees, `D`, `U` and `h` for degrees of latitude, longitude and heading).
 const UNITS: [(&str, &str); 12] = [
     ("Lat", "D"),
     ("Lng", "U"),
@@ -82,8 +82,8 @@ impl Format {
 }
 
 impl Format {
-    /// What is wrong with the units and multipliers that FMTU gives; letters that stand for hundredths or for 10⁻⁷ degrees
-    /// have theirs already.
+    /// What is wrong with the units and multipliers that FMTU gives; letters that stand for hundredths or for 10⁻⁷
+    /// degrees have theirs already.
     fn strange(&self, units: &str, multipliers: &str) -> Option<String> {
         let mut given = units.chars().zip(multipliers.chars());
         self.fields.iter().find_map(|(name, letter, _)| {

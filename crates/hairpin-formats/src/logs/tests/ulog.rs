@@ -176,7 +176,8 @@ fn a_message_that_is_spoiled_is_told_and_the_next_in_step_is_read() {
     let whole = flight();
     let sync =
         whole.windows(8).rposition(|bytes| bytes == [0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12]).unwrap() - 3;
-    // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the string (14).
+    // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the
+    // string (14).
     let spoiled = sync - 17 - 5;
     assert_eq!(whole[spoiled + 2], b'O');
     let mut bytes = whole.clone();
@@ -232,26 +233,4 @@ proptest! {
         drop(parse(&bytes, "a.ulg"));
         drop(parse(&bytes[..cut], "a.ulg"));
     }
-}
-
-#[test]
-fn zz_temporary_speed() {
-    let mut log = Ulog::new();
-    log.message(b'F', POSITION.as_bytes());
-    log.message(b'F', ATTITUDE.as_bytes());
-    log.subscribe(0, 0, "vehicle_local_position");
-    log.subscribe(0, 1, "vehicle_attitude");
-    for step in 0..150_000_u64 {
-        let t = 10_000_000 + 4_000 * step;
-        log.data(0, &[&at(t, [step as f32 * 0.01, 1.0, 2.0]).bytes()]);
-        log.data(1, &[&super::write_ulog::attitude(t + 1_000, [1.0, 0.0, 0.0, 0.0])]);
-    }
-    let from = std::time::Instant::now();
-    let read = parsed(&log.0);
-    eprintln!(
-        "SPEED {} samples of {} MB in {:?}",
-        read.motions[0].samples.len(),
-        log.0.len() / 1_000_000,
-        from.elapsed()
-    );
 }

@@ -1,7 +1,7 @@
 //! What the columns of a CSV log mean, by their names: hairpin's own, and others' as far as they say it unmistakably.
 //!
-//! A unit stands behind a name (`x_m`, `x [m]`, `x (mm)`); what has none is refused where it would be needed, for a log of
-//! millimetres that is read as metres judges another flight.
+//! A unit stands behind a name (`x_m`, `x [m]`, `x (mm)`); what has none is refused where it would be needed, for a
+//! log of millimetres that is read as metres judges another flight.
 
 use super::super::error::Fault;
 use crate::delimited::Row;

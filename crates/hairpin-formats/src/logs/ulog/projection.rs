@@ -1,5 +1,6 @@
-//! PX4's local position is a projection of the globe onto a plane, not metres along the ground: positions and places on Earth
-//! meet only if it is undone. Its sphere of 6371 km is 0.3 % too small for east and west at 47° north, 14 cm in 50 m.
+//! PX4's local position is a projection of the globe onto a plane, not metres along the ground: positions and places
+//! on Earth meet only if it is undone. Its sphere of 6371 km is 0.3 % too small for east and west at 47° north, 14 cm
+//! in 50 m.
 
 use hairpin::campaign::scenario::Origin;
 use nalgebra::Point3;

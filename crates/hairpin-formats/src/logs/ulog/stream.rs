@@ -1,8 +1,9 @@
-//! The messages of a ULog, by the published file format (docs.px4.io, "ULog File Format"), over bytes that may be spoiled.
+//! The messages of a ULog, by the published file format (docs.px4.io, "ULog File Format"), over bytes that may be
+//! spoiled.
 //!
-//! A reader of our own: `px4-ulog` 0.6 (the crate that is kept best) stops at the first broken message without saying where, and
-//! cannot go on at the next synchronisation message, which is what these are for. Nothing is copied here: a message is a
-//! slice of the file, so what it declares takes no room.
+//! A reader of our own: `px4-ulog` 0.6 (the crate that is kept best) stops at the first broken message without saying
+//! where, and cannot go on at the next synchronisation message, which is what these are for. Nothing is copied here: a
+//! message is a slice of the file, so what it declares takes no room.
 
 use super::super::error::{Fault, Place};
 
