@@ -70,7 +70,8 @@ pub fn read_all(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Vec<M
     Ok(all)
 }
 
-/// Whether a file is a motion that `export` wrote: by its name and, as a mission may be called so too, its first column.
+/// Whether a file is a motion that `export` wrote: by its name and, as a mission may be called so too, its first
+/// column.
 fn is_motion(path: &Path) -> bool {
     let named = path.file_name().and_then(|name| name.to_str()).is_some_and(is_of_a_motion);
     let first = |bytes: Vec<u8>| bytes.split(|byte| *byte == b',').next().map(<[u8]>::to_vec);

@@ -66,8 +66,8 @@ fn shifted(c: &[f64; 8], by: f64) -> [f64; 8] {
     out
 }
 
-/// Cubics that have places and velocities (`vx_m_s`, …) of a track at their ends, as few as stay within the tolerance of
-/// its samples; yaw is 0. `None` of a track without velocities or of fewer than two samples.
+/// Cubics that have places and velocities (`vx_m_s`, …) of a track at their ends, as few as stay within the tolerance
+/// of its samples; yaw is 0. `None` of a track without velocities or of fewer than two samples.
 pub fn fit_track(track: &Track) -> Option<Fitted> {
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
     let [Some(vx), Some(vy), Some(vz)] = columns else { return None };

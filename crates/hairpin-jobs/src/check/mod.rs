@@ -1,32 +1,16 @@
 //! A mission made elsewhere against the claim of a robot: a witness, or the first limit that breaks.
 
 mod fences;
+mod settings;
 mod world;
-
-use std::path::PathBuf;
 
 use hairpin::campaign::{Broken, Certainty, Demands, Passage, Setup, passes};
 use hairpin::judgement::Verdict;
-use hairpin::math::simd::Simd;
 use hairpin_formats::missions::{Frame, Mission};
 
-use crate::sets::Set;
 use crate::{Problem, Watch};
 
-/// What is checked.
-#[derive(Debug, Clone, Default)]
-pub struct CheckSettings {
-    /// The mission's file.
-    pub mission: PathBuf,
-    /// A robot's name or file, or a scenario.
-    pub robot: String,
-    /// A world's name or file, a map, or a scenario whose world it is.
-    pub world: Option<String>,
-    /// Keys of the scenario with other values.
-    pub sets: Vec<Set>,
-    /// Version of the kernels.
-    pub simd: Simd,
-}
+pub use settings::CheckSettings;
 
 /// What came of it.
 #[derive(Debug)]

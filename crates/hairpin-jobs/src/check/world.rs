@@ -8,7 +8,7 @@ use hairpin_formats::scenario::{is_scenario, setup_for, shadowed};
 use nalgebra::Vector3;
 use serde_json::json;
 
-use super::CheckSettings;
+use super::settings::CheckSettings;
 use crate::sets::Set;
 use crate::{Problem, Watch};
 

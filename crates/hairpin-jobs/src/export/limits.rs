@@ -3,6 +3,7 @@
 
 use hairpin::campaign::Case;
 use hairpin::campaign::kind::Room;
+use hairpin::math::rotation::angle_between;
 use hairpin_formats::qgc::mission::Autopilot;
 use hairpin_formats::qgc::parameters::{Parameter, Value};
 use nalgebra::Vector3;
@@ -137,7 +138,7 @@ fn widest_turn(room: &Room, case: &Case) -> Option<(usize, f64, f64)> {
         Vector3::new(way.x, way.y, 0.0)
     };
     let turn = |waypoint: usize| {
-        let turn = flat(waypoint - 1).angle(&flat(waypoint));
+        let turn = angle_between(&flat(waypoint - 1), &flat(waypoint));
         let needed = libm::tan(0.5 * turn) / room.curvature;
         (waypoint, turn.to_degrees(), if turn.to_degrees() < 179.0 { needed } else { f64::INFINITY })
     };

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::Case;
+use hairpin::math::rotation::between;
 use hairpin::trajectory::Track;
 use hairpin_formats::atomic;
 use hairpin_formats::home::Home;
@@ -173,7 +174,9 @@ impl<'a> Planned<'a> {
         let share = ((t - times[before]) / span).clamp(0.0, 1.0);
         let velocity = |i: usize| Vector3::from_fn(|axis, _| self.velocities[axis][i]);
         let (v, w) = (velocity(before), velocity(before + 1));
-        let pose = poses[before].lerp_slerp(&poses[before + 1], share);
+        let (a, b) = (&poses[before], &poses[before + 1]);
+        let place = a.translation.vector.lerp(&b.translation.vector, share);
+        let pose = Isometry3::from_parts(place.into(), between(&a.rotation, &b.rotation, share));
         (pose, v.lerp(&w, share), (w - v) / span)
     }
 }

@@ -9,7 +9,7 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
 use hairpin_formats::waypoints;
 
-use super::{Against, LogSettings};
+use super::settings::{Against, LogSettings};
 use crate::Problem;
 use crate::sets::Set;
 use crate::work::{Work, check_tables, open_to_read, open_to_read_as};

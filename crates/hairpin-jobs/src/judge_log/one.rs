@@ -10,9 +10,11 @@ use nalgebra::Isometry3;
 
 use super::against::Ready;
 use super::cut::{Left, cut};
+use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
-use super::{Found, JudgedLog, LogSettings, matching, source, told};
+use super::settings::LogSettings;
+use super::{matching, source, told};
 use crate::Problem;
 
 /// Judges the log in `file`.
@@ -83,7 +85,7 @@ pub(super) fn judge(
         notes,
     };
     if left.samples.len() >= 2 {
-        let log = judged.log(&left)?;
+        let log = judged.to_judge(&left)?;
         found.flown = Some(judge_flown(&against.setup, &against.whole(case)?, &log).map_err(Problem::input)?);
     }
     Ok(told::judged(file, found, &against.setup))
@@ -155,7 +157,7 @@ impl Judging<'_> {
     }
 
     /// What is left as a log to be judged.
-    fn log(&self, left: &Left) -> Result<Log, Problem> {
+    fn to_judge(&self, left: &Left) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),

@@ -9,8 +9,9 @@ use hairpin::judgement::{
 };
 use hairpin_formats::quote::shortened;
 
+use super::cut::Cut;
+use super::found::{Found, JudgedLog, Outcome};
 use super::remedy::log_at;
-use super::{Found, JudgedLog, Outcome};
 use crate::Problem;
 
 /// A log that was judged.
@@ -51,7 +52,7 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
 
 fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
     let case = &found.case;
-    let cuts: Vec<String> = found.cuts.iter().map(super::Cut::in_words).collect();
+    let cuts: Vec<String> = found.cuts.iter().map(Cut::in_words).collect();
     let with = |mut sentence: String, more: &[String]| {
         more.iter().for_each(|part| sentence.push_str(&format!("; {part}")));
         sentence

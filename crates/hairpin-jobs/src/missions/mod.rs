@@ -2,6 +2,7 @@
 //! judged, and held beside what a search finds.
 
 mod compared;
+mod leg;
 mod told;
 
 use std::path::Path;
@@ -16,18 +17,9 @@ use crate::work::Work;
 use crate::{Problem, Watch};
 pub use compared::{Compared, Ranked};
 pub(crate) use compared::{compare, with_compared};
+pub(crate) use leg::Leg;
 pub(crate) use told::read_told;
 pub use told::{MissionTold, MissionsTold};
-
-/// A mission, or what of it lies between two stops, as a case is made of it.
-pub(crate) struct Leg {
-    /// Its name: the file's, with the waypoints where it is not all of it.
-    pub(crate) name: String,
-    pub(crate) waypoints: Vec<Point3<f64>>,
-    /// What the claim says of the whole mission; `None` where it is not asked.
-    pub(crate) checked: Option<Checked>,
-    pub(crate) mission: Mission,
-}
 
 /// Reads the missions of a folder or file for `setup`, and checks each.
 ///

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Leg;
+use super::leg::Leg;
 use crate::Problem;
 use crate::check::{certainty_word, frame_in_words};
 use crate::work::Work;

@@ -1,0 +1,98 @@
+//! What logs were found to be, and what they came to.
+
+use std::path::PathBuf;
+
+use hairpin::campaign::Flown;
+use hairpin::judgement::Verdict;
+
+use super::cut::Cut;
+use super::frame::FrameTold;
+use super::legs::LegsBy;
+use super::matching::Matched;
+use super::source::SourceTold;
+
+/// What a log is told to have come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Within spec.
+    Pass,
+    /// A violation.
+    Fail,
+    /// Open.
+    Inconclusive,
+    /// Its data allow no judgement.
+    Invalid,
+    /// Nothing was asked for.
+    Unjudged,
+}
+
+impl Outcome {
+    /// The word in JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Inconclusive => "inconclusive",
+            Self::Invalid => "invalid",
+            Self::Unjudged => "unjudged",
+        }
+    }
+}
+
+/// A log and what it came to.
+#[derive(Debug)]
+pub struct JudgedLog {
+    /// The file.
+    pub file: PathBuf,
+    /// Its sentence.
+    pub verdict: Verdict,
+    /// Its word.
+    pub outcome: Outcome,
+    /// What it was found to be; `None` where it could not be read or was refused.
+    pub found: Option<Found>,
+}
+
+/// What a log was found to be.
+#[derive(Debug)]
+pub struct Found {
+    /// The case, or the mission's name.
+    pub case: String,
+    /// How that was found out.
+    pub matched: Option<Matched>,
+    /// Where its poses and times are from.
+    pub source: SourceTold,
+    /// Its frame, and what was done to it.
+    pub frame: FrameTold,
+    /// First and last moment that is judged, s of the log; `None` where nothing is.
+    pub span_s: Option<[f64; 2]>,
+    /// Who tells the leg.
+    pub legs_by: LegsBy,
+    /// What was cut out, in the order of time.
+    pub cuts: Vec<Cut>,
+    /// What ended the judged part, in words; `None`: the end of the log.
+    pub ended: Option<String>,
+    /// Whether the last waypoint was reached.
+    pub finished: bool,
+    /// What it was measured to be; `None` where nothing is left to measure.
+    pub flown: Option<Flown>,
+    /// The largest deviation of the same case in simulation, m, where that was judged.
+    pub simulated_m: Option<f64>,
+    /// What else its reader should know.
+    pub notes: Vec<String>,
+}
+
+/// Logs and what they came to.
+#[derive(Debug)]
+pub struct JudgedLogs {
+    /// One a file, in the order of their names.
+    pub logs: Vec<JudgedLog>,
+    /// The line with counts, of a folder.
+    pub count: Option<Verdict>,
+}
+
+impl JudgedLogs {
+    /// Of all logs: a violation comes first, then what is open.
+    pub fn exit_code(&self) -> u8 {
+        self.count.as_ref().or(self.logs.first().map(|log| &log.verdict)).map_or(0, |verdict| verdict.exit_code)
+    }
+}

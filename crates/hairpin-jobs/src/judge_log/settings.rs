@@ -1,0 +1,43 @@
+//! What logs are judged against, and how.
+
+use std::path::PathBuf;
+
+use super::frame::FrameSettings;
+use crate::sets::Set;
+
+/// What a log is judged against.
+#[derive(Debug, Clone)]
+pub enum Against {
+    /// The cases of a campaign's folder.
+    Campaign(PathBuf),
+    /// A file of waypoints, and the robot that flew it, where the world's file does not say.
+    Mission {
+        /// The file.
+        file: PathBuf,
+        /// A robot's name or file.
+        robot: Option<String>,
+    },
+}
+
+/// How logs are judged.
+#[derive(Debug, Clone)]
+pub struct LogSettings {
+    /// A log, or a folder of them.
+    pub path: PathBuf,
+    /// What it is judged against.
+    pub against: Against,
+    /// A scenario or a file with a world: its obstacles and bounds in the place of the campaign's.
+    pub world: Option<String>,
+    /// Keys of `spec` with other values.
+    pub sets: Vec<Set>,
+    /// The case that was flown, where nobody has to find it out.
+    pub case: Option<String>,
+    /// What is done to the log's frame.
+    pub frame: FrameSettings,
+    /// The topic that poses are from; else the best.
+    pub source: Option<String>,
+    /// From when on it is judged, in the log's own time, s.
+    pub from_s: Option<f64>,
+    /// Until when, s.
+    pub to_s: Option<f64>,
+}
