@@ -19,8 +19,8 @@ pub struct NamedWorld {
     pub is_elsewhere: bool,
 }
 
-/// The world that `name` means, a world's or scenario's file or shipped name, in the place of one at `origin`: where that
-/// is given it stays, for it is what waypoints are relative to. Files that it names are looked for beside it.
+/// The world that `name` means, a world's or scenario's file or shipped name, in the place of one at `origin`: where
+/// that is given it stays, for it is what waypoints are relative to. Files that it names are looked for beside it.
 ///
 /// # Errors
 /// It cannot be read, or is neither, in a sentence's part.

@@ -1,5 +1,5 @@
-//! What of a log is no motion, or was not recorded: jumps of the estimate, gaps, spans without a valid pose. It is cut out
-//! and told.
+//! What of a log is no motion, or was not recorded: jumps of the estimate, gaps, spans without a valid pose. It is cut
+//! out and told.
 
 use hairpin::judgement::Swiftness;
 use hairpin_formats::logs::{LoggedMotion, Sample, Span};
@@ -99,9 +99,9 @@ pub(super) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
 
 /// The first step that no limit of the robot explains, and its length, m.
 ///
-/// A step of c m within h s is a jump where c > v̂ h + 0.1 m. With velocities logged v̂ = ½ (‖v₀‖ + ‖v₁‖) + ¼ a h, which
-/// no motion exceeds in the mean; else the top speed. Without either, where the mean velocities of two intervals differ by
-/// more than ½ a (h₀ + h₁) and 0.1 m of way.
+/// A step of c m within h s is a jump where c > v̂ h + 0.1 m. With velocities logged v̂ = ½ (‖v₀‖ + ‖v₁‖) + ¼ a h,
+/// which no motion exceeds in the mean; else the top speed. Without either, where the mean velocities of two intervals
+/// differ by more than ½ a (h₀ + h₁) and 0.1 m of way.
 fn jumps(samples: &[Sample], swiftness: &Swiftness) -> Option<(f64, f64)> {
     let speeds = |i: usize| Some(0.5 * (samples[i].v_m_s?.norm() + samples[i - 1].v_m_s?.norm()));
     for i in 1..samples.len() {

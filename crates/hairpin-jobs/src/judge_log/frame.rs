@@ -1,4 +1,5 @@
-//! From a log's frame to the world's: by places on Earth where both have one, by what the user names, and by nothing else.
+//! From a log's frame to the world's: by places on Earth where both have one, by what the user names, and by nothing
+//! else.
 
 use hairpin::campaign::scenario::Origin;
 use hairpin::math::rotation::from_rotation_vector;
@@ -168,8 +169,8 @@ fn east_north_up(origin: &Geodetic) -> Origin {
     Origin { lat_deg, lon_deg, alt_amsl_m, x_axis_heading_deg: 90.0 }
 }
 
-/// Where the log's origin is in the world, and how its axes lie there: both are turned rigidly about the Earth's centre,
-/// a plane of the map's nearly so.
+/// Where the log's origin is in the world, and how its axes lie there: both are turned rigidly about the Earth's
+/// centre, a plane of the map's nearly so.
 fn tangent(log: &Placement, world: &Placement) -> Result<(Point3<f64>, UnitQuaternion<f64>), Problem> {
     const FAR: f64 = 100.0;
     let refuse = |why: String| Problem::input(format!("the log's origin: {why}"));

@@ -1,5 +1,5 @@
-//! Which leg is flown when, and which part of a log is the mission: by the log's own mission state where it has one, else
-//! by monotone assignment along the path.
+//! Which leg is flown when, and which part of a log is the mission: by the log's own mission state where it has one,
+//! else by monotone assignment along the path.
 
 use hairpin_formats::logs::{Event, EventKind, Logged, Progress, Sample};
 use nalgebra::Point3;
@@ -99,8 +99,8 @@ impl Course {
     }
 }
 
-/// The course that the log's mission state tells over `waypoints`, which count as met within `accept` m; `None` where it
-/// has none, or its items are not the waypoints.
+/// The course that the log's mission state tells over `waypoints`, which count as met within `accept` m; `None` where
+/// it has none, or its items are not the waypoints.
 pub(super) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
     if progress.is_empty() {
         return None;

@@ -1,5 +1,5 @@
-//! Which case of a campaign a log flew: the one whose waypoints its mission names, or whose path its track follows best,
-//! with the runner-up told; where two come near each other it is asked for, not guessed.
+//! Which case of a campaign a log flew: the one whose waypoints its mission names, or whose path its track follows
+//! best, with the runner-up told; where two come near each other it is asked for, not guessed.
 
 use hairpin::campaign::Case;
 use hairpin::judgement::{Settings, measure};

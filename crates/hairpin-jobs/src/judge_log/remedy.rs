@@ -7,9 +7,9 @@ const FASTEST_HZ: f64 = 1000.0;
 
 /// What to log at, where samples decide at `rate` a second: of PX4 the topic and the profile that has it.
 ///
-/// The profiles are those of PX4's logged_topics.cpp (1.13 to 1.16): `vehicle_local_position` every 100 ms in the default
-/// set (bit 0), at full rate in simulation alone; the high rate set (bit 4) has attitudes and rates, not positions;
-/// computer vision and avoidance (bit 7) has `vehicle_mocap_odometry` every 30 ms.
+/// The profiles are those of PX4's logged_topics.cpp (1.13 to 1.16): `vehicle_local_position` every 100 ms in the
+/// default set (bit 0), at full rate in simulation alone; the high rate set (bit 4) has attitudes and rates, not
+/// positions; computer vision and avoidance (bit 7) has `vehicle_mocap_odometry` every 30 ms.
 pub(super) fn log_at(rate: Option<f64>, format: &str) -> String {
     let Some(rate) = rate.filter(|rate| *rate <= FASTEST_HZ) else {
         return "no rate of logging decides it: the samples themselves come too near the limit".into();

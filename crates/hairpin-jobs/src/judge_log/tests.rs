@@ -295,7 +295,8 @@ fn logs_with_a_place_on_earth_come_into_the_world_by_its_origin() {
     let (lat, lon, alt): (f64, f64, f64) = (38.0335530, -78.5079772, 180.0);
     let heading = 73.5_f64.to_radians();
     let (x, y) = (Vector3::new(heading.sin(), heading.cos(), 0.0), Vector3::new(-heading.cos(), heading.sin(), 0.0));
-    // The log's origin is 12 m north and 7 m east of the cage's corner and 0.7 m higher: metres a degree at this latitude.
+    // The log's origin is 12 m north and 7 m east of the cage's corner and 0.7 m higher: metres a degree at this
+    // latitude.
     let phi = lat.to_radians();
     let north = 111_132.92 - 559.82 * (2.0 * phi).cos() + 1.175 * (4.0 * phi).cos();
     let east = 111_412.84 * phi.cos() - 93.5 * (3.0 * phi).cos();

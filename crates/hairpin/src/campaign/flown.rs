@@ -1,5 +1,5 @@
-//! A log of the real robot against the waypoints of a case: what its samples break, what may hide between them, and what
-//! its own accuracy leaves open.
+//! A log of the real robot against the waypoints of a case: what its samples break, what may hide between them, and
+//! what its own accuracy leaves open.
 
 use std::borrow::Cow;
 
@@ -92,8 +92,8 @@ pub enum FlownError {
 /// A limit of distance is violated for certain where a sample exceeds it by more than the standard deviation that the
 /// log claims there, in the direction in which it is off: σ² = (e_h σ_h)² + (e_v σ_v)², e the unit vector from the
 /// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
-/// samples does ([`look_closely`]). Everything else is a doubt. Accelerations, durations and attitudes are judged by the
-/// samples alone.
+/// samples does ([`look_closely`]). Everything else is a doubt. Accelerations, durations and attitudes are judged by
+/// the samples alone.
 ///
 /// # Errors
 /// [`FlownError`].

@@ -64,9 +64,9 @@ pub struct Close {
 /// two distances and an acceleration allow: its largest value is d₀ or d₁ where |d₁ − d₀| ≥ ½ a h², else
 /// ½ (d₀ + d₁) + a h²/8 + (d₁ − d₀)²/(2 a h²), and a constant acceleration away from the reference attains it.
 ///
-/// Where the leg changes between two samples it changes where that costs least. Against a path the reference is the chord
-/// of the two samples' places on it, and what the path itself bends away from that chord is added. `enough` (m) is what
-/// needs no closer look.
+/// Where the leg changes between two samples it changes where that costs least. Against a path the reference is the
+/// chord of the two samples' places on it, and what the path itself bends away from that chord is added. `enough` (m)
+/// is what needs no closer look.
 ///
 /// # Errors
 /// [`JudgementError`], as of [`super::measure()`].
@@ -282,7 +282,8 @@ mod tests {
         close.iter().filter_map(|close| close.until_next).fold(0.0, f64::max)
     }
 
-    /// Ten times a second at 5 m/s, closed forms: the arch over equal ends, over unequal ones, and none over a steep one.
+    /// Ten times a second at 5 m/s, closed forms: the arch over equal ends, over unequal ones, and none over a steep
+    /// one.
     #[test]
     fn bounds_are_the_closed_forms() {
         let (h, a) = (0.1, 20.0);

@@ -35,7 +35,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["chance", "coverage", "goals", "states"],
     // The jobs.
     &["mission", "judge"],
-    &["landed"],
+    &["landed", "flown"],
     &["executor", "samples"],
     &["execute"],
     &["calibrate", "trial", "verify", "verdict", "select", "compare", "shrink"],
