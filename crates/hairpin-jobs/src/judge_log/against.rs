@@ -151,7 +151,8 @@ impl Ready {
             folder.read_witness(&mut whole)?;
             let legs = whole.witness.as_ref().and_then(Witness::legs);
             if legs.is_some_and(|legs| legs + 1 != whole.waypoints.len()) {
-                let what = format!("case {}: its plan has another number of legs than between its waypoints", case.id());
+                let what =
+                    format!("case {}: its plan has another number of legs than between its waypoints", case.id());
                 return Err(Problem::of_file(folder.path(), what));
             }
         }

@@ -190,7 +190,8 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
 }
 
 /// Endings of what lies beside logs and is none.
-const NO_LOGS: &[&str] = &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
+const NO_LOGS: &[&str] =
+    &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
 
 /// The files of a folder, but for hidden ones and what is no log by its ending.
 fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Problem> {

@@ -78,8 +78,11 @@ mod tests {
 
     #[test]
     fn values_are_aligned_in_either_order() {
-        let little = [&[0, 1, 0, 0, 2, 0, 0, 0, b'a', 0, 0, 0][..], &7_u32.to_le_bytes(), &[0; 4], &1.5_f64.to_le_bytes()].concat();
-        let big = [&[0, 0, 0, 0, 0, 0, 0, 2, b'a', 0, 9, 9][..], &7_u32.to_be_bytes(), &[9; 4], &1.5_f64.to_be_bytes()].concat();
+        let little =
+            [&[0, 1, 0, 0, 2, 0, 0, 0, b'a', 0, 0, 0][..], &7_u32.to_le_bytes(), &[0; 4], &1.5_f64.to_le_bytes()]
+                .concat();
+        let big = [&[0, 0, 0, 0, 0, 0, 0, 2, b'a', 0, 9, 9][..], &7_u32.to_be_bytes(), &[9; 4], &1.5_f64.to_be_bytes()]
+            .concat();
         for message in [little, big] {
             let mut cdr = Cdr::of(&message).unwrap();
             assert_eq!((cdr.string(), cdr.u32()), (Ok("a"), Ok(7)));

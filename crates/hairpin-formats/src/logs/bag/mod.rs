@@ -86,7 +86,10 @@ impl Bag {
             topics.iter().filter(|topic| topic.is_without_stamps()).map(|topic| &topic.name[..]).collect();
         let clock = if stampless.is_empty() { Clock::Header } else { Clock::Receive };
         if clock == Clock::Receive {
-            notes.push(format!("no stamps in the headers of {}: times are when messages were recorded", stampless.join(", ")));
+            notes.push(format!(
+                "no stamps in the headers of {}: times are when messages were recorded",
+                stampless.join(", ")
+            ));
         }
         let (mut motions, mut joints) = (Vec::new(), Vec::new());
         let mut frame = None;
@@ -96,7 +99,10 @@ impl Bag {
             match (&frame, in_frame) {
                 (None, Some(first)) => frame = Some(first),
                 (Some(first), Some((topic, other))) if first.1 != other => {
-                    notes.push(format!("{topic} is in the frame `{other}`, {} in `{}`: nothing is turned or moved", first.0, first.1));
+                    notes.push(format!(
+                        "{topic} is in the frame `{other}`, {} in `{}`: nothing is turned or moved",
+                        first.0, first.1
+                    ));
                 }
                 _ => {}
             }

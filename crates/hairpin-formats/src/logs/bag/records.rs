@@ -18,10 +18,23 @@ const TOLD: usize = 5;
 /// What is read of a record.
 #[derive(Debug)]
 pub(super) enum Record<'a> {
-    Schema { id: u16, name: String },
-    Channel { id: u16, schema: u16, topic: String, encoding: String },
+    Schema {
+        id: u16,
+        name: String,
+    },
+    Channel {
+        id: u16,
+        schema: u16,
+        topic: String,
+        encoding: String,
+    },
     /// `offset` is that of the message, or of the chunk that it is in.
-    Message { channel: u16, received_ns: u64, offset: usize, data: &'a [u8] },
+    Message {
+        channel: u16,
+        received_ns: u64,
+        offset: usize,
+        data: &'a [u8],
+    },
 }
 
 type Take<'t> = dyn FnMut(Record<'_>) -> Result<(), Fault> + 't;
@@ -144,12 +157,9 @@ fn hand(operation: u8, body: &[u8], at: usize, take: &mut Take) -> Result<Result
             topic: channel.topic,
             encoding: channel.message_encoding,
         })?,
-        Parsed::Message { header, data } => take(Record::Message {
-            channel: header.channel_id,
-            received_ns: header.log_time,
-            offset: at,
-            data: &data,
-        })?,
+        Parsed::Message { header, data } => {
+            take(Record::Message { channel: header.channel_id, received_ns: header.log_time, offset: at, data: &data })?
+        }
         _ => {}
     }
     Ok(Ok(()))

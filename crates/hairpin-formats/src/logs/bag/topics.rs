@@ -45,7 +45,13 @@ impl Topic {
         Self { name, kind, frame, samples, sets, received, paths, stamped, seen, broken, first_broken, elsewhere }
     }
 
-    pub(super) fn push(&mut self, data: &[u8], received_ns: u64, offset: usize, budget: &mut Budget) -> Result<(), Fault> {
+    pub(super) fn push(
+        &mut self,
+        data: &[u8],
+        received_ns: u64,
+        offset: usize,
+        budget: &mut Budget,
+    ) -> Result<(), Fault> {
         self.seen = true;
         let taken = Cdr::of(data).and_then(|mut cdr| self.take(&mut cdr, received_ns as f64 * 1e-9));
         match taken {
@@ -149,7 +155,10 @@ impl Topic {
         let Self { name, samples, sets, received, mut frame, .. } = self;
         let mut notes = Vec::new();
         if self.broken > 0 {
-            notes.push(format!("{name}: {} messages that are none of its type, the first at byte {}", self.broken, self.first_broken));
+            notes.push(format!(
+                "{name}: {} messages that are none of its type, the first at byte {}",
+                self.broken, self.first_broken
+            ));
         }
         if self.elsewhere > 0 {
             notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));

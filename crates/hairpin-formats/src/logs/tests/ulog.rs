@@ -41,7 +41,10 @@ fn a_flight_is_read_in_east_north_up() {
     let reference = Geodetic { lat_deg: 47.3977, lon_deg: 8.5456, alt_amsl_m: 488.0 };
     assert_eq!(log.frame, LogFrame::Enu(Some(reference)));
     let [motion] = &log.motions[..] else { panic!("{:?}", log.motions.len()) };
-    assert_eq!((&motion.name[..], motion.source, motion.samples.len()), ("vehicle_local_position", Source::Estimate, 100));
+    assert_eq!(
+        (&motion.name[..], motion.source, motion.samples.len()),
+        ("vehicle_local_position", Source::Estimate, 100)
+    );
     let last = motion.samples[99];
     // The raw data's stamp, not the message's, which is 2 ms later.
     assert!((last.t_s - 11.98).abs() < 1e-9);
@@ -128,7 +131,8 @@ fn who_measured_it_stands_before_who_estimated_it() {
         log.data(1, &[&at(t, [1.0, 2.0, 3.0]).bytes()]);
         let half = std::f32::consts::FRAC_1_SQRT_2;
         // Nose east, and 1 m/s to its right, which is south.
-        let parts = [singles([1.0, 2.0, 3.0]), singles([half, 0.0, 0.0, half]), singles([0.0, 1.0, 0.0]), singles([0.04; 3])];
+        let parts =
+            [singles([1.0, 2.0, 3.0]), singles([half, 0.0, 0.0, half]), singles([0.0, 1.0, 0.0]), singles([0.04; 3])];
         log.data(2, &[&t.to_le_bytes(), &t.to_le_bytes(), &parts.concat(), &[1, 3]]);
     }
     let log = parsed(&log.0);
@@ -154,28 +158,41 @@ fn a_log_that_is_cut_is_read_as_far_as_it_goes() {
     let whole = flight();
     let cut = parsed(&whole[..whole.len() - 30]);
     assert!(cut.motions[0].samples.len() >= 98);
-    assert!(cut.notes.iter().any(|note| note.ends_with("the file ends within a message; read as far as that")), "{:?}", cut.notes);
+    assert!(
+        cut.notes.iter().any(|note| note.ends_with("the file ends within a message; read as far as that")),
+        "{:?}",
+        cut.notes
+    );
     assert_eq!(fault(&whole[..12]), ", byte 12: the file ends within its header of 16 bytes");
     let told = fault(&whole[..200]);
-    assert!(told.starts_with(": a PX4 ULog log without any motion (byte ") && told.contains("ends within a message"), "{told}");
+    assert!(
+        told.starts_with(": a PX4 ULog log without any motion (byte ") && told.contains("ends within a message"),
+        "{told}"
+    );
 }
 
 #[test]
 fn a_message_that_is_spoiled_is_told_and_the_next_in_step_is_read() {
     let whole = flight();
-    let sync = whole.windows(8).rposition(|bytes| bytes == [0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12]).unwrap() - 3;
+    let sync =
+        whole.windows(8).rposition(|bytes| bytes == [0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12]).unwrap() - 3;
     // The size of the last data before the last synchronisation but one message: of the dropout (2 bytes) and the string (14).
     let spoiled = sync - 17 - 5;
     assert_eq!(whole[spoiled + 2], b'O');
     let mut bytes = whole.clone();
     bytes[spoiled + 2] = b'o';
     let log = parsed(&bytes);
-    let told = format!("byte {spoiled}: no message: size 2, type 0x6f; read on at byte {sync}, where the log is in step again");
+    let told = format!(
+        "byte {spoiled}: no message: size 2, type 0x6f; read on at byte {sync}, where the log is in step again"
+    );
     assert!(log.notes.contains(&told), "{:?}", log.notes);
     assert_eq!(log.motions[0].samples.len(), 100);
     let mut flags = whole.clone();
     flags[16 + 3 + 8] = 4;
-    assert_eq!(fault(&flags), ", byte 27: flags 0x04 of a newer ULog, which no reader may read that does not know them");
+    assert_eq!(
+        fault(&flags),
+        ", byte 27: flags 0x04 of a newer ULog, which no reader may read that does not know them"
+    );
     let mut log = Ulog::new();
     log.message(b'F', b"vehicle_local_position:uint64_t timestamp;vehicle_local_position x;");
     log.subscribe(0, 0, "vehicle_local_position");

@@ -92,12 +92,12 @@ impl Position {
     }
 }
 
-pub(crate) const ATTITUDE: &str =
-    "vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;float[4] delta_q_reset;uint8_t quat_reset_counter;\
+pub(crate) const ATTITUDE: &str = "vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;float[4] delta_q_reset;uint8_t quat_reset_counter;\
      uint8_t[7] _padding0;";
 
 pub(crate) fn attitude(t_us: u64, wxyz: [f32; 4]) -> Vec<u8> {
-    [&(t_us + 1_000).to_le_bytes()[..], &t_us.to_le_bytes(), &singles(wxyz), &singles([1.0, 0.0, 0.0, 0.0]), &[0]].concat()
+    [&(t_us + 1_000).to_le_bytes()[..], &t_us.to_le_bytes(), &singles(wxyz), &singles([1.0, 0.0, 0.0, 0.0]), &[0]]
+        .concat()
 }
 
 /// A short flight: north at 2 m/s and climbing at 1, nose up by 30°, to item 1 and then 2 of a mission, then home.
@@ -136,8 +136,14 @@ pub(crate) fn flight() -> Vec<u8> {
         log.data(4, &[&t.to_le_bytes(), &[mode, asked, failsafe]]);
     };
     let setpoint = |valid: u8, lat: f64| -> Vec<u8> {
-        [&0_u64.to_le_bytes()[..], &lat.to_le_bytes(), &8.5456_f64.to_le_bytes(), &500_f32.to_le_bytes(), &[valid, 0, 0, 0]]
-            .concat()
+        [
+            &0_u64.to_le_bytes()[..],
+            &lat.to_le_bytes(),
+            &8.5456_f64.to_le_bytes(),
+            &500_f32.to_le_bytes(),
+            &[valid, 0, 0, 0],
+        ]
+        .concat()
     };
     log.data(6, &[&10_000_000_u64.to_le_bytes(), &[1]]);
     state(&mut log, 10_000_000, 4, 4, 0);
