@@ -66,19 +66,24 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
     Ok(JudgedLogs { logs, count: Some(count) })
 }
 
-/// The files of a folder but for hidden ones and what lies beside logs: reports, scenarios, parameters.
+/// Endings of what lies beside logs and is none.
+const NO_LOGS: &[&str] =
+    &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
+
+/// The files of a folder, but for hidden ones and what is no log by its ending.
 fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Problem> {
     let refuse = |cause| Problem::of_file(folder, cause);
     let entries = std::fs::read_dir(folder).map_err(refuse)?;
     let paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
     let is_log = |path: &PathBuf| {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
-        path.is_file() && ["ulg", "bin", "mcap", "tum", "csv", "txt"].contains(&ending.as_str())
+        let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().to_lowercase();
+        let (name, ending) = (part(path.file_name()), part(path.extension()));
+        path.is_file() && !name.starts_with('.') && !NO_LOGS.contains(&ending.as_str())
     };
     let mut logs: Vec<PathBuf> = paths.into_iter().filter(is_log).collect();
     logs.sort();
     if logs.is_empty() {
-        return Err(Problem::of_file(folder, "no log in it: .ulg, .bin, .mcap, .tum, .csv or .txt"));
+        return Err(Problem::of_file(folder, "no log in it"));
     }
     Ok(logs)
 }
