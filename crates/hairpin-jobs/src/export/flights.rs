@@ -194,7 +194,7 @@ fn abort(limits: &Limits, margin: f64) -> Vec<String> {
         format!("it deviates {BEYOND} times as far as its runs predict, or not where they do"),
         "position is estimated without its source, the link is lost, or the battery is at its reserve".into(),
     ];
-    abort.extend(limits.deviation.map(|most| format!("deviation beyond {most} m was not predicted for this case")));
+    abort.extend(limits.deviation.map(|most| format!("it deviates more than {most} m where this page predicts less")));
     abort.extend(limits.clearance.map(|least| format!("it comes nearer than {least} m to an obstacle")));
     abort
 }

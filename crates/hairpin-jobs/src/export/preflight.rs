@@ -3,6 +3,7 @@
 
 use hairpin::campaign::kind::{Room, Wall};
 use hairpin::campaign::{Case, CaseResult};
+use hairpin::trajectory::Track;
 use nalgebra::Point3;
 
 use super::way::Way;
@@ -53,24 +54,23 @@ pub(super) fn look_at(work: &Work, room: &Room, case: &Case) -> Result<Cleared, 
         beyond.extend(outside(&place, floor).map(|wall| sentence(format!("{what}, at"), &place, &wall)));
     }
     beyond.extend(way.blocked.map(|why| format!("case {id}: {why}")));
+    let worst = |what: &str, track: &Track| {
+        let places = track.poses().iter().map(|pose| Point3::from(pose.translation.vector));
+        let found = track.times().iter().zip(places).filter_map(|(t, place)| Some((t, place, outside(&place, true)?)));
+        let worst = found.min_by(|a, b| a.2.inside.total_cmp(&b.2.inside));
+        worst.map(|(t, place, wall)| sentence(format!("{what} at t = {t:.2} s,"), &place, &wall))
+    };
+    beyond.extend(worst("planned", &work.folder.read_planned(case.number)?));
     let runs = runs_with_motion(work, case)?;
     if runs.is_empty() {
         told.push(format!("case {id}: not executed, so no excursion is predicted: its plan alone was looked at"));
     }
     for run in &runs {
-        let Ok(flight) = &run.outcome else {
-            told.push(format!("case {id}, run {}: the executor failed, so no excursion is predicted by it", run.run));
-            continue;
-        };
-        let track = &flight.track;
-        let places = track.poses().iter().map(|pose| Point3::from(pose.translation.vector));
-        let found = track.times().iter().zip(places).filter_map(|(t, place)| Some((t, place, outside(&place, true)?)));
-        let worst = found.min_by(|a, b| a.2.inside.total_cmp(&b.2.inside));
-        beyond.extend(
-            worst.map(|(t, place, wall)| {
-                sentence(format!("run {}, predicted at t = {t:.2} s,", run.run), &place, &wall)
-            }),
-        );
+        match &run.outcome {
+            Ok(flight) => beyond.extend(worst(&format!("run {}, predicted", run.run), &flight.track)),
+            Err(_) => told
+                .push(format!("case {id}, run {}: the executor failed, so no excursion is predicted by it", run.run)),
+        }
     }
     Ok(Cleared { way, beyond, told })
 }
