@@ -37,7 +37,7 @@ pub(super) struct Rule {
 const LEAST_S: f64 = 5.0;
 const LEAST_HZ: f64 = 8.0;
 /// Samples are compared so often, s.
-const PERIOD: f64 = 0.1;
+pub(super) const PERIOD: f64 = 0.1;
 /// After the last waypoint so much is compared, s: what a simulation lingers.
 const AFTER: f64 = 2.0;
 /// A log may begin so far from the first waypoint, in radii.

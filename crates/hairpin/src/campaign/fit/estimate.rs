@@ -3,14 +3,15 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::FitError;
-use super::compare::{Compared, Flown, OUTPUT_NUMBERS};
+use super::compare::{Flown, OUTPUT_NUMBERS};
 use super::gap::{Gap, deviation};
 use super::simulate::Loops;
-use super::whiten::{Filter, Leg, filters, whitened};
+use super::stretches::{STRETCH, colour, objective, residuals};
+use super::whiten::Filter;
 use crate::campaign::Setup;
 use crate::campaign::kind::Adjustable;
 use crate::judgement::{SIGMA_95, student_quantile};
-use crate::math::output_error::{Descent, Objective, Parameter, Side, Spread, acting, descend, profile, spread};
+use crate::math::output_error::{Descent, Parameter, Side, Spread, acting, descend, profile, spread};
 use crate::math::power::square;
 
 /// What is fitted on.
@@ -20,8 +21,6 @@ pub struct FitSettings {
     pub held_out: usize,
 }
 
-/// A log's length in stretches as good as independent, s: a gust and the loop that answers it are over.
-const STRETCH: f64 = 3.0;
 /// Stretches that there must be more than numbers.
 const LEAST_FREEDOM: usize = 8;
 /// Widest interval of a number that is told, as a share of it on either side.
@@ -127,12 +126,12 @@ pub fn fit(
     if held_out > 0 {
         gaps.iter_mut().skip(fitted.len()).for_each(|gap| gap.unseen = Some(gap.after));
     } else if flown.len() > 1 {
-        for at in 0..flown.len() {
+        for (at, gap) in gaps.iter_mut().enumerate() {
             if stopped() {
                 return Err(FitError::Stopped);
             }
             let others: Vec<usize> = fitted.iter().copied().filter(|other| *other != at).collect();
-            gaps[at].unseen = found.refitted(&loops, &others).map(|theta| deviation(&loops, &theta, at));
+            gap.unseen = found.refitted(&loops, &others).map(|theta| deviation(&loops, &theta, at));
         }
     }
     Ok(found.into_fit(&loops, &given, &fitted, gaps))
@@ -148,72 +147,6 @@ struct Found {
     written: Vec<f64>,
     stretches: usize,
     colour: Vec<Filter>,
-}
-
-/// The objective on the logs `which`, by the residuals' function.
-fn objective<'a>(
-    loops: &Loops,
-    which: &[usize],
-    residuals: &'a (dyn Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-) -> Objective<'a> {
-    let (mut output, mut block, mut begins) = (Vec::new(), Vec::new(), Vec::new());
-    for &log in which {
-        let compared = &loops.compared[log];
-        let (mut leg, mut since, mut first) = (usize::MAX, 0usize, true);
-        let stretch = (STRETCH / 0.1) as usize;
-        for (own, _) in &compared.samples {
-            // From waypoint to waypoint stretches begin with legs, by the clock after their time.
-            let next = if loops.rule.timed { since >= stretch } else { *own != leg && since >= stretch };
-            if first || next {
-                begins.push(first);
-                (since, first) = (0, false);
-            }
-            leg = *own;
-            since += 1;
-            output.extend(&compared.outputs);
-            block.extend(compared.outputs.iter().map(|_| begins.len() - 1));
-        }
-    }
-    let parameters = loops.numbers.iter().map(|number| {
-        let [low, high] = number.bounds;
-        Parameter { low, high, step: number.step }
-    });
-    Objective { residuals, output, block, begins, parameters: parameters.collect() }
-}
-
-/// Residuals of the logs `which`, filtered leg by leg; `None` where one is not simulated.
-fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: &[Filter]) -> Option<Vec<f64>> {
-    let logs = loops.residuals(theta, which)?;
-    let mut all = Vec::new();
-    for (log, residuals) in which.iter().zip(&logs) {
-        let compared = &loops.compared[*log];
-        legs(compared, residuals).for_each(|leg| whitened(leg, &compared.outputs, filters, &mut all));
-    }
-    Some(all)
-}
-
-/// The filters that leave residuals of `theta` without memory.
-fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
-    let logs = loops.residuals(theta, which)?;
-    let mut found = vec![Filter::NONE; OUTPUT_NUMBERS];
-    // Logs may have different outputs: those of one kind at once.
-    for outputs in which.iter().map(|log| &loops.compared[*log].outputs) {
-        let alike = which.iter().zip(&logs).filter(|(log, _)| loops.compared[**log].outputs == *outputs);
-        let legs: Vec<Leg> = alike.flat_map(|(log, residuals)| legs(&loops.compared[*log], residuals)).collect();
-        for (number, filter) in filters(&legs, outputs).into_iter().enumerate() {
-            found[number] = filter;
-        }
-    }
-    Some(found)
-}
-
-/// The residuals of a log, leg by leg.
-fn legs<'a>(compared: &'a Compared, residuals: &'a [Vec<f64>]) -> impl Iterator<Item = Leg<'a>> {
-    let mut from = 0;
-    compared.samples.chunk_by(|(a, _), (b, _)| a == b).map(move |leg| {
-        from += leg.len();
-        &residuals[from - leg.len()..from]
-    })
 }
 
 impl Found {

@@ -11,6 +11,7 @@ mod estimate;
 mod gap;
 mod passages;
 mod simulate;
+mod stretches;
 mod whiten;
 
 pub use compare::Flown;

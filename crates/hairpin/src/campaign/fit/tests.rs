@@ -26,7 +26,7 @@ fn numbers_lie_within_their_intervals() {
     let mut better = 0;
     for seed in from..from + draws {
         let truth = Truth::draw(&setup, seed);
-        let logs = flown(&setup, &truth, seed, count);
+        let logs = flown(&setup, &truth, seed, (count, asked("ROTORS", false)));
         let found = fit(&setup, &logs, &FitSettings::default(), &|| false).unwrap();
         let [before, after] = found.unseen.unwrap();
         better += u64::from(after < before);

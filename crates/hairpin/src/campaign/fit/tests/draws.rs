@@ -76,8 +76,9 @@ fn mission(random: &mut Stream) -> Vec<Point3<f64>> {
 }
 
 /// `count` logs of the vehicle `truth`, each of a mission of its own: positions alone, 20 a second, off by an
-/// estimator's slow drift of 2 cm and by 1 cm from sample to sample.
-pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Vec<Flown> {
+/// estimator's slow drift of 2 cm and by 1 cm from sample to sample; with the speeds of the rotors too, if these are
+/// asked for.
+pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, (count, rotors): (usize, bool)) -> Vec<Flown> {
     let vehicle = truth.setup(setup);
     let mut random = stream(named_seed(seed, "missions", 0));
     let fly = |number: usize| {
@@ -98,7 +99,13 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Ve
             ));
         }
         let unknown = Channel { name: crate::trajectory::ATTITUDE_UNKNOWN.into(), values: vec![1.0; times.len()] };
-        let track = Track::new(times, poses, vec![unknown]).unwrap();
+        let mut channels = vec![unknown];
+        let speeds = flight.track.channels().iter().filter(|channel| rotors && channel.name.starts_with("rotor"));
+        channels.extend(speeds.map(|Channel { name, values }| {
+            let values = values.iter().step_by(every).copied().collect();
+            Channel { name: name.clone(), values }
+        }));
+        let track = Track::new(times, poses, channels).unwrap();
         Flown { log: format!("log {number}"), mission: case.id(), case, track }
     };
     (0..count).map(fly).collect()

@@ -1,0 +1,75 @@
+//! Residuals of logs in the order of an objective: filtered leg by leg, in stretches that count as nearly independent.
+
+use super::compare::{Compared, OUTPUT_NUMBERS, PERIOD};
+use super::simulate::Loops;
+use super::whiten::{Filter, Leg, filters, whitened};
+use crate::math::output_error::{Objective, Parameter};
+
+/// A log's length in stretches as good as independent, s: a gust and the loop that answers it are over.
+pub(super) const STRETCH: f64 = 3.0;
+
+/// The objective on the logs `which`, by the residuals' function.
+pub(super) fn objective<'a>(
+    loops: &Loops,
+    which: &[usize],
+    residuals: &'a (dyn Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+) -> Objective<'a> {
+    let (mut output, mut block, mut begins) = (Vec::new(), Vec::new(), Vec::new());
+    for &log in which {
+        let compared = &loops.compared[log];
+        let (mut leg, mut since, mut first) = (usize::MAX, 0usize, true);
+        let stretch = (STRETCH / PERIOD).round() as usize;
+        for (own, _) in &compared.samples {
+            // From waypoint to waypoint stretches begin with legs, by the clock after their time.
+            let next = if loops.rule.timed { since >= stretch } else { *own != leg && since >= stretch };
+            if first || next {
+                begins.push(first);
+                (since, first) = (0, false);
+            }
+            leg = *own;
+            since += 1;
+            output.extend(&compared.outputs);
+            block.extend(compared.outputs.iter().map(|_| begins.len() - 1));
+        }
+    }
+    let parameters = loops.numbers.iter().map(|number| {
+        let [low, high] = number.bounds;
+        Parameter { low, high, step: number.step }
+    });
+    Objective { residuals, output, block, begins, parameters: parameters.collect() }
+}
+
+/// Residuals of the logs `which`, filtered leg by leg; `None` where one is not simulated.
+pub(super) fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: &[Filter]) -> Option<Vec<f64>> {
+    let logs = loops.residuals(theta, which)?;
+    let mut all = Vec::new();
+    for (log, residuals) in which.iter().zip(&logs) {
+        let compared = &loops.compared[*log];
+        legs(compared, residuals).for_each(|leg| whitened(leg, &compared.outputs, filters, &mut all));
+    }
+    Some(all)
+}
+
+/// The filters that leave residuals of `theta` without memory.
+pub(super) fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
+    let logs = loops.residuals(theta, which)?;
+    let mut found = vec![Filter::NONE; OUTPUT_NUMBERS];
+    // Logs may have different outputs: those of one kind at once.
+    for outputs in which.iter().map(|log| &loops.compared[*log].outputs) {
+        let alike = which.iter().zip(&logs).filter(|(log, _)| loops.compared[**log].outputs == *outputs);
+        let legs: Vec<Leg> = alike.flat_map(|(log, residuals)| legs(&loops.compared[*log], residuals)).collect();
+        for (number, filter) in filters(&legs, outputs).into_iter().enumerate() {
+            found[number] = filter;
+        }
+    }
+    Some(found)
+}
+
+/// The residuals of a log, leg by leg.
+fn legs<'a>(compared: &'a Compared, residuals: &'a [Vec<f64>]) -> impl Iterator<Item = Leg<'a>> {
+    let mut from = 0;
+    compared.samples.chunk_by(|(a, _), (b, _)| a == b).map(move |leg| {
+        from += leg.len();
+        &residuals[from - leg.len()..from]
+    })
+}
