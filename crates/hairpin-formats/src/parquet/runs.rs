@@ -10,6 +10,7 @@ use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder};
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray};
 use hairpin::campaign::scenario::DeviationFrom;
 use hairpin::campaign::{CaseNumber, FullRate, Run};
+use hairpin::judgement::still_since;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use nalgebra::Isometry3;
 use serde::Deserialize;
@@ -46,6 +47,8 @@ pub struct RunFacts {
     pub drawn: Vec<(String, Value)>,
     /// The last stamp of its track, s.
     pub end_s: Option<f64>,
+    /// Since when it had stood where it ended, s; not known of what earlier versions wrote.
+    pub still_s: Option<f64>,
     /// The leg that the executor told last, and the one when it left the world.
     pub end_leg: Option<usize>,
     /// See `end_leg`.
@@ -105,6 +108,7 @@ impl RunFacts {
             reached_s: flight.map_or_else(Vec::new, |flight| flight.reached.clone()),
             drawn: run.drawn.clone(),
             end_s: track.and_then(|track| track.times().last().copied()),
+            still_s: track.and_then(still_since),
             end_leg: leg_at(f64::INFINITY),
             left_leg: left.and_then(leg_at),
             attitude_unknown: track.is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some()),
@@ -125,20 +129,26 @@ impl RunFacts {
     }
 
     /// The run with no more of its motion than a judge needs who takes what was measured: when and on what leg it left
-    /// the world and ended. `None` where `ended` is no known word.
+    /// the world, stood still and ended. `None` where `ended` is no known word.
     pub fn without_track(self) -> Option<Run> {
         let mut stamps: Vec<(f64, Option<usize>)> = Vec::new();
+        let still = self.still_s.or(self.end_s).unwrap_or_default();
         if let Some(end) = self.end_s {
             let left = self.left_world_s.filter(|left| *left < end);
             stamps.extend(left.map(|left| (left, self.left_leg)));
+            let between = still < end && left != Some(still);
+            stamps.extend(between.then_some((still, self.end_leg)));
             stamps.push((end, self.end_leg));
+            stamps.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         }
         let leg = |leg: Option<usize>| leg.unwrap_or_default() as f64;
         let channel = |name: &str, values: Vec<f64>| Channel { name: name.into(), values };
         let legs = self.end_leg.map(|_| channel("leg", stamps.iter().map(|(_, told)| leg(*told)).collect()));
         let level = self.attitude_unknown.then(|| channel(ATTITUDE_UNKNOWN, vec![1.0; stamps.len()]));
         let times: Vec<f64> = stamps.iter().map(|(time, _)| *time).collect();
-        let poses = vec![Isometry3::identity(); times.len()];
+        // Where it was is not known, only since when it was there no longer: a kilometre away serves.
+        let place = |time: &f64| Isometry3::translation(if *time < still { 1000.0 } else { 0.0 }, 0.0, 0.0);
+        let poses = times.iter().map(place).collect();
         let track = Track::new(times, poses, legs.into_iter().chain(level).collect()).ok()?;
         self.with_track(track)
     }
@@ -192,6 +202,7 @@ pub fn read_run(path: &Path) -> Result<(Track, Option<RunFacts>), TableError> {
         reached_s,
         drawn,
         end_s: None,
+        still_s: None,
         end_leg: None,
         left_leg: None,
         attitude_unknown: table.has(ATTITUDE_UNKNOWN),
@@ -224,6 +235,7 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
     columns.push("left_world_s", numbers(|run| run.left_world_s));
     columns.push("reached_s", Arc::new(reached(runs)));
     columns.push("end_s", numbers(|run| run.end_s));
+    columns.push("still_s", numbers(|run| run.still_s));
     columns.push("end_leg", counts(|run| run.end_leg));
     columns.push("left_leg", counts(|run| run.left_leg));
     columns.push("attitude_unknown", flags(|run| run.attitude_unknown));
@@ -267,6 +279,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
         false => Ok::<_, TableError>(vec![otherwise; table.rows()]),
     };
     let (end, end_leg, left_leg) = (table.numbers_or_none("end_s")?, counts("end_leg")?, counts("left_leg")?);
+    let still = table.numbers_or_none("still_s")?;
     let (unknown, recorded) = (flags("attitude_unknown", false)?, flags("recorded", true)?);
     let full_rate = read_full_rate(&table)?;
     let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).zip(full_rate).enumerate();
@@ -283,6 +296,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
             reached_s: reached.unwrap_or_default(),
             drawn,
             end_s: end[row],
+            still_s: still[row],
             end_leg: end_leg[row],
             left_leg: left_leg[row],
             attitude_unknown: unknown[row],
@@ -330,3 +344,6 @@ fn reached(runs: &[RunFacts]) -> arrow_array::ListArray {
     }
     lists.finish()
 }
+
+#[cfg(test)]
+mod tests;

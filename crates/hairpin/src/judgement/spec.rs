@@ -5,7 +5,7 @@
 
 use super::apart::apart;
 use super::{LegMeasures, Measures};
-use crate::trajectory::{Ended, Flight};
+use crate::trajectory::{Ended, Flight, Track};
 
 /// What is within spec. A limit that is `None` is not judged; a crash and leaving the world always are.
 ///
@@ -249,14 +249,17 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
     found
 }
 
-/// Since when a run that its time limit ended had stood still, s: for [`STILL_S`] at least, within [`STILL_M`] of where
-/// it ended.
+/// Since when a run that its time limit ended had stood still, s: for [`STILL_S`] at least.
 fn stalled(flight: &Flight) -> Option<f64> {
-    let (track, times) = (&flight.track, flight.track.times());
-    let end = times.len().checked_sub(1)?;
+    let (since, end) = (still_since(&flight.track)?, *flight.track.times().last()?);
+    (flight.ended == Ended::Time && end - since >= STILL_S).then_some(since)
+}
+
+/// The first stamp (s) from which on `track` lies within 0.1 m of where it ends; `None` where it is empty.
+pub fn still_since(track: &Track) -> Option<f64> {
+    let end = track.times().len().checked_sub(1)?;
     let moved = |index: &usize| (track.position(*index) - track.position(end)).norm() > STILL_M;
-    let since = times[(0..end).rev().find(moved).map_or(0, |moved| moved + 1)];
-    (flight.ended == Ended::Time && times[end] - since >= STILL_S).then_some(since)
+    Some(track.times()[(0..end).rev().find(moved).map_or(0, |moved| moved + 1)])
 }
 
 /// The leg being flown at `t`, by the executor's channel or, without one, by the waypoints reached until then.

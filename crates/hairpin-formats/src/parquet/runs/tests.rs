@@ -1,0 +1,42 @@
+//! A judge who takes what was measured finds the same events without the motion.
+
+use hairpin::judgement::{Limits, Settings, measure, violations};
+use nalgebra::Point3;
+
+use super::*;
+
+/// Flies along x for `moving` s at 1 m/s, then stands until it is called off at 20 s; leaves the world at `left`.
+fn run(moving: usize, left: Option<f64>) -> Run {
+    let times: Vec<f64> = (0..=200).map(|step| f64::from(step) / 10.0).collect();
+    let place = |t: &f64| Isometry3::translation(t.min(moving as f64), 0.0, 0.0);
+    let legs = times.iter().map(|t| if *t < 2.0 { 0.0 } else { 1.0 }).collect();
+    let leg = Channel { name: "leg".into(), values: legs };
+    let track = Track::new(times.clone(), times.iter().map(place).collect(), vec![leg]).unwrap();
+    let reached = vec![Some(0.0), Some(2.0), None];
+    let flight = Flight { track, ended: Ended::Time, left_world: left, reached };
+    Run { case: CaseNumber(0), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None }
+}
+
+#[test]
+fn what_stood_still_has_stalled_without_its_motion_too() {
+    let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
+    for (moving, left, expected) in [
+        (6, None, "stalled 5.9"),
+        (20, None, "unfinished 20.0"),
+        (16, None, "unfinished 20.0"),
+        (6, Some(1.0), "left-world 1.0, stalled 5.9"),
+        (6, Some(9.0), "left-world 9.0, stalled 5.9"),
+        (20, Some(1.0), "left-world 1.0, unfinished 20.0"),
+    ] {
+        let run = run(moving, left);
+        let flight = run.outcome.as_ref().unwrap();
+        let measures = measure(&flight.track, &waypoints, &Settings::default()).unwrap();
+        let found = |flight: &Flight| {
+            let found = violations(&measures, flight, &Limits::default());
+            found.iter().map(|one| format!("{} {:.1}", one.what, one.at)).collect::<Vec<_>>().join(", ")
+        };
+        assert_eq!(found(flight), expected, "{moving} {left:?}");
+        let bare = RunFacts::of(&run).without_track().unwrap();
+        assert_eq!(found(bare.outcome.as_ref().unwrap()), expected, "without its motion: {moving} {left:?}");
+    }
+}
