@@ -107,8 +107,8 @@ pub struct Joints {
     pub positions_rad: Vec<Vec<f64>>,
 }
 
-/// From `t_s` on the mission flies to its item `item` (numbered from 0 in the mission as uploaded, take-off and speed items
-/// counted).
+/// From `t_s` on the mission flies to its item `item` (numbered from 0 in the mission as uploaded, take-off and speed
+/// items counted).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// s.

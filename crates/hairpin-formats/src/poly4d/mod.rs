@@ -6,7 +6,7 @@
 //! CSV          duration, 8 coefficients of x, of y, of z, of yaw, lowest order first; s, m, rad
 //! compressed   x, y, z in mm and yaw in 0.1° at the start, 2 bytes each; then for each piece
 //!              a byte of four kinds (x in the lowest two bits): 0 constant, 1 linear, 2 cubic, 3 of seventh degree,
-//!              the duration in ms, 2 bytes, and the control points of its Bézier curves but for the first, 2 bytes each
+//!              the duration in ms, 2 bytes, and the control points of its Bézier curves but the first, 2 bytes each
 //! ```
 //!
 //! All integers are signed and begin with their lowest byte.
