@@ -10,7 +10,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::FolderError;
-use super::names::{GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, earlier_exports, exports, stands_for};
+use super::names::{
+    EXPORT, GENERATION, LIST, OURS, RESULTS, SCENARIO, WAYPOINTS, earlier_exports, exports, stands_for,
+};
 use crate::atomic;
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::scenario::read_made_by;
@@ -53,6 +55,14 @@ impl List {
     /// Whether `name`, relative to the folder, is one of its names.
     pub(super) fn names(&self, name: &str) -> bool {
         self.0.iter().any(|pattern| stands_for(pattern, name))
+    }
+
+    /// Whether `path` is what `export` wrote into a campaign's folder.
+    pub(super) fn has_exported(path: &Path) -> bool {
+        let folder = path.parent().filter(|folder| folder.file_name().is_some_and(|name| name == EXPORT));
+        let name = path.file_name().map(|name| format!("{EXPORT}/{}", name.to_string_lossy()));
+        let ours = folder.and_then(Path::parent).and_then(|campaign| Self::read(campaign).ok()).flatten();
+        ours.zip(name).is_some_and(|(ours, name)| ours.names(&name))
     }
 
     /// Takes `more` names in, and writes the list of the folder at `path` where it then has more than before.

@@ -79,6 +79,11 @@ use names::{
     exports_of_runs, stands_for,
 };
 pub(crate) use names::{SCENARIO, is_of_a_motion, is_written_to};
+
+/// Whether `path` is what `export` wrote into a campaign's folder.
+pub(crate) fn is_exported(path: &Path) -> bool {
+    List::has_exported(path)
+}
 use recent::Recent;
 pub use run_writer::{Landed, RunWriter};
 

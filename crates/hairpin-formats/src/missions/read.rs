@@ -10,7 +10,7 @@ use super::error::MissionError;
 use super::mission::{Frame, Mission};
 use super::place::place;
 use crate::bounds::{self, MOST_BYTES, MOST_TEXT_BYTES};
-use crate::folder::is_of_a_motion;
+use crate::folder::{is_exported, is_of_a_motion};
 use crate::geodetic;
 use crate::qgc::{read_plan, read_wpl};
 use crate::waypoints;
@@ -38,7 +38,8 @@ fn read_environment(path: &Path) -> Result<Option<Environment>, MissionError> {
 
 /// Reads the missions of a folder, sorted by name, or the one of a file, with the environments beside them. Places on
 /// Earth are the world's by `scenario`. A table in degrees is passed over where the same waypoints lie beside it in
-/// metres, as `export` writes both; so are the motions that it writes, and text files that are no missions.
+/// metres, as `export` writes both; so are the motions that it writes, what it made of the same waypoints for
+/// autopilots, and text files that are no missions.
 ///
 /// # Errors
 /// As [`read`]; a folder that cannot be read or has no such file; an environment that is none.
@@ -53,8 +54,8 @@ pub fn read_all(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Vec<M
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         ENDINGS.contains(&ending.as_str()) && (ending != "txt" || is_wpl(path)) && !is_motion(path)
     });
-    let in_metres = |path: &PathBuf| in_metres(path).is_some_and(|twin| paths.contains(&twin));
-    let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !in_metres(path)).collect();
+    let is_again = |path: &PathBuf| forms_before(path).iter().any(|form| paths.contains(form));
+    let mut kept: Vec<&PathBuf> = paths.iter().filter(|path| !is_again(path)).collect();
     kept.sort();
     if kept.is_empty() {
         return Err(MissionError::Empty { path: path.into() });
@@ -82,10 +83,23 @@ fn is_motion(path: &Path) -> bool {
             .is_some_and(|column| [&b"t"[..], b"Duration"].contains(&&column[..]))
 }
 
-/// The file in metres that a file in degrees may have beside it.
-fn in_metres(path: &Path) -> Option<PathBuf> {
-    let name = path.file_name()?.to_str()?;
-    Some(path.with_file_name(format!("{}.csv", name.strip_suffix(geodetic::ENDING)?)))
+/// The files that a mission is read from rather than from this one, where they lie beside it: of degrees the one in
+/// metres; of what `export` wrote for an autopilot (take-off, way home and landing added, or slow) what it was made of.
+fn forms_before(path: &Path) -> Vec<PathBuf> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = |case: &str, endings: &[&str]| -> Vec<PathBuf> {
+        endings.iter().map(|ending| path.with_file_name(format!("{case}{ending}"))).collect()
+    };
+    if let Some(case) = name.strip_suffix(geodetic::ENDING) {
+        return beside(case, &[".csv"]);
+    }
+    let more = [
+        ("_slow.plan", &[".csv", geodetic::ENDING, ".plan"][..]),
+        (".plan", &[".csv", geodetic::ENDING]),
+        (".waypoints", &[".csv", geodetic::ENDING, ".plan"]),
+    ];
+    let form = more.iter().find_map(|(ending, before)| Some((name.strip_suffix(ending)?, *before)));
+    form.filter(|_| is_exported(path)).map_or_else(Vec::new, |(case, before)| beside(case, before))
 }
 
 /// Whether a text file says that it is a list of mission items.

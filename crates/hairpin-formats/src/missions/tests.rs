@@ -238,3 +238,25 @@ proptest! {
         }
     }
 }
+
+/// What `export` made of a mission for autopilots is that mission once more, and a user's own of the same name is not.
+#[test]
+fn what_export_wrote_of_one_mission_is_read_once() {
+    let place = tempfile::tempdir().expect("a folder of our own");
+    let export = place.path().join("export");
+    std::fs::create_dir(&export).expect("a folder of our own");
+    let write = |name: &str, text: &str| std::fs::write(export.join(name), text).expect("a file of our own");
+    write("0000.csv", "x_m,y_m,z_m\n0,0,5\n9,0,5\n");
+    for name in ["0000.plan", "0000_slow.plan", "0001.plan"] {
+        write(name, PLAN);
+    }
+    write("0001.waypoints", WPL);
+    let read = || -> Vec<String> {
+        let all = read_all(&export, &scenario(false), FARTHEST_M).expect("missions");
+        all.into_iter().map(|mission| mission.name).collect()
+    };
+    assert_eq!(read().len(), 5, "nothing says that they are ours: {:?}", read());
+    let list = "export/CASE.csv\nexport/CASE.plan\nexport/CASE_slow.plan\nexport/CASE.waypoints\n";
+    std::fs::write(place.path().join(".hairpin"), list).expect("a file of our own");
+    assert_eq!(read(), ["0000", "0001"]);
+}
