@@ -32,7 +32,7 @@ fn against(asked: &Judge) -> Result<Option<Against>, Problem> {
     let named = asked.turn != 0.0 || asked.offset != [0.0; 3];
     if against.is_none() && (asked.path.is_file() || of_logs || named) {
         return Err(Problem::input(format!(
-            "{}: a log is judged against a campaign's cases, --campaign OUT, or one mission, --mission M",
+            "{} is not a campaign folder; a log is judged against a campaign's cases, --campaign OUT, or one mission, --mission M",
             asked.path.display()
         )));
     }

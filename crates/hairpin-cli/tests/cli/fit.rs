@@ -26,7 +26,7 @@ controller = "stable-waypoint"
 "#;
 
 /// The logs of a vehicle with a slower controller and commands that are late: the simulation comes nearer to logs that
-/// the fit has not seen, the true numbers lie within, and what is written is read.
+/// the fit has not seen, the numbers are near the true ones, and what is written is read.
 #[test]
 fn a_fit_helps_on_logs_that_it_has_not_seen() {
     let place = tempfile::tempdir().unwrap();
@@ -63,9 +63,12 @@ fn a_fit_helps_on_logs_that_it_has_not_seen() {
     let numbers = found["parameters"].as_array().unwrap();
     let of = |name: &str| numbers.iter().find(|number| number["name"] == name).unwrap();
     assert_eq!(of("bandwidth")["identifiable"], true, "{found}");
-    for (name, truth) in [("bandwidth", 0.8), ("latency_s", 0.08), ("drag_quadratic_n_s2_m2", 0.1)] {
-        let ends = of(name)["interval"].as_array().unwrap();
-        assert!(ends[0].as_f64().unwrap() <= truth && truth <= ends[1].as_f64().unwrap(), "{name}: {found}");
+    // How often intervals hold is asked of many draws, in the library; one set of logs tells how near the values are.
+    for (name, truth, within) in
+        [("bandwidth", 0.8, 0.05), ("latency_s", 0.08, 0.1), ("drag_quadratic_n_s2_m2", 0.1, 0.15)]
+    {
+        let value = of(name)["value"].as_f64().unwrap();
+        assert!((value - truth).abs() <= within * truth, "{name}: {found}");
     }
     // Nothing was at its limit.
     assert_eq!(of("thrust_to_weight")["identifiable"], false);

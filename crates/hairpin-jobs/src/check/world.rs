@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::{Setup, vary};
+use hairpin_formats::library;
 use hairpin_formats::missions::{self, Mission};
 use hairpin_formats::scenario::{is_scenario, setup_for, shadowed};
 use nalgebra::Vector3;
@@ -23,7 +24,7 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup
     shadowed(robot).iter().for_each(|note| watch.warn(note));
     let (setup, name) = match world {
         Some(world) if is_scenario(world) => {
-            if is_scenario(robot) {
+            if brings_a_world(robot) {
                 return Err(Problem::input(format!(
                     "--robot {robot} and --world {world} are both scenarios: give a robot's name or file, or one scenario as --robot"
                 )));
@@ -43,12 +44,17 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup
         }
         None => (setup_for(robot, sets)?, robot.clone()),
     };
-    let given = world.is_some() || is_scenario(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
+    let given = world.is_some() || brings_a_world(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
     if given {
         let read = missions::read(mission, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
         return Ok((setup, read, format!("world of {name}")));
     }
     in_the_open((&setup, sets), mission)
+}
+
+/// Whether a robot is given by a scenario; a shipped name that is a robot's too is the robot's.
+fn brings_a_world(robot: &str) -> bool {
+    is_scenario(robot) && (Path::new(robot).is_file() || !library::robots().any(|shipped| shipped.name == robot))
 }
 
 /// A robot alone: nothing is around it, and where the mission begins does not matter.

@@ -1,7 +1,7 @@
 //! Flights through waypoints that somebody else chose, at speeds that he demands.
 //!
 //! ```text
-//! a leg of length L at v takes     L/v between waypoints that are passed (with v),
+//! a leg of length L at v takes     L/v between waypoints that are passed (with v at most),
 //!                                  2 L/v from or to rest,   35/16 L/v from rest to rest (its peak is v)
 //! p[t₀, t₁, t₂] = ½ p̈ somewhere:   2 ‖v₂ − v₁‖ / (T₁ + T₂) ≤ max ‖p̈‖, v₁ and v₂ mean velocities
 //! ```
@@ -29,7 +29,8 @@ const HALVINGS: u32 = 24;
 /// leg takes longer than `longest` (s).
 ///
 /// Velocities at waypoints point along the minimum-snap curve for the times. Legs without a demand get more time while
-/// they are refused, those with one never.
+/// they are refused, those with one never: where these are refused, their waypoints are passed more slowly, as level
+/// bodies that drag holds back are bent by it, and the speed is made good between.
 ///
 /// # Errors
 /// The legs that are refused in the end, with their evidence.
@@ -63,14 +64,18 @@ pub fn hold(
             return Ok(Profile { legs: judged.into_iter().flatten().collect() });
         }
         let mut moved = false;
-        for (leg, _) in failed.iter().filter(|(leg, _)| speeds[*leg].is_none()) {
-            if times[*leg] < longest {
+        for (leg, why) in &failed {
+            let ends = [*leg, leg + 1].map(|end| share[end] > 0.0 && end > 0 && end < lengths.len());
+            let may_slow = speeds[*leg].is_none() && times[*leg] < longest;
+            // The same bend in more time goes as far astray: what bends out of the free space is bent less.
+            let astray = matches!(why.limit(), Limit::World | Limit::Obstacle) && ends.contains(&true);
+            if may_slow && !astray {
                 times[*leg] = (times[*leg] * SLOWER).min(longest);
                 moved = true;
             } else {
-                for end in [*leg, leg + 1] {
-                    moved |= share[end] > 0.0;
+                for (end, _) in [*leg, leg + 1].into_iter().zip(ends).filter(|(_, bends)| *bends) {
                     share[end] = if share[end] > 0.1 { share[end] / SLOWER } else { 0.0 };
+                    moved = true;
                 }
             }
         }
@@ -96,7 +101,8 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
-/// The level states at the waypoints: along the minimum-snap curve, at the least speed that is demanded beside them.
+/// The level states at the waypoints: along the minimum-snap curve, at a share of the least speed that is demanded
+/// beside them.
 fn ends(
     judge: &LegJudge,
     waypoints: &[Point3<f64>],
@@ -116,7 +122,7 @@ fn ends(
             None => along * share[k] * (judge.top_speed() / along.norm()).min(1.0),
             Some(speed) => {
                 let straight = || (waypoints[k + 1] - waypoints[k - 1]).try_normalize(1e-9);
-                along.try_normalize(1e-6).or_else(straight).unwrap_or_else(Vector3::x) * speed
+                along.try_normalize(1e-6).or_else(straight).unwrap_or_else(Vector3::x) * speed * share[k]
             }
         }
     };
@@ -189,17 +195,17 @@ mod tests {
         let flight = hold(&judge, &points, &[Some(5.0); 3], 600.0).unwrap();
         let times: Vec<f64> = flight.legs.iter().map(|leg| leg.duration).collect();
         assert_eq!(times, [12.0, 8.0, 16.0]);
-        // Waypoints are passed with 5 m/s, and the mean between them is as much: level ends and drag shape the rest.
+        // The mean between waypoints is 5 m/s, and they are passed with no more: level ends and drag shape the rest.
         for share in [0.0, 1.0] {
             let speed = flight.legs[1].derivative(8.0 * share, 1).norm();
-            assert!((speed - 5.0).abs() < 1e-9, "{share}: {speed}");
+            assert!(speed > 0.0 && speed < 5.0 + 1e-9, "{share}: {speed}");
         }
         assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()));
         // Only what is demanded is held: the others take what they need.
         let free = hold(&judge, &points, &[None, Some(5.0), None], 600.0).unwrap();
         assert_eq!(free.legs[1].duration, 8.0);
         let passed = free.legs[1].derivative(0.0, 1).norm();
-        assert!((passed - 5.0).abs() < 1e-9, "{passed}");
+        assert!(passed > 0.0 && passed < 5.0 + 1e-9, "{passed}");
     }
 
     /// A point mass that meets three places at given times, by quadrature of the kernel: the least acceleration is a

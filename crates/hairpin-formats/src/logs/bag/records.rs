@@ -1,7 +1,7 @@
 //! The records of an MCAP file, with their places: the outermost ones are cut here, so that a spoiled one is told by
 //! its byte and takes no room; what is in chunks is unpacked by the crate `mcap`, within bounds.
 
-use mcap::records::{Record as Parsed, op};
+use mcap::records::op;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::super::error::{Fault, Place};
@@ -158,30 +158,55 @@ impl<'a> Records<'a> {
     }
 }
 
-/// Hands over one record; what is wrong with it comes back in words.
+/// Hands over one record; what is wrong with it comes back in words. The crate's own parser makes room for whatever
+/// length a text is said to have.
 fn hand(operation: u8, body: &[u8], at: usize, take: &mut Take) -> Result<Result<(), String>, Fault> {
-    if !matches!(operation, op::SCHEMA | op::CHANNEL | op::MESSAGE) {
-        return Ok(Ok(()));
-    }
-    let parsed = match foreign::call(|| mcap::parse_record(operation, body)) {
-        Ok(Ok(parsed)) => parsed,
-        Ok(Err(error)) => return Ok(Err(error.to_string())),
-        Err(foreign::Panicked) => return Ok(Err("a broken record".into())),
+    let mut fields = Fields(body);
+    let record = match operation {
+        op::SCHEMA => fields.schema(),
+        op::CHANNEL => fields.channel(),
+        op::MESSAGE => fields.message(at),
+        _ => return Ok(Ok(())),
     };
-    match parsed {
-        Parsed::Schema { header, .. } => take(Record::Schema { id: header.id, name: header.name })?,
-        Parsed::Channel(channel) => take(Record::Channel {
-            id: channel.id,
-            schema: channel.schema_id,
-            topic: channel.topic,
-            encoding: channel.message_encoding,
-        })?,
-        Parsed::Message { header, data } => {
-            take(Record::Message { channel: header.channel_id, received_ns: header.log_time, offset: at, data: &data })?
-        }
-        _ => {}
+    match record {
+        Some(record) => take(record).map(Ok),
+        None => Ok(Err("a record that is shorter than what it says to hold".into())),
     }
-    Ok(Ok(()))
+}
+
+/// What is left of a record; numbers begin with their lowest byte, texts with their length.
+struct Fields<'a>(&'a [u8]);
+
+impl<'a> Fields<'a> {
+    fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (first, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    fn text(&mut self) -> Option<String> {
+        let length = u32::from_le_bytes(self.bytes()?) as usize;
+        let text = self.0.get(..length)?;
+        self.0 = &self.0[length..];
+        std::str::from_utf8(text).ok().map(str::to_owned)
+    }
+
+    fn schema(&mut self) -> Option<Record<'a>> {
+        Some(Record::Schema { id: u16::from_le_bytes(self.bytes()?), name: self.text()? })
+    }
+
+    fn channel(&mut self) -> Option<Record<'a>> {
+        let [id, schema] = [u16::from_le_bytes(self.bytes()?), u16::from_le_bytes(self.bytes()?)];
+        Some(Record::Channel { id, schema, topic: self.text()?, encoding: self.text()? })
+    }
+
+    fn message(&mut self, offset: usize) -> Option<Record<'a>> {
+        let channel = u16::from_le_bytes(self.bytes()?);
+        let _number: [u8; 4] = self.bytes()?;
+        let received_ns = u64::from_le_bytes(self.bytes()?);
+        let _sent: [u8; 8] = self.bytes()?;
+        Some(Record::Message { channel, received_ns, offset, data: self.0 })
+    }
 }
 
 fn broken(at: usize, what: &str) -> Fault {

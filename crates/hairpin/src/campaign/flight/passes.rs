@@ -141,12 +141,18 @@ impl Looked<'_> {
     /// The flight from rest at waypoint `first` to rest at `last`, or what is not known to be flown.
     fn section(&self, first: usize, last: usize) -> Result<Profile, Vec<Broken>> {
         let (points, speeds) = (&self.asked.waypoints[first..=last], &self.asked.speeds[first..last]);
+        let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+        let held = hold(self.judge, points, speeds, LONGEST_LEG_S);
         if speeds.iter().any(Option::is_some) {
-            let refused = hold(self.judge, points, speeds, LONGEST_LEG_S);
-            return refused.map_err(|legs| legs.iter().map(|(leg, why)| self.refused(first + leg, why)).collect());
+            return held.map_err(|legs| legs.iter().map(|(leg, why)| self.refused(first + leg, why)).collect());
+        }
+        // Where nothing is demanded and that finds none, all leg times are tried, and what no flight can do is known.
+        if let Ok(flight) = held
+            && flight.duration() <= longest
+        {
+            return Ok(flight);
         }
         let timing = LegTiming::ladder(SHORTEST_LEG_S, LONGEST_LEG_S);
-        let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
         let sure = |waypoint, leg, limit, unit, excess, words| {
             let certainty = Certainty::Proven;
             Err(vec![Broken { waypoint, leg, limit, unit, excess: Some(excess), certainty, words }])
