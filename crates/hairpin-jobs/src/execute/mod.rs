@@ -146,9 +146,12 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, trouble, missions, replayed })
 }
 
+/// The cases of a search, and what was measured of them.
+type Searched = (Vec<Case>, Vec<CaseResult>);
+
 /// What the folder's own search found and was judged, for missions to be compared with; of missions before them, what
 /// those were compared with.
-fn searched_before(work: &Work) -> Result<Option<(Vec<Case>, Vec<CaseResult>)>, Problem> {
+fn searched_before(work: &Work) -> Result<Option<Searched>, Problem> {
     if !work.folder.has_cases() || !work.folder.has_tally() {
         return Ok(None);
     }

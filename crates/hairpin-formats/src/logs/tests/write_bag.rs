@@ -17,7 +17,7 @@ impl Cdr {
     }
 
     fn put<const N: usize>(mut self, mut bytes: [u8; N]) -> Self {
-        while (self.bytes.len() - 4) % N != 0 {
+        while !(self.bytes.len() - 4).is_multiple_of(N) {
             self.bytes.push(0xee);
         }
         if !self.little {

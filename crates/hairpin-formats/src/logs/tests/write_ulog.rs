@@ -150,7 +150,7 @@ pub(crate) fn flight() -> Vec<u8> {
     for step in 0..100_u64 {
         let t = 10_000_000 + 20_000 * step;
         let seconds = step as f32 * 0.02;
-        let ned = [2.0 * seconds, 0.5, -1.0 * seconds];
+        let ned = [2.0 * seconds, 0.5, -seconds];
         let position = Position { t_us: t, ned, v: [2.0, 0.0, -1.0], ..Position::STILL };
         log.data(0, &[&position.bytes()]);
         let (sin, cos) = 15_f32.to_radians().sin_cos();

@@ -43,7 +43,7 @@ pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, Str
                 let most = looked.settings.bounds.most;
                 one.fastest = Some(solved.duration);
                 one.top_speed = Some(looked.settings_of(leg).speed);
-                one.nearest = most.is_finite().then(|| ("curvature", most - solved.curvature, "1/m"));
+                one.nearest = most.is_finite().then_some(("curvature", most - solved.curvature, "1/m"));
                 one.broken = proven;
             }
             Err(_) if misplaced => one.broken = proven,
