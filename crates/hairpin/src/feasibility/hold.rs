@@ -16,10 +16,15 @@ use super::steering::{LegEnd, LegJudge};
 use crate::math::minimum_snap::minimum_snap;
 use crate::trajectory::{Profile, ProfileLeg};
 
-/// Rounds of slowing down after which no flight was found.
-const ROUNDS: usize = 100;
-/// A leg that may take longer gets this much more time.
+/// A waypoint next to a leg that is refused is passed this much more slowly, and from a tenth of its speed on not at all.
 const SLOWER: f64 = 1.12;
+/// A free leg's times are tried in steps of this ratio,
+const STRETCH: f64 = 1.2;
+/// from this share of the first guess
+const SHORTEST: f64 = 0.6;
+/// to so many first guesses: in more, a leg that passes its ends at speed turns loops. One from rest to rest may take
+/// the longest.
+const LONGEST: f64 = 4.0;
 /// A rest-to-rest septic's peak speed by its mean one.
 const PEAK: f64 = 35.0 / 16.0;
 /// Halvings of a leg's least time.
@@ -28,9 +33,11 @@ const HALVINGS: u32 = 24;
 /// A flight from rest to rest through `waypoints` (m) whose leg k is held at `speeds[k]` (m/s) where that is given; no
 /// leg takes longer than `longest` (s).
 ///
-/// Velocities at waypoints point along the minimum-snap curve for the times. Legs without a demand get more time while
-/// they are refused, those with one never: where these are refused, their waypoints are passed more slowly, as level
-/// bodies that drag holds back are bent by it, and the speed is made good between.
+/// Velocities at waypoints point along the minimum-snap curve through them. A leg without a demand takes the first time
+/// of a geometric ladder in which it may be flown between its ends, one with a demand its own. Where a leg is refused,
+/// its waypoints are passed more slowly, at last at rest: bodies that are level there bend a leg between two directions,
+/// and the less the slower they are. So a leg without a demand is refused only if it is refused straight and from rest
+/// to rest.
 ///
 /// # Errors
 /// The legs that are refused in the end, with their evidence.
@@ -41,49 +48,81 @@ pub fn hold(
     longest: f64,
 ) -> Result<Profile, Vec<(usize, Infeasible)>> {
     let lengths: Vec<f64> = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-    let mut times: Vec<f64> = lengths
+    let demanded: Vec<Option<f64>> = lengths
         .iter()
         .enumerate()
-        .map(|(leg, length)| match speeds[leg] {
-            Some(speed) => paced(*length, speed, [leg == 0, leg + 1 == lengths.len()]),
-            None => first_guess(judge, *length).min(longest),
-        })
+        .map(|(leg, length)| Some(paced(*length, speeds[leg]?, [leg == 0, leg + 1 == lengths.len()])))
         .collect();
-    if let Some(leg) = times.iter().position(|time| *time > longest) {
-        let margin = longest - times[leg];
-        return Err(vec![(leg, Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin })]);
+    if let Some((leg, time)) =
+        demanded.iter().enumerate().find_map(|(leg, time)| time.filter(|t| *t > longest).map(|t| (leg, t)))
+    {
+        return Err(vec![(
+            leg,
+            Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin: longest - time },
+        )]);
     }
+    let guessed: Vec<f64> = demanded
+        .iter()
+        .zip(&lengths)
+        .map(|(time, length)| time.unwrap_or_else(|| first_guess(judge, *length).min(longest)))
+        .collect();
+    let passed = velocities(judge, waypoints, speeds, &guessed);
     let mut share = vec![1.0; waypoints.len()];
-    let mut failed = Vec::new();
-    for _ in 0..ROUNDS {
-        let ends = ends(judge, waypoints, speeds, &times, &share);
-        let judged: Vec<Result<ProfileLeg, Infeasible>> =
-            times.iter().enumerate().map(|(k, time)| judge.judge(&ends[k], &ends[k + 1], *time)).collect();
-        failed = judged.iter().enumerate().filter_map(|(leg, one)| Some((leg, *one.as_ref().err()?))).collect();
-        if failed.is_empty() {
-            return Ok(Profile { legs: judged.into_iter().flatten().collect() });
-        }
-        let mut moved = false;
-        for (leg, why) in &failed {
-            let ends = [*leg, leg + 1].map(|end| share[end] > 0.0 && end > 0 && end < lengths.len());
-            let may_slow = speeds[*leg].is_none() && times[*leg] < longest;
-            // The same bend in more time goes as far astray: what bends out of the free space is bent less.
-            let astray = matches!(why.limit(), Limit::World | Limit::Obstacle) && ends.contains(&true);
-            if may_slow && !astray {
-                times[*leg] = (times[*leg] * SLOWER).min(longest);
-                moved = true;
-            } else {
-                for (end, _) in [*leg, leg + 1].into_iter().zip(ends).filter(|(_, bends)| *bends) {
-                    share[end] = if share[end] > 0.1 { share[end] / SLOWER } else { 0.0 };
-                    moved = true;
-                }
+    let mut legs: Vec<Option<Result<ProfileLeg, Infeasible>>> = vec![None; lengths.len()];
+    loop {
+        for leg in 0..legs.len() {
+            if legs[leg].is_none() {
+                let [from, to] = [leg, leg + 1].map(|k| judge.end(waypoints[k], passed[k] * share[k]));
+                let at_rest = [leg, leg + 1].into_iter().all(|k| passed[k] * share[k] == Vector3::zeros());
+                legs[leg] = Some(match demanded[leg] {
+                    Some(time) => judge.judge(&from, &to, time),
+                    None => in_free_time(
+                        judge,
+                        [&from, &to],
+                        guessed[leg],
+                        if at_rest { longest } else { longest.min(LONGEST * guessed[leg]) },
+                    ),
+                });
             }
         }
-        if !moved {
+        let refused: Vec<usize> = (0..legs.len()).filter(|leg| !matches!(legs[*leg], Some(Ok(_)))).collect();
+        let mut slower: Vec<usize> = refused
+            .iter()
+            .flat_map(|leg| [*leg, leg + 1])
+            .filter(|k| passed[*k] * share[*k] != Vector3::zeros())
+            .collect();
+        slower.dedup();
+        if slower.is_empty() {
             break;
         }
+        for k in slower {
+            share[k] = if share[k] > 0.1 { share[k] / SLOWER } else { 0.0 };
+            legs[k - 1] = None;
+            legs[k] = None;
+        }
     }
-    Err(failed)
+    let failed: Vec<(usize, Infeasible)> =
+        legs.iter().enumerate().filter_map(|(leg, one)| Some((leg, *one.as_ref()?.as_ref().err()?))).collect();
+    if failed.is_empty() { Ok(Profile { legs: legs.into_iter().flatten().flatten().collect() }) } else { Err(failed) }
+}
+
+/// The leg between `ends` in the first time of the ladder from the guess (s) on in which it may be flown.
+///
+/// # Errors
+/// The evidence against the longest.
+fn in_free_time(
+    judge: &LegJudge,
+    [from, to]: [&LegEnd; 2],
+    guess: f64,
+    longest: f64,
+) -> Result<ProfileLeg, Infeasible> {
+    let mut time = (SHORTEST * guess).min(longest);
+    loop {
+        match judge.judge(from, to, time) {
+            Err(_) if time < longest => time = (time * STRETCH).min(longest),
+            answer => return answer,
+        }
+    }
 }
 
 /// The time of a leg of `length` (m) that is held at `speed` (m/s), s; which of its ends are at rest.
@@ -101,15 +140,9 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
 
-/// The level states at the waypoints: along the minimum-snap curve, at a share of the least speed that is demanded
-/// beside them.
-fn ends(
-    judge: &LegJudge,
-    waypoints: &[Point3<f64>],
-    speeds: &[Option<f64>],
-    times: &[f64],
-    share: &[f64],
-) -> Vec<LegEnd> {
+/// The velocities at the waypoints, m/s: along the minimum-snap curve for these times, with the least speed that is
+/// demanded beside them.
+fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>], times: &[f64]) -> Vec<Vector3<f64>> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let last = waypoints.len() - 1;
     let velocity = |k: usize| {
@@ -119,14 +152,14 @@ fn ends(
         let along = curve.get(k).map_or_else(Vector3::zeros, |c| Vector3::new(c[0][1], c[1][1], c[2][1]));
         let demanded = [speeds[k - 1], speeds[k]].into_iter().flatten().reduce(f64::min);
         match demanded {
-            None => along * share[k] * (judge.top_speed() / along.norm()).min(1.0),
+            None => along * (judge.top_speed() / along.norm().max(f64::MIN_POSITIVE)).min(1.0),
             Some(speed) => {
                 let straight = || (waypoints[k + 1] - waypoints[k - 1]).try_normalize(1e-9);
-                along.try_normalize(1e-6).or_else(straight).unwrap_or_else(Vector3::x) * speed * share[k]
+                along.try_normalize(1e-6).or_else(straight).unwrap_or_else(Vector3::x) * speed
             }
         }
     };
-    waypoints.iter().enumerate().map(|(k, p)| judge.end(*p, velocity(k))).collect()
+    (0..waypoints.len()).map(velocity).collect()
 }
 
 /// By how much more than any flight within the limits has the acceleration must be, m/s², that turns from leg to leg at
@@ -241,6 +274,26 @@ mod tests {
         let refused = hold(&judge, &corner, &[Some(7.9); 2], 600.0).unwrap_err();
         assert!(!refused.is_empty() && refused.iter().all(|(leg, _)| *leg < 2), "{refused:?}");
         assert!(hold(&judge, &corner, &[None; 2], 600.0).is_ok());
+    }
+
+    /// Straight legs from rest to rest are a flight wherever each is one: a leg without a demand is refused for no bend
+    /// of the curve through its waypoints, and takes no longer for it.
+    #[test]
+    fn a_mission_beside_the_walls_is_flown_without_bending_into_them() {
+        let world = World::new(Vector3::repeat(12.0), 1.0, Vec::new()).unwrap();
+        let judge =
+            LegJudge::new(&flightgoggles(), &world, Limits { max_speed: 5.0, max_tilt: 0.7 }, ProofSettings::default())
+                .unwrap();
+        let near = 1.0 + 1e-3;
+        let square = [[near, near], [11.0, near], [11.0, 11.0], [near, 11.0], [near, near]].map(|[x, y]| {
+            let [x, y] = [x, y].map(|c: f64| c.min(12.0 - near));
+            Point3::new(x, y, 6.0)
+        });
+        let straight: f64 = square.windows(2).map(|pair| fastest(&judge, &pair[0], &pair[1], 600.0).unwrap().0).sum();
+        let flight = hold(&judge, &square, &[None; 4], 600.0).unwrap();
+        let taken: f64 = flight.legs.iter().map(|leg| leg.duration).sum();
+        assert!(taken < STRETCH * straight, "{taken} s, straight and at rest {straight} s");
+        assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()));
     }
 
     #[test]
