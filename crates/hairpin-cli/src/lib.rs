@@ -4,7 +4,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 
 mod args;
-mod commands;
+pub mod commands;
 mod console;
 mod exit;
 mod interrupt;

@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{Scenario, Setup, Tally, vary};
+use hairpin::campaign::{CallersCode, Scenario, Setup, Tally, vary};
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
@@ -28,6 +28,14 @@ pub struct Work {
 }
 
 impl Work {
+    /// The same, with the caller's code in place of files.
+    ///
+    /// # Errors
+    /// As of [`Setup::answered_by`].
+    pub(crate) fn answered_by(self, code: &CallersCode) -> Result<Self, Problem> {
+        Ok(Self { setup: self.setup.answered_by(code)?, ..self })
+    }
+
     /// Its setup as it is told of: with what the program that executed calls itself.
     ///
     /// # Errors
@@ -89,7 +97,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
-    let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
+    let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?.answered_by(&settings.consent.code)?;
     check_asked(&setup.scenario, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
