@@ -25,7 +25,7 @@ executor = hairpin.dynamics(
     pose=lambda x: {"p_m": x[:3], "v_m_s": x[3:], "q_wxyz": [1.0, 0.0, 0.0, 0.0]},
     step_s=0.05,
 )
-values = {"generate.reach": "none", "generate.search.method": "random", "generate.search.cases": 3, "execute.baseline": 0}
+values = {"generate.reach": "none", "generate.search.method": "uniform", "generate.search.cases": 3, "execute.baseline": 0}
 found = hairpin.stress("demo-quadrotor", executor=executor, out=tempfile.mkdtemp() + "/out", values=values)
 print(found.verdict)
 print(found.worst.evidence, f"{found.worst.max_deviation_m:.2f} m")

@@ -52,7 +52,7 @@ def executor(policy):
 
 
 place = tempfile.mkdtemp()
-values = {"generate.search.method": "random", "generate.search.cases": 5, "execute.baseline": 0}
+values = {"generate.search.cases": 3, "execute.repeat": 1, "execute.baseline": 0}
 a = hairpin.stress("demo-quadrotor", executor=executor(classical), out=f"{place}/classical", values=values)
 b = a.execute(executor=executor(learned()), out=f"{place}/learned").judge()
 for name, campaign in (("classical", a), ("learned", b)):

@@ -184,7 +184,7 @@ def test_own_dynamics_are_unchecked_where_nothing_is_planned(tmp_path):
         pose=lambda x: {"p_m": x, "q_wxyz": [1.0, 0.0, 0.0, 0.0]},
         step_s=0.05,
     )
-    values = {**SMALL, "generate.reach": "none", "generate.search.method": "random"}
+    values = {**SMALL, "generate.reach": "none", "generate.search.method": "uniform"}
     found = hairpin.stress("demo-quadrotor", executor=point, out=tmp_path / "out", values=values)
     assert {case.evidence for case in found} == {"unchecked"} and found.exit_code in (0, 1)
 

@@ -114,8 +114,6 @@ def test_mistakes_have_their_parts(tmp_path):
 def test_scenarios_are_texts_tables_and_files(tmp_path):
     from hairpin._scenario import to_toml
 
-    text = command("new", "quadrotor").stdout
-    del text
     shipped = (Path(__file__).parents[2] / "data/scenarios/demo-quadrotor.toml").read_text()
     tables = {**__import__("tomllib").loads(shipped)} if __import__("sys").version_info >= (3, 11) else None
     found = []
@@ -129,27 +127,26 @@ def test_scenarios_are_texts_tables_and_files(tmp_path):
 
 def test_explain_and_learn(tmp_path):
     why = hairpin.explain("demo-quadrotor", graphs=1)
-    assert why and why.exit_code == 0 and why.detail["losses"]["left"] > 0
+    assert why and why.exit_code == 0 and why.detail["verdict"] == why.verdict
     with pytest.raises(hairpin.InputError) as found:
         hairpin.learn(tmp_path, stress="beauty")
     assert found.value.field == "stress"
 
 
 def test_ctrl_c_keeps_what_is_done_and_resume_goes_on(tmp_path):
-    values = {"generate.search.cases": 40, "execute.repeat": 30, "execute.baseline": 0}
+    values = {"generate.search.cases": 6, "execute.repeat": 12, "execute.baseline": 0}
     seen = []
 
     def progress(what, done, of):
-        if what == "execute" and done > 0 and not seen:
-            seen.append(done)
+        if what == "execute" and not seen:
+            seen.append(what)
             os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt) as stopped:
-        hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, progress=progress)
+        hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, threads=1, progress=progress)
     assert seen and any("resume" in note for note in getattr(stopped.value, "__notes__", ["resume"]))
     left = hairpin.Campaign(tmp_path / "out")
-    assert len(left) == 40
-    values["execute.repeat"] = 30
+    assert len(left) == 6 and left.to_arrow("runs").num_rows < 72
     done = hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, if_there="resume")
     whole = hairpin.stress("demo-quadrotor", out=tmp_path / "whole", values=values)
     assert contents(done.folder) == contents(whole.folder)

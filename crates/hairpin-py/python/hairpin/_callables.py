@@ -7,7 +7,6 @@ import ast
 import builtins
 import copy
 import inspect
-import os
 import tempfile
 import textwrap
 import types
@@ -20,7 +19,7 @@ import numpy.typing as npt
 
 from hairpin._call import Brought
 from hairpin._errors import InputError
-from hairpin._scenario import toml_value
+from hairpin._scenario import texts, toml_value
 
 _NUMBERS = ("v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s")
 _PLACES = ("from_m", "to_m", "start_m", "end_m")
@@ -38,7 +37,7 @@ class Controller(Protocol):
         """The command at ``t_s`` s."""
 
 
-ControllerLike = Union[Callable[[float, dict[str, Any], dict[str, Any]], Mapping[str, Any]], Controller, type]
+ControllerLike = Union[Callable[[float, dict[str, Any], dict[str, Any]], Mapping[str, Any]], Controller, type[Controller]]
 """A function ``control(t_s, state, reference)``, an object with such a method, or its class."""
 
 
@@ -63,11 +62,12 @@ def bring(
 ) -> Brought:
     """Callables as jobs take them. A text is a word or file of the scenario's."""
     brought = Brought()
-    for key, given, make, what in (
+    kinds: tuple[tuple[str, Any, Callable[[Any, list[BaseException]], Any], str], ...] = (
         ("execute.controller", controller, _steering, "controller"),
         (score_key, score, _scoring, "score"),
         ("generate.search.target", target, _measuring, "target"),
-    ):
+    )
+    for key, given, make, what in kinds:
         if given is None:
             continue
         if isinstance(given, str):
@@ -168,11 +168,9 @@ def _kept(given: Any, what: str) -> Path:
     """The file that a campaign keeps of a callable."""
     name = given.__name__ if hasattr(given, "__name__") else type(given).__name__
     text = source(given, what) or _stub(given, name, what)
-    folder = Path(tempfile.gettempdir()) / f"hairpin-callables-{os.getuid() if hasattr(os, 'getuid') else 0}"
-    folder.mkdir(mode=0o700, exist_ok=True)
     plain = "".join(c if c.isalnum() or c in "_-" else "_" for c in name)
     plain = plain if plain.isascii() and plain not in ("score", "target") else what
-    place = Path(tempfile.mkdtemp(dir=folder)) / f"{plain}.py"
+    place = Path(tempfile.mkdtemp(dir=texts())) / f"{plain}.py"
     place.write_text(text, encoding="utf-8")
     return place
 

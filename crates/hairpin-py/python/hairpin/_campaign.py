@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,10 +17,6 @@ from hairpin import _native
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
 from hairpin._scenario import sets_of
-
-if TYPE_CHECKING:
-    import pandas
-    import pyarrow
 
 Floats = npt.NDArray[np.float64]
 
@@ -185,8 +181,8 @@ class Campaign:
 
     # Tables.
 
-    def to_arrow(self, table: str = "results") -> pyarrow.Table:
-        """A table of the folder as Arrow: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, ….
+    def to_arrow(self, table: str = "results") -> Any:
+        """A table of the folder as a ``pyarrow.Table``: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, ….
 
         Columns: docs/folder.md. Needs pyarrow. ``polars.from_arrow`` takes what comes of it.
         """
@@ -200,8 +196,8 @@ class Campaign:
         there = sorted({path.name.removesuffix(".parquet") for path in self.folder.iterdir() if path.suffix == ".parquet" or path.is_dir()})
         raise InputError(f"`table` = {table!r}: must be one of {', '.join(there)}", "table", repr(table), ", ".join(there))
 
-    def to_pandas(self, table: str = "results") -> pandas.DataFrame:
-        """The same as pandas has it. Needs pyarrow and pandas."""
+    def to_pandas(self, table: str = "results") -> Any:
+        """The same as a ``pandas.DataFrame``. Needs pyarrow and pandas."""
         return self.to_arrow(table).to_pandas()
 
     def execution(self, case: str | int, run: int | None = None) -> dict[str, Floats]:

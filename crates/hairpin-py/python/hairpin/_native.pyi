@@ -1,6 +1,26 @@
 from os import PathLike
 from typing import Any, final
 
+__all__ = [
+    "Code",
+    "Vehicle",
+    "__version__",
+    "run",
+    "stress",
+    "generate",
+    "explain",
+    "score_key",
+    "execute",
+    "judge",
+    "verify",
+    "shrink",
+    "compare",
+    "learn",
+    "report",
+    "read",
+    "max_load",
+]
+
 __version__: str
 
 _Path = str | PathLike[str]

@@ -182,17 +182,23 @@ def _absolute(name: str) -> str:
     return os.path.abspath(name) if os.path.exists(name) else name
 
 
-def _file_of(text: str, what: str) -> Path:
-    """A file of `text`; the same text is in the same file."""
+def texts() -> Path:
+    """A folder for files that jobs read; it goes with Python."""
     global _texts
     if _texts is None:
         _texts = Path(tempfile.mkdtemp(prefix="hairpin-"))
         atexit.register(shutil.rmtree, _texts, ignore_errors=True)
+    return _texts
+
+
+def _file_of(text: str, what: str) -> Path:
+    """A file of `text`; the same text is in the same file."""
+    folder = texts()
     for number in range(10_000):
-        path = _texts / (f"{what}.toml" if number == 0 else f"{what}-{number}.toml")
+        path = folder / (f"{what}.toml" if number == 0 else f"{what}-{number}.toml")
         if not path.exists():
             path.write_text(text, encoding="utf-8")
             return path
         if path.read_text(encoding="utf-8") == text:
             return path
-    raise RuntimeError(f"there are too many {what}s in {_texts}")
+    raise RuntimeError(f"there are too many {what}s in {folder}")

@@ -185,6 +185,7 @@ class Drives:
 def steer(
     rover: str | os.PathLike[str] | Robot,
     *,
+    queries: None = ...,
     x: float,
     y: float,
     yaw: float,
@@ -200,6 +201,8 @@ def steer(
     max_curvature: float | None = ...,
     tolerance_m: float | None = ...,
     time_limit_ms: float | None = ...,
+    threads: int | None = ...,
+    progress: Progress | None = ...,
 ) -> Drive: ...
 
 
@@ -208,6 +211,12 @@ def steer(
     rover: str | os.PathLike[str] | Robot,
     *,
     queries: npt.ArrayLike,
+    x: None = ...,
+    y: None = ...,
+    yaw: None = ...,
+    k0: float = ...,
+    kf: float = ...,
+    start: None = ...,
     free_end: bool = ...,
     terrain: str | os.PathLike[str] | None = ...,
     keep_out: str | os.PathLike[str] | None = ...,
