@@ -1,5 +1,6 @@
 //! Jobs that begin from a campaign's folder.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 use hairpin::campaign::report::violation;
@@ -163,12 +164,11 @@ pub(crate) fn report(py: Python<'_>, folder: PathBuf, waiting: Waiting) -> PyRes
 pub(crate) fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>> {
     let found = py.detach(|| -> Result<Value, Problem> {
         let work = open_to_read(&folder)?;
-        let rows = work.folder.read_rows()?;
+        let rows: HashMap<_, _> = work.folder.read_rows()?.into_iter().map(|row| (row.case.number, row)).collect();
         let cases = work.folder.read_cases_without_profiles()?;
         let limits: Vec<String> = work.setup.scenario.head().limits.iter().map(ToString::to_string).collect();
         let of_case = |case: &hairpin::campaign::Case| {
-            let row = rows.iter().find(|row| row.case.number == case.number);
-            let result = row.and_then(|row| row.result.as_ref());
+            let result = rows.get(&case.number).and_then(|row| row.result.as_ref());
             let measures = result.and_then(|result| result.measures.as_ref());
             let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|point| point.coords.into()).collect();
             json!({
@@ -187,7 +187,7 @@ pub(crate) fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>
         };
         Ok(json!({
             "folder": folder, "robot": work.setup.robot_name(), "controller": work.setup.controller(),
-            "limits": limits, "judged": !rows.is_empty() && rows.iter().all(|row| row.result.is_some()),
+            "limits": limits, "judged": !rows.is_empty() && rows.values().all(|row| row.result.is_some()),
             "cases": cases.iter().map(of_case).collect::<Vec<_>>(),
         }))
     });

@@ -9,7 +9,6 @@ import os
 import shlex
 import socket
 import sys
-import tempfile
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -17,9 +16,15 @@ from typing import Any
 import numpy as np
 
 from hairpin._errors import InputError
+from hairpin._scenario import texts
 
 PLACE = "HAIRPIN_PYTHON_EXECUTOR"
 """Where the process is heard."""
+_OWNER = "HAIRPIN_PYTHON_EXECUTOR_OWNER"
+
+
+_executors: dict[str, Callable[..., Any]] = {}
+_lock = threading.Lock()
 
 
 @contextlib.contextmanager
@@ -31,42 +36,44 @@ def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
     if not callable(executor):
         bound = "a command or a function of a mission"
         raise InputError(f"`executor` = {executor!r}: must be {bound}", "executor", repr(executor), bound)
-    name = "".join(c if c.isalnum() or c in "_-." else "_" for c in getattr(executor, "__name__", type(executor).__name__))
-    with tempfile.TemporaryDirectory(prefix="hairpin-") as folder:
-        place = os.path.join(folder, "executor")
-        server = socket.socket(socket.AF_UNIX)
-        server.bind(place)
-        server.listen(64)
-        listening = threading.Thread(target=_listen, args=(server, executor, name), daemon=True)
-        listening.start()
-        before = os.environ.get(PLACE)
-        os.environ[PLACE] = place
-        try:
-            yield f"{shlex.quote(sys.executable)} -m hairpin._bridge {name}"
-        finally:
-            if before is None:
-                del os.environ[PLACE]
-            else:
-                os.environ[PLACE] = before
-            # Closing alone does not end a call that waits.
-            with contextlib.suppress(OSError):
-                server.shutdown(socket.SHUT_RDWR)
-            server.close()
+    given = getattr(executor, "__name__", type(executor).__name__)
+    plain = "".join(c if c.isalnum() or c in "_-." else "_" for c in given) or "executor"
+    with _lock:
+        if PLACE not in os.environ or os.environ.get(_OWNER) != str(os.getpid()):
+            _begin_to_listen()
+        name = next(name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors)
+        _executors[name] = executor
+    try:
+        yield f"{shlex.quote(sys.executable)} -m hairpin._relay {name}"
+    finally:
+        with _lock:
+            del _executors[name]
 
 
-def _listen(server: socket.socket, executor: Callable[..., Any], name: str) -> None:
+def _begin_to_listen() -> None:
+    """For as long as the process lives."""
+    place = str(texts() / "executors")
+    server = socket.socket(socket.AF_UNIX)
+    server.bind(place)
+    server.listen(64)
+    threading.Thread(target=_listen, args=(server,), daemon=True).start()
+    os.environ[PLACE], os.environ[_OWNER] = place, str(os.getpid())
+
+
+def _listen(server: socket.socket) -> None:
     while True:
-        try:
-            connection, _ = server.accept()
-        except OSError:
-            return
-        threading.Thread(target=_serve, args=(connection, executor, name), daemon=True).start()
+        connection, _ = server.accept()
+        threading.Thread(target=_serve, args=(connection,), daemon=True).start()
 
 
-def _serve(connection: socket.socket, executor: Callable[..., Any], name: str) -> None:
-    """One program's missions."""
+def _serve(connection: socket.socket) -> None:
+    """One program's missions, of the executor that its first line names."""
     with connection, connection.makefile("r", encoding="utf-8") as asked, connection.makefile("w", encoding="utf-8") as said:
         with contextlib.suppress(OSError, ValueError):
+            name = asked.readline().strip()
+            executor = _executors.get(name)
+            if executor is None:
+                return
             for line in asked:
                 message = json.loads(line)
                 for answer in _answers(message, executor, name):
@@ -101,34 +108,3 @@ def _told(flown: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
             pose[key] = value
     yield from poses
     yield {"type": "end", "reason": flown.get("ended", "done")}
-
-
-def main() -> int:
-    """The program that hairpin starts."""
-    place = os.environ.get(PLACE)
-    if not place:
-        print(f"{sys.argv[-1]} lives in a Python process: go on from there, with the same executor", file=sys.stderr)
-        return 1
-    connection = socket.socket(socket.AF_UNIX)
-    try:
-        connection.connect(place)
-    except OSError:
-        print(f"{sys.argv[-1]} lives in a Python process that does not listen any more", file=sys.stderr)
-        return 1
-
-    def pass_on() -> None:
-        with contextlib.suppress(OSError):
-            while piece := os.read(0, 1 << 16):
-                connection.sendall(piece)
-            connection.shutdown(socket.SHUT_WR)
-
-    threading.Thread(target=pass_on, daemon=True).start()
-    with contextlib.suppress(OSError):
-        while piece := connection.recv(1 << 16):
-            while piece:
-                piece = piece[os.write(1, piece) :]
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -200,6 +200,12 @@ class Campaign:
         """The same as a ``pandas.DataFrame``. Needs pyarrow and pandas."""
         return self.to_arrow(table).to_pandas()
 
+    def to_polars(self, table: str = "results") -> Any:
+        """The same as a ``polars.DataFrame``. Needs pyarrow and polars."""
+        import polars
+
+        return polars.from_arrow(self.to_arrow(table))
+
     def execution(self, case: str | int, run: int | None = None) -> dict[str, Floats]:
         """What was executed: columns of `executions` by name, shape (n,); of the worst run if none is named. Needs pyarrow.
 
