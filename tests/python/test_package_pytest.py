@@ -87,6 +87,15 @@ def test_the_example_that_is_a_test_runs():
     assert code == 0 and "1 passed" in said, said
 
 
+@pytest.mark.parametrize("guide", ["stress", "own-controllers", "campaigns", "rover-generator", "heaviest-paths"])
+def test_guides_say_what_runs(guide, tmp_path, monkeypatch, capsys):
+    text = (ROOT / "docs" / f"{guide}.md").read_text().split("## From Python")[1]
+    code = text.split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, f"{guide}.md", "exec"), {"__name__": "guide"})
+    assert capsys.readouterr().out.strip()
+
+
 def test_docstrings_tell_what_happens():
     tried = 0
     for found in pkgutil.iter_modules(hairpin.__path__):

@@ -364,8 +364,68 @@ fn default_folder(scenario: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use hairpin::campaign::user_score::LegFacts;
+    use hairpin::campaign::{LegScorer, UserCode};
+
     use super::*;
     use crate::Unwatched;
+
+    /// Scores long legs.
+    struct Long;
+
+    impl UserCode for Long {
+        fn trouble(&self) -> Option<String> {
+            None
+        }
+
+        fn try_out(&self) -> Result<(), String> {
+            Ok(())
+        }
+
+        fn stop(&self) {}
+    }
+
+    impl LegScorer for Long {
+        fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]> {
+            legs.iter().map(|leg| [leg.length_m, 0.0]).collect()
+        }
+    }
+
+    #[test]
+    fn code_of_the_callers_answers_in_place_of_a_file_that_cannot() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("long.py");
+        std::fs::write(&file, "raise RuntimeError('it lives elsewhere')").unwrap();
+        let settings = CampaignSettings {
+            scenario: "demo-quadrotor".into(),
+            out: Some(place.path().join("out")),
+            sets: vec![("generate.score".into(), format!("'python:{}'", file.display()))],
+            ..CampaignSettings::default()
+        };
+        let refused = plan(&settings, &Unwatched).map(drop).unwrap_err().to_string();
+        assert!(refused.contains("it lives elsewhere"), "{refused}");
+        let code = CallersCode { score: Some(Arc::new(Long)), ..CallersCode::default() };
+        let settings = CampaignSettings { consent: Consent { code, ..Consent::default() }, ..settings };
+        let planned = plan(&settings, &Unwatched).unwrap();
+        assert_eq!(planned.setup.attachments.files()[0].1, std::fs::read(&file).unwrap(), "the file is what is kept");
+        let leg = LegFacts {
+            v_in_m_s: 1.0,
+            v_out_m_s: 1.0,
+            turn_rad: 0.0,
+            length_m: 7.0,
+            climb_m: 0.0,
+            slope_in: 0.0,
+            ground: 0.0,
+            duration_s: 7.0,
+            from_m: [0.0; 3],
+            to_m: [7.0, 0.0, 0.0],
+            start_m: [0.0; 3],
+            end_m: [7.0, 0.0, 0.0],
+        };
+        assert_eq!(planned.setup.user_score().unwrap().own_and_left(&[leg]), [[7.0, 0.0]]);
+    }
 
     #[test]
     fn folders_are_named_after_scenarios() {
