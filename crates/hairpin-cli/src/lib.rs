@@ -17,6 +17,7 @@ use std::panic::catch_unwind;
 use clap::Parser;
 
 use args::{Arguments, Command};
+use hairpin::campaign::CallersCode;
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
 use hairpin_formats::foreign;
 use hairpin_jobs::Problem;
@@ -25,6 +26,14 @@ use terminal::Terminal;
 /// Runs the command in `arguments`, whose first is the program's name, and gives its exit code. Results go to stdout,
 /// everything else to stderr.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    run_with(arguments, CallersCode::default())
+}
+
+/// The same with code of the caller's: a binary of another crate has the whole command line, in which its score, target
+/// or controller answers wherever a scenario names a file, or of controllers a command, for one. Of two calls in one
+/// process the first one's code counts.
+pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode) -> u8 {
+    settings::bring(code);
     apologise_when_panicking();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let parsed = match Arguments::try_parse_from(&arguments) {
