@@ -17,8 +17,8 @@ use std::panic::catch_unwind;
 use clap::Parser;
 
 use args::{Arguments, Command};
-use hairpin::campaign::CallersCode;
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
+use hairpin::campaign::CallersCode;
 use hairpin_formats::foreign;
 use hairpin_jobs::Problem;
 use terminal::Terminal;
