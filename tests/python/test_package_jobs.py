@@ -134,7 +134,7 @@ def test_explain_and_learn(tmp_path):
 
 
 def test_ctrl_c_keeps_what_is_done_and_resume_goes_on(tmp_path):
-    values = {"generate.search.cases": 6, "execute.repeat": 12, "execute.baseline": 0}
+    values = {"generate.search.cases": 4, "execute.repeat": 12, "execute.baseline": 0}
     seen = []
 
     def progress(what, done, of):
@@ -146,7 +146,7 @@ def test_ctrl_c_keeps_what_is_done_and_resume_goes_on(tmp_path):
         hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, threads=1, progress=progress)
     assert seen and any("resume" in note for note in getattr(stopped.value, "__notes__", ["resume"]))
     left = hairpin.Campaign(tmp_path / "out")
-    assert len(left) == 6 and left.to_arrow("runs").num_rows < 72
+    assert len(left) == 4 and left.to_arrow("runs").num_rows < 48
     done = hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, if_there="resume")
     whole = hairpin.stress("demo-quadrotor", out=tmp_path / "whole", values=values)
     assert contents(done.folder) == contents(whole.folder)
@@ -172,7 +172,7 @@ def test_the_interpreter_is_free_while_a_job_works(tmp_path):
     other = threading.Thread(target=count)
     other.start()
     begun = time.monotonic()
-    hairpin.stress("demo-quadrotor", out=tmp_path / "out", values={**SMALL, "generate.search.cases": 10})
+    hairpin.stress("demo-quadrotor", out=tmp_path / "out", values={**SMALL, "generate.search.cases": 4})
     ended = time.monotonic()
     over.set()
     other.join()
