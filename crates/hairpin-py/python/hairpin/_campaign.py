@@ -182,10 +182,11 @@ class Campaign:
 
     # Tables.
 
-    def to_arrow(self, table: str = "results") -> Any:
+    def to_arrow(self, table: str = "results", filters: Any = None) -> Any:
         """A table of the folder as a ``pyarrow.Table``: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, ….
 
-        Columns: docs/folder.md. Needs pyarrow. ``polars.from_arrow`` takes what comes of it.
+        ``filters`` are as of ``pyarrow.parquet.read_table``: ``[("case", "==", "0001")]`` reads that case alone. Columns:
+        docs/folder.md. Needs pyarrow.
         """
         try:
             import pyarrow.parquet as parquet
@@ -193,8 +194,8 @@ class Campaign:
             raise ImportError("tables need pyarrow: pip install hairpin[arrow]") from error
         for place in (self.folder / f"{table}.parquet", self.folder / table):
             if place.exists():
-                return parquet.read_table(place)
-        there = sorted({path.name.removesuffix(".parquet") for path in self.folder.iterdir() if path.suffix == ".parquet" or path.is_dir()})
+                return parquet.read_table(place, filters=filters)
+        there = sorted({path.name for path in self.folder.iterdir() if any(path.glob("*.parquet"))} | {path.stem for path in self.folder.glob("*.parquet")})
         raise InputError(f"`table` = {table!r}: must be one of {', '.join(there)}", "table", repr(table), ", ".join(there))
 
     def to_pandas(self, table: str = "results") -> Any:
@@ -212,13 +213,9 @@ class Campaign:
 
         Rows are those where the motion bends, as the folder keeps them.
         """
-        import pyarrow.compute as compute
-
         one = self[case]
-        wanted = one.run if run is None else run
-        table = self.to_arrow("executions")
-        keep = compute.and_(compute.equal(table["case"].cast("string"), one.id), compute.equal(table["run"], wanted or 0))
-        rows = table.filter(keep)
+        wanted = (one.run if run is None else run) or 0
+        rows = self.to_arrow("executions", filters=[("case", "==", one.id), ("run", "==", wanted)])
         return {
             name: np.asarray(rows[name].to_numpy(), dtype=np.float64)
             for name in rows.column_names
@@ -274,9 +271,8 @@ class Campaign:
         Needs pyarrow. Nothing is written.
         """
         found: dict[tuple[str, int], float | None] = {}
-        table = self.to_arrow("executions")
         for case in self.cases:
-            runs = {int(run) for run in table.filter(_of_case(table, case.id))["run"].to_pylist()}
+            runs = self.to_arrow("executions", filters=[("case", "==", case.id)])["run"].unique().to_pylist()
             for run in sorted(runs):
                 answer = judge(Run(case, run, self.execution(case.id, run)))
                 found[case.id, run] = None if answer is None else (float(answer) if not isinstance(answer, bool | np.bool_) else (0.0 if answer else -1.0))
@@ -483,12 +479,6 @@ def _case(one: Mapping[str, Any]) -> Case:
 def _badness(one: Case) -> tuple[int, float, int]:
     deviation = one.max_deviation_m if one.max_deviation_m is not None else -1.0
     return (_ORDER.get(one.status, 9), -deviation, one.number)
-
-
-def _of_case(table: Any, case: str) -> Any:
-    import pyarrow.compute as compute
-
-    return compute.equal(table["case"].cast("string"), case)
 
 
 def _metres(value: float | None) -> str:
