@@ -100,7 +100,7 @@ impl Vehicle {
             all.answers.append(&mut rows.answers);
             all.segments.append(&mut rows.segments);
         }
-        Ok((bytes(py, &all.answers), bytes(py, &all.segments), all.limits))
+        Ok((bytes(py, &all.answers)?, bytes(py, &all.segments)?, all.limits))
     }
 
     /// The vehicle's name, and what its curvature and its change per metre may be.
@@ -185,6 +185,9 @@ fn numbers(table: &[u8]) -> Vec<f64> {
     table.as_chunks().0.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect()
 }
 
-fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> Bound<'py, PyBytes> {
-    PyBytes::new(py, &numbers.iter().flat_map(|number| number.to_ne_bytes()).collect::<Vec<u8>>())
+fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> PyResult<Bound<'py, PyBytes>> {
+    PyBytes::new_with(py, size_of_val(numbers), |room| {
+        room.as_chunks_mut().0.iter_mut().zip(numbers).for_each(|(bytes, number)| *bytes = number.to_ne_bytes());
+        Ok(())
+    })
 }
