@@ -4,7 +4,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 
 mod args;
-mod commands;
+pub mod commands;
 mod console;
 mod exit;
 mod interrupt;
@@ -18,6 +18,7 @@ use clap::Parser;
 
 use args::{Arguments, Command};
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
+use hairpin::campaign::CallersCode;
 use hairpin_formats::foreign;
 use hairpin_jobs::Problem;
 use terminal::Terminal;
@@ -25,6 +26,14 @@ use terminal::Terminal;
 /// Runs the command in `arguments`, whose first is the program's name, and gives its exit code. Results go to stdout,
 /// everything else to stderr.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    run_with(arguments, CallersCode::default())
+}
+
+/// The same with code of the caller's: a binary of another crate has the whole command line, in which its score, target
+/// or controller answers wherever a scenario names a file, or of controllers a command, for one. Of two calls in one
+/// process the first one's code counts.
+pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode) -> u8 {
+    settings::bring(code);
     apologise_when_panicking();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let parsed = match Arguments::try_parse_from(&arguments) {

@@ -1,5 +1,8 @@
 //! From what was typed to the settings of jobs.
 
+use std::sync::OnceLock;
+
+use hairpin::campaign::CallersCode;
 use hairpin::campaign::scenario::Record;
 use hairpin::math::simd::Simd;
 use hairpin_jobs::Problem;
@@ -32,9 +35,19 @@ pub(crate) fn simd(kernels: &Kernels) -> Simd {
     if kernels.portable { Simd::Portable } else { Simd::Widest }
 }
 
+/// Code of whoever has the command line in a binary of his own.
+static CODE: OnceLock<CallersCode> = OnceLock::new();
+
+/// Takes the code that answers in place of files.
+pub(crate) fn bring(code: CallersCode) {
+    // It fails only where a command ran before in this process: its code stays.
+    let _ = CODE.set(code);
+}
+
 /// What of a folder may run, as this user has it.
 pub(crate) fn consent(commands: &Commands) -> Consent {
-    Consent::of_user(commands.allow_commands, |name| std::env::var_os(name))
+    let consent = Consent::of_user(commands.allow_commands, |name| std::env::var_os(name));
+    Consent { code: CODE.get().cloned().unwrap_or_default(), ..consent }
 }
 
 /// What a campaign is begun with.

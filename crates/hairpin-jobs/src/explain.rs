@@ -45,6 +45,7 @@ impl Default for ExplainSettings {
 pub fn explain(settings: &ExplainSettings, watch: &dyn Watch) -> Result<(Explanation, Verdict), Problem> {
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
+    let setup = setup.answered_by(&settings.consent.code)?;
     let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_search(&setup));
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let (began, deadline) = (Instant::now(), Deadline::after(settings.time_limit_s.or(setup.patience())));

@@ -43,7 +43,7 @@ pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> 
     let repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
     let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
-    let setup = setup.with_simd(simd);
+    let setup = setup.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
     consent.ask(&campaign_of(file), &Wish::of_execution(&setup))?;
     fly(repro, &setup, &case, watch)
@@ -68,7 +68,7 @@ pub fn replay_case(
     let result = result.filter(|result| result.measures.is_some());
     let result = result.ok_or_else(|| refuse("nothing was measured of it: hairpin execute, then hairpin judge"))?;
     let repro = Repro::of(&work.setup, found, &result);
-    let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd);
+    let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| refuse(&why))?;
     consent.ask(folder, &Wish::of_execution(&setup))?;
     fly(repro, &setup, &case, watch)

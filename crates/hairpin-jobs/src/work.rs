@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{Scenario, Setup, Tally, vary};
+use hairpin::campaign::{CallersCode, Scenario, Setup, Tally, vary};
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
@@ -28,6 +28,14 @@ pub struct Work {
 }
 
 impl Work {
+    /// The same, with the caller's code in place of files.
+    ///
+    /// # Errors
+    /// As of [`Setup::answered_by`].
+    pub(crate) fn answered_by(self, code: &CallersCode) -> Result<Self, Problem> {
+        Ok(Self { setup: self.setup.answered_by(code)?, ..self })
+    }
+
     /// Its setup as it is told of: with what the program that executed calls itself.
     ///
     /// # Errors
@@ -89,7 +97,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let path = settings.out.clone().unwrap_or_else(|| default_folder(&settings.scenario));
     shadowed(&settings.scenario).iter().for_each(|note| watch.warn(note));
     let setup = setup_for(&settings.scenario, &settings.sets)?.with_simd(settings.simd);
-    let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?;
+    let setup = with_logs_from(setup, &path, Path::new(&settings.scenario))?.answered_by(&settings.consent.code)?;
     check_asked(&setup.scenario, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
@@ -356,8 +364,68 @@ fn default_folder(scenario: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use hairpin::campaign::user_score::LegFacts;
+    use hairpin::campaign::{LegScorer, UserCode};
+
     use super::*;
     use crate::Unwatched;
+
+    /// Scores long legs.
+    struct Long;
+
+    impl UserCode for Long {
+        fn trouble(&self) -> Option<String> {
+            None
+        }
+
+        fn try_out(&self) -> Result<(), String> {
+            Ok(())
+        }
+
+        fn stop(&self) {}
+    }
+
+    impl LegScorer for Long {
+        fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]> {
+            legs.iter().map(|leg| [leg.length_m, 0.0]).collect()
+        }
+    }
+
+    #[test]
+    fn code_of_the_callers_answers_in_place_of_a_file_that_cannot() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("long.py");
+        std::fs::write(&file, "raise RuntimeError('it lives elsewhere')").unwrap();
+        let settings = CampaignSettings {
+            scenario: "demo-quadrotor".into(),
+            out: Some(place.path().join("out")),
+            sets: vec![("generate.score".into(), format!("'python:{}'", file.display()))],
+            ..CampaignSettings::default()
+        };
+        let refused = plan(&settings, &Unwatched).map(drop).unwrap_err().to_string();
+        assert!(refused.contains("it lives elsewhere"), "{refused}");
+        let code = CallersCode { score: Some(Arc::new(Long)), ..CallersCode::default() };
+        let settings = CampaignSettings { consent: Consent { code, ..Consent::default() }, ..settings };
+        let planned = plan(&settings, &Unwatched).unwrap();
+        assert_eq!(planned.setup.attachments.files()[0].1, std::fs::read(&file).unwrap(), "the file is what is kept");
+        let leg = LegFacts {
+            v_in_m_s: 1.0,
+            v_out_m_s: 1.0,
+            turn_rad: 0.0,
+            length_m: 7.0,
+            climb_m: 0.0,
+            slope_in: 0.0,
+            ground: 0.0,
+            duration_s: 7.0,
+            from_m: [0.0; 3],
+            to_m: [7.0, 0.0, 0.0],
+            start_m: [0.0; 3],
+            end_m: [7.0, 0.0, 0.0],
+        };
+        assert_eq!(planned.setup.user_score().unwrap().own_and_left(&[leg]), [[7.0, 0.0]]);
+    }
 
     #[test]
     fn folders_are_named_after_scenarios() {

@@ -20,15 +20,19 @@ const CONFIDENCE: f64 = 0.95;
 const WORST: usize = 5;
 
 /// A verdict and what it is about.
-pub(super) struct Answer<'a> {
-    pub(super) work: &'a Work,
-    pub(super) cases: &'a [Case],
-    pub(super) tally: &'a Tally,
-    pub(super) judgement: &'a Judgement,
+pub struct Answer<'a> {
+    /// The campaign.
+    pub work: &'a Work,
+    /// Its cases.
+    pub cases: &'a [Case],
+    /// What the search did.
+    pub tally: &'a Tally,
+    /// What judging came to.
+    pub judgement: &'a Judgement,
     /// The judgement's, with what saved cases came to.
-    pub(super) verdict: &'a Verdict,
+    pub verdict: &'a Verdict,
     /// Saved cases that were run first.
-    pub(super) replayed: &'a [Replayed],
+    pub replayed: &'a [Replayed],
 }
 
 impl Answer<'_> {
@@ -105,7 +109,8 @@ impl Answer<'_> {
         })
     }
 
-    fn object(&self) -> Value {
+    /// What machines get.
+    pub fn object(&self) -> Value {
         let file = |name: &str| {
             let path = self.work.folder.path().join(name);
             if path.exists() { json!(path) } else { Value::Null }

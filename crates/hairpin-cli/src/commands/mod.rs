@@ -1,6 +1,6 @@
 //! What each command means; one file each: arguments become the settings of a job, and its result words.
 
-mod answer;
+pub mod answer;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod check;
@@ -32,4 +32,4 @@ pub(crate) mod simulate;
 pub(crate) mod steer;
 pub(crate) mod stress;
 mod terrain;
-pub(crate) mod verify;
+pub mod verify;

@@ -22,7 +22,8 @@ pub(crate) fn run(asked: &Verify) -> Result<u8, Problem> {
     Ok(code)
 }
 
-fn object(verified: &Verified, code: u8) -> Value {
+/// What machines get.
+pub fn object(verified: &Verified, code: u8) -> Value {
     json!({
         "checked": verified.checked(), "failed": verified.failed().count(),
         "worst": verified.worst().map(of_case), "exit_code": code,

@@ -222,7 +222,8 @@
   async function start() {
     listen();
     spatial = hasWebGl();
-    if (data.cases.length) await select(0);
+    // Whoever shows the page in another one may ask for a case.
+    if (data.cases.length) await select(data.cases.findIndex((c) => c.id === data.open));
     if (data.metrics.length) {
       await attempt("share", drawShare);
       await attempt("spread", drawSpread);

@@ -7,6 +7,8 @@ mod wish;
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::CallersCode;
+
 use crate::sets::Set;
 use crate::{Problem, Watch};
 use marks::Marks;
@@ -19,6 +21,8 @@ pub struct Consent {
     pub allow_commands: bool,
     /// The folder of his marks; without one nothing is remembered.
     pub state: Option<PathBuf>,
+    /// Code in his own process, which answers in place of files.
+    pub code: CallersCode,
 }
 
 impl Consent {
@@ -28,7 +32,7 @@ impl Consent {
         // The specification of base directories has relative ones ignored.
         let place = |name: &str| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
         let state = place("XDG_STATE_HOME").or_else(|| Some(place("HOME")?.join(".local/state")));
-        Self { allow_commands, state: state.map(|state| state.join("hairpin")) }
+        Self { allow_commands, state: state.map(|state| state.join("hairpin")), ..Self::default() }
     }
 
     /// Asks whether what `folder` wishes may run.
@@ -100,7 +104,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let (ours, theirs) = (place.path().join("ours"), place.path().join("theirs"));
         [&ours, &theirs].into_iter().for_each(|folder| fs::create_dir(folder).unwrap());
-        let user = |name: &str| Consent { allow_commands: false, state: Some(place.path().join(name)) };
+        let user = |name: &str| Consent { state: Some(place.path().join(name)), ..Consent::default() };
         let me = user("me");
         let refused = me.ask(&ours, &wish("touch x")).unwrap_err().to_string();
         assert!(refused.contains("`touch x`") && refused.contains("--allow-commands"), "{refused}");
@@ -113,7 +117,7 @@ mod tests {
         {
             assert!(who.ask(folder, &wish(command)).is_err(), "{command}");
         }
-        Consent { allow_commands: true, state: None }.ask(&theirs, &wish("touch x")).unwrap();
+        Consent { allow_commands: true, ..Consent::default() }.ask(&theirs, &wish("touch x")).unwrap();
         // Moved elsewhere, it is another folder.
         fs::rename(&ours, place.path().join("moved")).unwrap();
         assert!(me.ask(&place.path().join("moved"), &wish("touch x")).is_err());
@@ -124,7 +128,7 @@ mod tests {
     fn the_key_is_the_users_alone() {
         use std::os::unix::fs::PermissionsExt;
         let place = tempfile::tempdir().unwrap();
-        let me = Consent { allow_commands: false, state: Some(place.path().join("state")) };
+        let me = Consent { state: Some(place.path().join("state")), ..Consent::default() };
         me.mark(place.path(), &wish("touch x"));
         let key = place.path().join("state/key");
         assert_eq!(
@@ -144,7 +148,7 @@ mod tests {
     fn a_state_that_cannot_be_written_is_none() {
         let place = tempfile::tempdir().unwrap();
         fs::write(place.path().join("file"), "").unwrap();
-        let me = Consent { allow_commands: false, state: Some(place.path().join("file/state")) };
+        let me = Consent { state: Some(place.path().join("file/state")), ..Consent::default() };
         me.mark(place.path(), &wish("touch x"));
         assert!(me.ask(place.path(), &wish("touch x")).is_err());
         let of = |pairs: &'static [(&str, &str)]| {
@@ -161,7 +165,7 @@ mod tests {
     #[test]
     fn files_of_the_folder_that_a_command_names_count() {
         let place = tempfile::tempdir().unwrap();
-        let me = Consent { allow_commands: false, state: Some(place.path().join("state")) };
+        let me = Consent { state: Some(place.path().join("state")), ..Consent::default() };
         let folder = place.path().join("out");
         fs::create_dir(&folder).unwrap();
         let program = folder.join("fly.py");

@@ -99,7 +99,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
     }
-    let work = open_to_change(path, sets, CHANGED, Some(settings.simd))?;
+    let work = open_to_change(path, sets, CHANGED, Some(settings.simd))?.answered_by(&settings.consent.code)?;
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
     let read = |path: &Path| missions::read(&work.setup, path, watch);

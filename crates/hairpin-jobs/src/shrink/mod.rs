@@ -53,6 +53,7 @@ impl Shrinking {
     /// what its user has not allowed.
     pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
         let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
+        let work = work.answered_by(&settings.consent.code)?;
         settings.consent.ask(&settings.folder, &Wish::of_campaign(&work.setup))?;
         let (case, result) = violating(&work, &settings)?;
         Ok(Self { work, settings, began: Instant::now(), case, result })

@@ -8,6 +8,7 @@ pub mod baseline;
 pub mod boat;
 pub mod bounds;
 pub mod calibrate;
+pub mod callers_code;
 pub mod case;
 pub mod case_number;
 pub mod chance;
@@ -61,6 +62,7 @@ pub mod verify;
 
 pub use assumptions::assumptions;
 pub use attachments::{Attached, Attachments, Resolved};
+pub use callers_code::CallersCode;
 pub use case::{Case, CaseResult, Draws, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
 pub use case_number::CaseNumber;
 pub use chance::Baseline;

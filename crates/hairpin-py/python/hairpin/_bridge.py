@@ -1,0 +1,110 @@
+"""Executors that are callables of this process: hairpin starts a program for each mission that is under way, which passes the
+lines of the executor protocol on to this process and back. So whoever executes is told as every program is, and is none of ours."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shlex
+import socket
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from hairpin._errors import InputError
+from hairpin._scenario import texts
+
+PLACE = "HAIRPIN_PYTHON_EXECUTOR"
+"""Where the process is heard."""
+_OWNER = "HAIRPIN_PYTHON_EXECUTOR_OWNER"
+
+
+_executors: dict[str, Callable[..., Any]] = {}
+_lock = threading.Lock()
+
+
+@contextlib.contextmanager
+def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
+    """The command that executes; while it is in use the callable is served."""
+    if executor is None or isinstance(executor, str):
+        yield executor
+        return
+    if not callable(executor):
+        bound = "a command or a function of a mission"
+        raise InputError(f"`executor` = {executor!r}: must be {bound}", "executor", repr(executor), bound)
+    given = getattr(executor, "__name__", type(executor).__name__)
+    plain = "".join(c if c.isalnum() or c in "_-." else "_" for c in given) or "executor"
+    with _lock:
+        if PLACE not in os.environ or os.environ.get(_OWNER) != str(os.getpid()):
+            _begin_to_listen()
+        name = next(name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors)
+        _executors[name] = executor
+    try:
+        yield f"{shlex.quote(sys.executable)} -m hairpin._relay {name}"
+    finally:
+        with _lock:
+            del _executors[name]
+
+
+def _begin_to_listen() -> None:
+    """For as long as the process lives."""
+    place = str(texts() / "executors")
+    server = socket.socket(socket.AF_UNIX)
+    server.bind(place)
+    server.listen(64)
+    threading.Thread(target=_listen, args=(server,), daemon=True).start()
+    os.environ[PLACE], os.environ[_OWNER] = place, str(os.getpid())
+
+
+def _listen(server: socket.socket) -> None:
+    while True:
+        connection, _ = server.accept()
+        threading.Thread(target=_serve, args=(connection,), daemon=True).start()
+
+
+def _serve(connection: socket.socket) -> None:
+    """One program's missions, of the executor that its first line names."""
+    with connection, connection.makefile("r", encoding="utf-8") as asked, connection.makefile("w", encoding="utf-8") as said:
+        with contextlib.suppress(OSError, ValueError):
+            name = asked.readline().strip()
+            executor = _executors.get(name)
+            if executor is None:
+                return
+            for line in asked:
+                message = json.loads(line)
+                for answer in _answers(message, executor, name):
+                    said.write(json.dumps(answer) + "\n")
+                said.flush()
+                if message["type"] == "bye":
+                    return
+
+
+def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -> Iterator[dict[str, Any]]:
+    if message["type"] == "hello":
+        yield {"type": "ready", "protocol": 1, "name": name}
+    elif message["type"] == "mission":
+        try:
+            yield from _told(executor(message))
+        except Exception as error:  # It is the user's code: what it raises is why there is no run.
+            yield {"type": "error", "message": f"{type(error).__name__}: {error}"}
+
+
+def _told(flown: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    t_s, p_m = np.asarray(flown["t_s"], dtype=np.float64), np.asarray(flown["p_m"], dtype=np.float64)
+    if t_s.ndim != 1 or p_m.shape != (len(t_s), 3) or not len(t_s):
+        raise ValueError(f"t_s of shape {t_s.shape} and p_m of shape {p_m.shape}: must be (n,) and (n, 3)")
+    poses = [{"type": "pose", "t_s": t, "p_m": p} for t, p in zip(t_s.tolist(), p_m.tolist(), strict=True)]
+    for key, shape in (("q_wxyz", (len(t_s), 4)), ("v_m_s", (len(t_s), 3)), ("leg", (len(t_s),))):
+        if flown.get(key) is None:
+            continue
+        values = np.asarray(flown[key])
+        if values.shape != shape:
+            raise ValueError(f"{key} of shape {values.shape}: must be {shape}")
+        for pose, value in zip(poses, values.tolist(), strict=True):
+            pose[key] = value
+    yield from poses
+    yield {"type": "end", "reason": flown.get("ended", "done")}

@@ -1,0 +1,263 @@
+"""Scores, targets and controllers that are callables of this process, as jobs ask them, and the file that stands for each in
+a campaign's folder, so that the command can go on with it where its source stands alone."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import copy
+import inspect
+import tempfile
+import textwrap
+import types
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Protocol, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from hairpin._call import Brought
+from hairpin._errors import InputError
+from hairpin._scenario import texts, toml_value
+
+_NUMBERS = ("v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s")
+_PLACES = ("from_m", "to_m", "start_m", "end_m")
+_OF_A_LEG = len(_NUMBERS) + 3 * len(_PLACES)
+_LITERALS = (bool, int, float, str, bytes, tuple, list, dict, type(None))
+
+
+class Controller(Protocol):
+    """What steers a run. Keys of `state`, `reference` and the answer of each kind of robot: docs/own-controllers.md.
+
+    A function does where nothing is kept between turns. Of a class each run has an object of its own, and of an object a copy.
+    """
+
+    def control(self, t_s: float, state: dict[str, Any], reference: dict[str, Any]) -> Mapping[str, Any]:
+        """The command at ``t_s`` s."""
+
+
+ControllerLike = Union[Callable[[float, dict[str, Any], dict[str, Any]], Mapping[str, Any]], Controller, type[Controller]]
+"""A function ``control(t_s, state, reference)``, an object with such a method, or its class."""
+
+
+def vectorised(score: Callable[[dict[str, npt.NDArray[np.float64]]], Any]) -> Callable[[dict[str, npt.NDArray[np.float64]]], Any]:
+    """Marks a score that takes all legs at once: a dictionary of arrays, numbers (n,) and places (n, 3), and gives (n,) or (n, 2).
+
+    The second column is what a leg leaves to the next (docs/stress.md).
+
+    >>> @vectorised
+    ... def score(legs):
+    ...     return legs["v_in_m_s"] * legs["turn_rad"]
+    """
+    score.hairpin_vectorised = True  # type: ignore[attr-defined]
+    return score
+
+
+def bring(
+    controller: ControllerLike | str | None = None,
+    score: Callable[..., Any] | str | None = None,
+    target: Callable[..., Any] | str | None = None,
+    score_key: str = "generate.search.score",
+) -> Brought:
+    """Callables as jobs take them. A text is a word or file of the scenario's."""
+    brought = Brought()
+    kinds: tuple[tuple[str, Any, Callable[[Any, list[BaseException]], Any], str], ...] = (
+        ("execute.controller", controller, _steering, "controller"),
+        (score_key, score, _scoring, "score"),
+        ("generate.search.target", target, _measuring, "target"),
+    )
+    for key, given, make, what in kinds:
+        if given is None:
+            continue
+        if isinstance(given, str):
+            brought.sets.append((key, toml_value(given)))
+            continue
+        if what == "controller" and not callable(getattr(given, "control", given)):
+            raise InputError(f"`{what}` = {given!r}: must be a function, an object with `control`, or its class", what, repr(given), "a function, an object with `control`, or its class")
+        if what != "controller" and not callable(given):
+            raise InputError(f"`{what}` = {given!r}: must be a function", what, repr(given), "a function")
+        setattr(brought, what, make(given, brought.raised))
+        brought.sets.append((key, toml_value(f"python:{_kept(given, what)}")))
+    return brought
+
+
+def _steering(given: Any, raised: list[BaseException]) -> Callable[[dict[str, Any]], Any]:
+    """Makes a run's own function of its mission."""
+
+    def begin(mission: dict[str, Any]) -> Any:
+        try:
+            if isinstance(given, type):
+                own = given()
+            elif hasattr(given, "control"):
+                own = copy.deepcopy(given)
+            else:
+                own = None
+            reset = getattr(given if own is None else own, "reset", None)
+            if callable(reset):
+                reset(mission)
+            control = given if own is None else own.control
+        except BaseException as error:
+            raised.append(error)
+            raise
+
+        def turn(t_s: float, state: dict[str, Any], reference: dict[str, Any]) -> Any:
+            try:
+                return control(t_s, state, reference)
+            except BaseException as error:
+                raised.append(error)
+                raise
+
+        return turn
+
+    return begin
+
+
+def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[bytes], Any]:
+    many, left = getattr(given, "hairpin_vectorised", False), getattr(given, "left", None)
+
+    def score(table: bytes) -> Any:
+        legs = np.frombuffer(table, dtype=np.float64).reshape(-1, _OF_A_LEG)
+        try:
+            if many:
+                columns = {name: legs[:, place] for place, name in enumerate(_NUMBERS)}
+                for place, name in enumerate(_PLACES):
+                    first = len(_NUMBERS) + 3 * place
+                    columns[name] = legs[:, first : first + 3]
+                parts = np.asarray(given(columns), dtype=np.float64)
+                if parts.ndim == 1:
+                    parts = np.stack([parts, np.zeros_like(parts)], axis=1)
+                if parts.shape != (len(legs), 2):
+                    raise ValueError(f"a vectorised score gives ({len(legs)},) or ({len(legs)}, 2) numbers, not {parts.shape}")
+            else:
+                rows = []
+                for row in legs:
+                    leg: dict[str, Any] = dict(zip(_NUMBERS, row.tolist(), strict=False))
+                    for place, name in enumerate(_PLACES):
+                        first = len(_NUMBERS) + 3 * place
+                        leg[name] = row[first : first + 3].tolist()
+                    rows.append([float(given(leg)), float(left(leg)) if callable(left) else 0.0])
+                parts = np.asarray(rows, dtype=np.float64).reshape(-1, 2)
+            if not np.isfinite(parts).all():
+                place = int(np.argwhere(~np.isfinite(parts))[0][0])
+                raise ValueError(f"the score of leg {place} of {len(legs)} is no finite number")
+            return parts.tolist()
+        except BaseException as error:
+            raised.append(error)
+            raise
+
+    return score
+
+
+def _measuring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[dict[str, Any]], Any]:
+    def measure(run: dict[str, Any]) -> Any:
+        run["t_s"], run["p_m"], run["q_wxyz"] = (np.asarray(run[name], dtype=np.float64) for name in ("t_s", "p_m", "q_wxyz"))
+        run["channels"] = {name: np.asarray(values, dtype=np.float64) for name, values in run["channels"].items()}
+        run["waypoints_m"] = np.asarray(run["waypoints_m"], dtype=np.float64)
+        try:
+            found = given(run)
+            return None if found is None else float(found)
+        except BaseException as error:
+            raised.append(error)
+            raise
+
+    return measure
+
+
+def _kept(given: Any, what: str) -> Path:
+    """The file that a campaign keeps of a callable."""
+    name = given.__name__ if hasattr(given, "__name__") else type(given).__name__
+    text = source(given, what) or _stub(given, name, what)
+    plain = "".join(c if c.isalnum() or c in "_-" else "_" for c in name)
+    plain = plain if plain.isascii() and plain not in ("score", "target") else what
+    place = Path(tempfile.mkdtemp(dir=texts())) / f"{plain}.py"
+    place.write_text(text, encoding="utf-8")
+    return place
+
+
+def _stub(given: Any, name: str, what: str) -> str:
+    return (
+        f"# Stands for {name}, a {what} that lives in a Python process: its source does not stand alone.\n"
+        f"raise RuntimeError({f'this campaign was begun from Python with its own {what} {name}: go on from there, with the same {what}'!r})\n"
+    )
+
+
+def source(given: Any, what: str = "controller") -> str | None:
+    """The text of a file that does what a callable does, if its source stands alone: imports, plain values and functions of its
+    module count, what it closes over does not; ``None`` where it does not.
+
+    >>> source(len) is None
+    True
+    """
+    whole = given if isinstance(given, types.FunctionType | type) else type(given)
+    if not isinstance(given, types.FunctionType | type):
+        # What an object holds is nowhere in its source.
+        return None
+    pieces: dict[str, str] = {}
+    if not _gather(whole, pieces):
+        return None
+    name = whole.__name__
+    lines = list(pieces.values())
+    if isinstance(whole, type):
+        lines.append(f"_own = {name}()\n")
+        lines.append(f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n")
+        lines.append("def control(t_s, state, reference):\n    return _own.control(t_s, state, reference)\n")
+    elif getattr(given, "hairpin_vectorised", False):
+        # The command asks for one leg at a time.
+        lines.append(_ONE_BY_ONE.format(name=name))
+    else:
+        asked = "control" if what == "controller" else what
+        if name != asked:
+            lines.append(f"{asked} = {name}\n")
+    return "\n\n".join(lines)
+
+
+_ONE_BY_ONE = """import numpy as _np
+
+def _parts(leg):
+    parts = _np.asarray({name}({{key: _np.asarray([value], dtype=float) for key, value in leg.items()}}), dtype=float)
+    return parts if parts.ndim == 2 else _np.stack([parts, 0 * parts], axis=1)
+
+def score(leg):
+    return float(_parts(leg)[0, 0])
+
+def left(leg):
+    return float(_parts(leg)[0, 1])
+"""
+
+
+def _gather(thing: Any, pieces: dict[str, str]) -> bool:
+    """Adds the source of a function or class, after what it needs of its module; whether all of it is there."""
+    try:
+        text = textwrap.dedent(inspect.getsource(thing))
+        tree = ast.parse(text)
+    except (OSError, TypeError, SyntaxError):
+        return False
+    if isinstance(thing, types.FunctionType) and thing.__closure__:
+        return False
+    definition = tree.body[0]
+    if isinstance(definition, ast.FunctionDef | ast.ClassDef):
+        # Decorators of ours are none of the file's.
+        definition.decorator_list = [d for d in definition.decorator_list if not (isinstance(d, ast.Name) and d.id == "vectorised") and not (isinstance(d, ast.Attribute) and d.attr == "vectorised")]
+        text = ast.unparse(definition) + "\n"
+    if thing.__name__ in pieces:
+        return True
+    scope = thing.__globals__ if isinstance(thing, types.FunctionType) else vars(inspect.getmodule(thing) or builtins)
+    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - {thing.__name__}
+    for name in sorted(names & set(scope)):
+        value = scope[name]
+        if name in pieces or getattr(builtins, name, None) is value:
+            continue
+        if isinstance(value, types.ModuleType):
+            pieces[name] = f"import {value.__name__} as {name}\n"
+        elif isinstance(value, _LITERALS):
+            pieces[name] = f"{name} = {value!r}\n"
+        elif isinstance(value, types.FunctionType | type) and value.__module__ == getattr(thing, "__module__", None):
+            if not _gather(value, pieces):
+                return False
+        elif isinstance(value, types.FunctionType | types.BuiltinFunctionType | type):
+            pieces[name] = f"from {value.__module__} import {value.__qualname__} as {name}\n"
+        else:
+            return False
+    pieces[thing.__name__] = text
+    return True

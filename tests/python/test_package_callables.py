@@ -1,0 +1,196 @@
+"""Callables of the process: scores, targets, controllers, executors and judges; what goes wrong in them; who can go on."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+from hairpin._callables import source  # noqa: E402
+
+BIN = os.environ["HAIRPIN_BIN"]
+PD = Path(__file__).parents[2] / "examples/controllers/pd.py"
+SMALL = {"generate.search.cases": 2, "execute.repeat": 1, "execute.baseline": 0}
+GAIN = 2.0
+
+
+def pd_file():
+    space = {"__name__": "pd", "__file__": str(PD)}
+    exec(compile(PD.read_text(), str(PD), "exec"), space)
+    return space["control"]
+
+
+def gentle(t_s, state, reference):
+    target = reference["waypoints_m"][min(reference["next"], len(reference["waypoints_m"]) - 1)]
+    return {"a_m_s2": [GAIN * np.clip(goal - place, -2.0, 2.0) - 2.5 * speed for goal, place, speed in zip(target, state["p_m"], state["v_m_s"], strict=True)]}
+
+
+class Counting:
+    """Counts its turns; each run has one of its own."""
+
+    def __init__(self):
+        self.turns, self.most = 0, 0
+
+    def reset(self, mission):
+        assert self.turns == 0 and len(mission["waypoints_m"]) > 1 and mission["robot"]["mass_kg"] > 0
+
+    def control(self, t_s, state, reference):
+        self.turns += 1
+        return gentle(t_s, state, reference)
+
+
+@pytest.fixture(scope="module")
+def cases(tmp_path_factory):
+    return hairpin.generate("demo-quadrotor", out=tmp_path_factory.mktemp("cases") / "out", values=SMALL)
+
+
+def deviations(campaign):
+    return [case.max_deviation_m for case in campaign]
+
+
+def test_a_callable_flies_as_its_file_does(cases, tmp_path):
+    ours = cases.execute(controller=pd_file(), out=tmp_path / "callable").judge()
+    file = cases.execute(controller=f"python:{PD}", out=tmp_path / "file").judge()
+    assert deviations(ours) == deviations(file)
+    assert all(case.status in ("pass", "fail") for case in ours)
+
+
+def test_classes_have_an_object_for_each_run(cases, tmp_path):
+    own = cases.execute(controller=Counting, out=tmp_path / "class").judge()
+    plain = cases.execute(controller=gentle, out=tmp_path / "function").judge()
+    copied = cases.execute(controller=Counting(), out=tmp_path / "object").judge()
+    assert deviations(own) == deviations(plain) == deviations(copied)
+
+
+def test_the_command_goes_on_where_the_source_stands_alone(cases, tmp_path):
+    own = cases.execute(controller=gentle, out=tmp_path / "out").judge()
+    assert (tmp_path / "out/gentle.py").is_file()
+    done = subprocess.run([BIN, "execute", tmp_path / "out"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert deviations(hairpin.judge(tmp_path / "out")) == deviations(own)
+
+
+def test_what_closes_over_something_is_kept_as_its_name(cases, tmp_path):
+    gain = 2.0
+
+    def closed(t_s, state, reference):
+        return gentle(t_s, state, {**reference, "gain": gain})
+
+    assert source(closed) is None and source(gentle) is not None and "GAIN = 2.0" in source(gentle)
+    own = cases.execute(controller=closed, out=tmp_path / "out").judge()
+    assert all(case.status in ("pass", "fail") for case in own)
+    done = subprocess.run([BIN, "execute", tmp_path / "out", "--allow-commands"], capture_output=True, text=True)
+    assert done.returncode != 0 and "go on from there" in done.stderr + done.stdout
+
+
+def test_a_run_that_raises_is_its_own_failure(cases, tmp_path):
+    def falls(t_s, state, reference):
+        if t_s > 0.5:
+            raise LookupError("no such gain")
+        return gentle(t_s, state, reference)
+
+    flown = cases.execute(controller=falls, out=tmp_path / "out")
+    assert flown.exit_code == 4 and "no such gain" in flown.verdict
+    judged = flown.judge()
+    assert judged.exit_code == 4 and "LookupError: no such gain" in judged.worst.message
+    for answer, told in ((lambda *_: {"a_m_s2": [np.nan, 0, 0]}, "finite"), (lambda *_: 3.0, "dictionary"), (lambda *_: {"b": [0, 0, 0]}, "must be")):
+        wrong = cases.execute(controller=answer, out=tmp_path / told)
+        assert wrong.exit_code == 4 and told in wrong.verdict
+
+
+@hairpin.vectorised
+def sharp_many(legs):
+    return legs["v_in_m_s"] * legs["turn_rad"]
+
+
+def sharp(leg):
+    return leg["v_in_m_s"] * leg["turn_rad"]
+
+
+def test_vectorised_scores_find_what_single_ones_and_files_do(tmp_path):
+    file = tmp_path / "sharp.py"
+    file.write_text("def score(leg):\n    return leg['v_in_m_s'] * leg['turn_rad']\n")
+    found = [hairpin.generate("demo-quadrotor", score=score, out=tmp_path / str(n), values=SMALL) for n, score in enumerate((sharp_many, sharp, f"python:{file}"))]
+    ways = [[case.waypoints_m.tolist() for case in campaign] for campaign in found]
+    assert ways[0] == ways[1] == ways[2] and found[0].cases[0].score > 0.0
+
+
+def test_a_score_that_raises_stops_the_search_with_its_cause(tmp_path):
+    def broken(leg):
+        raise KeyError("speed")
+
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.generate("demo-quadrotor", score=broken, out=tmp_path / "out", values=SMALL)
+    assert "score" in found.value.field and isinstance(found.value.__cause__, KeyError)
+    with pytest.raises(hairpin.InputError, match="finite"):
+        hairpin.generate("demo-quadrotor", score=lambda leg: float("nan"), out=tmp_path / "out", values=SMALL, if_there="replace")
+
+
+def test_targets_measure_runs(tmp_path):
+    seen = []
+
+    def high(run):
+        seen.append(run["p_m"].shape)
+        return run["p_m"][:, 2].max()
+
+    values = {**SMALL, "generate.search": {"method": "worst", "executions": 20, "cases": 2}}
+    found = hairpin.stress("demo-quadrotor", target=high, out=tmp_path / "out", values=values)
+    assert len(found) == 2 and seen and seen[0][1] == 3
+
+
+def straight(mission):
+    points, speed, step = np.asarray(mission["waypoints_m"], dtype=float), 2.0, 0.05
+    rows, legs = [], []
+    for leg, (a, b) in enumerate(zip(points, points[1:])):
+        samples = max(1, int(np.ceil(np.linalg.norm(b - a) / speed / step)))
+        rows += [a + (b - a) * k / samples for k in range(samples)]
+        legs += [leg] * samples
+    rows.append(points[-1])
+    legs.append(len(points) - 2)
+    return {"t_s": np.arange(len(rows)) * step, "p_m": np.array(rows), "q_wxyz": np.tile([1.0, 0, 0, 0], (len(rows), 1)), "leg": legs}
+
+
+def test_executors_are_told_as_programs_are(cases, tmp_path):
+    flown = cases.execute(executor=straight, out=tmp_path / "out").judge()
+    assert flown.exit_code == 0 and max(deviations(flown)) < 1e-6
+    assert "straight" in flown.verdict
+
+    def breaks(mission):
+        raise OSError("rotor lost")
+
+    failed = cases.execute(executor=breaks, out=tmp_path / "failed")
+    assert failed.exit_code == 4 and "rotor lost" in failed.verdict
+    done = subprocess.run([BIN, "execute", tmp_path / "out", "--allow-commands"], capture_output=True, text=True)
+    assert done.returncode == 4 and "lives in a Python process" in done.stdout + done.stderr + "".join(log.read_text() for log in (tmp_path / "out").glob("*.log"))
+
+
+def test_own_dynamics_meet_a_closed_form():
+    # x'' = 1 from rest: x(t) = t²/2, exactly what a Runge-Kutta step of order 4 gives.
+    falls = hairpin.dynamics(
+        lambda t, x, u: [x[1], u[0]], lambda t, x, to: [1.0], start=lambda mission: [0.0, 0.0], pose=lambda x: [x[0], 0.0, 0.0], step_s=0.1
+    )
+    flown = falls({"waypoints_m": [[0, 0, 0], [2, 0, 0]], "accept_m": 0.05, "time_limit_s": 9.0})
+    np.testing.assert_allclose(flown["p_m"][:, 0], 0.5 * flown["t_s"] ** 2, atol=1e-12)
+    assert flown["ended"] == "done" and flown["t_s"][-1] == pytest.approx(2.0, abs=0.051)
+
+
+def test_own_dynamics_are_unchecked_where_nothing_is_planned(tmp_path):
+    point = hairpin.dynamics(
+        lambda t, x, u: u,
+        lambda t, x, to: np.clip(to["target_m"] - x, -2.0, 2.0),
+        start=lambda mission: mission["waypoints_m"][0],
+        pose=lambda x: {"p_m": x, "q_wxyz": [1.0, 0.0, 0.0, 0.0]},
+        step_s=0.05,
+    )
+    values = {**SMALL, "generate.reach": "none", "generate.search.method": "uniform"}
+    found = hairpin.stress("demo-quadrotor", executor=point, out=tmp_path / "out", values=values)
+    assert {case.evidence for case in found} == {"unchecked"} and found.exit_code in (0, 1)
+
+
+def test_the_console_command_is_the_command():
+    done = subprocess.run([sys.executable, "-m", "hairpin", "--version"], capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout == subprocess.run([BIN, "--version"], capture_output=True, text=True).stdout
+    wrong = subprocess.run([sys.executable, "-m", "hairpin", "stress", "nothing.toml"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "nothing.toml" in wrong.stderr

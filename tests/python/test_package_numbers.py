@@ -1,0 +1,132 @@
+"""`steer` and `max_load` of the package against the command, and against what they must be."""
+import csv
+import itertools
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+BIN = os.environ["HAIRPIN_BIN"]
+
+
+def questions(count, seed=5):
+    random = np.random.default_rng(seed)
+    low, high = [1.0, -3.0, -1.5, -0.5, -0.5], [8.0, 3.0, 1.5, 0.5, 0.5]
+    return random.uniform(low, high, (count, 5))
+
+
+def test_one_drive_meets_its_goal_by_its_own_curvature():
+    drive = hairpin.steer("generic", x=4.0, y=1.0, yaw=0.5, k0=0.1, kf=-0.2)
+    assert drive and drive.status == "ok" and drive.limit is None
+    s = np.linspace(0.0, drive.length_m, 4001)
+    kappa = drive.curvature(s)
+    assert kappa[0] == pytest.approx(0.1) and kappa[-1] == pytest.approx(-0.2, abs=1e-6)
+    middle = 0.5 * (kappa[1:] + kappa[:-1])
+    step = s[1] - s[0]
+    yaw = np.concatenate([[0.0], np.cumsum(middle) * step])
+    at = 0.5 * (yaw[1:] + yaw[:-1])
+    assert np.cos(at).sum() * step == pytest.approx(4.0, abs=1e-3)
+    assert np.sin(at).sum() * step == pytest.approx(1.0, abs=1e-3)
+    assert yaw[-1] == pytest.approx(0.5, abs=1e-3)
+    assert np.isnan(drive.curvature(drive.length_m + 1.0)) and drive.curvature.shape == (len(drive.segments), 6)
+
+
+def test_many_are_what_the_command_answers(tmp_path):
+    asked = questions(200)
+    asked[17, 2] = np.nan
+    table = tmp_path / "q.csv"
+    with open(table, "w") as file:
+        print("id,x,y,yaw,k0,kf", file=file)
+        for number, row in enumerate(asked):
+            print(number, *(repr(float(value)) for value in row), sep=",", file=file)
+    done = subprocess.run([BIN, "steer", "generic", "--queries", table, "--out", tmp_path / "r.csv", "--json"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    drives = hairpin.steer("generic", queries=asked)
+    rows = list(csv.DictReader(open(tmp_path / "r.csv")))
+    assert len(drives) == 200 and drives.status[17] == "invalid" and drives.limit[17] == "yaw"
+    for number, of_query in itertools.groupby(rows, key=lambda row: int(row["id"])):
+        of_query = list(of_query)
+        drive = drives[number]
+        assert [row["status"] for row in of_query] == [drive.status] * len(of_query)
+        assert (of_query[0]["limit"] or None) == drive.limit
+        if drive.segments:
+            theirs = [[float(row[f"a{power}"] or 0.0) for power in range(6)] for row in of_query]
+            np.testing.assert_allclose(np.asarray(drive.curvature), theirs, rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose([s.length_m for s in drive.segments], [float(row["length_m"] or 0.0) for row in of_query], rtol=1e-9)
+    assert len({drive.status for drive in drives}) > 1
+    one = hairpin.steer("generic", **dict(zip(("x", "y", "yaw", "k0", "kf"), asked[0], strict=True)))
+    assert (one.status, one.length_m) == (drives[0].status, drives[0].length_m) or one.status == "infeasible"
+
+
+@pytest.mark.parametrize(
+    ("given", "field"),
+    [
+        ({"x": float("nan"), "y": 0.0, "yaw": 0.0}, "x"),
+        ({"x": 1.0, "y": 0.0, "yaw": 0.0, "kf": float("inf")}, "kf"),
+        ({"x": 1.0, "y": 0.0}, "yaw"),
+        ({"queries": np.zeros((3, 4))}, "queries"),
+        ({"queries": "abc"}, "queries"),
+        ({"x": 1.0, "y": 0.0, "yaw": 0.0, "max_curvature": 0.0}, "max_curvature"),
+        ({"x": 1e9, "y": 0.0, "yaw": 0.0}, "x"),
+        ({"x": 1.0, "y": 0.0, "yaw": 0.0, "terrain": "nowhere.tif"}, "terrain"),
+    ],
+)
+def test_bad_input_of_steer_names_its_field(given, field):
+    with pytest.raises(ValueError) as found:
+        hairpin.steer("generic", **given)
+    assert found.value.field == field and isinstance(found.value, hairpin.InputError)
+
+
+def test_an_unknown_rover_is_named():
+    with pytest.raises(ValueError) as found:
+        hairpin.steer("no-such-rover", x=1.0, y=0.0, yaw=0.0)
+    assert found.value.field and "no-such-rover" in str(found.value)
+
+
+def test_no_question_is_no_answer():
+    drives = hairpin.steer("generic", queries=np.zeros((0, 5)))
+    assert len(drives) == 0 and drives.status.shape == (0,) and list(drives) == []
+
+
+def heaviest(matrix):
+    """Over all orders of all subsets."""
+    points = range(len(matrix))
+    best = None
+    for size in points:
+        for path in itertools.permutations(points, size + 1):
+            arcs = [matrix[a, b] for a, b in zip(path, path[1:])]
+            if not np.isnan(arcs).any():
+                best = max(best or 0.0, float(np.sum(arcs)))
+    return best
+
+
+def test_the_heaviest_path_is_that_of_enumeration_and_of_the_command(tmp_path):
+    random = np.random.default_rng(11)
+    for number in range(5):
+        matrix = np.round(random.uniform(0.0, 10.0, (6, 6)), 2)
+        matrix[random.uniform(size=(6, 6)) < 0.4] = np.nan
+        found = hairpin.max_load(matrix)
+        assert found.proven and found.cost == pytest.approx(heaviest(matrix), abs=1e-9)
+        assert len(set(found.path)) == len(found.path)
+        np.fill_diagonal(matrix, np.nan)
+        table = tmp_path / f"{number}.csv"
+        table.write_text("".join(",".join("" if np.isnan(x) else repr(float(x)) for x in row) + "\n" for row in matrix))
+        done = subprocess.run([BIN, "max-load", "--graph", table, "--json"], capture_output=True, text=True)
+        said = json.loads(done.stdout)
+        assert (said["path"], said["cost"], said["method"]) == (found.path, found.cost, found.method)
+
+
+def test_no_arc_and_bad_matrices():
+    nothing = hairpin.max_load([[np.nan, np.nan], [np.nan, np.nan]], start=0, end=1)
+    assert nothing.path is None and nothing.cost is None and nothing.feasible is False
+    for matrix, field in (([[0, -1.0], [1, 0]], "matrix[0, 1]"), (np.zeros((2, 3)), "matrix"), ([[0, np.inf], [1, 0]], "matrix[0, 1]")):
+        with pytest.raises(ValueError) as found:
+            hairpin.max_load(matrix)
+        assert found.value.field == field
+    for given, field in (({"start": 5}, "start"), ({"method": "luck"}, "method"), ({"min_cost": -1}, "min_cost")):
+        with pytest.raises(ValueError) as found:
+            hairpin.max_load([[0, 1], [1, 0]], **given)
+        assert found.value.field == field

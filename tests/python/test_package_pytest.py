@@ -1,0 +1,124 @@
+"""The pytest plugin, seen from outside; examples, docstrings and stubs of the package."""
+import doctest
+import importlib
+import importlib.metadata
+import os
+import pkgutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted((ROOT / "examples/python").glob("[0-9]*.py"))
+SHIPPED = ROOT / "data/scenarios/demo-quadrotor.toml"
+SMALL = ("--hairpin-set", "generate.search.cases=2", "--hairpin-set", "execute.repeat=1", "--hairpin-set", "execute.baseline=0")
+
+
+def run(place, *words):
+    """pytest in a folder of its own, with the plugin, installed or not."""
+    installed = any(entry.value == "hairpin.pytest_plugin" for entry in importlib.metadata.entry_points(group="pytest11"))
+    plugin = [] if installed else ["-p", "hairpin.pytest_plugin"]
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", *plugin, "-q", "-rA", *map(str, words)], cwd=place, capture_output=True, text=True, timeout=120
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.fixture
+def place(tmp_path):
+    (tmp_path / "scenario.toml").write_text(SHIPPED.read_text())
+    (tmp_path / "test_other.py").write_text("def test_other():\n    pass\n")
+    return tmp_path
+
+
+def test_each_case_is_a_test(place):
+    code, said = run(place, "--hairpin", "scenario.toml", *SMALL, "--hairpin-set", "spec.deviation.max_m=50")
+    assert code == 0 and "scenario.toml::0000" in said and "scenario.toml::0001" in said and "2 passed" in said, said
+
+
+def test_a_failure_has_both_numbers_and_the_repro(place):
+    one_of_two = (*SMALL, "--hairpin-set", "spec.deviation.max_m=4.5")
+    code, said = run(place, "--hairpin", "scenario.toml", *one_of_two)
+    assert code == 1 and "1 failed, 1 passed" in said and "4.73 m > 4.50 m" in said and "hairpin replay" in said and "repro/0001.json" in said, said
+    code, said = run(place, "--hairpin", "scenario.toml", *one_of_two, "--lf")
+    assert code == 1 and "1 failed" in said and "passed" not in said and "scenario.toml::0000" not in said, said
+    both = (*SMALL, "--hairpin-set", "spec.deviation.max_m=0.5")
+    code, said = run(place, "--hairpin", "scenario.toml", *both, "-x", "-k", "000")
+    assert code == 1 and "1 failed" in said and "0001" not in said.split("short test summary")[-1], said
+    code, said = run(place, "--hairpin", "scenario.toml", *both, "-k", "0001")
+    assert code == 1 and "1 failed, 1 deselected" in said, said
+
+
+def test_scenarios_and_tests_go_together_and_mistakes_are_told(place):
+    code, said = run(place, "test_other.py", "--hairpin", "scenario.toml", *SMALL, "--hairpin-set", "spec.deviation.max_m=50")
+    assert code == 0 and "3 passed" in said, said
+    code, said = run(place, "--hairpin", "nothing.toml")
+    assert code == 4 and "nothing.toml" in said
+    code, said = run(place, "--hairpin", "scenario.toml", "--hairpin-set", "execute.repeat=0")
+    assert code == 2 and "execute.repeat" in said
+
+
+def test_the_fixture_fails_with_the_shrunk_case(place):
+    (place / "test_own.py").write_text(
+        "VALUES = {'generate.search.cases': 1, 'execute.repeat': 1, 'execute.baseline': 0, 'spec.deviation.max_m': 0.5}\n"
+        "def slow(t_s, state, reference):\n"
+        "    target = reference['waypoints_m'][min(reference['next'], len(reference['waypoints_m']) - 1)]\n"
+        "    return {'v_m_s': [goal - at for goal, at in zip(target, state['p_m'])]}\n"
+        "def test_fails(hairpin_stress):\n"
+        "    hairpin_stress(slow, values=VALUES, shrink_budget=3)\n"
+        "def test_holds(hairpin_stress):\n"
+        "    assert len(hairpin_stress(slow, values={**VALUES, 'spec.deviation.max_m': 90.0})) == 1\n"
+    )
+    code, said = run(place, "test_own.py")
+    assert code == 1 and "1 failed, 1 passed" in said and "waypoints ->" in said and "hairpin replay" in said, said
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run(example):
+    done = subprocess.run([sys.executable, str(example)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0 and done.stdout.strip(), done.stderr
+
+
+def test_the_example_that_is_a_test_runs():
+    code, said = run(ROOT, "-p", "no:cacheprovider", "examples/python/03_shrink_in_pytest.py")
+    assert code == 0 and "1 passed" in said, said
+
+
+@pytest.mark.parametrize("guide", ["stress", "own-controllers", "campaigns", "rover-generator", "heaviest-paths"])
+def test_guides_say_what_runs(guide, tmp_path, monkeypatch, capsys):
+    text = (ROOT / "docs" / f"{guide}.md").read_text().split("## From Python")[1]
+    code = text.split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, f"{guide}.md", "exec"), {"__name__": "guide"})
+    assert capsys.readouterr().out.strip()
+
+
+def test_docstrings_tell_what_happens():
+    tried = 0
+    for found in pkgutil.iter_modules(hairpin.__path__):
+        if found.name not in ("_native", "_relay", "__main__"):
+            came = doctest.testmod(importlib.import_module(f"hairpin.{found.name}"))
+            assert came.failed == 0, found.name
+            tried += came.attempted
+    assert tried > 20
+
+
+def test_every_public_name_has_a_docstring():
+    assert [name for name in hairpin.__all__ if not (getattr(hairpin, name).__doc__ or name in ("STATUSES", "__version__", "ControllerLike", "Progress"))] == []
+
+
+def test_stubs_are_true():
+    pytest.importorskip("mypy")
+    path = os.pathsep.join(sys.path)
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "hairpin", "--ignore-disjoint-bases", "--mypy-config-file", str(ROOT / "pyproject.toml")],
+        capture_output=True,
+        text=True,
+        cwd=Path(hairpin.__file__).parents[1],
+        env={**os.environ, "PYTHONPATH": path, "MYPYPATH": str(Path(hairpin.__file__).parents[1])},
+        timeout=170,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
