@@ -4,8 +4,8 @@ use hairpin::campaign::report::violation;
 use hairpin::campaign::{Doubt, Flown, Why};
 use hairpin::judgement::finding;
 use hairpin_jobs::judge_log::{
-    Against, Altitude, Cut, Found, FoundProgram, FrameSettings, JudgedLog, JudgedLogs, LogSettings, Matched, SourceTold,
-    judge_log,
+    Against, Altitude, Cut, Found, FoundProgram, FrameSettings, JudgedLog, JudgedLogs, LogSettings, Matched,
+    SourceTold, judge_log,
 };
 use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};

@@ -28,6 +28,7 @@ mod flaky;
 mod grammar;
 mod guests;
 mod hardware;
+mod hours;
 mod import;
 mod interruptions;
 mod judge_logs;

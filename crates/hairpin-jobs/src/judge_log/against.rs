@@ -8,7 +8,7 @@ use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
 use hairpin_formats::waypoints;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::settings::{Against, LogSettings};
 use crate::Problem;
@@ -57,7 +57,9 @@ impl Ready {
             Against::Mission { file, robot } => Self::of_mission(file, robot.as_deref(), settings)?,
         };
         match (&settings.against, ready.setup.has_programs()) {
-            (Against::Mission { .. }, true) => Err(Problem::input("an arm runs programs, not missions: --campaign OUT")),
+            (Against::Mission { .. }, true) => {
+                Err(Problem::input("an arm runs programs, not missions: --campaign OUT"))
+            }
             (_, true) => {
                 ready.setup = recorded(&ready.setup, clock.last())?;
                 Ok(ready)
@@ -177,9 +179,10 @@ fn recorded(setup: &Setup, clock: Option<&Set>) -> Result<Setup, Problem> {
     let given = |key: &str, value: Value| (key.to_owned(), value);
     let mut keys = vec![
         given("execute.controller", Value::Null),
-        given("execute.command", Value::Null),
-        given("execute.faults", Value::Null),
-        given("execute.record", Value::Null),
+        given("execute.control_rate_hz", Value::Null),
+        given("execute.timeout_s", Value::Null),
+        given("execute.faults", Value::Object(Map::new())),
+        given("execute.record", "all".into()),
         // Any name: which log is judged is typed.
         given("execute.logs", "*".into()),
     ];

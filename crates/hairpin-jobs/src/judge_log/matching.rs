@@ -47,7 +47,7 @@ impl Matched {
 ///
 /// # Errors
 /// Two cases are as near.
-pub(super) fn matched<'a>(
+pub(crate) fn matched<'a>(
     cases: &'a [Case],
     samples: &[Sample],
     (logged, progress, accept): (&Logged, &[Progress], f64),

@@ -31,9 +31,12 @@ use crate::{Problem, Watch};
 pub use arm::{FoundProgram, JointsTold};
 pub use cut::Cut;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};
+pub(crate) use frame::IntoWorld;
 pub use frame::{Altitude, FrameSettings, FrameTold};
 pub use legs::LegsBy;
+pub(crate) use legs::course;
 pub use matching::Matched;
+pub(crate) use matching::matched;
 pub use settings::{Against, LogSettings};
 pub use source::SourceTold;
 

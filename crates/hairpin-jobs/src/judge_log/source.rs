@@ -38,7 +38,8 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
             Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {}", names()))
         })?,
         None => logged.motions.iter().filter(usable).min_by_key(|motion| motion.source).ok_or_else(|| {
-            let joints = if logged.joints.is_empty() { "" } else { "; its joints are judged against an arm's campaign" };
+            let joints =
+                if logged.joints.is_empty() { "" } else { "; its joints are judged against an arm's campaign" };
             Problem::input(format!("a {} log without two poses{joints}", logged.format))
         })?,
     };

@@ -170,7 +170,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         }
         Why::Between { .. } => {
             format!(
-                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them",
+                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: its file does \
+                 with `limits.speed_m_s`",
                 found.source.rate_hz
             )
         }

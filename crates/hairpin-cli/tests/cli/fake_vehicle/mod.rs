@@ -13,6 +13,7 @@ mod write_ulog;
 use std::fs;
 use std::path::Path;
 
+use hairpin::trajectory::Track;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 pub(crate) use bag::{joint_states, odometry};
@@ -49,6 +50,21 @@ pub(crate) fn rows(path: &Path) -> Vec<Row> {
         }
     };
     lines.lines().map(of).collect()
+}
+
+/// Every `every`-th sample of a run.
+pub(crate) fn rows_of(track: &Track, every: usize) -> Vec<Row> {
+    let column = |name: &str| track.channel(name).unwrap_or_default();
+    let at = |name: &str, i: usize| column(name).get(i).copied().unwrap_or(0.0);
+    let row = |i: usize| Row {
+        t: track.times()[i],
+        p: track.position(i),
+        q: track.poses()[i].rotation,
+        v: Vector3::new(at("vx_m_s", i), at("vy_m_s", i), at("vz_m_s", i)),
+        leg: at("leg", i) as usize,
+        joints: [1, 2, 3, 4, 5, 6].map(|joint| at(&format!("q{joint}_rad"), i)),
+    };
+    (0..track.len()).step_by(every).map(row).collect()
 }
 
 /// The waypoints that `export --to waypoints` wrote.

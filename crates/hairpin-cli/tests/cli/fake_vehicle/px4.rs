@@ -101,16 +101,8 @@ impl Px4<'_> {
             }
         }
         let v = [v.x as f32, v.y as f32, v.z as f32];
-        let position = Position {
-            t_us,
-            ned,
-            v,
-            delta,
-            counters,
-            reference: home,
-            accuracy: self.accuracy,
-            ..Position::STILL
-        };
+        let position =
+            Position { t_us, ned, v, delta, counters, reference: home, accuracy: self.accuracy, ..Position::STILL };
         (position, [q.w as f32, q.i as f32, q.j as f32, q.k as f32])
     }
 

@@ -111,8 +111,7 @@ pub(crate) const STATE: [&str; 5] = [
     "geofence_result:uint64_t timestamp;bool geofence_max_alt_triggered;",
     "vehicle_land_detected:uint64_t timestamp;bool landed;",
 ];
-pub(crate) const SETPOINT: &str =
-    "position_setpoint:uint64_t timestamp;double lat;double lon;float alt;bool valid;uint8_t type;uint8_t[2] _padding0;";
+pub(crate) const SETPOINT: &str = "position_setpoint:uint64_t timestamp;double lat;double lon;float alt;bool valid;uint8_t type;uint8_t[2] _padding0;";
 
 /// Part of a [`STATE`] of `position_setpoint_triplet`.
 pub(crate) fn setpoint(valid: bool, [lat, lon]: [f64; 2], alt: f32) -> Vec<u8> {

@@ -126,9 +126,9 @@ fn part(track: &Track, which: &[usize], begins: f64) -> Result<Track, String> {
     let of = |values: &[f64]| which.iter().map(|i| values[*i]).collect::<Vec<f64>>();
     let times = which.iter().map(|i| track.times()[*i] - begins).collect();
     let poses = which.iter().map(|i| track.poses()[*i]).collect();
-    let channels = track.channels().iter().map(|channel| hairpin::trajectory::Channel {
-        name: channel.name.clone(),
-        values: of(&channel.values),
-    });
+    let channels = track
+        .channels()
+        .iter()
+        .map(|channel| hairpin::trajectory::Channel { name: channel.name.clone(), values: of(&channel.values) });
     Track::new(times, poses, channels.collect()).map_err(|error| error.to_string())
 }

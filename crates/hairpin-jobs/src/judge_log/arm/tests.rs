@@ -13,7 +13,8 @@ fn joints_are_axes_by_name_or_by_number_and_never_by_place() {
     assert_eq!(places, [4, 3, 0, 6, 5, 2]);
     assert!(told.by_name && told.others == ["finger"], "{told:?}");
     assert_eq!(told.order, ["elbow", "w3", "lift", "pan", "w2", "w1"]);
-    let (places, told) = axes(&names(&["l_joint_2", "l_joint_1", "l_joint_3", "l_joint_6", "l_joint_4", "l_joint_5"]), &own).unwrap();
+    let (places, told) =
+        axes(&names(&["l_joint_2", "l_joint_1", "l_joint_3", "l_joint_6", "l_joint_4", "l_joint_5"]), &own).unwrap();
     assert_eq!((places, told.by_name), ([1, 0, 2, 4, 5, 3], false));
     // Two arms, five joints, six without numbers.
     let two: Vec<String> =

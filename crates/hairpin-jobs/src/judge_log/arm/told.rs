@@ -20,7 +20,8 @@ pub(super) fn judged(file: &Path, found: FoundProgram, setup: &Setup) -> JudgedL
 
 fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdict) {
     let (case, result) = (&found.case, &found.result);
-    let with = |sentence: String| [Some(sentence), found.offset_words()].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let with =
+        |sentence: String| [Some(sentence), found.offset_words()].into_iter().flatten().collect::<Vec<_>>().join("; ");
     if let Some(violation) = result.violations.first() {
         return (Outcome::Fail, violated(case, how, &with(where_and_when(violation))));
     }
@@ -65,7 +66,8 @@ impl JointsTold {
         } else {
             format!(", in the log's order {}", self.order.join(", "))
         };
-        let others = if self.others.is_empty() { String::new() } else { format!("; not used: {}", self.others.join(", ")) };
+        let others =
+            if self.others.is_empty() { String::new() } else { format!("; not used: {}", self.others.join(", ")) };
         format!("rad; axes 1 to 6 {by}: {}{order}{others}", self.names.join(", "))
     }
 }
@@ -93,7 +95,10 @@ impl FoundProgram {
         }
         line(
             "program",
-            format!("taken to begin at t = {:.3} s of the log (--from S names another); not aligned in space", self.begins_s),
+            format!(
+                "taken to begin at t = {:.3} s of the log (--from S names another); not aligned in space",
+                self.begins_s
+            ),
         );
         line(
             "case",
@@ -110,7 +115,10 @@ impl FoundProgram {
             }
             if let Some(simulated) = self.simulated_m {
                 let simulated = 1e3 * simulated;
-                line("gap", format!("hardware {most:.2} mm, simulated {simulated:.2} mm at worst: {:+.2} mm", most - simulated));
+                line(
+                    "gap",
+                    format!("hardware {most:.2} mm, simulated {simulated:.2} mm at worst: {:+.2} mm", most - simulated),
+                );
             }
         }
         if let Some(offset) = self.offset_words() {
