@@ -212,8 +212,8 @@ pub fn read(path: &Path, arm: &ArmSetup, case: &Case, run: usize) -> Result<Run,
     let refuse = |why: String| RecordingError::Refused { path: path.into(), why };
     let recorded = arm.recorded(case, track, orientation_known).map_err(|error| refuse(error.to_string()))?;
     match recorded {
-        Ok(flight) => Ok(Run { case: case.number, run, drawn: Vec::new(), outcome: Ok(flight), full_rate: None }),
-        Err(short) => Err(RecordingError::Shorter {
+        (flight, None) => Ok(Run { case: case.number, run, drawn: Vec::new(), outcome: Ok(flight), full_rate: None }),
+        (_, Some(short)) => Err(RecordingError::Shorter {
             path: path.into(),
             line: last_line,
             time: short.ends,

@@ -27,7 +27,7 @@ pub(crate) struct Judge {
     /// With --campaign: the case that was flown, instead of finding it out
     #[arg(long, value_name = "ID", requires = "campaign")]
     pub(crate) case: Option<String>,
-    /// Of logs: the topic that poses are from, instead of the best ranked
+    /// Of logs: the topic that poses or joints are from, instead of the best ranked
     #[arg(long, value_name = "TOPIC")]
     pub(crate) source: Option<String>,
     /// Of logs: turn their frame about z first, ° counter-clockwise seen from above
@@ -45,7 +45,7 @@ pub(crate) struct Judge {
     /// Of logs: judge until this moment of the log, s
     #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     pub(crate) to: Option<f64>,
-    /// Override one key of spec; repeatable
+    /// Override one key of spec, or execute.log_clock of an arm's logs; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
     /// One JSON object on stdout

@@ -4,7 +4,8 @@ use hairpin::campaign::report::violation;
 use hairpin::campaign::{Doubt, Flown, Why};
 use hairpin::judgement::finding;
 use hairpin_jobs::judge_log::{
-    Against, Altitude, Cut, Found, FrameSettings, JudgedLog, JudgedLogs, LogSettings, judge_log,
+    Against, Altitude, Cut, Found, FoundProgram, FrameSettings, JudgedLog, JudgedLogs, LogSettings, Matched,
+    SourceTold, judge_log,
 };
 use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
@@ -43,8 +44,9 @@ pub(super) fn run(asked: &Judge, against: Against, watch: &dyn Watch) -> Result<
 
 fn in_words(judged: &JudgedLogs) {
     for log in &judged.logs {
-        if let Some(found) = &log.found {
-            for [label, value] in found.lines() {
+        let lines = log.found.as_ref().map(Found::lines).or_else(|| log.program.as_ref().map(FoundProgram::lines));
+        if let Some(lines) = lines {
+            for [label, value] in lines {
                 console::say(&format!("{label}: {value}"));
             }
             console::say("");
@@ -72,32 +74,71 @@ fn object(judged: &JudgedLogs) -> Value {
 }
 
 fn log(log: &JudgedLog) -> Value {
+    let evidence = if log.program.is_some() { "hardware" } else { "flown" };
     let mut object = json!({
         "file": log.file, "verdict": log.verdict.sentence, "exit_code": log.verdict.exit_code,
-        "status": log.outcome.word(), "evidence": "flown", "aligned": false,
+        "status": log.outcome.word(), "evidence": evidence, "aligned": false,
     });
-    if let (Some(found), Value::Object(all)) = (&log.found, &mut object)
-        && let Value::Object(more) = found_object(found)
-    {
+    let found = log.found.as_ref().map(found_object).or_else(|| log.program.as_ref().map(program_object));
+    if let (Some(Value::Object(more)), Value::Object(all)) = (found, &mut object) {
         all.extend(more);
     }
     object
 }
 
-fn found_object(found: &Found) -> Value {
-    let (source, frame) = (&found.source, &found.frame);
+fn program_object(found: &FoundProgram) -> Value {
     json!({
         "case": found.case,
-        "matched": found.matched.as_ref().map(|matched| json!({
+        "matched": matched(found.matched.as_ref()),
+        "source": source(&found.source),
+        "joints": found.joints.as_ref().map(|joints| json!({
+            "unit": "rad", "axes": joints.names, "order": joints.order, "by_name": joints.by_name, "others": joints.others,
+        })),
+        "program_begins_s": found.begins_s,
+        "clock_offset_s": found.offset.map(|(offset, _)| offset.seconds),
+        "clock_offset_removed": found.offset.map(|(offset, _)| offset.removed),
+        "finished": found.short.is_none(),
+        "measures": found.result.measures.as_ref().map(|m| json!({
+            "max_deviation_m": m.max_deviation,
+            "mean_deviation_m": m.mean_deviation,
+            "t_worst_s": m.t_worst,
+            "leg_worst": m.leg_worst,
+            "latest": m.latest.map(|late| json!({ "late_s": late.by, "t_s": late.at, "leg": late.leg })),
+            "late_s": m.legs.iter().map(|leg| leg.lateness).collect::<Vec<_>>(),
+            "total_time_s": m.total_time,
+            "violations": found.result.violations.iter().map(violation).collect::<Vec<_>>(),
+        })),
+        "open": found.result.message,
+        "simulated_max_deviation_m": found.simulated_m,
+        "gap_m": found.result.measures.as_ref().zip(found.simulated_m).map(|(m, simulated)| m.max_deviation - simulated),
+        "notes": found.notes,
+    })
+}
+
+fn matched(matched: Option<&Matched>) -> Option<Value> {
+    matched.map(|matched| {
+        json!({
             "by": if matched.by_targets { "targets" } else { "track" },
             "mean_m": matched.mean_m,
             "next": matched.next.as_ref().map(|(case, mean_m)| json!({ "case": case, "mean_m": mean_m })),
-        })),
-        "source": {
-            "format": source.format, "topic": source.topic, "who": source.words, "clock": source.clock,
-            "samples": source.samples, "rate_hz": finite(source.rate_hz), "accuracy": source.has_accuracy,
-            "others": source.others,
-        },
+        })
+    })
+}
+
+fn source(source: &SourceTold) -> Value {
+    json!({
+        "format": source.format, "topic": source.topic, "who": source.words, "clock": source.clock,
+        "samples": source.samples, "rate_hz": finite(source.rate_hz), "accuracy": source.has_accuracy,
+        "others": source.others,
+    })
+}
+
+fn found_object(found: &Found) -> Value {
+    let frame = &found.frame;
+    json!({
+        "case": found.case,
+        "matched": matched(found.matched.as_ref()),
+        "source": source(&found.source),
         "frame": {
             "log": frame.log, "how": frame.how, "by_earth": frame.by_earth,
             "altitude_difference_m": frame.altitude_difference_m, "altitude_applied": frame.altitude_applied,

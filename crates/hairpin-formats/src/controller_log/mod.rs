@@ -180,16 +180,41 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
         channels.push(Channel { name: "move".into(), values: moves });
     }
     if layout.joints.is_some() {
-        channels.extend(
-            (0..AXES)
-                .map(|k| Channel { name: format!("q{}_rad", k + 1), values: joints.iter().map(|q| q[k]).collect() }),
-        );
+        channels.extend(joint_channels(&joints));
     }
     let track = Track::new(times, poses, channels);
     let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
     let from_joints = layout.position.is_none();
     let orientation_known = from_joints || !matches!(layout.turn, Turn::Unknown);
     Ok(ControllerLog { track, orientation_known, from_joints, last_line })
+}
+
+/// A recording of joints (rad, by the arm's axes) at `times` (s); `path` is what refusals name.
+///
+/// # Errors
+/// Stamps that do not rise; fewer than two samples.
+pub fn of_joints(
+    path: &Path,
+    times: Vec<f64>,
+    joints: &[Joints],
+    arm: (&Arm, &Isometry3<f64>),
+) -> Result<ControllerLog, ControllerLogError> {
+    if times.len() < 2 {
+        return Err(ControllerLogError::Short { path: path.into(), found: times.len() });
+    }
+    let poses = joints.iter().map(|joints| pose(joints, arm)).collect();
+    let track = Track::new(times, poses, joint_channels(joints).collect());
+    let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
+    Ok(ControllerLog { track, orientation_known: true, from_joints: true, last_line: 0 })
+}
+
+/// base_from_tcp.
+fn pose(joints: &Joints, (arm, tcp): (&Arm, &Isometry3<f64>)) -> Isometry3<f64> {
+    arm.forward(joints) * tcp
+}
+
+fn joint_channels(joints: &[Joints]) -> impl Iterator<Item = Channel> {
+    (0..AXES).map(|k| Channel { name: format!("q{}_rad", k + 1), values: joints.iter().map(|q| q[k]).collect() })
 }
 
 impl Layout {
@@ -294,7 +319,7 @@ impl Rows<'_> {
                 let place = row.numbers(position, FARTHEST_M, "a finite number, within 100 m")?;
                 Isometry3::from_parts(Translation3::from(Vector3::from(place)), row.rotation(&layout.turn)?)
             }
-            (None, Some(joints), Some((arm, tcp))) => arm.forward(joints) * tcp,
+            (None, Some(joints), Some(arm)) => pose(joints, arm),
             (None, ..) => unreachable!("a layout without positions has joints and an arm"),
         };
         if let Some(column) = &layout.order {

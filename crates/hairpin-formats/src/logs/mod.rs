@@ -14,6 +14,7 @@ mod samples;
 mod text;
 mod ulog;
 
+use std::io::Read;
 use std::path::Path;
 
 pub use error::{LogError, MOST_SAMPLES, Place};
@@ -25,6 +26,8 @@ use error::Fault;
 
 /// Bytes of a log at most: hours of all that a vehicle logs.
 pub const MOST_LOG_BYTES: u64 = 1_000_000_000;
+/// By so many of the first ones formats are told apart.
+const FIRST_BYTES: u64 = 4_096;
 
 /// The log at `path`, whose format is told by its content; among texts, a name that ends in `.tum` or `.csv` decides.
 ///
@@ -35,6 +38,20 @@ pub fn read(path: &Path) -> Result<Logged, LogError> {
         bounds::read(path, MOST_LOG_BYTES).map_err(|cause| LogError::Unreadable { path: path.into(), cause })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     parse(&bytes, &name).map_err(|fault| fault.of(path))
+}
+
+/// Whether the log at `path` is text, and so, of an arm, a table as its controller writes it.
+///
+/// # Errors
+/// As of [`read`], for what its first bytes and its name say.
+pub fn is_text(path: &Path) -> Result<bool, LogError> {
+    let unreadable = |cause| LogError::Unreadable { path: path.into(), cause };
+    let mut first = Vec::new();
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    file.take(FIRST_BYTES).read_to_end(&mut first).map_err(unreadable)?;
+    // Whatever its name is, for tables of controllers have others.
+    let format = if first.contains(&0) { Format::of(&first, "") } else { Format::of(&first, ".csv") };
+    format.map(|format| matches!(format, Format::Tum | Format::Csv)).map_err(|fault| fault.of(path))
 }
 
 fn parse(bytes: &[u8], name: &str) -> Result<Logged, Fault> {

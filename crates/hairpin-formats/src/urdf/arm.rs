@@ -39,6 +39,7 @@ pub struct UrdfArm {
 #[derive(Default)]
 pub(super) struct Built {
     joints: Vec<ChainJoint>,
+    names: Vec<String>,
     limits: Vec<[f64; 3]>,
     capsules: Vec<CapsuleDescription>,
     hulls: Vec<HullDescription>,
@@ -66,6 +67,7 @@ impl Built {
         let index = self.joints.len();
         let axis = joint.axis()?.into_inner().into();
         self.joints.push(ChainJoint { xyz_mm: mm(&origin.translation.vector), rpy_deg: euler(origin), axis });
+        self.names.push(joint.name.into());
         let bounds = self.limit(joint)?;
         self.limits.push(bounds);
         let limit = child(&joint.node, "limit").unwrap_or(joint.node);
@@ -275,6 +277,8 @@ impl Built {
                 speed_deg_s: limit(2),
                 acceleration_deg_s2: None,
             },
+            // Without names, or with names that two share, they are numbered.
+            joint_names: if self.names.iter().any(|name| name.trim().is_empty()) { Vec::new() } else { self.names },
             capsules: self.capsules,
             hulls: self.hulls,
             stand_ins: self.stand_ins,

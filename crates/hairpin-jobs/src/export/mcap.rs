@@ -52,7 +52,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], reader: For) -> 
                 if case.program().is_some() {
                     let (times_s, rows) = planned_joints(work, &case).map_err(Problem::input)?;
                     let rows = rows.iter().map(|row| row.to_vec()).collect();
-                    let names = joint_names().to_vec();
+                    let names = joint_names(work).map_err(Problem::input)?.to_vec();
                     recording.joints.push(JointMotion { name: "planned", names, times_s, rows });
                 }
                 let path = place.join(format!("{}.ros2.mcap", case.id()));

@@ -102,7 +102,7 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
         }
         Language::JointTrajectory => {
             let (times, joints) = planned_joints(work, case)?;
-            let text = joint_trajectory::text("base_link", &joint_names(), &times, &joints)
+            let text = joint_trajectory::text("base_link", &joint_names(work)?, &times, &joints)
                 .map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
@@ -130,6 +130,6 @@ pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<(Vec<f64>, Vec<
 }
 
 /// What they are called.
-pub(super) fn joint_names() -> [String; AXES] {
-    std::array::from_fn(|axis| format!("joint_{}", axis + 1))
+pub(super) fn joint_names(work: &Work) -> Result<[String; AXES], String> {
+    Ok(work.setup.own::<ArmSetup>().ok_or("it is no arm's")?.station.arm.joint_names.clone())
 }

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::fit::Flown;
 use hairpin::campaign::{Case, CaseNumber, Setup};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Track};
-use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Sample};
+use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Progress, Sample};
+use hairpin_formats::placement::Placement;
 use hairpin_formats::waypoints;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::judge_log::{FrameSettings, IntoWorld, LegsBy, course, matched};
 use crate::{Problem, Watch};
 
 /// What logs are flights of.
@@ -32,57 +34,92 @@ impl Missions {
         Ok(Self::One(file.display().to_string(), Box::new(Case::bare(CaseNumber(0), 0, points))))
     }
 
-    /// The mission of the log in `file`, and its name.
-    fn of(&self, file: &Path) -> Result<(String, &Case), Problem> {
+    /// The mission of the log in `file`, and its name: the campaign's case that the file is called after, else the one
+    /// that its targets or its track say.
+    fn of(&self, file: &Path, log: &InWorld) -> Result<(String, &Case), Problem> {
         let (folder, cases) = match self {
             Self::One(name, case) => return Ok((name.clone(), case)),
             Self::Cases(folder, cases) => (folder, cases),
         };
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         let number = name.split(['-', '.']).next().unwrap_or_default();
-        let case = number.parse::<usize>().ok().and_then(|number| cases.iter().find(|case| case.number.0 == number));
-        let case = case.ok_or_else(|| {
-            let (folder, of) = (folder.display(), cases.len());
-            let sentence = format!(
-                "no case of {folder}, which has {of}: logs are called as `export` does, CASE-RUN.csv or CASE.exec.tum"
-            );
-            Problem::of_file(file, sentence)
-        })?;
+        let named = |number: usize| {
+            let case = cases.iter().find(|case| case.number.0 == number);
+            case.ok_or_else(|| {
+                let (folder, of) = (folder.display(), cases.len());
+                Problem::of_file(file, format!("no case of {folder}, which has {of}: logs may be called CASE-RUN.csv"))
+            })
+        };
+        let case = match (number.parse::<usize>(), &cases[..]) {
+            (Ok(number), _) => named(number)?,
+            (Err(_), [only]) => only,
+            (Err(_), cases) => {
+                let found = matched(cases, &log.samples, (log.logged, &log.progress, log.accept));
+                found.map_err(|problem| Problem::of_file(file, problem.to_string()))?.0
+            }
+        };
         Ok((format!("case {} of {}", case.id(), folder.display()), case))
     }
+}
+
+/// A log in the world's frame.
+struct InWorld<'a> {
+    logged: &'a Logged,
+    /// Where its items are.
+    progress: Vec<Progress>,
+    /// What of its best motion was the mission, as far as the log tells it by events.
+    samples: Vec<Sample>,
+    /// A waypoint counts as reached within this, m.
+    accept: f64,
 }
 
 /// The flight that the log in `file` is of.
 ///
 /// # Errors
-/// It cannot be read, has no motion of a body, or is in another frame than the world's; no mission is known for it.
-pub(super) fn flown(file: &Path, missions: &Missions, watch: &dyn Watch) -> Result<Flown, Problem> {
+/// It cannot be read, has no motion of a body, or is about a place on Earth of its own where the world has none; no
+/// mission is known for it.
+pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn Watch) -> Result<Flown, Problem> {
     let logged = logs::read(file).map_err(Problem::input)?;
-    let (mission, case) = missions.of(file)?;
-    match &logged.frame {
-        LogFrame::Untold => {}
-        LogFrame::Named(frame) => {
+    let place = Placement::of(&setup.scenario).map_err(Problem::input)?;
+    match (&logged.frame, &place) {
+        (LogFrame::Named(frame), _) => {
             watch.warn(&format!("{}: positions in the frame `{frame}` are taken for the world's", file.display()));
         }
-        LogFrame::Enu(_) => {
-            let why = "positions are east, north, up about a place of its own: give a log in the world's frame";
+        (LogFrame::Enu(Some(_)), None) => {
+            let why =
+                "positions are east, north, up about a place on Earth, and the world has none: give it `world.origin`";
             return Err(Problem::of_file(file, why));
         }
+        _ => {}
     }
     let motion = logged.motions.first().ok_or_else(|| Problem::of_file(file, "no motion of a body"))?;
-    let track = track(&logged, motion).map_err(|why| Problem::of_file(file, why))?;
+    let frame = IntoWorld::of(&logged.frame, place.as_ref(), &FrameSettings::default())?;
+    let samples = mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<_, _>>()?;
+    let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<_, _>>()?;
+    let log = InWorld { logged: &logged, progress, samples, accept: setup.scenario.executor().accept };
+    let (mission, case) = missions.of(file, &log)?;
+    let track = track(&log, case).map_err(|why| Problem::of_file(file, why))?;
     Ok(Flown { log: file.display().to_string(), mission, case: case.clone(), track })
 }
 
 /// What of a motion was the mission: from its begin, as far as the log tells it, to what ended it or the first moment
 /// at which the source cannot be relied on.
-fn track(logged: &Logged, motion: &LoggedMotion) -> Result<Track, String> {
+fn mission_of<'a>(logged: &Logged, motion: &'a LoggedMotion) -> impl Iterator<Item = &'a Sample> {
     let of = |kind: EventKind| logged.events.iter().find(move |event| event.kind == kind).map(|event| event.t_s);
     let begin = of(EventKind::MissionBegins).unwrap_or(f64::NEG_INFINITY);
     let ends = [EventKind::MissionEnds, EventKind::Failsafe].map(|kind| of(kind).unwrap_or(f64::INFINITY));
     let cuts = motion.resets.iter().map(|reset| reset.t_s).chain(motion.invalid.iter().map(|span| span.from_s));
     let end = cuts.filter(|t| *t > begin).chain(ends).fold(f64::INFINITY, f64::min);
-    let samples: Vec<&Sample> = motion.samples.iter().filter(|sample| (begin..end).contains(&sample.t_s)).collect();
+    motion.samples.iter().filter(move |sample| (begin..end).contains(&sample.t_s))
+}
+
+/// The motion over the waypoints of `case`: from where the mission's own state says that it left the first one, until
+/// it went on behind the last; of a log that does not say, all of it.
+fn track(log: &InWorld, case: &Case) -> Result<Track, String> {
+    let course = course(log.logged, &log.progress, &case.waypoints, log.accept);
+    let course = course.filter(|course| course.by == LegsBy::Targets);
+    let at_it = |sample: &&Sample| course.as_ref().is_none_or(|course| course.leg_at(sample.t_s).is_some());
+    let samples: Vec<&Sample> = log.samples.iter().filter(at_it).collect();
     let first = samples.first().ok_or("no sample of the mission")?.t_s;
     let mut channels = Vec::new();
     let velocities: Option<Vec<Vector3<f64>>> = samples.iter().map(|sample| sample.v_m_s).collect();

@@ -4,8 +4,8 @@ mod flown;
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::Setup;
 use hairpin::campaign::fit::{self, Estimate, Fit, FitError, Flown};
+use hairpin::campaign::{Setup, vary};
 use hairpin::math::simd::Simd;
 use hairpin_formats::atomic;
 use hairpin_formats::fitted_robot::{self, FittedNumber, four_digits};
@@ -63,7 +63,8 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
     let (setup, missions) = missions(settings)?;
     let setup = setup.with_simd(settings.simd);
-    let logs: Vec<Flown> = settings.logs.iter().map(|log| flown(log, &missions, watch)).collect::<Result<_, _>>()?;
+    let logs: Vec<Flown> =
+        settings.logs.iter().map(|log| flown(log, &missions, &setup, watch)).collect::<Result<_, _>>()?;
     let held_out = settings.hold_out.map_or(0, |share| (share * logs.len() as f64).ceil() as usize);
     if held_out > 0 && held_out >= logs.len() {
         let of = logs.len();
@@ -71,7 +72,7 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
             "--holdout leaves nothing to fit to: {held_out} of {of} logs; give more logs"
         )));
     }
-    let found = fit::fit(&setup, &logs, &fit::FitSettings { held_out }, &|| watch.stopped());
+    let found = fit::fit(&in_numbers(&setup)?, &logs, &fit::FitSettings { held_out }, &|| watch.stopped());
     let found = found.map_err(|error| match error {
         FitError::Stopped => Problem::Interrupted("stopped: nothing is written".into()),
         error => Problem::input(error),
@@ -83,6 +84,13 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     let execute = found.keys.iter().filter_map(|(key, value)| Some((key.strip_prefix("execute.")?, value)));
     let execute = execute.map(|(key, value)| format!("{key} = {}", four_digits(*value))).collect();
     Ok(Fitted { fit: found, setup, logs: logs.len(), logged_s, execute, text })
+}
+
+/// The same with every number of its robot given: what R leaves out was derived from others, and is not derived anew
+/// from those that are adjusted.
+fn in_numbers(setup: &Setup) -> Result<Setup, Problem> {
+    let scenario = vary::apply(&setup.scenario, &[("robot".to_owned(), setup.handed().robot)])?;
+    Ok(setup.changed(scenario)?)
 }
 
 /// The scenario that says who steers, with the robot that is fitted, and the missions that logs are flights of.

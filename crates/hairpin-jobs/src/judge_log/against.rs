@@ -2,17 +2,21 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness, vary};
 use hairpin::judgement::Swiftness;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
 use hairpin_formats::waypoints;
+use serde_json::{Map, Value};
 
 use super::settings::{Against, LogSettings};
 use crate::Problem;
 use crate::sets::Set;
 use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
+
+/// Whose clock an arm's logs are on, which is a matter of the logs and not of the campaign.
+const LOG_CLOCK: &str = "execute.log_clock";
 
 /// What logs are judged against.
 pub(super) struct Ready {
@@ -45,17 +49,26 @@ impl Ready {
     /// # Errors
     /// As of [`super::judge_log`].
     pub(super) fn of(settings: &LogSettings) -> Result<Self, Problem> {
-        check_tables(&settings.sets, &["spec"])?;
-        let ready = match &settings.against {
+        let (clock, sets): (Vec<Set>, Vec<Set>) = settings.sets.iter().cloned().partition(|(key, _)| key == LOG_CLOCK);
+        check_tables(&sets, &["spec"])?;
+        let settings = &LogSettings { sets, ..settings.clone() };
+        let mut ready = match &settings.against {
             Against::Campaign(folder) => Self::of_campaign(folder, settings)?,
             Against::Mission { file, robot } => Self::of_mission(file, robot.as_deref(), settings)?,
         };
-        if ready.setup.has_programs() {
-            return Err(Problem::input(
-                "arms are judged by their joints: hairpin execute OUT --logs 'PATTERN', then hairpin judge OUT",
-            ));
+        match (&settings.against, ready.setup.has_programs()) {
+            (Against::Mission { .. }, true) => {
+                Err(Problem::input("an arm runs programs, not missions: --campaign OUT"))
+            }
+            (_, true) => {
+                ready.setup = recorded(&ready.setup, clock.last())?;
+                Ok(ready)
+            }
+            (_, false) => match clock.first() {
+                Some((key, _)) => Err(Problem::input(format!("--set {key}: it is of arms; here only spec can be set"))),
+                None => Ok(ready),
+            },
         }
-        Ok(ready)
     }
 
     fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
@@ -158,6 +171,23 @@ impl Ready {
         }
         Ok(whole)
     }
+}
+
+/// `setup` of an arm whose runs are logs: nothing was drawn for them, no controller of ours ran them, and what they do
+/// not show between two samples is open.
+fn recorded(setup: &Setup, clock: Option<&Set>) -> Result<Setup, Problem> {
+    let given = |key: &str, value: Value| (key.to_owned(), value);
+    let mut keys = vec![
+        given("execute.controller", Value::Null),
+        given("execute.control_rate_hz", Value::Null),
+        given("execute.timeout_s", Value::Null),
+        given("execute.faults", Value::Object(Map::new())),
+        given("execute.record", "all".into()),
+        // Any name: which log is judged is typed.
+        given("execute.logs", "*".into()),
+    ];
+    keys.extend(clock.map(|(key, word)| given(key, word.trim_matches('"').into())));
+    Ok(setup.changed(vary::apply(&setup.scenario, &keys)?)?)
 }
 
 fn world(name: &str, origin: Option<&hairpin::campaign::scenario::Origin>) -> Result<NamedWorld, Problem> {

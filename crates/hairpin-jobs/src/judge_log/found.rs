@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use hairpin::campaign::Flown;
 use hairpin::judgement::Verdict;
 
+use super::arm::FoundProgram;
 use super::cut::Cut;
 use super::frame::FrameTold;
 use super::legs::LegsBy;
@@ -48,8 +49,10 @@ pub struct JudgedLog {
     pub verdict: Verdict,
     /// Its word.
     pub outcome: Outcome,
-    /// What it was found to be; `None` where it could not be read or was refused.
+    /// What it was found to be; `None` where it could not be read or was refused, and of arms.
     pub found: Option<Found>,
+    /// The same of an arm's.
+    pub program: Option<FoundProgram>,
 }
 
 /// What a log was found to be.

@@ -50,13 +50,13 @@ pub struct FrameTold {
 }
 
 /// From a log's frame to the world's.
-pub(super) struct IntoWorld<'a> {
+pub(crate) struct IntoWorld<'a> {
     how: How<'a>,
     named: Isometry3<f64>,
     /// Subtracted from heights.
     lower: f64,
     /// What is told of it.
-    pub(super) told: FrameTold,
+    pub(crate) told: FrameTold,
 }
 
 enum How<'a> {
@@ -71,7 +71,7 @@ impl<'a> IntoWorld<'a> {
     ///
     /// # Errors
     /// A log far outside of what the world's plane can show.
-    pub(super) fn of(frame: &LogFrame, place: Option<&'a Placement>, named: &FrameSettings) -> Result<Self, Problem> {
+    pub(crate) fn of(frame: &LogFrame, place: Option<&'a Placement>, named: &FrameSettings) -> Result<Self, Problem> {
         let mut told = FrameTold {
             log: in_words(frame),
             how: String::new(),
@@ -144,7 +144,7 @@ impl<'a> IntoWorld<'a> {
     ///
     /// # Errors
     /// As of [`Self::point`].
-    pub(super) fn sample(&self, sample: &Sample) -> Result<Sample, Problem> {
+    pub(crate) fn sample(&self, sample: &Sample) -> Result<Sample, Problem> {
         let turn = self.turn();
         Ok(Sample {
             p_m: self.point(&sample.p_m)?,
@@ -158,7 +158,7 @@ impl<'a> IntoWorld<'a> {
     ///
     /// # Errors
     /// As of [`Self::point`].
-    pub(super) fn progress(&self, step: &Progress) -> Result<Progress, Problem> {
+    pub(crate) fn progress(&self, step: &Progress) -> Result<Progress, Problem> {
         Ok(Progress { target_m: step.target_m.map(|target| self.point(&target)).transpose()?, ..*step })
     }
 }

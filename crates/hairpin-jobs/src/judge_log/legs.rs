@@ -70,8 +70,8 @@ pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Miss
 }
 
 /// When the mission flew to which waypoint: rising in both.
-pub(super) struct Course {
-    pub(super) by: LegsBy,
+pub(crate) struct Course {
+    pub(crate) by: LegsBy,
     /// From when on (s) to which waypoint.
     steps: Vec<(f64, usize)>,
     /// When it went on behind the last one, s.
@@ -80,7 +80,7 @@ pub(super) struct Course {
 
 impl Course {
     /// The leg that is flown at `t`: `None` before it left the first waypoint, and after the last one.
-    pub(super) fn leg_at(&self, t: f64) -> Option<usize> {
+    pub(crate) fn leg_at(&self, t: f64) -> Option<usize> {
         if self.done_s.is_some_and(|done| t >= done) {
             return None;
         }
@@ -101,7 +101,7 @@ impl Course {
 
 /// The course that the log's mission state tells over `waypoints`, which count as met within `accept` m; `None` where
 /// it has none, or its items are not the waypoints.
-pub(super) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
+pub(crate) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
     if progress.is_empty() {
         return None;
     }

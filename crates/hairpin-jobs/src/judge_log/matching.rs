@@ -14,7 +14,7 @@ use crate::Problem;
 /// Samples of a track that are compared at most.
 const SAMPLES: usize = 256;
 /// Another case must be so many times as far away as the best.
-const CLEAR: f64 = 2.0;
+pub(super) const CLEAR: f64 = 2.0;
 
 /// How a log was matched to a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +47,7 @@ impl Matched {
 ///
 /// # Errors
 /// Two cases are as near.
-pub(super) fn matched<'a>(
+pub(crate) fn matched<'a>(
     cases: &'a [Case],
     samples: &[Sample],
     (logged, progress, accept): (&Logged, &[Progress], f64),

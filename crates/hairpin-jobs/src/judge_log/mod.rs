@@ -5,8 +5,11 @@
 //! file ─ logs::read ─▶ Logged ─ source, frame ─▶ samples in the world's frame ─ matching ─▶ case
 //!        ─ span, legs, cut ─▶ Log ─ campaign::judge_flown ─▶ Flown ─ told ─▶ one sentence
 //! ```
+//!
+//! Logs of arms go their own way, by their programs: `arm`.
 
 mod against;
+mod arm;
 mod cut;
 mod found;
 mod frame;
@@ -25,11 +28,15 @@ use std::path::{Path, PathBuf};
 
 use crate::{Problem, Watch};
 
+pub use arm::{FoundProgram, JointsTold};
 pub use cut::Cut;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};
+pub(crate) use frame::IntoWorld;
 pub use frame::{Altitude, FrameSettings, FrameTold};
 pub use legs::LegsBy;
+pub(crate) use legs::course;
 pub use matching::Matched;
+pub(crate) use matching::matched;
 pub use settings::{Against, LogSettings};
 pub use source::SourceTold;
 
@@ -49,15 +56,20 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
     }
     let against = against::Ready::of(settings)?;
     against.notes.iter().for_each(|note| watch.warn(note));
+    let programs = arm::Programs::of(&against, settings)?;
+    let judge = |file: &Path| match &programs {
+        Some(programs) => programs.judge_file(file, &against, settings),
+        None => one::judge_file(file, &against, settings),
+    };
     if !settings.path.is_dir() {
-        return Ok(JudgedLogs { logs: vec![one::judge_file(&settings.path, &against, settings)?], count: None });
+        return Ok(JudgedLogs { logs: vec![judge(&settings.path)?], count: None });
     }
     let mut logs = Vec::new();
     for file in files_in(&settings.path)? {
         if watch.stopped() {
             return Err(Problem::Interrupted(format!("stopped after {} logs", logs.len())));
         }
-        logs.push(match one::judge_file(&file, &against, settings) {
+        logs.push(match judge(&file) {
             Ok(judged) => judged,
             Err(problem) => told::unreadable(&file, &problem),
         });

@@ -39,7 +39,7 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
         })?,
         None => logged.motions.iter().filter(usable).min_by_key(|motion| motion.source).ok_or_else(|| {
             let joints =
-                if logged.joints.is_empty() { "" } else { "; its joints are judged by hairpin execute --logs" };
+                if logged.joints.is_empty() { "" } else { "; its joints are judged against an arm's campaign" };
             Problem::input(format!("a {} log without two poses{joints}", logged.format))
         })?,
     };
@@ -53,16 +53,21 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
         words: words(motion.source, logged.format),
         has_accuracy: motion.samples.iter().any(|sample| sample.accuracy_m.is_some()),
         others: others.map(|other| other.name.clone()).collect(),
-        clock: match logged.clock {
-            Clock::SinceBoot => "since the vehicle's boot",
-            Clock::Header => "of the messages' headers",
-            Clock::Receive => "of the recorder, when it received the messages",
-            Clock::File => "of the file's first column",
-        },
+        clock: clock_words(logged.clock),
         samples: motion.samples.len(),
         rate_hz: 1.0 / middle,
     };
     Ok((motion, told))
+}
+
+/// Whose stamps times are.
+pub(super) fn clock_words(clock: Clock) -> &'static str {
+    match clock {
+        Clock::SinceBoot => "since the vehicle's boot",
+        Clock::Header => "of the messages' headers",
+        Clock::Receive => "of the recorder, when it received the messages",
+        Clock::File => "of the file's first column",
+    }
 }
 
 fn words(source: Source, format: &str) -> &'static str {

@@ -20,14 +20,14 @@ pub(super) fn judged(file: &Path, found: Found, setup: &Setup) -> JudgedLog {
     let source = found.source.in_sentence();
     let how = ["flown", name.as_str(), source.as_str()];
     let (outcome, verdict) = verdict(&found, &how, setup.scenario.asked());
-    JudgedLog { file: file.into(), verdict, outcome, found: Some(found) }
+    JudgedLog { file: file.into(), verdict, outcome, found: Some(found), program: None }
 }
 
 /// A log of a folder that cannot be judged.
 pub(super) fn unreadable(file: &Path, problem: &Problem) -> JudgedLog {
     let why = problem.to_string();
     let verdict = invalid("log", &["flown", &file_name(file)], &format!("not judged: {}", shortened(&why)));
-    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None }
+    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None, program: None }
 }
 
 /// The line with counts.
@@ -104,7 +104,7 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
 }
 
 /// `0.65 m > 0.50 m, t = 12.34 s, leg 4→5`.
-fn where_and_when(violation: &Violation) -> String {
+pub(super) fn where_and_when(violation: &Violation) -> String {
     format!("{}, t = {:.2} s, leg {}→{}", finding(violation), violation.at, violation.leg, violation.leg + 1)
 }
 
@@ -170,7 +170,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         }
         Why::Between { .. } => {
             format!(
-                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them",
+                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: its file does \
+                 with `limits.speed_m_s`",
                 found.source.rate_hz
             )
         }
@@ -194,7 +195,7 @@ fn digits(sigma: f64) -> String {
     if sigma >= 0.095 { format!("{sigma:.1}") } else { format!("{sigma:.3}") }
 }
 
-fn file_name(path: &Path) -> String {
+pub(super) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 

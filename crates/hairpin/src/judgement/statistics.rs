@@ -179,14 +179,13 @@ pub fn rule_of_three(n: usize) -> f64 {
     if n == 0 { 1.0 } else { (3.0 / n as f64).min(1.0) }
 }
 
-/// The t beyond which Student's distribution with `freedom` ≥ 1 degrees lies, on both sides together, as often as a
+/// The t beyond which Student's distribution with `freedom` > 0 degrees lies, on both sides together, as often as a
 /// normal one lies beyond `sigma` standard deviations: P(|T| > t) = erfc(σ/√2), and P(|T| > t) = I_x(ν/2, ½) with x =
 /// ν/(ν + t²).
 ///
 /// With 4 degrees of freedom 3 σ is t = 6.6: few runs know their own spread badly. Infinite where the tail is below
 /// what doubles hold.
-pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
-    let freedom = freedom as f64;
+pub fn student_quantile(freedom: f64, sigma: f64) -> f64 {
     let x = beta_quantile(0.5 * freedom, 0.5, libm::erfc(sigma * std::f64::consts::FRAC_1_SQRT_2));
     if x > 0.0 { (freedom * (1.0 / x - 1.0)).max(0.0).sqrt() } else { f64::INFINITY }
 }
@@ -206,7 +205,7 @@ pub fn student_quantile(freedom: usize, sigma: f64) -> f64 {
 pub fn mean_interval(values: &[f64]) -> Option<[f64; 2]> {
     let Statistics { mean, std, .. } = Statistics::of(values)?;
     let freedom = values.len().checked_sub(1).filter(|freedom| *freedom > 0)?;
-    let half = student_quantile(freedom, SIGMA_95) * std / (freedom as f64).sqrt();
+    let half = student_quantile(freedom as f64, SIGMA_95) * std / (freedom as f64).sqrt();
     Some([mean - half, mean + half])
 }
 

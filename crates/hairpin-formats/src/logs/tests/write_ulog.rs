@@ -51,6 +51,7 @@ pub(crate) struct Position {
     pub(crate) delta: [f32; 4],
     pub(crate) counters: [u8; 3],
     pub(crate) reference: [f64; 3],
+    pub(crate) accuracy: [f32; 2],
     pub(crate) valid: bool,
     pub(crate) global: bool,
     pub(crate) dead_reckoning: bool,
@@ -64,6 +65,7 @@ impl Position {
         delta: [0.0; 4],
         counters: [0; 3],
         reference: [47.3977, 8.5456, 488.0],
+        accuracy: [0.25, 0.5],
         valid: true,
         global: true,
         dead_reckoning: false,
@@ -74,6 +76,7 @@ impl Position {
         let flag = u8::from;
         let [lat, lon, alt] = self.reference;
         let [dx, dy, dz, turn] = self.delta;
+        let [eph, epv] = self.accuracy;
         [
             &(self.t_us + 2_000).to_le_bytes()[..],
             &self.t_us.to_le_bytes(),
@@ -83,7 +86,7 @@ impl Position {
             &singles(self.ned),
             &singles([dx, dy, dz]),
             &singles(self.v),
-            &singles([turn, alt as f32, 0.25, 0.5]),
+            &singles([turn, alt as f32, eph, epv]),
             &[flag(self.valid), flag(self.valid), flag(self.valid), flag(self.valid)],
             &self.counters,
             &[flag(self.global), flag(self.global), flag(self.dead_reckoning)],
@@ -100,23 +103,31 @@ pub(crate) fn attitude(t_us: u64, wxyz: [f32; 4]) -> Vec<u8> {
         .concat()
 }
 
+/// Formats of the topics that say what is flown, in the order of their numbers; 0 is [`POSITION`], 1 [`ATTITUDE`].
+pub(crate) const STATE: [&str; 5] = [
+    "mission_result:uint64_t timestamp;uint16_t seq_reached;uint16_t seq_current;bool finished;",
+    "position_setpoint_triplet:uint64_t timestamp;position_setpoint previous;position_setpoint current;",
+    "vehicle_status:uint64_t timestamp;uint8_t nav_state;uint8_t nav_state_user_intention;bool failsafe;",
+    "geofence_result:uint64_t timestamp;bool geofence_max_alt_triggered;",
+    "vehicle_land_detected:uint64_t timestamp;bool landed;",
+];
+pub(crate) const SETPOINT: &str = "position_setpoint:uint64_t timestamp;double lat;double lon;float alt;bool valid;uint8_t type;uint8_t[2] _padding0;";
+
+/// Part of a [`STATE`] of `position_setpoint_triplet`.
+pub(crate) fn setpoint(valid: bool, [lat, lon]: [f64; 2], alt: f32) -> Vec<u8> {
+    let (valid, time) = (u8::from(valid), 0_u64.to_le_bytes());
+    [&time[..], &lat.to_le_bytes(), &lon.to_le_bytes(), &alt.to_le_bytes(), &[valid, 0, 0, 0]].concat()
+}
+
 /// A short flight: north at 2 m/s and climbing at 1, nose up by 30°, to item 1 and then 2 of a mission, then home.
 pub(crate) fn flight() -> Vec<u8> {
     let mut log = Ulog::new();
     let release = 0x010f_02ff_u32.to_le_bytes();
     log.message(b'I', &[&[23], &b"uint32_t ver_sw_release"[..], &release].concat());
     log.message(b'P', &[&[21], &b"int32_t SDLOG_PROFILE"[..], &1_i32.to_le_bytes()].concat());
-    for format in [
-        POSITION,
-        ATTITUDE,
-        "mission_result:uint64_t timestamp;uint16_t seq_reached;uint16_t seq_current;bool finished;",
-        "position_setpoint:uint64_t timestamp;double lat;double lon;float alt;bool valid;uint8_t type;uint8_t[2] _padding0;",
-        "position_setpoint_triplet:uint64_t timestamp;position_setpoint previous;position_setpoint current;",
-        "vehicle_status:uint64_t timestamp;uint8_t nav_state;uint8_t nav_state_user_intention;bool failsafe;",
-        "geofence_result:uint64_t timestamp;bool geofence_max_alt_triggered;",
-        "vehicle_land_detected:uint64_t timestamp;bool landed;",
-        "cpuload:uint64_t timestamp;float load;",
-    ] {
+    let [result, triplet, status, fence, land] = STATE;
+    let load = "cpuload:uint64_t timestamp;float load;";
+    for format in [POSITION, ATTITUDE, result, SETPOINT, triplet, status, fence, land, load] {
         log.message(b'F', format.as_bytes());
     }
     let names = [
@@ -135,16 +146,8 @@ pub(crate) fn flight() -> Vec<u8> {
     let state = |log: &mut Ulog, t: u64, mode: u8, asked: u8, failsafe: u8| {
         log.data(4, &[&t.to_le_bytes(), &[mode, asked, failsafe]]);
     };
-    let setpoint = |valid: u8, lat: f64| -> Vec<u8> {
-        [
-            &0_u64.to_le_bytes()[..],
-            &lat.to_le_bytes(),
-            &8.5456_f64.to_le_bytes(),
-            &500_f32.to_le_bytes(),
-            &[valid, 0, 0, 0],
-        ]
-        .concat()
-    };
+    let to = |lat: f64| setpoint(true, [lat, 8.5456], 500.0);
+    let nowhere = setpoint(false, [0.0, 8.5456], 500.0);
     log.data(6, &[&10_000_000_u64.to_le_bytes(), &[1]]);
     state(&mut log, 10_000_000, 4, 4, 0);
     for step in 0..100_u64 {
@@ -159,12 +162,12 @@ pub(crate) fn flight() -> Vec<u8> {
             5 => {
                 log.data(6, &[&t.to_le_bytes(), &[0]]);
                 state(&mut log, t, 3, 3, 0);
-                log.data(3, &[&t.to_le_bytes(), &setpoint(0, 0.0), &setpoint(1, 47.3978)]);
+                log.data(3, &[&t.to_le_bytes(), &nowhere, &to(47.3978)]);
                 log.data(2, &[&(t + 50).to_le_bytes(), &0_u16.to_le_bytes(), &1_u16.to_le_bytes(), &[0]]);
                 log.sync();
             }
             50 => {
-                log.data(3, &[&t.to_le_bytes(), &setpoint(0, 0.0), &setpoint(1, 47.3979)]);
+                log.data(3, &[&t.to_le_bytes(), &nowhere, &to(47.3979)]);
                 log.data(2, &[&(t + 50).to_le_bytes(), &1_u16.to_le_bytes(), &2_u16.to_le_bytes(), &[0]]);
                 log.message(b'O', &120_u16.to_le_bytes());
                 log.message(b'L', b"6\0\0\0\0\0\0\0\0hello");

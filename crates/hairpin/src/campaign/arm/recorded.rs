@@ -3,9 +3,9 @@
 use super::ArmSetup;
 use super::execute::legs_of;
 use crate::campaign::Case;
-use crate::judgement::moves::{MeasureSettings, measure_moves};
+use crate::judgement::moves::{MeasureSettings, Measured, measure_moves};
 use crate::simulation::SimulationError;
-use crate::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
+use crate::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, PlannedPath, Track};
 
 /// A recording that ends before its program does.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,9 +20,12 @@ pub struct Shorter {
     pub name: String,
 }
 
+/// Samples of a recording that are looked at to find its program.
+const SAMPLES: usize = 512;
+
 impl ArmSetup {
     /// `recording` (`base_from_tcp`, its channel `move` if it has one counted from 0 after home) as a run of the
-    /// program of `case`, on its own stamps.
+    /// program of `case`, on its own stamps; and where it ends, if that is before its program does.
     ///
     /// It is shorter than the program if it does not arrive at the last target but one, or ends nearer to that than to
     /// the last: where the last target is only missed, by whatever distance, that is for the judge.
@@ -35,7 +38,7 @@ impl ArmSetup {
         case: &Case,
         recording: Track,
         orientation_known: bool,
-    ) -> Result<Result<Flight, Shorter>, SimulationError> {
+    ) -> Result<(Flight, Option<Shorter>), SimulationError> {
         let path = self.planned_path(case)?;
         let moves = path.moves().len();
         if let Some(value) =
@@ -47,32 +50,63 @@ impl ArmSetup {
                 "one of the program, counted from 0 after the start at home",
             ));
         }
-        let usual = MeasureSettings::default();
-        let turn_weight = if orientation_known { usual.turn_weight } else { 0.0 };
-        let measured =
-            measure_moves(&path, &recording, &MeasureSettings { turn_weight, ..usual }).map_err(|error| {
-                SimulationError::new("recording", error.to_string(), "one that can be aligned with the program")
-            })?;
+        let measured = aligned(&path, &recording, orientation_known)?;
         let ends = recording.times().last().copied().unwrap_or(0.0);
-        let last = moves.saturating_sub(1);
-        let reached =
-            measured.moves.iter().rposition(|one| one.arrived.is_some()).map_or(0, |arrived| (arrived + 1).min(last));
-        let place = |index: usize| path.track().position(index);
-        let (end, before) =
-            (place(path.moves()[last].end), place(last.checked_sub(1).map_or(0, |one| path.moves()[one].end)));
-        let stands = recording.position(recording.len() - 1);
-        let missed = measured.moves[last].arrived.is_none();
-        if missed && (reached < last || (stands - before).norm() < (stands - end).norm()) {
-            let name = path.moves()[reached].name.clone();
-            return Ok(Err(Shorter { ends, reached, moves, name }));
-        }
+        let short = shorter(&path, &measured, &recording);
         let mut times = vec![recording.times().first().copied()];
         times.extend(measured.moves.iter().map(|one| one.arrived));
-        times[moves] = times[moves].or(Some(ends));
+        times[moves] = times[moves].or((short.is_none()).then_some(ends));
         let unknown = Channel { name: ATTITUDE_UNKNOWN.into(), values: vec![1.0; recording.len()] };
         let channels = recording.channels().iter().cloned().chain((!orientation_known).then_some(unknown)).collect();
         let track = Track::new(recording.times().to_vec(), recording.poses().to_vec(), channels)
             .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))?;
-        Ok(Ok(Flight { track: legs_of(&track)?, ended: Ended::Done, left_world: None, reached: times }))
+        Ok((Flight { track: legs_of(&track)?, ended: Ended::Done, left_world: None, reached: times }, short))
     }
+
+    /// Mean distance (m) of `recording` from the path of `case`, and whether it runs to its end: which program it is of.
+    ///
+    /// # Errors
+    /// A case whose program cannot be planned; a recording that the oracle cannot align.
+    pub fn distance(
+        &self,
+        case: &Case,
+        recording: &Track,
+        orientation_known: bool,
+    ) -> Result<(f64, bool), SimulationError> {
+        let path = self.planned_path(case)?;
+        let last = recording.len().saturating_sub(1);
+        let stride = recording.len().div_ceil(SAMPLES).max(1);
+        let which: Vec<usize> = (0..last).step_by(stride).chain([last]).collect();
+        let times = which.iter().map(|i| recording.times()[*i]).collect();
+        let thin = Track::new(times, which.iter().map(|i| recording.poses()[*i]).collect(), Vec::new())
+            .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))?;
+        let measured = aligned(&path, &thin, orientation_known)?;
+        let mean = measured.deviations.iter().sum::<f64>() / measured.deviations.len() as f64;
+        Ok((mean, shorter(&path, &measured, &thin).is_none()))
+    }
+}
+
+/// `recording` along `path`.
+fn aligned(path: &PlannedPath, recording: &Track, orientation_known: bool) -> Result<Measured, SimulationError> {
+    let usual = MeasureSettings::default();
+    let turn_weight = if orientation_known { usual.turn_weight } else { 0.0 };
+    measure_moves(path, recording, &MeasureSettings { turn_weight, ..usual }).map_err(|error| {
+        SimulationError::new("recording", error.to_string(), "one that can be aligned with the program")
+    })
+}
+
+/// Where `recording` ends, if that is before its program does.
+fn shorter(path: &PlannedPath, measured: &Measured, recording: &Track) -> Option<Shorter> {
+    let moves = path.moves().len();
+    let last = moves.saturating_sub(1);
+    let reached =
+        measured.moves.iter().rposition(|one| one.arrived.is_some()).map_or(0, |arrived| (arrived + 1).min(last));
+    let place = |index: usize| path.track().position(index);
+    let (end, before) =
+        (place(path.moves()[last].end), place(last.checked_sub(1).map_or(0, |one| path.moves()[one].end)));
+    let stands = recording.position(recording.len() - 1);
+    let missed = measured.moves[last].arrived.is_none();
+    let short = missed && (reached < last || (stands - before).norm() < (stands - end).norm());
+    let ends = recording.times().last().copied().unwrap_or(0.0);
+    short.then(|| Shorter { ends, reached, moves, name: path.moves()[reached].name.clone() })
 }

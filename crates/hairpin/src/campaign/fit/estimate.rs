@@ -182,9 +182,9 @@ impl Found {
         let free =
             acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
         let spread = spread(&objective, &best, &free).ok_or_else(|| over(FitError::NoEffect))?;
-        let t = student_quantile(spread.freedom, SIGMA_95);
         let mut readings = vec![(Reading::NoEffect, None); numbers];
         for (k, &own) in free.iter().enumerate() {
+            let t = student_quantile(spread.freedom[k], SIGMA_95);
             let rise = t * t * spread.covariance[(k, k)] / spread.white[(k, k)];
             let ends = profile(&objective, &best, &free, &spread, (k, rise));
             readings[own] = reading(best.theta[own], ends);

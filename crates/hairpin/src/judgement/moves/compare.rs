@@ -219,5 +219,5 @@ fn width(before: &[f64], after: &[f64], sigma: f64) -> f64 {
     let freedom = before.len() + after.len() - 2;
     let variance = (squares(before) + squares(after)) / freedom as f64;
     let shares = 1.0 / before.len() as f64 + 1.0 / after.len() as f64;
-    student_quantile(freedom, sigma) * (variance * shares).sqrt()
+    student_quantile(freedom as f64, sigma) * (variance * shares).sqrt()
 }

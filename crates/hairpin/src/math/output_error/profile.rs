@@ -6,7 +6,7 @@
 //!
 //! With white residuals the rise is χ²₁; with coloured ones C_kk/(H⁻¹)_kk times it (Kent, Robust properties of
 //! likelihood ratio tests, Biometrika 69(1), 1982), and t² takes the place of χ²₁'s quantile as C itself is an estimate
-//! of so many degrees of freedom.
+//! of so many degrees of freedom, each parameter's its own ([`fn@super::spread`]).
 
 use nalgebra::{DMatrix, DVector};
 

@@ -56,6 +56,9 @@ pub struct ArmDescription {
     pub chain: Option<ChainDescription>,
     /// What the joints may do.
     pub joints: JointsDescription,
+    /// What the six joints are called by ROS, from the base on; `joint_1` … `joint_6` if not given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joint_names: Vec<String>,
     /// What the links take up; a link of which nothing is given gets a capsule along the dimensions, a stand-in.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub capsules: Vec<CapsuleDescription>,
@@ -251,10 +254,23 @@ impl ArmDescription {
             chain,
             kinematics,
             limits,
+            joint_names: self.joint_names()?,
             links,
             excluded: self.excluded()?,
             estimated,
         })
+    }
+
+    fn joint_names(&self) -> Result<[String; AXES], ArmError> {
+        if self.joint_names.is_empty() {
+            return Ok(std::array::from_fn(|axis| format!("joint_{}", axis + 1)));
+        }
+        let names = &self.joint_names;
+        let twice = (1..names.len()).any(|index| names[..index].contains(&names[index]));
+        match <[String; AXES]>::try_from(names.clone()) {
+            Ok(six) if !twice && six.iter().all(|name| !name.trim().is_empty()) => Ok(six),
+            _ => Err(wrong("joint_names", format!("{names:?}"), "six names, each another")),
+        }
     }
 
     /// Each with what is given of it, or its stand-in.

@@ -95,6 +95,8 @@ pub struct Arm {
     pub kinematics: Kinematics,
     /// What the joints may do.
     pub limits: [JointLimit; AXES],
+    /// What the joints are called by ROS.
+    pub joint_names: [String; AXES],
     /// Links, the base first.
     pub links: [Link; AXES + 1],
     /// Pairs of bodies that are not held against each other: 0 the base, 1 to 6 the links, 7 the tool.

@@ -346,6 +346,7 @@ fn files_are_held_to_their_bounds() {
             speed_deg_s: [200.0; 6],
             acceleration_deg_s2: None,
         },
+        joint_names: Vec::new(),
         capsules: Vec::new(),
         hulls: Vec::new(),
         stand_ins: Vec::new(),
@@ -364,6 +365,10 @@ fn files_are_held_to_their_bounds() {
     };
     assert_eq!(wrong(&|arm| arm.name.clear()), "name");
     assert_eq!(wrong(&|arm| arm.opw = None), "opw");
+    assert_eq!(built.joint_names[4], "joint_5");
+    for names in [&["a", "b", "c", "d", "e"][..], &["a", "b", "c", "d", "e", "a"], &["a", "b", "c", "d", "e", " "]] {
+        assert_eq!(wrong(&|arm| arm.joint_names = names.iter().map(ToString::to_string).collect()), "joint_names");
+    }
     assert_eq!(wrong(&|arm| arm.opw.as_mut().unwrap().c2_mm = f64::NAN), "opw.c2_mm");
     assert_eq!(wrong(&|arm| arm.opw.as_mut().unwrap().signs[4] = 0), "opw.signs[4]");
     assert_eq!(wrong(&|arm| arm.joints.upper_deg[2] = -101.0), "joints.upper_deg[2]");

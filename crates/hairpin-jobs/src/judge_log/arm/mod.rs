@@ -1,0 +1,88 @@
+//! A log of an arm against the program that it ran: read as a recording, made a run as `execute --logs` does, and
+//! judged as `judge OUT` judges that.
+//!
+//! ```text
+//! MCAP ─ logs::read ─▶ Joints ─ names ─▶ axes ─┐
+//! CSV ─────────── controller_log::read ────────┴▶ ControllerLog ─ matching ─▶ case ─ recorded ─▶ Run ─ judge_runs
+//! ```
+
+mod found;
+mod matching;
+mod names;
+mod read;
+mod told;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use hairpin::campaign::arm::ArmSetup;
+use hairpin::campaign::{Case, Run, judge_runs};
+use rayon::prelude::*;
+
+use super::against::Ready;
+use super::found::JudgedLog;
+use super::settings::LogSettings;
+use crate::Problem;
+
+pub use found::{FoundProgram, JointsTold};
+
+/// The programs of a campaign, which logs are held against.
+pub(super) struct Programs<'a> {
+    arm: &'a ArmSetup,
+    cases: Vec<Case>,
+}
+
+impl<'a> Programs<'a> {
+    /// Those of `against`, if they are an arm's.
+    ///
+    /// # Errors
+    /// What is asked of logs that say nothing of an arm's frame; the folder's files are broken.
+    pub(super) fn of(against: &'a Ready, settings: &LogSettings) -> Result<Option<Self>, Problem> {
+        let Some(arm) = against.setup.own::<ArmSetup>() else { return Ok(None) };
+        let named = settings.frame.turn_deg != 0.0 || settings.frame.offset_m != [0.0; 3];
+        let (worlds, frames) = (settings.world.is_some(), "an arm's log is in its base's frame");
+        for (asked, what) in [(worlds, "--world: what an arm must not meet is its cell's"), (named, frames)] {
+            if asked {
+                return Err(Problem::input(format!("{what}; leave --world, --turn and --offset out")));
+            }
+        }
+        let cases = against.cases.par_iter().map(|case| against.whole(case)).collect::<Result<Vec<Case>, Problem>>()?;
+        Ok(Some(Self { arm, cases }))
+    }
+
+    /// Judges the log in `file`.
+    ///
+    /// # Errors
+    /// It is no recording of this arm, or of no program of the campaign.
+    pub(super) fn judge_file(
+        &self,
+        file: &Path,
+        against: &Ready,
+        settings: &LogSettings,
+    ) -> Result<JudgedLog, Problem> {
+        let refuse = |why: String| Problem::of_file(file, why);
+        let read = read::recording(file, self.arm, settings)?;
+        let (case, matched) = matching::matched(self.arm, &self.cases, &read.log).map_err(refuse)?;
+        let recorded = self.arm.recorded(case, read.log.track, read.log.orientation_known);
+        let (flight, short) = recorded.map_err(|error| refuse(error.to_string()))?;
+        let run = Run { case: case.number, run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
+        let (result, deviations) = judge_runs(&against.setup, case, std::slice::from_ref(&run))?;
+        let measured = deviations.into_iter().next().and_then(|run| run.moves);
+        let simulated = against.simulated.iter().find(|result| result.case == case.number);
+        let found = FoundProgram {
+            case: case.id(),
+            matched,
+            source: read.source,
+            joints: read.joints,
+            begins_s: read.begins_s,
+            short,
+            result,
+            offset: measured.as_ref().and_then(|measured| Some((measured.offset?, measured.sample))),
+            simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
+            notes: read.notes,
+        };
+        Ok(told::judged(file, found, &against.setup))
+    }
+}

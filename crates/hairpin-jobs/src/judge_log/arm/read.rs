@@ -1,0 +1,134 @@
+//! From a file to a recording of an arm.
+
+use std::path::Path;
+
+use hairpin::campaign::arm::ArmSetup;
+use hairpin::robot::arm::{AXES, Arm, Joints};
+use hairpin::trajectory::Track;
+use hairpin_formats::controller_log::{self, ControllerLog};
+use hairpin_formats::logs::{self, Clock, Logged};
+use hairpin_formats::quote::shortened;
+
+use super::super::settings::LogSettings;
+use super::super::source::{SourceTold, clock_words};
+use super::found::JointsTold;
+use super::names::axes;
+use crate::Problem;
+
+/// An arm that stands farther beyond a limit of its joints does not stand there: the unit is another, rad.
+const BEYOND: f64 = std::f64::consts::TAU;
+
+/// A recording, and what is told of it.
+pub(super) struct Read {
+    pub(super) log: ControllerLog,
+    pub(super) source: SourceTold,
+    pub(super) joints: Option<JointsTold>,
+    /// When the program is taken to begin, s of the log; its times are counted from there.
+    pub(super) begins_s: f64,
+    pub(super) notes: Vec<String>,
+}
+
+/// The recording in `file`: a bag's joints, or a table as controllers write it.
+///
+/// # Errors
+/// What of it is broken; joints that are not the arm's; times of which nothing is left.
+pub(super) fn recording(file: &Path, arm: &ArmSetup, settings: &LogSettings) -> Result<Read, Problem> {
+    let refuse = |why: String| Problem::of_file(file, why);
+    let station = &arm.station;
+    let (log, name, format, clock, joints, notes) = if logs::is_text(file).map_err(Problem::input)? {
+        let log = controller_log::read(file, Some((&station.arm, &station.tool.tcp))).map_err(Problem::input)?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (log, name, "CSV", Clock::File, None, Vec::new())
+    } else {
+        let logged = logs::read(file).map_err(Problem::input)?;
+        let (joints, place, told) = chosen(&logged, &station.arm, settings.source.as_deref()).map_err(refuse)?;
+        let rows: Vec<Joints> = joints.positions_rad.iter().map(|row| place.map(|index| row[index])).collect();
+        let log = controller_log::of_joints(file, joints.times_s.clone(), &rows, (&station.arm, &station.tool.tcp));
+        let name = joints.name.clone();
+        (log.map_err(Problem::input)?, name, logged.format, logged.clock, Some(told), logged.notes)
+    };
+    check_range(&log.track, &station.arm, joints.as_ref()).map_err(refuse)?;
+    let times = log.track.times();
+    // A controller's log begins with its program; a recorder runs before it and has another clock.
+    let first = if clock == Clock::File { 0.0 } else { times[0] };
+    let begins_s = settings.from_s.unwrap_or(first);
+    let (from, to) = (settings.from_s.unwrap_or(times[0]), settings.to_s.unwrap_or(f64::INFINITY));
+    let which: Vec<usize> = (0..times.len()).filter(|i| (from..=to).contains(&times[*i])).collect();
+    if which.len() < 2 {
+        let (first, last) = (times[0], times[times.len() - 1]);
+        return Err(refuse(format!("no two samples between --from and --to; it is from {first} to {last} s")));
+    }
+    let mut spans: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    spans.sort_unstable_by(f64::total_cmp);
+    let source = SourceTold {
+        format,
+        topic: name,
+        words: if log.from_joints { "joint encoders" } else { "the controller's poses" },
+        has_accuracy: true,
+        others: Vec::new(),
+        clock: clock_words(clock),
+        samples: times.len(),
+        rate_hz: 1.0 / spans[spans.len() / 2],
+    };
+    let track = part(&log.track, &which, begins_s).map_err(refuse)?;
+    Ok(Read { log: ControllerLog { track, ..log }, source, joints, begins_s, notes })
+}
+
+/// The only topic with the arm's joints, or the one that is asked for, and where the axes are in it.
+fn chosen<'a>(
+    logged: &'a Logged,
+    arm: &Arm,
+    asked: Option<&str>,
+) -> Result<(&'a logs::Joints, [usize; AXES], JointsTold), String> {
+    let sets: Vec<&logs::Joints> =
+        logged.joints.iter().filter(|joints| asked.is_none_or(|topic| joints.name == topic)).collect();
+    let names = || logged.joints.iter().map(|joints| joints.name.as_str()).collect::<Vec<_>>().join(", ");
+    match (&sets[..], asked) {
+        ([], Some(topic)) => return Err(format!("--source {topic}: no joints of that topic; it has {}", names())),
+        ([], None) => return Err(format!("a {} log without joints (sensor_msgs/JointState)", logged.format)),
+        _ => {}
+    }
+    let mut fitting = Vec::new();
+    let mut why = String::new();
+    for joints in sets {
+        match axes(&joints.joints, &arm.joint_names) {
+            Ok((place, told)) => fitting.push((joints, place, told)),
+            Err(sentence) => why = format!("{}: {sentence}", shortened(&joints.name)),
+        }
+    }
+    match (fitting.len(), fitting.pop()) {
+        (1, Some(only)) => Ok(only),
+        (0, _) => Err(why),
+        _ => Err(format!("several topics have this arm's joints: {}; --source TOPIC says which", names())),
+    }
+}
+
+/// Joints that are more than a turn beyond their limits are in degrees.
+fn check_range(track: &Track, arm: &Arm, joints: Option<&JointsTold>) -> Result<(), String> {
+    for (axis, limit) in arm.limits.iter().enumerate() {
+        let Some(values) = track.channel(&format!("q{}_rad", axis + 1)) else { continue };
+        let far = values.iter().find(|q| !(limit.lower - BEYOND..=limit.upper + BEYOND).contains(*q));
+        if let Some(q) = far {
+            let name = joints.map_or_else(|| format!("joint {}", axis + 1), |joints| joints.names[axis].clone());
+            let (lower, upper) = (limit.lower.to_degrees(), limit.upper.to_degrees());
+            return Err(format!(
+                "{name} is at {q:.2} rad, {:.0}°, and its range is {lower:.0}° to {upper:.0}°: another unit, or another \
+                 arm's (JointState is in rad, columns say theirs)",
+                q.to_degrees()
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The samples `which`, times counted from `begins`.
+fn part(track: &Track, which: &[usize], begins: f64) -> Result<Track, String> {
+    let of = |values: &[f64]| which.iter().map(|i| values[*i]).collect::<Vec<f64>>();
+    let times = which.iter().map(|i| track.times()[*i] - begins).collect();
+    let poses = which.iter().map(|i| track.poses()[*i]).collect();
+    let channels = track
+        .channels()
+        .iter()
+        .map(|channel| hairpin::trajectory::Channel { name: channel.name.clone(), values: of(&channel.values) });
+    Track::new(times, poses, channels.collect()).map_err(|error| error.to_string())
+}

@@ -1,0 +1,130 @@
+//! What an arm's log came to, as one sentence and as lines before it; mm and ms, as arms' users have them.
+
+use std::path::Path;
+
+use hairpin::campaign::{Setup, Status};
+use hairpin::judgement::moves::offset_told;
+use hairpin::judgement::{Measures, Verdict, inconclusive, unjudged, violated, within_spec};
+
+use super::super::found::{JudgedLog, Outcome};
+use super::super::told::{file_name, where_and_when};
+use super::found::{FoundProgram, JointsTold};
+
+/// A log that was judged.
+pub(super) fn judged(file: &Path, found: FoundProgram, setup: &Setup) -> JudgedLog {
+    let name = file_name(file);
+    let how = ["hardware", setup.robot_name(), name.as_str()];
+    let (outcome, verdict) = verdict(&found, &how, setup);
+    JudgedLog { file: file.into(), verdict, outcome, found: None, program: Some(found) }
+}
+
+fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdict) {
+    let (case, result) = (&found.case, &found.result);
+    let with =
+        |sentence: String| [Some(sentence), found.offset_words()].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    if let Some(violation) = result.violations.first() {
+        return (Outcome::Fail, violated(case, how, &with(where_and_when(violation))));
+    }
+    if let Some(short) = &found.short {
+        let sentence = format!(
+            "the log ends at t = {:.2} s, on move {} of {} ({}): what was left of the program is not judged",
+            short.ends,
+            short.reached + 1,
+            short.moves,
+            short.name
+        );
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(sentence)));
+    }
+    let worst = result.measures.as_ref().map(|measures| worst(measures, setup));
+    let why = || result.message.as_deref().map_or("it cannot be measured", |why| why.trim_start_matches("run 0: "));
+    match (result.status, worst) {
+        (Status::Pass, Some(worst)) => (Outcome::Pass, within_spec(case, how, &with(worst))),
+        (Status::Unjudged, Some(worst)) => {
+            let sentence = format!("{worst}; nothing was asked for: spec = \"none\"");
+            (Outcome::Unjudged, unjudged(case, how, &with(sentence)))
+        }
+        _ => (Outcome::Inconclusive, inconclusive(case, how, &with(why().to_owned()))),
+    }
+}
+
+/// `12.10 mm ≤ 20.00 mm, t = 3.20 s, leg 2→3; 35 ms late at most`.
+fn worst(measures: &Measures, setup: &Setup) -> String {
+    let limit = setup.scenario.deviation_limit().map_or(String::new(), |limit| format!(" ≤ {:.2} mm", 1e3 * limit));
+    let (leg, off) = (measures.leg_worst, 1e3 * measures.max_deviation);
+    let path = format!("{off:.2} mm{limit}, t = {:.2} s, leg {leg}→{}", measures.t_worst, leg + 1);
+    match &measures.latest {
+        Some(late) => format!("{path}; {:.0} ms late at most, leg {}→{}", 1e3 * late.by, late.leg, late.leg + 1),
+        None => path,
+    }
+}
+
+impl JointsTold {
+    fn in_words(&self) -> String {
+        let by = if self.by_name { "by their names" } else { "by their numbers" };
+        let order = if self.order == self.names {
+            String::new()
+        } else {
+            format!(", in the log's order {}", self.order.join(", "))
+        };
+        let others =
+            if self.others.is_empty() { String::new() } else { format!("; not used: {}", self.others.join(", ")) };
+        format!("rad; axes 1 to 6 {by}: {}{order}{others}", self.names.join(", "))
+    }
+}
+
+impl FoundProgram {
+    fn offset_words(&self) -> Option<String> {
+        offset_told(self.offset.into_iter())
+    }
+
+    /// What is told before the sentence, label and value.
+    pub fn lines(&self) -> Vec<[String; 2]> {
+        let mut lines = Vec::new();
+        let mut line = |label: &str, value: String| lines.push([label.to_owned(), value]);
+        let source = &self.source;
+        let rate = (1e3 * source.rate_hz).round() / 1e3;
+        line(
+            "recorded",
+            format!(
+                "{}, {} ({}), {} samples at {rate:.4} Hz, stamps {}",
+                source.format, source.topic, source.words, source.samples, source.clock
+            ),
+        );
+        if let Some(joints) = &self.joints {
+            line("joints", joints.in_words());
+        }
+        line(
+            "program",
+            format!(
+                "taken to begin at t = {:.3} s of the log (--from S names another); not aligned in space",
+                self.begins_s
+            ),
+        );
+        line(
+            "case",
+            match &self.matched {
+                Some(matched) => format!("matched to case {} ({})", self.case, matched.words()),
+                None => self.case.clone(),
+            },
+        );
+        if let Some(measures) = &self.result.measures {
+            let [most, mean] = [measures.max_deviation, measures.mean_deviation].map(|m| 1e3 * m);
+            line("deviation", format!("max {most:.3} mm, mean {mean:.3} mm"));
+            if let Some(late) = &measures.latest {
+                line("latest", format!("{:+.1} ms, leg {}→{}", 1e3 * late.by, late.leg, late.leg + 1));
+            }
+            if let Some(simulated) = self.simulated_m {
+                let simulated = 1e3 * simulated;
+                line(
+                    "gap",
+                    format!("hardware {most:.2} mm, simulated {simulated:.2} mm at worst: {:+.2} mm", most - simulated),
+                );
+            }
+        }
+        if let Some(offset) = self.offset_words() {
+            line("clock", offset);
+        }
+        self.notes.iter().for_each(|note| line("note", note.clone()));
+        lines
+    }
+}
