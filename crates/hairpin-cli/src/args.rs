@@ -9,10 +9,14 @@ mod compare;
 mod experiment;
 mod explain;
 mod fit;
+mod help;
 mod import;
+mod init;
 mod judge;
+mod junit;
 mod keys;
 mod learn;
+mod man;
 mod max_load;
 mod numbers;
 mod pipeline;
@@ -38,10 +42,13 @@ pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
 pub(crate) use explain::Explain;
 pub(crate) use fit::Fit;
+pub(crate) use help::{WAYS_IN, command};
 pub(crate) use import::Import;
+pub(crate) use init::{Ci, Init, Initial, Server};
 pub(crate) use judge::{AltitudeName, Judge};
 pub(crate) use keys::Keys;
 pub(crate) use learn::Learn;
+pub(crate) use man::Man;
 pub(crate) use max_load::{MaxLoad, SearchMethod};
 pub(crate) use pipeline::{
     Autopilot, Campaign, Execute, Export, Format, Generate, Keep, Kept, Replay, ReportArguments, Stress, Verify,
@@ -69,7 +76,7 @@ pub(crate) struct Arguments {
 const EXIT_CODES: &str = "\
 Exit codes: 0 within spec, 1 violation or finding, 2 wrong input, 3 nothing feasible, 4 executor failed, \
 5 inconclusive; and beside verdicts 70 a mistake of hairpin's own, 74 a result that could not be \
-written, 130 interrupted (--resume goes on)";
+written, 130 interrupted (--resume goes on). `hairpin help exit-codes` explains each";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -111,6 +118,8 @@ pub(crate) enum Command {
     Export(Export),
     /// Read a program from elsewhere and check it by line: import CELL.mod --check
     Import(Import),
+    /// Write a build server's workflow: init ci github, gitlab or jenkins
+    Init(Init),
     /// Write a campaign's report.html
     Report(ReportArguments),
     /// Fly a rotor-speed profile open loop: poses in time as CSV
@@ -133,6 +142,8 @@ pub(crate) enum Command {
     Schema(Schema),
     /// Print a shell's completions
     Completions(Completions),
+    /// Write man pages
+    Man(Man),
 }
 
 impl Command {
@@ -165,6 +176,8 @@ impl Command {
             Self::New(a) => a.json,
             Self::Export(a) => a.json,
             Self::Import(a) => a.json,
+            Self::Man(a) => a.json,
+            Self::Init(Init { what: Initial::Ci(a) }) => a.json,
             Self::Report(a) => a.json,
             Self::Simulate(_) | Self::Schema(_) | Self::Completions(_) => false,
         }

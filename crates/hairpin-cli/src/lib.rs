@@ -14,7 +14,7 @@ mod terminal;
 use std::ffi::OsString;
 use std::panic::catch_unwind;
 
-use clap::Parser;
+use clap::FromArgMatches;
 
 use args::{Arguments, Command};
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
@@ -36,7 +36,15 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode
     settings::bring(code);
     apologise_when_panicking();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let parsed = match Arguments::try_parse_from(&arguments) {
+    if arguments.get(1..).is_some_and(|typed| typed == ["help", "exit-codes"]) {
+        console::say_lines(&exit::explained());
+        return exit::all_said(DONE);
+    }
+    if arguments.len() <= 1 {
+        console::warn_in_colour(args::WAYS_IN);
+        return WRONG_INPUT;
+    }
+    let parsed = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(usage) => return explain(&usage, arguments.iter().any(|argument| argument == "--json")),
     };
@@ -47,6 +55,12 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode
         Ok(Err(problem)) => exit::tell(&problem, json),
         Err(_) => OUR_MISTAKE,
     })
+}
+
+fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
+    let mut command = args::command();
+    let matches = command.try_get_matches_from_mut(arguments)?;
+    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
 
 /// Help and version on stdout with 0, wrong usage on stderr with 2, as clap has it; machines get the latter as an
@@ -89,6 +103,7 @@ fn command(arguments: Arguments) -> Result<u8, Problem> {
         Command::Shrink(shrink) => commands::shrink::run(&shrink, watch),
         Command::Export(export) => commands::export::run(&export),
         Command::Import(import) => commands::import::run(&import),
+        Command::Init(init) => commands::init::run(&init),
         Command::Report(report) => commands::report::run(&report),
         Command::Simulate(simulate) => commands::simulate::run(&simulate),
         Command::Steer(steer) => commands::steer::run(&steer, watch),
@@ -100,6 +115,7 @@ fn command(arguments: Arguments) -> Result<u8, Problem> {
         Command::Show(show) => commands::show::run(&show),
         Command::Schema(schema) => commands::schema::run(&schema),
         Command::Completions(completions) => commands::completions::run(&completions),
+        Command::Man(man) => commands::man::run(&man),
     }
 }
 

@@ -58,6 +58,7 @@ pub(crate) fn campaign(campaign: &Campaign, executor: Option<&str>) -> Result<Ca
         sets: keys(&campaign.keys, executor)?,
         if_there: if_there(campaign.resume, campaign.force),
         time_limit_s: campaign.time_limit,
+        budget_s: None,
         simd: simd(&campaign.kernels),
         consent: consent(&campaign.commands),
     })

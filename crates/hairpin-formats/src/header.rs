@@ -129,6 +129,14 @@ impl Header {
         lines
     }
 
+    /// In a line what must be known of every result: the frame, that nothing was aligned, and who told the legs.
+    pub fn line(&self) -> String {
+        let lines = self.lines();
+        let of = |wanted: &str| lines.iter().find(|[label, _]| label == wanted).map_or("", |[_, value]| value.as_str());
+        let frame = of("frame").split(';').next().unwrap_or_default();
+        format!("frame: {frame}; {}; leg being flown: {}", of("alignment"), of("leg being flown"))
+    }
+
     /// What counts, whatever the robot.
     fn told_for_all(&self, lines: &mut Vec<[String; 2]>) {
         let line = |label: &str, value: String| [label.to_owned(), value];

@@ -29,6 +29,8 @@ pub struct Suite {
     pub regressions: BTreeMap<CaseNumber, Vec<String>>,
     /// Saved cases that were run before: name and result of each. They make a suite of their own, where there are any.
     pub saved: Vec<(String, CaseResult)>,
+    /// The command that carries a failing test case out again, by the test case's name.
+    pub again: BTreeMap<String, String>,
 }
 
 /// Name of the suite of saved cases.
@@ -54,7 +56,7 @@ pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
     let mut report = Report::new("hairpin");
     report.add_test_suite(tests);
     if !suite.saved.is_empty() {
-        let plain = Suite { name: SAVED.into(), ..Suite::default() };
+        let plain = Suite { name: SAVED.into(), again: suite.again.clone(), ..Suite::default() };
         let mut tests = TestSuite::new(SAVED);
         for (name, result) in &suite.saved {
             tests.add_test_case(test_case(&plain, name.clone(), result));
@@ -63,6 +65,51 @@ pub fn text(suite: &Suite, results: &[CaseResult]) -> String {
     }
     let text = report.to_string().expect("cleaned text is XML");
     without_root_skipped(&text)
+}
+
+/// One test of a suite that is no case: a log that was judged, a pair that was compared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Outcome {
+    /// Name of the test.
+    pub name: String,
+    /// What came of it: the kinds of JUnit.
+    pub kind: OutcomeKind,
+    /// In a sentence.
+    pub sentence: String,
+}
+
+/// What a test came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutcomeKind {
+    /// A pass.
+    Pass,
+    /// A violation.
+    Violation,
+    /// Nothing was asked for.
+    Skipped,
+    /// The data allow no verdict, which is no pass.
+    Open,
+}
+
+/// The text of a file with one suite of `outcomes`, in their order.
+pub fn outcomes_text(name: &str, properties: &[(String, String)], outcomes: &[Outcome]) -> String {
+    let suite = Suite { name: name.into(), ..Suite::default() };
+    let mut tests = TestSuite::new(clean(&on_one_line(name)));
+    for (name, value) in properties {
+        tests.add_property(Property::new(clean(name), clean(value)));
+    }
+    for Outcome { name, kind, sentence } in outcomes {
+        let status = match kind {
+            OutcomeKind::Pass => TestCaseStatus::success(),
+            OutcomeKind::Violation => not_passed(NonSuccessKind::Failure, "SpecViolation", sentence, &[]),
+            OutcomeKind::Skipped => skipped(sentence),
+            OutcomeKind::Open => not_passed(NonSuccessKind::Error, "Inconclusive", sentence, &[]),
+        };
+        tests.add_test_case(named(&suite, name.clone(), status));
+    }
+    let mut report = Report::new("hairpin");
+    report.add_test_suite(tests);
+    without_root_skipped(&report.to_string().expect("cleaned text is XML"))
 }
 
 /// Writes [`text`].
@@ -77,9 +124,11 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
     let worse = suite.regressions.get(&result.case).map_or(&[][..], Vec::as_slice);
     let violations: Vec<String> =
         result.violations.iter().map(report::violation).chain(worse.iter().cloned()).collect();
+    let again = suite.again.get(&name).map(|command| format!("again: {command}"));
+    let below = |lines: &[String]| lines.iter().skip(1).cloned().chain(again.clone()).collect::<Vec<_>>();
     let status = match result.status {
         Status::Pass if !worse.is_empty() => {
-            not_passed(NonSuccessKind::Failure, "Regression", &worse[0], worse.get(1..).unwrap_or_default())
+            not_passed(NonSuccessKind::Failure, "Regression", &worse[0], &below(worse))
         }
         Status::Pass => match &suite.inconclusive {
             None => TestCaseStatus::success(),
@@ -88,7 +137,7 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
         Status::Unjudged => skipped("spec = \"none\": nothing was asked for"),
         Status::Fail => {
             let gravest = violations.first().map_or("violates the specification", String::as_str);
-            not_passed(NonSuccessKind::Failure, "SpecViolation", gravest, violations.get(1..).unwrap_or_default())
+            not_passed(NonSuccessKind::Failure, "SpecViolation", gravest, &below(&violations))
         }
         Status::ExecutorFailed => {
             let message = result.message.as_deref().unwrap_or("the executor failed");

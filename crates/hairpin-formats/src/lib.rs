@@ -8,6 +8,7 @@ pub mod banner;
 pub mod bounds;
 mod channels;
 pub mod checksum;
+pub mod ci;
 pub mod cloud;
 pub mod controller_log;
 mod controllers;

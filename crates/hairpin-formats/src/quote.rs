@@ -51,6 +51,11 @@ fn with_short_words(text: &str) -> Cow<'_, str> {
     out.into()
 }
 
+/// `text` as a shell takes it for one word.
+pub fn shell_word(text: &str) -> Cow<'_, str> {
+    shlex::try_quote(text).unwrap_or(Cow::Borrowed(text))
+}
+
 /// As much of a cell as a message holds.
 pub fn cell(text: &str) -> String {
     const MOST: usize = 80;

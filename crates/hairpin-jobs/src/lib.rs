@@ -5,6 +5,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 
 mod baseline;
+mod budget;
 pub mod calibrate;
 pub mod certificate;
 pub mod check;
@@ -24,6 +25,7 @@ pub mod learn;
 pub mod max_load;
 pub mod missions;
 pub mod names;
+pub mod next;
 pub mod optimum;
 mod problem;
 pub mod replay;
@@ -42,5 +44,6 @@ pub mod verify;
 mod watch;
 pub mod work;
 
+pub use budget::{Budget, Spent};
 pub use problem::Problem;
-pub use watch::{Deadline, Unwatched, Watch};
+pub use watch::{Deadline, Seen, Unwatched, Watch};

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
-use hairpin::campaign::report::{Shown, worst_first};
-use hairpin::campaign::{self, Case, Setup, Tally};
+use hairpin::campaign::report::{Shown, shown, worst_first};
+use hairpin::campaign::{self, Case, CaseResult, Setup, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
@@ -60,6 +60,16 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
     drop((cases, results));
     write((&work, &told), &verdict, assumptions, regression.as_ref())?;
     Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
+}
+
+/// The worst case of a judged campaign in full, as the report shows it; `None` where none was flown, or its motion is
+/// not to be had.
+pub fn worst_in_full(work: &Work, cases: &[Case], results: &[CaseResult]) -> Option<Shown> {
+    let worst = worst_first(results).into_iter().find(|result| result.measures.is_some())?;
+    let case = cases.iter().find(|case| case.number == worst.case)?;
+    let run = run_with_motion(work, case, worst.run).ok().flatten()?;
+    let planned = work.folder.read_planned(case.number).ok()?;
+    shown(&work.setup, case, worst, planned, Some(&run)).ok()
 }
 
 /// Writes `report.html`.

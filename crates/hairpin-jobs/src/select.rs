@@ -215,7 +215,7 @@ fn write(
     there.write_tally(&tally)?;
     let judged = results.iter().filter(|result| numbers.contains(&result.case)).count() == chosen.len();
     if judged && there.has_runs() {
-        let judgement = judge_cases(&new, chosen, &tally, &[])?;
+        let judgement = judge_cases(&new, chosen, &tally, (&[], None))?;
         write_report(&new, chosen, &tally, &judgement.verdict, (&judgement.moves, judgement.regression.as_ref()))?;
     }
     Ok(new.folder.path().to_owned())

@@ -6,14 +6,15 @@ use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 
 use crate::baseline::{fly_baseline, fly_searched};
-use crate::execute::{Flown, check_recordings, fly_missing};
+use crate::budget::Part;
+use crate::execute::{Flown, check_recordings, count_flown, fly_missing};
 use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
 use crate::missions::{self, adopt};
 use crate::report::write_report;
 use crate::saved::{Replayed, replay_saved, with_saved};
-use crate::work::{CampaignSettings, Work, plan};
-use crate::{Deadline, Problem, Watch};
+use crate::work::{CampaignSettings, Planned, Work, plan};
+use crate::{Budget, Problem, Spent, Watch};
 
 /// A campaign from its search to its report.
 pub struct Stressed {
@@ -29,6 +30,8 @@ pub struct Stressed {
     pub verdict: Verdict,
     /// Saved cases that were run first.
     pub replayed: Vec<Replayed>,
+    /// What came of the time for the whole of it, where that was limited.
+    pub spent: Option<Spent>,
 }
 
 /// Runs a whole campaign, or goes on with it; the repro files of the folder `repro`, or else those of the campaign's
@@ -37,11 +40,11 @@ pub struct Stressed {
 /// # Errors
 /// As of [`plan`]; saved cases that cannot be used; a file that cannot be written; it was asked to stop.
 pub fn stress(settings: &CampaignSettings, repro: Option<&Path>, watch: &dyn Watch) -> Result<Stressed, Problem> {
+    let budget = Budget::of(settings.budget_s, settings.time_limit_s);
     let planned = plan(settings, watch)?;
-    let deadline = Deadline::after(settings.time_limit_s);
     // Before anything of an older campaign in the folder is replaced: a saved case may turn out to be none.
-    let replayed = replay_saved(&planned.setup, &planned.path, repro, watch)?;
-    stress_begun(planned.begin()?, deadline, replayed, watch)
+    let replayed = replay(&planned, repro, &budget, watch)?;
+    stress_begun(planned.begin()?, &budget, replayed, watch)
 }
 
 /// The same of missions made elsewhere, of a folder or file: they are the cases, and beside them what the scenario's
@@ -56,10 +59,10 @@ pub fn stress_missions(
     repro: Option<&Path>,
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
+    let budget = Budget::of(settings.budget_s, settings.time_limit_s);
     let planned = plan(settings, watch)?;
-    let deadline = Deadline::after(settings.time_limit_s);
     let read = missions::read(&planned.setup, missions, watch)?;
-    let replayed = replay_saved(&planned.setup, &planned.path, repro, watch)?;
+    let replayed = replay(&planned, repro, &budget, watch)?;
     let work = planned.begin()?;
     let names: Vec<&str> = read.iter().map(|leg| leg.name.as_str()).collect();
     let are_there = work.folder.has_tally() && work.folder.read_tally()?.missions == names;
@@ -68,39 +71,80 @@ pub fn stress_missions(
         work.folder.forget_runs()?;
     }
     let (cases, tally) = (work.folder.read_cases()?, work.folder.read_tally()?);
-    let flown = fly_missing(&work, &cases, watch)?;
-    fly_searched(&work, deadline, watch)?;
-    judged((work, cases, tally), flown, replayed, watch)
+    let flown = fly(&work, &cases, (Part::Search, &budget), watch)?;
+    let searched =
+        budget.within(Part::Runs, watch, |watch| fly_searched(&work, budget.end_of_search(Part::Runs), watch))?;
+    if searched.is_none() {
+        budget.leave_undone("nothing was searched beside the missions");
+    }
+    judged((work, cases, tally), (flown, &budget), replayed, watch)
 }
 
-/// The same in a folder that is open, after what was `replayed`; generation ends at `deadline`.
+/// Runs saved cases first, in the time that the search has.
+fn replay(
+    planned: &Planned,
+    repro: Option<&Path>,
+    budget: &Budget,
+    watch: &dyn Watch,
+) -> Result<Vec<Replayed>, Problem> {
+    let replayed =
+        budget.within(Part::Search, watch, |watch| replay_saved(&planned.setup, &planned.path, repro, watch))?;
+    if replayed.is_none() {
+        budget.leave_undone("saved cases were not run");
+    }
+    Ok(replayed.unwrap_or_default())
+}
+
+/// Flies what is missing until `part` ends.
+fn fly(work: &Work, cases: &[Case], (part, budget): (Part, &Budget), watch: &dyn Watch) -> Result<Flown, Problem> {
+    let done = budget.within(part, watch, |watch| fly_missing(work, cases, watch))?;
+    let flown = done.map_or_else(|| count_flown(work, cases), Ok)?;
+    if done.is_none() {
+        let executor = work.setup.scenario.executor();
+        let all = cases.len() * executor.repeat as usize;
+        match all.saturating_sub(flown.runs) {
+            0 => budget.leave_undone("not all violations were run again"),
+            missing => budget.leave_undone_visibly(format!("{missing} of {all} runs were not executed")),
+        }
+    }
+    Ok(flown)
+}
+
+/// The same in a folder that is open, after what was `replayed`, in the time that `budget` has.
 ///
 /// # Errors
 /// A file that cannot be written; it was asked to stop.
 pub fn stress_begun(
     work: Work,
-    deadline: Deadline,
+    budget: &Budget,
     replayed: Vec<Replayed>,
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
-    let (cases, tally) = find_cases(&work, deadline, watch)?;
+    let (cases, mut tally) = find_cases(&work, budget.end_of_search(Part::Search), watch)?;
+    let cut = budget.cut_of_search(&work.setup.scenario, &cases, &tally);
+    if cut != tally.cut {
+        tally.cut = cut;
+        work.folder.write_tally(&tally)?;
+    }
     check_recordings(&work, &cases)?;
-    let flown = fly_missing(&work, &cases, watch)?;
-    judged((work, cases, tally), flown, replayed, watch)
+    let flown = fly(&work, &cases, (Part::Runs, budget), watch)?;
+    judged((work, cases, tally), (flown, budget), replayed, watch)
 }
 
 /// What of a campaign comes after its runs.
 fn judged(
     (work, cases, tally): (Work, Vec<Case>, Tally),
-    flown: Flown,
+    (flown, budget): (Flown, &Budget),
     replayed: Vec<Replayed>,
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
-    fly_baseline(&work, &tally, flown, watch)?;
-    let judgement = judge_cases(&work, &cases, &tally, &replayed)?;
-    let verdict = with_saved(&judgement.verdict, &replayed);
+    if budget.within(Part::Beside, watch, |watch| fly_baseline(&work, &tally, flown, watch))?.is_none() {
+        budget.leave_undone("no random cases were flown beside them");
+    }
+    let judgement = judge_cases(&work, &cases, &tally, (&replayed, Some(budget)))?;
+    let verdict = budget.told_in(with_saved(&judgement.verdict, &replayed));
     write_report(&work, &cases, &tally, &verdict, (&judgement.moves, judgement.regression.as_ref()))?;
-    Ok(Stressed { work, cases, tally, judgement, verdict, replayed })
+    Ok(Stressed { work, cases, tally, judgement, verdict, replayed, spent: budget.spent() })
 }
 
 #[cfg(test)]

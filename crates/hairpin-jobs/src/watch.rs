@@ -20,6 +20,11 @@ pub trait Watch: Sync {
         let _ = (what, done, of);
     }
 
+    /// A run has landed, before its step is told of as done.
+    fn seen(&self, run: Seen) {
+        let _ = run;
+    }
+
     /// `what` goes no further, all of it done or not.
     fn finished(&self, what: &'static str) {
         let _ = what;
@@ -36,6 +41,43 @@ pub trait Watch: Sync {
 pub struct Unwatched;
 
 impl Watch for Unwatched {}
+
+/// A watch that asks to stop at a deadline as well.
+pub(crate) struct Until<'a> {
+    pub(crate) watch: &'a dyn Watch,
+    pub(crate) end: Deadline,
+}
+
+impl Watch for Until<'_> {
+    fn stopped(&self) -> bool {
+        self.watch.stopped() || self.end.passed()
+    }
+
+    fn progress(&self, what: &'static str, done: usize, of: usize) {
+        self.watch.progress(what, done, of);
+    }
+
+    fn seen(&self, run: Seen) {
+        self.watch.seen(run);
+    }
+
+    fn finished(&self, what: &'static str) {
+        self.watch.finished(what);
+    }
+
+    fn warn(&self, line: &str) {
+        self.watch.warn(line);
+    }
+}
+
+/// What a run came to that has landed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// The largest deviation, m; `None` where it was not measured.
+    pub deviation: Option<f64>,
+    /// Whether it violates the specification.
+    pub violates: bool,
+}
 
 /// The steps of a job as its watch is told of them, until this is dropped.
 pub(crate) struct Steps<'a> {
@@ -72,8 +114,21 @@ pub struct Deadline(Option<Instant>);
 impl Deadline {
     /// `seconds` from now; never without.
     pub fn after(seconds: Option<f64>) -> Self {
+        Self::since(Instant::now(), seconds)
+    }
+
+    /// `seconds` after `begun`; never without.
+    pub(crate) fn since(begun: Instant, seconds: Option<f64>) -> Self {
         let duration = seconds.and_then(|s| Duration::try_from_secs_f64(s).ok());
-        Self(duration.and_then(|duration| Instant::now().checked_add(duration)))
+        Self(duration.and_then(|duration| begun.checked_add(duration)))
+    }
+
+    /// The earlier of the two.
+    pub(crate) fn or_before(self, other: Self) -> Self {
+        match (self.0, other.0) {
+            (Some(one), Some(other)) => Self(Some(one.min(other))),
+            (one, other) => Self(one.or(other)),
+        }
     }
 
     /// Whether it is over.

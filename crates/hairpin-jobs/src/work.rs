@@ -60,6 +60,8 @@ pub struct CampaignSettings {
     pub if_there: IfThere,
     /// Seconds after which generation stops and keeps what exists.
     pub time_limit_s: Option<f64>,
+    /// Seconds for the whole campaign; what is not done by then is told, and no pass.
+    pub budget_s: Option<f64>,
     /// Version of the kernels.
     pub simd: Simd,
     /// What of a folder may run.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::junit::Junit;
 use super::numbers::{finite, vector};
 use super::resources::Threads;
 
@@ -48,6 +49,8 @@ pub(crate) struct Judge {
     /// Override one key of spec, or execute.log_clock of an arm's logs; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
+    #[command(flatten)]
+    pub(crate) junit: Junit,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -13,6 +13,23 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A time with its unit, s.
+pub(super) fn duration(text: &str) -> Result<f64, String> {
+    let unit = |ending: char| match ending {
+        's' => Some(1.0),
+        'm' => Some(60.0),
+        'h' => Some(3600.0),
+        _ => None,
+    };
+    let parsed = text.chars().last().and_then(|ending| {
+        let number = text[..text.len() - ending.len_utf8()].parse::<f64>().ok()?;
+        Some(number * unit(ending)?)
+    });
+    parsed
+        .filter(|seconds| *seconds > 0.0 && *seconds <= LONGEST_MS)
+        .ok_or_else(|| "must be a time > 0 with its unit, s, m or h, such as 90s, 5m or 1h".into())
+}
+
 pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
@@ -91,4 +108,17 @@ pub(super) fn steps(text: &str) -> Result<usize, String> {
         .ok()
         .filter(|steps| (16..=10_000_000).contains(steps))
         .ok_or_else(|| "must be a number from 16 to 1e7".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_units() {
+        assert_eq!(["90s", "5m", "1h", "0.5m"].map(duration), [90.0, 300.0, 3600.0, 30.0].map(Ok));
+        for wrong in ["", "5", "m", "0s", "-1m", "5min", "nans", "infh", "5µ"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::commands::Commands;
+use super::junit::Junit;
 use super::keys::Keys;
-use super::numbers::seconds;
+use super::numbers::{duration, seconds};
 use super::resources::{Kernels, Threads};
 
 /// What every command that begins a campaign takes.
@@ -50,6 +51,12 @@ pub(crate) struct Stress {
     /// judged
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) missions: Option<PathBuf>,
+    /// Time for the whole of it, such as 90s, 5m or 1h: search, runs and judgement end within it, and what is not done
+    /// by then is told and is no pass
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) budget: Option<f64>,
+    #[command(flatten)]
+    pub(crate) junit: Junit,
     #[command(flatten)]
     pub(crate) kept: Kept,
     #[command(flatten)]

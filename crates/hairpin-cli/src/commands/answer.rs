@@ -1,23 +1,23 @@
-//! What a campaign says on stdout: for people a table of the worst cases and the verdict, for machines one object.
+//! What a campaign says on stdout: for people words (in its own file), for machines one object.
 
-use hairpin::campaign::report::{COLUMNS, cells, violation, worst_first};
+mod words;
+
+use std::path::Path;
+
+use hairpin::campaign::report::{violation, worst_first};
 use hairpin::campaign::{Baseline, Case, CaseResult, Rank, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Metric, Outcome, Regression};
 use hairpin_formats::header::Header;
+use hairpin_jobs::Spent;
 use hairpin_jobs::judge::Judgement;
 use hairpin_jobs::missions::{Compared, Ranked};
 use hairpin_jobs::saved::Replayed;
 use hairpin_jobs::work::Work;
 use serde_json::{Value, json};
 
-use crate::console;
-use crate::exit::NOTHING_FEASIBLE;
-
 /// Confidence of the shares of violations, where the scenario names none.
 const CONFIDENCE: f64 = 0.95;
-/// Rows of the table.
-const WORST: usize = 5;
 
 /// A verdict and what it is about.
 pub struct Answer<'a> {
@@ -33,37 +33,13 @@ pub struct Answer<'a> {
     pub verdict: &'a Verdict,
     /// Saved cases that were run first.
     pub replayed: &'a [Replayed],
+    /// What came of the time for the whole, where that was limited.
+    pub spent: Option<&'a Spent>,
+    /// Where JUnit was asked for as well.
+    pub junit: Option<&'a Path>,
 }
 
 impl Answer<'_> {
-    /// Says it, and gives the exit code.
-    pub(super) fn say(&self, json: bool) -> u8 {
-        if json {
-            console::say(&self.object().to_string());
-        } else {
-            if !self.judgement.results.is_empty() {
-                console::say_lines(&self.table());
-                console::say("");
-            }
-            let header = self.header().lines();
-            let header: Vec<String> = header.iter().map(|[label, value]| format!("{label}: {value}")).collect();
-            console::say(&format!("{}\n", header.join("; ")));
-            for found in &self.judgement.influences {
-                console::say(&format!("{:+.2}  {}", found.rank_correlation, found.key));
-            }
-            if !self.judgement.influences.is_empty() {
-                console::say("rank correlation of what was varied with the largest deviation, over all runs\n");
-            }
-            console::say(&self.verdict.sentence);
-            point_to_explain(self.work, self.judgement.verdict.exit_code);
-            let report = self.work.folder.path().join("report.html");
-            if report.is_file() {
-                console::warn(&format!("report: {}", report.display()));
-            }
-        }
-        self.verdict.exit_code
-    }
-
     fn header(&self) -> Header {
         Header::of(&self.work.setup, &self.judgement.results)
     }
@@ -83,13 +59,6 @@ impl Answer<'_> {
             })
         })
         .collect()
-    }
-
-    fn table(&self) -> String {
-        let header = COLUMNS.iter().chain(&["evidence"]).map(|name| (*name).to_owned()).collect();
-        let worst = worst_first(&self.judgement.results).into_iter().take(WORST);
-        let rows = worst.map(|result| cells(result).into_iter().chain(self.claim(result)).collect());
-        console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
     }
 
     fn count(&self, status: Status) -> usize {
@@ -126,6 +95,9 @@ impl Answer<'_> {
         if let curve @ Value::String(_) = file("best-so-far.tsv") {
             paths["best_so_far"] = curve;
         }
+        if let Some(place) = self.junit {
+            paths["junit_copy"] = json!(place);
+        }
         json!({
             "verdict": self.verdict.sentence,
             "exit_code": self.verdict.exit_code,
@@ -152,6 +124,7 @@ impl Answer<'_> {
             "replayed": self.replayed.iter().map(replayed_object).collect::<Vec<_>>(),
             "influences": self.judgement.influences,
             "offsets": self.offsets(),
+            "budget": self.spent,
             "regression": self.judgement.regression.as_ref().map(regression),
             "paths": paths,
         })
@@ -229,14 +202,6 @@ fn regression(found: &Regression) -> Value {
         "better": outside(Outcome::Better),
         "trends": trends.collect::<Vec<_>>(),
     })
-}
-
-/// Says where to ask on, where nothing was feasible.
-pub(super) fn point_to_explain(work: &Work, exit_code: u8) {
-    if exit_code == NOTHING_FEASIBLE {
-        let scenario = work.folder.file("scenario.toml");
-        console::warn(&format!("why, and the smallest change that helps: hairpin explain {}", scenario.display()));
-    }
 }
 
 /// The worst run of a case.

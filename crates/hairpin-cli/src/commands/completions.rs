@@ -1,16 +1,15 @@
 //! `hairpin completions`: a script for the user's shell.
 
-use clap::CommandFactory;
 use hairpin_jobs::Problem;
 
-use crate::args::{Arguments, Completions};
+use crate::args::{Completions, command};
 use crate::console;
 use crate::exit::DONE;
 
 /// Runs the command.
 pub(crate) fn run(completions: &Completions) -> Result<u8, Problem> {
     let mut script = Vec::new();
-    clap_complete::generate(completions.shell, &mut Arguments::command(), "hairpin", &mut script);
+    clap_complete::generate(completions.shell, &mut command(), "hairpin", &mut script);
     console::say_text(&String::from_utf8_lossy(&script));
     Ok(DONE)
 }

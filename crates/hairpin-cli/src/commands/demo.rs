@@ -6,7 +6,7 @@ use hairpin_formats::library;
 use hairpin_formats::scenario::setup_for;
 use hairpin_jobs::stress::stress_begun;
 use hairpin_jobs::work::make;
-use hairpin_jobs::{Deadline, Problem, Watch};
+use hairpin_jobs::{Budget, Problem, Watch};
 
 use super::stress;
 use crate::args::Demo;
@@ -22,5 +22,5 @@ pub(crate) fn run(demo: &Demo, watch: &dyn Watch) -> Result<u8, Problem> {
     let setup = setup_for(&scenario, &[])?.with_simd(settings::simd(&demo.kernels));
     let replaceable = demo.force || demo.out == Path::new("hairpin-demo");
     let work = make(&demo.out, setup, settings::if_there(false, replaceable))?;
-    Ok(stress::say(&stress_begun(work, Deadline::after(None), Vec::new(), watch)?, demo.json))
+    Ok(stress::say(&stress_begun(work, &Budget::endless(), Vec::new(), watch)?, None, demo.json))
 }

@@ -6,7 +6,7 @@ use hairpin_jobs::generate::{Generated, generate};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
 
-use super::answer::point_to_explain;
+use super::explained::point_to_explain;
 use crate::args::Generate;
 use crate::exit::DONE;
 use crate::{console, settings};

@@ -5,7 +5,7 @@ use hairpin_jobs::judge_log::Against;
 use hairpin_jobs::{Problem, Watch};
 
 use super::answer::Answer;
-use super::judge_log;
+use super::{judge_log, junit};
 use crate::args::Judge;
 use crate::{console, settings};
 
@@ -15,9 +15,12 @@ pub(crate) fn run(asked: &Judge, watch: &dyn Watch) -> Result<u8, Problem> {
     if let Some(against) = against(asked)? {
         return judge_log::run(asked, against, watch);
     }
+    junit::check(asked.junit.path())?;
     let Judged { work, cases, tally, judgement, told } = &judge(&asked.path, &settings::split(&asked.sets)?)?;
     told.iter().for_each(|line| console::warn(&format!("Warning: {line}")));
-    let answer = Answer { work, cases, tally, judgement, verdict: &judgement.verdict, replayed: &[] };
+    junit::keep(asked.junit.path(), work)?;
+    let (verdict, junit) = (&judgement.verdict, asked.junit.path());
+    let answer = Answer { work, cases, tally, judgement, verdict, replayed: &[], spent: None, junit };
     Ok(answer.say(asked.json))
 }
 

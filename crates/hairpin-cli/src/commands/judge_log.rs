@@ -3,6 +3,7 @@
 use hairpin::campaign::report::violation;
 use hairpin::campaign::{Doubt, Flown, Why};
 use hairpin::judgement::finding;
+use hairpin_formats::junit::{Outcome, OutcomeKind, outcomes_text};
 use hairpin_jobs::judge_log::{
     Against, Altitude, Cut, Found, FoundProgram, FrameSettings, JudgedLog, JudgedLogs, LogSettings, Matched,
     SourceTold, judge_log,
@@ -10,6 +11,7 @@ use hairpin_jobs::judge_log::{
 use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
+use super::junit;
 use crate::args::{AltitudeName, Judge};
 use crate::{console, settings};
 
@@ -34,12 +36,35 @@ pub(super) fn run(asked: &Judge, against: Against, watch: &dyn Watch) -> Result<
         to_s: asked.to,
     };
     let judged = judge_log(&settings, watch)?;
+    if let Some(path) = asked.junit.path() {
+        junit::write(path, junit_text(&judged).as_bytes())?;
+    }
     if asked.json {
         console::say(&object(&judged).to_string());
     } else {
         in_words(&judged);
     }
     Ok(judged.exit_code())
+}
+
+/// A test for each log.
+fn junit_text(judged: &JudgedLogs) -> String {
+    let outcomes: Vec<Outcome> = judged
+        .logs
+        .iter()
+        .map(|log| Outcome {
+            name: log.file.display().to_string(),
+            kind: match (log.outcome.word(), log.verdict.exit_code) {
+                ("unjudged", _) => OutcomeKind::Skipped,
+                (_, 0) => OutcomeKind::Pass,
+                (_, 1) => OutcomeKind::Violation,
+                _ => OutcomeKind::Open,
+            },
+            sentence: log.verdict.sentence.clone(),
+        })
+        .collect();
+    let verdict = judged.count.iter().map(|count| ("verdict".to_owned(), count.sentence.clone()));
+    outcomes_text("logs", &verdict.collect::<Vec<_>>(), &outcomes)
 }
 
 fn in_words(judged: &JudgedLogs) {

@@ -69,8 +69,11 @@ fn words_and_codes_of_logs() {
         assert!(said.contains(words), "{words}: {said}");
     }
     let scenario = fs::read_to_string(out.join("scenario.toml")).unwrap();
-    let (code, said, _) = run(here, &["judge", "logs", "--campaign", "out", "--set", "spec.deviation.max_m=0.001"]);
+    let strict = ["judge", "logs", "--campaign", "out", "--set", "spec.deviation.max_m=0.001", "--junit", "logs.xml"];
+    let (code, said, _) = run(here, &strict);
     assert_eq!(code, 1, "{said}");
+    let junit = fs::read_to_string(here.join("logs.xml")).unwrap();
+    assert!(junit.contains("tests=\"2\" failures=\"2\"") && junit.contains("FAIL 0001 (flown, 0001.csv"), "{junit}");
     assert!(said.lines().last().unwrap().starts_with("FAIL 2/2 (flown, logs, 2 logs): 2 in violation"), "{said}");
     assert!(said.contains("FAIL 0001 (flown, 0001.csv") && said.contains("FAIL 0002 (flown, 0002.csv"), "{said}");
     // What was set here is not written there.

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use hairpin::campaign::{Case, Run, Setup, at_full_rate, execute_run, mission};
+use hairpin::campaign::{Case, Run, Setup, Status, at_full_rate, execute_run, judge, mission};
 use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::job::Job;
 use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
-use crate::{Deadline, Problem, Watch};
+use crate::{Deadline, Problem, Seen, Watch};
 
 /// Where runs land.
 pub(super) struct Landing<'f, 'k> {
@@ -32,6 +32,7 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
         // Measured while all of its rows are there: only those where it bends are kept.
         let (full_rate, marked) = at_full_rate(&work.setup, job.case, &run).unzip();
         run.full_rate = full_rate.map(Box::new);
+        watch.seen(seen(&work.setup, job.case, &run));
         let marked = marked.unwrap_or_default();
         let packed = match job.again {
             again if !keeps(&run) => Ok(Landed::bare(&run, again.unwrap_or(job.run))),
@@ -75,6 +76,16 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
+}
+
+/// What `run` came to, where it was measured as it landed.
+fn seen(setup: &Setup, case: &Case, run: &Run) -> Seen {
+    let measured = run.full_rate.as_ref();
+    let judged = measured.and_then(|_| judge(setup, case, std::slice::from_ref(run)).ok());
+    Seen {
+        deviation: measured.map(|measured| measured.measures.max_deviation),
+        violates: judged.is_some_and(|judged| judged.status == Status::Fail),
+    }
 }
 
 /// Why the first run of `cases` that was not flown was not, and by which program.

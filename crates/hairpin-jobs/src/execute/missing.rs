@@ -100,7 +100,11 @@ fn known_reruns(work: &Work, case: &Case) -> Result<usize, Problem> {
     Ok(if known == 0 { work.folder.read_reruns(case.number)?.len() } else { known })
 }
 
-/// What the runs of `cases` came to.
+/// What the runs of `cases` that are in the folder came to.
+pub(crate) fn count_flown(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
+    count(work, cases, work.setup.scenario.executor().repeat as usize)
+}
+
 fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
     let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0 };
     for case in cases {

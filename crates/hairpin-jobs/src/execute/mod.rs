@@ -33,7 +33,7 @@ pub(crate) use fly::{command_of, fly_one, fly_together};
 pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
 pub use missing::Flown;
-pub(crate) use missing::{attitude_unknown, fly_missing};
+pub(crate) use missing::{attitude_unknown, count_flown, fly_missing};
 pub(crate) use recorded::check_recordings;
 pub(crate) use to_judge::{ToJudge, measured_runs, reruns_to_judge, runs_to_judge};
 pub(crate) use worst::WORST;

@@ -9,7 +9,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
-    self, Baseline, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, vary,
+    self, Baseline, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, Undone, vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
@@ -17,14 +17,15 @@ use hairpin_formats::repro::Repro;
 use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
 
-use crate::Problem;
 use crate::baseline::read_baseline;
+use crate::budget::Part;
 use crate::differences::differences;
 use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
 use crate::missions::{Compared, compare, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
+use crate::{Budget, Problem};
 use suite::suite;
 
 /// What judging came to.
@@ -84,7 +85,7 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
         }
         keep_changes(&work)?;
     }
-    let judgement = judge_cases(&work, &cases, &tally, &[])?;
+    let judgement = judge_cases(&work, &cases, &tally, (&[], None))?;
     if judgement.from_rows > 0 {
         told.push(format!(
             "{} of {} cases were executed with another reference of deviations: they are measured of the rows that are kept, \
@@ -120,16 +121,23 @@ struct JudgedCase {
     from_rows: bool,
 }
 
+impl JudgedCase {
+    fn undone(case: &Case, what: Undone) -> Self {
+        let result = CaseResult::undone(case.number, what);
+        Self { result, deviations: Vec::new(), met: BTreeSet::new(), lacks_attitude: false, from_rows: false }
+    }
+}
+
 /// Judges every case and writes results, JUnit (with what was `replayed` before), repro files, and which parameter did
-/// it.
+/// it. Where there is a `budget`, cases that it left no time for are told as such.
 pub(crate) fn judge_cases(
     work: &Work,
     cases: &[Case],
     tally: &Tally,
-    replayed: &[Replayed],
+    (replayed, budget): (&[Replayed], Option<&Budget>),
 ) -> Result<Judgement, Problem> {
     let (grid, told) = (Grid::of(&work.setup), work.told()?);
-    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, &grid));
+    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget)));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
     let from_rows = judged.iter().filter(|case| case.from_rows).count();
@@ -158,8 +166,19 @@ pub(crate) fn judge_cases(
     Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline, missions })
 }
 
-fn judge_case((work, told): (&Work, &Setup), case: &Case, tally: &Tally, grid: &Grid) -> Result<JudgedCase, Problem> {
+fn judge_case(
+    (work, told): (&Work, &Setup),
+    case: &Case,
+    tally: &Tally,
+    (grid, budget): (&Grid, Option<&Budget>),
+) -> Result<JudgedCase, Problem> {
+    if budget.is_some_and(|budget| budget.end(Part::Judgement).passed()) {
+        return Ok(JudgedCase::undone(case, Undone::NotJudged));
+    }
     let ToJudge { runs, from_rows } = runs_to_judge(work, case)?;
+    if runs.is_empty() && budget.is_some_and(|budget| budget.end(Part::Search).passed()) {
+        return Ok(JudgedCase::undone(case, Undone::NotExecuted));
+    }
     if runs.is_empty() {
         return Err(Problem::input(format!(
             "case {} has not been executed: hairpin execute {}",
@@ -173,6 +192,11 @@ fn judge_case((work, told): (&Work, &Setup), case: &Case, tally: &Tally, grid: &
         let of_plan = vary::draw_for_case(&work.setup.scenario, case.seed, case.number);
         let all = deviations.iter_mut().map(|run| &mut run.drawn).chain([&mut result.drawn]);
         all.for_each(|drawn| drawn.extend_from_slice(&of_plan));
+    }
+    let missing = (work.setup.scenario.executor().repeat as usize).saturating_sub(runs.len());
+    if missing > 0 && work.setup.recordings().is_none() && matches!(result.status, Status::Pass | Status::Unjudged) {
+        result.status = Status::Inconclusive;
+        result.message = Some(format!("{missing} of {} runs not executed", missing + runs.len()));
     }
     if result.status == Status::Fail {
         result.reruns = reruns(work, case)?;

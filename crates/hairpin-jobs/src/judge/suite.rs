@@ -1,10 +1,13 @@
 //! What JUnit gets of a judged campaign.
 
+use std::collections::BTreeMap;
+
 use hairpin::campaign::{CaseResult, Status, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::{Outcome, Regression};
 use hairpin_formats::junit::Suite;
 
+use crate::next::replay_command;
 use crate::saved::Replayed;
 use crate::work::Work;
 
@@ -46,7 +49,20 @@ pub(super) fn suite(
         .collect(),
         regressions: worse.collect(),
         saved: replayed.iter().map(Replayed::named).collect(),
+        again: again(work, results, replayed),
     }
+}
+
+/// The commands that carry failing cases out again. What was recorded cannot be.
+fn again(work: &Work, results: &[CaseResult], replayed: &[Replayed]) -> BTreeMap<String, String> {
+    let is_failing = |result: &CaseResult| result.status == Status::Fail && work.setup.recordings().is_none();
+    let failing = results.iter().filter(|result| is_failing(result));
+    let own = failing.map(|result| {
+        let case = result.case.to_string();
+        (case.clone(), replay_command(work.folder.path(), Some(&case)))
+    });
+    let saved = replayed.iter().map(|one| (one.named().0, replay_command(&one.file, None)));
+    saved.chain(own).collect()
 }
 
 /// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its

@@ -19,6 +19,7 @@ pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> 
     }
     said.extend(act);
     runs(setup, &mut said);
+    said.extend(tally.cut.iter().map(|cut| format!("The budget of time cut this campaign short: {cut}.")));
     said.extend(verdict);
     said.push("Leaving the world and a crash are violations whatever the spec says.".into());
     said.push("This is a test generator: what it writes is stressful by design and is no safety certificate.".into());

@@ -351,6 +351,49 @@ pub struct CaseResult {
     pub draws: Option<Draws>,
 }
 
+/// What of a case was not done because the time for the whole campaign was over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Undone {
+    /// No run of it was executed.
+    NotExecuted,
+    /// It was executed, and not judged.
+    NotJudged,
+}
+
+impl Undone {
+    /// How such a case [ended](CaseResult::ended): `not-executed`, `not-judged`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Undone::NotExecuted => "not-executed",
+            Undone::NotJudged => "not-judged",
+        }
+    }
+}
+
+impl CaseResult {
+    /// The result of a case of which something was left undone: neither pass nor fail.
+    pub fn undone(case: CaseNumber, what: Undone) -> Self {
+        Self {
+            case,
+            status: Status::Inconclusive,
+            run: 0,
+            measures: None,
+            ended: what.word().into(),
+            left_world: None,
+            violations: Vec::new(),
+            drawn: Vec::new(),
+            message: Some(format!("{}: the budget of time was used up", what.word().replace('-', " "))),
+            reruns: None,
+            draws: None,
+        }
+    }
+
+    /// Whether it is one of [`Self::undone`].
+    pub fn is_undone(&self, what: Undone) -> bool {
+        self.status == Status::Inconclusive && self.ended == what.word()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

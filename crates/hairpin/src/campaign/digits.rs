@@ -45,7 +45,7 @@ pub(super) fn percent_digits(share: f64) -> String {
 }
 
 /// `1000000` as `1 000 000`, which can be read.
-pub(super) fn grouped(n: u64) -> String {
+pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

@@ -63,7 +63,7 @@ pub mod verify;
 pub use assumptions::assumptions;
 pub use attachments::{Attached, Attachments, Resolved};
 pub use callers_code::CallersCode;
-pub use case::{Case, CaseResult, Draws, Evidence, Reruns, Run, SeenLeg, Status, Timed, Witness};
+pub use case::{Case, CaseResult, Draws, Evidence, Reruns, Run, SeenLeg, Status, Timed, Undone, Witness};
 pub use case_number::CaseNumber;
 pub use chance::Baseline;
 pub use compare::{Comparison, compare};

@@ -29,6 +29,9 @@ pub struct Tally {
     pub complete: bool,
     /// Whether it was stopped, by a time limit or by Ctrl-C, before its graphs were used up.
     pub stopped: bool,
+    /// What of the search was left undone because the time for the whole campaign was over, in a sentence's part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut: Option<String>,
     /// Where nothing was found: why, in a sentence's part.
     pub nothing: Option<String>,
     /// Where trajectories were executed in the loop: the largest stress so far in every graph, as executions went on.

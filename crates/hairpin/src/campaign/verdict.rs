@@ -1,6 +1,6 @@
 //! From results to the one sentence.
 
-use super::case::gap_word;
+use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
 use super::judge::Gravity;
@@ -41,7 +41,14 @@ pub fn verdict(
     let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
     let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
-    let doubt = results.iter().find(|result| result.status == Status::Inconclusive);
+    let undone = |what: Undone| results.iter().filter(|result| result.is_undone(what)).count();
+    let undone = [undone(Undone::NotExecuted), undone(Undone::NotJudged)];
+    let cut = cut_words(tally, undone, results.len());
+    let is_doubt = |result: &&CaseResult| {
+        let is_undone = result.is_undone(Undone::NotExecuted) || result.is_undone(Undone::NotJudged);
+        result.status == Status::Inconclusive && !is_undone
+    };
+    let doubt = results.iter().find(is_doubt);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
     let beside =
         baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
@@ -53,7 +60,9 @@ pub fn verdict(
         asked,
         failed: count(Status::Fail),
         executor_failed: count(Status::ExecutorFailed),
-        inconclusive: count(Status::Inconclusive),
+        inconclusive: results.iter().filter(is_doubt).count(),
+        undone: undone.iter().sum(),
+        cut: cut.as_deref(),
         trouble: &trouble,
         doubt: doubt.as_deref().unwrap_or_default(),
         worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
@@ -67,6 +76,19 @@ pub fn verdict(
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
+}
+
+/// `cut short by the budget of time: the search after 1 200 of 4 000 executions, 12 of 40 cases not executed`.
+fn cut_words(tally: &Tally, [not_executed, not_judged]: [usize; 2], of: usize) -> Option<String> {
+    let cases = |count: usize, what: &str| (count > 0).then(|| format!("{count} of {of} cases {what}"));
+    let parts: Vec<String> = tally
+        .cut
+        .iter()
+        .cloned()
+        .chain(cases(not_executed, "not executed"))
+        .chain(cases(not_judged, "not judged"))
+        .collect();
+    (!parts.is_empty()).then(|| format!("cut short by the budget of time: {}", parts.join(", ")))
 }
 
 /// Runs of all cases, and the executions of a search that executes.

@@ -80,6 +80,10 @@ pub struct Judged<'a> {
     pub executor_failed: usize,
     /// Cases whose data allow no verdict.
     pub inconclusive: usize,
+    /// Cases that were not executed or not judged for want of time.
+    pub undone: usize,
+    /// What was left undone of the campaign for want of time, in a sentence's part: it is no pass then.
+    pub cut: Option<&'a str>,
     /// What the executor's failures were: `time-out 60 s, stderr kept`.
     pub trouble: &'a str,
     /// Why the data of the first case that allows no verdict allow none.
@@ -117,6 +121,8 @@ impl Default for Judged<'_> {
             failed: 0,
             executor_failed: 0,
             inconclusive: 0,
+            undone: 0,
+            cut: None,
             trouble: "",
             doubt: "",
             worst: None,
@@ -135,8 +141,8 @@ impl Default for Judged<'_> {
 
 /// The verdict on executed cases.
 ///
-/// Cases that the executor failed to fly or whose data are inconclusive count neither as pass nor as fail: the share
-/// is of the others. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
+/// Cases that the executor failed to fly, whose data are inconclusive or that were left undone for want of time count
+/// neither as pass nor as fail: the share is of the others. What was cut short is no PASS. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
 /// the Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if
 /// it straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
 /// nothing was asked for, what is no FAIL is UNJUDGED.
@@ -154,7 +160,7 @@ impl Default for Judged<'_> {
 /// assert!(some.sentence.contains("3 of 200 searched violate"));
 /// ```
 pub fn verdict(judged: &Judged) -> Verdict {
-    let counted = judged.cases.saturating_sub(judged.executor_failed + judged.inconclusive);
+    let counted = judged.cases.saturating_sub(judged.executor_failed + judged.inconclusive + judged.undone);
     let count = Count { chosen: judged.chosen, failed: judged.failed, of: counted, confidence: judged.confidence };
     let limit = judged.share_limit.filter(|limit| *limit > 0.0);
     let against = limit.map(|limit| count.against(limit));
@@ -171,7 +177,7 @@ pub fn verdict(judged: &Judged) -> Verdict {
         }
         let what = if judged.limited { "judged" } else { "unjudged" };
         (format!("{start}; {counted} {what} {}", how(judged)), 4)
-    } else if judged.inconclusive > 0 || open || counted == 0 {
+    } else if judged.inconclusive > 0 || judged.cut.is_some() || open || counted == 0 {
         (format!("INCONCLUSIVE {k}/{n} {}", how(judged)), 5)
     } else if !judged.limited {
         (format!("UNJUDGED {n} {}", how(judged)), 0)
@@ -242,6 +248,7 @@ fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
         let doubt = if judged.doubt.is_empty() { String::new() } else { format!(" ({})", judged.doubt) };
         parts.push(format!("data of {}/{} inconclusive, not counted{doubt}", judged.inconclusive, judged.cases));
     }
+    parts.extend(judged.cut.map(str::to_owned));
     if judged.cases < judged.asked {
         parts.push(format!("{} of {} cases asked for were found", judged.cases, judged.asked));
     }
@@ -308,6 +315,23 @@ mod tests {
         let worst = Some(Worst { case: "0117", value, saturation: Some(0.31) });
         let chosen = Chosen::AtRandom;
         Judged { how: HOW, runs: 5, cases: 200, failed, worst, chosen, claims: WITNESSED, ..Judged::default() }
+    }
+
+    #[test]
+    fn what_was_cut_short_fails_or_decides_nothing() {
+        let near = violation("deviation", 0.41, 0.5);
+        let cut = Judged { undone: 12, cut: Some("cut short: 12 of 200 cases not executed"), ..with(0, &near) };
+        let open = verdict(&cut);
+        assert_eq!(open.exit_code, 5);
+        assert!(open.sentence.starts_with("INCONCLUSIVE 0/200 "), "{open:?}");
+        assert!(open.sentence.contains("no violation in 188 cases"), "{open:?}");
+        assert!(open.sentence.contains("; cut short: 12 of 200 cases not executed; "), "{open:?}");
+        let far = violation("deviation", 0.65, 0.5);
+        let failed = verdict(&Judged { failed: 1, worst: with(1, &far).worst, ..cut });
+        assert!(failed.exit_code == 1 && failed.sentence.starts_with("FAIL 1/200 "), "{failed:?}");
+        assert!(failed.sentence.contains("12 of 200 cases not executed"), "{failed:?}");
+        // Nobody asked for anything, and not all of it was done.
+        assert_eq!(verdict(&Judged { limited: false, ..cut }).exit_code, 5);
     }
 
     #[test]

@@ -1,0 +1,33 @@
+//! `--junit PATH`: the file that a build server takes, where it looks for it.
+
+use std::path::Path;
+
+use hairpin_formats::atomic;
+use hairpin_jobs::Problem;
+use hairpin_jobs::work::Work;
+
+/// Refuses what cannot be a file, before anything is executed.
+pub(super) fn check(path: Option<&Path>) -> Result<(), Problem> {
+    match path {
+        Some(path) if path.is_dir() => {
+            Err(Problem::input(format!("--junit {}: this is a folder; name a file", path.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes the campaign's file to `path` as well.
+pub(super) fn keep(path: Option<&Path>, work: &Work) -> Result<(), Problem> {
+    let Some(path) = path else { return Ok(()) };
+    let own = work.folder.file("junit.xml");
+    let text = std::fs::read(&own).map_err(|cause| Problem::of_file(&own, cause))?;
+    write(path, &text)
+}
+
+/// Writes `text` to `path`, in a folder that is made where there is none.
+pub(super) fn write(path: &Path, text: &[u8]) -> Result<(), Problem> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        atomic::make_folder(folder)?;
+    }
+    Ok(atomic::write(path, text)?)
+}
