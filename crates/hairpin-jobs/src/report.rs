@@ -7,10 +7,11 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
 use hairpin::campaign::report::{Shown, shown, worst_first};
-use hairpin::campaign::{self, Case, CaseResult, Setup, Tally};
+use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Run, Setup, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin_formats::report::Motions;
 
 use crate::Problem;
 use crate::baseline::read_baseline;
@@ -30,18 +31,23 @@ pub struct Reported {
     pub coverage: Option<Coverage>,
 }
 
-/// Writes the `report.html` of the judged campaign in `folder`.
+/// Writes the `report.html` of the judged campaign in `folder`, with the cases of the numbers `asked` among those that
+/// open, and opened at the first of them.
 ///
 /// # Errors
-/// A campaign that is not judged, or of whose worst case the run is not to be had any more; a file that cannot be read
-/// or written.
-pub fn report(folder: &Path) -> Result<Reported, Problem> {
+/// A campaign that is not judged, that has not such a case, or of whose worst case the run is not to be had any more; a
+/// file that cannot be read or written.
+pub fn report(folder: &Path, asked: &[usize]) -> Result<Reported, Problem> {
     let work = open_to_read(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let tally = work.folder.read_tally()?;
     let results = work.folder.read_results()?;
     if results.len() < cases.len() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
+    }
+    let asked: Vec<CaseNumber> = asked.iter().copied().map(CaseNumber).collect();
+    if let Some(missing) = asked.iter().find(|case| !results.iter().any(|result| result.case == **case)) {
+        return Err(Problem::input(format!("{} has no case {missing}: it has {}", folder.display(), results.len())));
     }
     if let Some(worst) = worst_first(&results).first()
         && let Some(case) = cases.iter().find(|case| case.number == worst.case)
@@ -58,7 +64,7 @@ pub fn report(folder: &Path) -> Result<Reported, Problem> {
     let assumptions = assumptions((&work, &told), &cases, &tally, (&moves, regression.as_ref()))?;
     // They are read again for what is shown of them.
     drop((cases, results));
-    write((&work, &told), &verdict, assumptions, regression.as_ref())?;
+    write((&work, &told), &verdict, assumptions, regression.as_ref(), &asked)?;
     Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
 }
 
@@ -82,7 +88,7 @@ pub(crate) fn write_report(
 ) -> Result<(), Problem> {
     let told = work.told()?;
     let assumptions = assumptions((work, &told), cases, tally, (moves, regression))?;
-    write((work, &told), verdict, assumptions, regression)
+    write((work, &told), verdict, assumptions, regression, &[])
 }
 
 fn assumptions(
@@ -111,28 +117,54 @@ fn assumptions(
     Ok(assumptions)
 }
 
+/// Runs of a folder; of those whose motion was not kept the first are executed again.
+struct Recorded<'a> {
+    work: &'a Work,
+    /// Executed again so far, and not to be had.
+    again: Cell<usize>,
+    lost: Cell<usize>,
+}
+
+/// Runs that are executed again for a report at most: what takes longer is asked for by `--case`.
+const AGAIN: usize = 20;
+
+impl Motions for Recorded<'_> {
+    fn run(&self, case: &Case, run: usize) -> Result<Option<Run>, String> {
+        let said = |problem: Problem| problem.to_string();
+        let facts = self.work.folder.facts_of(case.number).map_err(|error| error.to_string())?;
+        let left_out = facts.iter().any(|facts| facts.run == run && !facts.is_kept());
+        if left_out && (self.again.get() >= AGAIN || why_lost(self.work, case, run).map_err(said)?.is_some()) {
+            self.lost.set(self.lost.get() + 1);
+            return Ok(None);
+        }
+        self.again.set(self.again.get() + usize::from(left_out));
+        run_with_motion(self.work, case, run).map_err(said)
+    }
+
+    fn kept(&self, case: CaseNumber) -> Result<Vec<Run>, String> {
+        let folder = &self.work.folder;
+        let facts = folder.facts_of(case).map_err(|error| error.to_string())?;
+        let runs = facts.iter().filter(|facts| facts.is_kept()).map(|facts| folder.read_run(case, facts.run));
+        runs.filter_map(Result::transpose).collect::<Result<_, _>>().map_err(|error| error.to_string())
+    }
+}
+
 fn write(
     (work, told): (&Work, &Setup),
     verdict: &Verdict,
     assumptions: Vec<String>,
     regression: Option<&Regression>,
+    asked: &[CaseNumber],
 ) -> Result<(), Problem> {
-    let lost = Cell::new(0);
-    let run = |case: &Case, run: usize| match why_lost(work, case, run)? {
-        Some(_) => {
-            lost.set(lost.get() + 1);
-            Ok(None)
-        }
-        None => run_with_motion(work, case, run),
-    };
-    let run = |case: &Case, number: usize| run(case, number).map_err(|problem: Problem| problem.to_string());
-    let mut data = hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &run)
-        .map_err(Problem::input)?;
-    if lost.get() > 0 {
+    let recorded = Recorded { work, again: Cell::new(0), lost: Cell::new(0) };
+    let mut data =
+        hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &recorded, asked)
+            .map_err(Problem::input)?;
+    if recorded.lost.get() > 0 {
         data.assumptions.push(format!(
-            "A program flew the cases, and of {} of {} that are shown the motion was not kept (execute.record = \"{}\"): what was planned is \
-             drawn alone.",
-            lost.get(),
+            "Of {} of {} cases that open the motion was not kept (execute.record = \"{}\"): what was planned is drawn alone, unless \
+             `hairpin report OUT --case ID` executes it again, which no program of the user's does.",
+            recorded.lost.get(),
             data.shown.len(),
             work.setup.scenario.executor().record.word()
         ));
@@ -154,10 +186,11 @@ mod tests {
     #[test]
     fn what_is_not_judged_has_no_report() {
         let (_place, folder) = executed();
-        let refused = report(&folder).unwrap_err().to_string();
+        let refused = report(&folder, &[]).unwrap_err().to_string();
         assert!(refused.starts_with("not judged yet"), "{refused}");
         let judged = judge(&folder, &[]).unwrap();
-        let reported = report(&folder).unwrap();
+        let reported = report(&folder, &[]).unwrap();
+        assert!(report(&folder, &[4711]).unwrap_err().to_string().contains("has no case 4711"));
         assert_eq!(reported.verdict, judged.judgement.verdict);
         assert!(reported.path.is_file() && reported.coverage.is_some());
     }

@@ -32,8 +32,8 @@ pub(crate) fn stress<'py>(
             Some(missions) => stress_missions(&settings, missions, repro.as_deref(), watch)?,
             None => hairpin_jobs::stress::stress(&settings, repro.as_deref(), watch)?,
         };
-        let Stressed { work, cases, tally, judgement, verdict, replayed } = &stressed;
-        Ok(Answer { work, cases, tally, judgement, verdict, replayed }.object())
+        let Stressed { work, cases, tally, judgement, verdict, replayed, spent } = &stressed;
+        Ok(Answer { work, cases, tally, judgement, verdict, replayed, spent: spent.as_ref(), junit: None }.object())
     })?;
     object(py, &said)
 }

@@ -59,7 +59,16 @@ pub(crate) fn judge(py: Python<'_>, folder: PathBuf, sets: Vec<Set>, waiting: Wa
     let said = waiting.wait(py, |watch| {
         let Judged { work, cases, tally, judgement, told } = &hairpin_jobs::judge::judge(&folder, &sets)?;
         told.iter().for_each(|line| watch.warn(line));
-        let answer = Answer { work, cases, tally, judgement, verdict: &judgement.verdict, replayed: &[] };
+        let answer = Answer {
+            work,
+            cases,
+            tally,
+            judgement,
+            verdict: &judgement.verdict,
+            replayed: &[],
+            spent: None,
+            junit: None,
+        };
         Ok(answer.object())
     })?;
     object(py, &said)
@@ -154,8 +163,13 @@ pub(crate) fn learn<'py>(
 
 /// Writes the report of a judged folder anew, and gives the place of the file.
 #[pyfunction]
-pub(crate) fn report(py: Python<'_>, folder: PathBuf, waiting: Waiting) -> PyResult<Bound<'_, PyAny>> {
-    let said = waiting.wait(py, |_| Ok(json!(hairpin_jobs::report::report(&folder)?.path)))?;
+pub(crate) fn report(
+    py: Python<'_>,
+    folder: PathBuf,
+    asked: Vec<usize>,
+    waiting: Waiting,
+) -> PyResult<Bound<'_, PyAny>> {
+    let said = waiting.wait(py, |_| Ok(json!(hairpin_jobs::report::report(&folder, &asked)?.path)))?;
     object(py, &said)
 }
 

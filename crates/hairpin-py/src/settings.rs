@@ -41,16 +41,18 @@ pub(crate) struct Begun {
     /// `refuse`, `resume` or `replace`.
     if_there: String,
     time_limit_s: Option<f64>,
+    budget_s: Option<f64>,
 }
 
 impl Begun {
     pub(crate) fn settings(self, means: &Means) -> CampaignSettings {
-        let Self { scenario, out, sets, if_there, time_limit_s } = self;
+        let Self { scenario, out, sets, if_there, time_limit_s, budget_s } = self;
         let if_there = match if_there.as_str() {
             "resume" => IfThere::Resume,
             "replace" => IfThere::Replace,
             _ => IfThere::Refuse,
         };
-        CampaignSettings { scenario, out, sets, if_there, time_limit_s, simd: means.simd(), consent: means.consent() }
+        let (simd, consent) = (means.simd(), means.consent());
+        CampaignSettings { scenario, out, sets, if_there, time_limit_s, budget_s, simd, consent }
     }
 }

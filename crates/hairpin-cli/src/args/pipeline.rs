@@ -248,6 +248,9 @@ pub(crate) struct ReportArguments {
     /// Campaign folder
     #[arg(value_name = "OUT")]
     pub(crate) folder: PathBuf,
+    /// Have this case among those that open, and open the page at it; repeatable
+    #[arg(long, value_name = "ID")]
+    pub(crate) case: Vec<usize>,
     /// Open it in the browser
     #[arg(long)]
     pub(crate) open: bool,

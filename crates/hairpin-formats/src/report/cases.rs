@@ -1,7 +1,7 @@
 //! The table of cases, the worst first.
 
 use hairpin::campaign::CaseResult;
-use hairpin::campaign::report::{COLUMNS, ReportData, cells};
+use hairpin::campaign::report::{ReportData, cells_in, columns_in, violation};
 
 use super::escape::escape;
 
@@ -10,38 +10,45 @@ const ROWS: usize = 2000;
 
 /// The section.
 pub(super) fn section(data: &ReportData) -> String {
-    let head: String = COLUMNS
-        .iter()
-        .chain(&["evidence"])
+    let head: String = columns_in(&data.length)
+        .into_iter()
+        .chain(["finding".to_owned(), "evidence".to_owned()])
         .map(|name| format!("<th scope=\"col\" aria-sort=\"none\"><button type=\"button\">{name}</button></th>"))
         .collect();
     let rows: String = data.results.iter().take(ROWS).map(|result| row(data, result)).collect();
     let left = data.results.len().saturating_sub(ROWS);
     let more =
         if left == 0 { String::new() } else { format!(" The other {left} are in <code>results.parquet</code>.") };
-    let shown = data.shown.len();
+    let open = match data.results.len() - data.shown.len() {
+        0 => "Each opens above.".to_owned(),
+        _ => format!("{} of them open above; the command of the others makes a report with them.", data.shown.len()),
+    };
     format!(
         "<section class=\"panel\" id=\"cases\"><h2>Cases, the worst first</h2><p class=\"note\">Each row is a case's worst \
-         run. The {shown} worst can be selected and are drawn above.{more}</p>\
+         run. {open}{more}</p>\
+         <p id=\"chosen\" hidden><span id=\"chosen-words\"></span> <button type=\"button\" id=\"all-cases\">all cases</button></p>\
          <div class=\"scroll\"><table class=\"cases\"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div></section>"
     )
 }
 
 fn row(data: &ReportData, result: &CaseResult) -> String {
-    let shown = data.shown.iter().position(|shown| shown.result.case == result.case);
-    let cells = cells(result);
+    let shown = data.shown.iter().find(|shown| shown.result.case == result.case);
+    let cells = cells_in(&data.length, result);
     let text: String = cells
         .iter()
         .enumerate()
         .map(|(column, cell)| match (column, shown) {
-            (0, Some(index)) => {
-                format!("<td><button type=\"button\" data-index=\"{index}\">{}</button></td>", escape(cell))
-            }
+            (0, Some(_)) => format!("<td><a href=\"#{0}\">{0}</a></td>", escape(cell)),
+            (0, None) => format!(
+                "<td>{0} <button type=\"button\" class=\"js\" data-verb=\"report\" data-of=\"{0}\">copy: report --case {0}</button></td>",
+                escape(cell)
+            ),
             (1, _) => format!("<td><span class=\"status {cell}\">{cell}</span></td>"),
             _ => format!("<td>{}</td>", escape(cell)),
         })
         .collect();
+    let finding = result.violations.first().map_or("–".into(), violation);
     let class = if shown.is_some() { " class=\"shown\"" } else { "" };
     let claim = data.claims.get(&result.case).map_or("–", String::as_str);
-    format!("<tr{class} data-case=\"{}\">{text}<td>{}</td></tr>", cells[0], escape(claim))
+    format!("<tr{class} data-case=\"{}\">{text}<td>{}</td><td>{}</td></tr>", cells[0], escape(&finding), escape(claim))
 }

@@ -1,65 +1,81 @@
 //! What the report's script draws, as JSON: thinned and rounded to what a screen shows, so that files stay small.
 
-use hairpin::campaign::kind::{Relief, Surface};
-use hairpin::campaign::report::{Metric, ReportData, Shown};
-use hairpin::trajectory::Track;
-use nalgebra::{Point3, Vector3};
+use std::collections::BTreeMap;
+
+use hairpin::campaign::Status;
+use hairpin::campaign::kind::{FigureLink, Relief, RobotFigure, Surface, Turned};
+use hairpin::campaign::report::{Length, Metric, OtherRun, ReportData, Shown};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
+use nalgebra::Point3;
 use serde_json::{Value, json};
 
+use super::column::{column, counts};
+use super::panels::panels;
 use super::relief::shading;
 
-/// Samples of a flight and of a plan that are kept at most.
-const FLOWN: usize = 700;
-const PLANNED: usize = 300;
-/// Triangles of all obstacles together; a mesh beyond that is drawn as its box.
+/// Samples of all flights together, of one at most, and of one at least.
+const FLOWN: [usize; 3] = [100_000, 700, 150];
+/// Samples of a plan, as a share of a flight's.
+const PLANNED: usize = 2;
+/// Samples of another run of a case, and such runs at most: of the worst cases first.
+const OTHER: usize = 120;
+const OTHERS: usize = 300;
+/// Triangles of all obstacles together, and of the robot; a mesh beyond that is drawn as its box.
 const TRIANGLES: usize = 20_000;
-/// Values of a metric that are kept at most, evenly over the sorted ones.
-const VALUES: usize = 2_000;
 
 /// The JSON, safe inside a `<script>` element.
 pub(super) fn json(data: &ReportData) -> String {
     let size = data.drawing.size;
     let mut left = TRIANGLES;
-    let obstacles: Vec<Value> = data.drawing.obstacles.iter().map(|surface| obstacle(surface, &mut left)).collect();
+    let obstacles: Vec<Value> = data.drawing.obstacles.iter().map(|surface| mesh(surface, &mut left)).collect();
     let low = data.drawing.low;
+    let samples = (FLOWN[0] / data.shown.len().max(1)).clamp(FLOWN[2], FLOWN[1]);
+    let mut others = OTHERS;
     let value = json!({
         "low": [round(low.x, 3), round(low.y, 3), round(low.z, 3)],
         "size": [round(size.x, 3), round(size.y, 3), round(size.z, 3)],
         "relief": data.drawing.relief.as_ref().map(relief),
         "obstacles": obstacles,
-        "limit": data.deviation_limit,
+        "robot": data.drawing.figure.as_ref().map(robot),
+        "unit": data.length.unit,
+        "done": if data.drawing.relief.is_some() { "driven" } else { "flown" },
+        "limit": data.deviation_limit.map(|limit| tidy(data.length.in_metre * limit)),
+        "open": data.shown.iter().position(|shown| Some(shown.result.case) == data.opens).unwrap_or_default(),
+        "ids": data.results.iter().map(|result| result.case.to_string()).collect::<Vec<_>>(),
+        "status": data.results.iter().map(|result| result.status.word()).collect::<Vec<_>>(),
         "metrics": data.metrics.iter().map(metric).collect::<Vec<_>>(),
-        "cases": data.shown.iter().map(case).collect::<Vec<_>>(),
+        "draws": draws(data),
+        "cases": data.shown.iter().map(|shown| case(shown, samples, &data.length, &mut others)).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
 }
 
-/// The ground; holes are null.
+/// The ground; holes are nothing.
 fn relief(relief: &Relief) -> Value {
-    let row = |row: &Vec<f64>| row.iter().map(|h| h.is_finite().then(|| round(*h, 3))).collect::<Vec<Option<f64>>>();
-    let shade: Vec<Vec<f64>> =
-        shading(relief).iter().map(|row| row.iter().map(|shade| round(*shade, 2)).collect()).collect();
+    let shade = shading(relief);
     json!({
         "low": [round(relief.low[0], 3), round(relief.low[1], 3)],
         "step": round(relief.step, 4),
-        "z": relief.heights.iter().map(row).collect::<Vec<_>>(),
-        "shade": shade,
+        "rows": relief.heights.len(),
+        "columns": relief.heights.first().map_or(0, Vec::len),
+        "z": column(relief.heights.iter().flatten().copied()),
+        "shade": column(shade.iter().flatten().copied()),
     })
 }
 
-fn obstacle(surface: &Surface, left: &mut usize) -> Value {
+fn mesh(surface: &Surface, left: &mut usize) -> Value {
     let boxed;
-    let drawn = if surface.triangles.len() <= *left {
+    let drawn = if surface.triangles.len() <= *left && surface.vertices.len() < 65_535 {
         surface
     } else {
         boxed = bounding_box(surface);
         &boxed
     };
     *left -= drawn.triangles.len().min(*left);
-    let axis = |i: usize| drawn.vertices.iter().map(|v| round(v[i], 3)).collect::<Vec<_>>();
-    let corner = |i: usize| drawn.triangles.iter().map(|t| t[i]).collect::<Vec<_>>();
     json!({
-        "name": drawn.name, "x": axis(0), "y": axis(1), "z": axis(2), "i": corner(0), "j": corner(1), "k": corner(2),
+        "name": drawn.name,
+        "v": column(drawn.vertices.iter().flat_map(|v| [v.x, v.y, v.z])),
+        "t": counts(drawn.triangles.iter().flatten().copied()),
     })
 }
 
@@ -77,92 +93,157 @@ fn bounding_box(surface: &Surface) -> Surface {
     }
 }
 
-fn metric(metric: &Metric) -> Value {
-    let mut sorted = metric.values.clone();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let kept: Vec<f64> = thin(sorted.len(), VALUES, &[]).into_iter().map(|i| round(sorted[i], 4)).collect();
+fn robot(figure: &RobotFigure) -> Value {
+    let mut left = TRIANGLES;
+    let link = |link: &FigureLink| {
+        let (at, turn, axis) = (link.place.translation.vector, link.place.rotation, link.axis);
+        // A wheel that steers has its place where others have an axis and a factor.
+        let (by, factor, axis) = match &link.turned {
+            Turned::Never => (None, 0.0, [axis.x, axis.y, axis.z]),
+            Turned::By { channel, factor } => (Some(channel.as_str()), *factor, [axis.x, axis.y, axis.z]),
+            Turned::Steers { at: [x, y] } => (Some("steer"), *x, [0.0, *y, 1.0]),
+        };
+        let q = [turn.w, turn.i, turn.j, turn.k].map(|part| round(part, 7));
+        json!({
+            "parent": link.parent.map_or(-1, |parent| parent as i64),
+            "p": [round(at.x, 5), round(at.y, 5), round(at.z, 5)],
+            "q": q,
+            "axis": axis,
+            "by": by,
+            "factor": link.thrust.as_ref().map_or(factor, |(_, factor)| *factor),
+            "look": link.look.word(),
+            "standIn": link.stand_in,
+            "thrust": link.thrust.as_ref().map(|(channel, _)| channel),
+            "mesh": link.surfaces.iter().map(|surface| mesh(surface, &mut left)).collect::<Vec<_>>(),
+        })
+    };
     json!({
-        "name": metric.name, "unit": metric.unit, "limit": metric.limit, "lower": metric.lower_is_worse, "values": kept,
+        "links": figure.links.iter().map(link).collect::<Vec<_>>(),
+        "fixed": figure.fixed,
+        "radius": round(figure.radius, 4),
+        "lift": round(figure.lift, 4),
+        "told": figure.told,
     })
 }
 
-fn case(shown: &Shown) -> Value {
+fn metric(metric: &Metric) -> Value {
+    json!({
+        "name": metric.name,
+        "unit": metric.unit,
+        "limit": metric.limit.map(tidy),
+        "lower": metric.lower_is_worse,
+        "values": column(metric.values.iter().map(|value| value.unwrap_or(f64::NAN))),
+        "random": (!metric.random.is_empty()).then(|| column(metric.random.iter().copied())),
+    })
+}
+
+/// What was drawn for the worst run of every case: numbers, and the parts of what has several.
+fn draws(data: &ReportData) -> Vec<Value> {
+    let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    let count = data.results.len();
+    for (row, result) in data.results.iter().enumerate() {
+        let mut note = |name: String, value: Option<f64>| {
+            if let Some(value) = value {
+                columns.entry(name).or_insert_with(|| vec![f64::NAN; count])[row] = value;
+            }
+        };
+        for (key, value) in &result.drawn {
+            note(key.clone(), value.as_f64());
+            for (i, part) in value.as_array().into_iter().flatten().enumerate() {
+                note(format!("{key}[{i}]"), part.as_f64());
+            }
+        }
+    }
+    columns.into_iter().map(|(name, values)| json!({ "name": name, "values": column(values) })).collect()
+}
+
+fn case(shown: &Shown, samples: usize, length: &Length, others: &mut usize) -> Value {
     // Balls and boxes: few triangles each, and those of the world do not count here.
     let mut left = TRIANGLES;
-    let measures = shown.result.measures.as_ref();
-    let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 2), round(p.y, 2), round(p.z, 2)]).collect();
+    let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 3), round(p.y, 3), round(p.z, 3)]).collect();
+    let kept = thin(shown.planned.len(), samples / PLANNED, &[]);
+    let planned = motion(&shown.planned, &kept, turns(&shown.planned), &[]);
+    let runs: Vec<&OtherRun> = shown.others.iter().take(*others).collect();
+    *others -= runs.len();
+    let moment = shown.moment.as_ref();
     json!({
         "id": shown.result.case.to_string(),
+        "status": shown.result.status.word(),
+        "fails": shown.result.status == Status::Fail,
         "run": shown.result.run,
+        "at": moment.map_or(0.0, |moment| moment.at),
+        "told": moment.map_or(shown.result.message.as_deref().unwrap_or_default(), |moment| moment.told.as_str()),
+        "mark": moment.map(|moment| moment.mark.as_str()),
         "waypoints": waypoints,
-        "planned": positions(&shown.planned, &thin(shown.planned.len(), PLANNED, &[])),
-        "flown": shown.flown.as_ref().map(|track| flown(shown, track)),
-        "obstacles": shown.obstacles.iter().map(|surface| obstacle(surface, &mut left)).collect::<Vec<_>>(),
-        "worst": measures.map(|m| json!({"t": m.t_worst, "leg": m.leg_worst, "d": m.max_deviation})),
+        "planned": planned,
+        "flown": shown.flown.as_ref().map(|track| flown(shown, track, samples, length)),
+        "runs": runs.into_iter().map(|run| other(run, length)).collect::<Vec<_>>(),
+        "obstacles": shown.obstacles.iter().map(|surface| mesh(surface, &mut left)).collect::<Vec<_>>(),
     })
 }
 
-fn flown(shown: &Shown, track: &Track) -> Value {
-    let worst = shown.result.measures.as_ref().map(|m| track.times().partition_point(|t| *t < m.t_worst));
+fn flown(shown: &Shown, track: &Track, samples: usize, length: &Length) -> Value {
+    let at = shown.moment.as_ref().map(|moment| track.times().partition_point(|t| *t < moment.at));
     let peak = (0..track.len()).max_by(|a, b| shown.distances[*a].total_cmp(&shown.distances[*b]));
-    let must: Vec<usize> = worst.into_iter().chain(peak).filter(|i| *i < track.len()).collect();
-    let kept = thin(track.len(), FLOWN, &must);
-    let take = |values: &[f64], digits| kept.iter().map(|&i| round(values[i], digits)).collect::<Vec<_>>();
-    let mut value = positions(track, &kept);
-    value["t"] = json!(take(track.times(), 3));
-    // Arms are measured in hundredths of a millimetre.
-    let fine = shown.distances.iter().all(|distance| *distance < 0.1);
-    value["d"] = json!(take(&shown.distances, if fine { 6 } else { 3 }));
-    value["judged"] = json!(kept.iter().map(|&i| u8::from(shown.judged[i])).collect::<Vec<_>>());
-    value["v"] = json!(take(&speeds(track), 2));
-    value["leg"] = json!(track.channel("leg").map(|legs| take(legs, 0)));
-    value["panels"] = json!(panels(track, &kept));
+    let must: Vec<usize> = at.into_iter().chain(peak).filter(|i| *i < track.len()).collect();
+    let kept = thin(track.len(), samples, &must);
+    let take = |values: &[f64]| column(kept.iter().map(|&i| values[i]));
+    let (panels, channels) = panels(track);
+    let channels: Vec<&str> = channels.iter().map(String::as_str).collect();
+    let known = track.channel(ATTITUDE_UNKNOWN).is_none();
+    let mut value = motion(track, &kept, known, &channels);
+    value["d"] = column(kept.iter().map(|&i| length.in_metre * shown.distances[i]));
+    value["judged"] = counts(kept.iter().map(|&i| u32::from(shown.judged[i])));
+    value["v"] = take(&speeds(track));
+    value["leg"] = json!(track.channel("leg").map(|legs| counts(kept.iter().map(|&i| legs[i] as u32))));
+    value["panels"] = json!(panels);
     value
 }
 
-/// Further series under deviation and speed: of flights the rotors, of drives curvature, attitude and joints.
-fn panels(track: &Track, kept: &[usize]) -> Vec<Value> {
-    let take =
-        |values: &[f64], scale: f64, digits| kept.iter().map(|&i| round(scale * values[i], digits)).collect::<Vec<_>>();
-    let panel = |title: &str, lines: Vec<Value>| (!lines.is_empty()).then(|| json!({ "title": title, "lines": lines }));
-    let line = |name: &str, channel: &str, scale, digits| {
-        track.channel(channel).map(|values| json!({ "name": name, "y": take(values, scale, digits) }))
-    };
-    let rotors = (1..).map_while(|i| line(&format!("rotor {i}"), &format!("rotor{i}_rad_s"), 1.0, 0));
-    let curvature = [("commanded", "commanded_curvature_1_m"), ("steered", "curvature_1_m")];
-    let curvature = curvature.into_iter().filter_map(|(name, channel)| line(name, channel, 1.0, 3));
-    let margin = line("tip-over margin", "tip_over_margin_deg", 1.0, 1);
-    let attitude = margin.is_some().then(|| {
-        // How far the forward and the left axis point above the horizon.
-        let up = |axis: usize| {
-            let of = |i: &usize| {
-                let z = (track.poses()[*i].rotation * Vector3::ith(axis, 1.0)).z;
-                round(z.clamp(-1.0, 1.0).asin().to_degrees(), 1)
-            };
-            kept.iter().map(of).collect::<Vec<_>>()
-        };
-        [json!({ "name": "nose up", "y": up(0) }), json!({ "name": "left side up", "y": up(1) })]
-    });
-    let joints = ["rocker", "left_bogie", "right_bogie"].into_iter();
-    let joints = joints.filter_map(|name| {
-        line(&name.replace('_', " "), &format!("joint_{name}_rad"), 180.0 / std::f64::consts::PI, 1)
-    });
-    let slip = line("slip", "slip", 100.0, 1);
-    [
-        panel("rotors rad/s", rotors.collect()),
-        panel("curvature 1/m", curvature.collect()),
-        panel("angles °", margin.into_iter().chain(attitude.into_iter().flatten()).collect()),
-        panel("joints °", joints.collect()),
-        panel("slip %", slip.into_iter().collect()),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+fn other(run: &OtherRun, length: &Length) -> Value {
+    let peak = (0..run.distances.len()).max_by(|a, b| run.distances[*a].total_cmp(&run.distances[*b]));
+    let kept = thin(run.flown.len(), OTHER, peak.as_slice());
+    let axis = |a: usize| column(kept.iter().map(|&i| run.flown.position(i)[a]));
+    json!({
+        "run": run.run,
+        "t": column(kept.iter().map(|&i| run.flown.times()[i])),
+        "d": column(kept.iter().map(|&i| length.in_metre * run.distances[i])),
+        "x": axis(0), "y": axis(1), "z": axis(2),
+    })
 }
 
-fn positions(track: &Track, kept: &[usize]) -> Value {
-    let axis = |a: usize| kept.iter().map(|&i| round(track.position(i)[a], 3)).collect::<Vec<_>>();
-    json!({"x": axis(0), "y": axis(1), "z": axis(2)})
+/// Whether a plan says how the robot is turned.
+fn turns(track: &Track) -> bool {
+    track.poses().iter().any(|pose| pose.rotation.angle() > 1e-6)
+}
+
+/// Places, stamps, attitudes where they are known, and channels.
+fn motion(track: &Track, kept: &[usize], turns: bool, channels: &[&str]) -> Value {
+    let axis = |a: usize| column(kept.iter().map(|&i| track.position(i)[a]));
+    let turned = |part: usize| {
+        column(kept.iter().map(|&i| {
+            let q = track.poses()[i].rotation;
+            [q.w, q.i, q.j, q.k][part]
+        }))
+    };
+    let named = |name: &&str| Some(((*name).to_owned(), column(kept.iter().map(|&i| channel(track, name, i)))));
+    let channels: serde_json::Map<String, Value> = channels.iter().filter_map(named).collect();
+    json!({
+        "t": column(kept.iter().map(|&i| track.times()[i])),
+        "x": axis(0), "y": axis(1), "z": axis(2),
+        "q": turns.then(|| (0..4).map(turned).collect::<Vec<_>>()),
+        "channels": channels,
+    })
+}
+
+/// A recorded channel, or one of the two that attitudes tell: how far forward and left axis point above the horizon, °.
+fn channel(track: &Track, name: &str, i: usize) -> f64 {
+    let axis = match name {
+        "nose_up_deg" => nalgebra::Vector3::x(),
+        "left_up_deg" => nalgebra::Vector3::y(),
+        _ => return track.channel(name).map_or(f64::NAN, |values| values[i]),
+    };
+    (track.poses()[i].rotation * axis).z.clamp(-1.0, 1.0).asin().to_degrees()
 }
 
 /// ‖v‖ from the velocity channels, or from positions where nobody recorded velocities.
@@ -197,6 +278,11 @@ fn round(value: f64, digits: i32) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
+/// Without the last digits that a change of unit leaves: 10 mm is not 10.000000000000002.
+fn tidy(value: f64) -> f64 {
+    round(value, 9)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -213,5 +299,6 @@ mod tests {
     fn rounding_is_short() {
         assert_eq!(round(0.12345, 3).to_string(), "0.123");
         assert_eq!(round(-0.0001, 3).to_string(), "0");
+        assert_eq!(tidy(1e3 * 0.0101), 10.1);
     }
 }

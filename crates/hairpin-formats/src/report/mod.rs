@@ -1,12 +1,14 @@
-//! `report.html`: one file that opens offline in any browser, with plotly.js inside. Without JavaScript it still has
-//! the verdict, the table and the worst case's top and side view.
+//! `report.html`: one file that opens offline in any browser, with a view of its own (`view/`). Without JavaScript it still
+//! has the verdict, the table and the worst cases' top and side views.
 
 mod cases;
+mod column;
 mod data;
 mod day_card;
 mod escape;
 mod more;
 mod page;
+mod panels;
 mod progress;
 mod regression;
 mod relief;
@@ -18,7 +20,7 @@ mod worst;
 use std::path::Path;
 
 use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
-use hairpin::campaign::{Baseline, Case, CaseNumber, Run, Setup, Tally};
+use hairpin::campaign::{Baseline, Case, CaseNumber, CaseResult, Run, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
 
@@ -29,8 +31,11 @@ use crate::header::Header;
 pub use day_card::{DayCard, FlightCard, day_card_html};
 pub use page::html;
 
-/// Cases shown in full at most: the file stays below 8 MB.
-pub const SHOWN: usize = 20;
+/// Cases that open at most: the file stays below 8 MB. Of more than that the worst, and the others evenly over what is
+/// left, from bad to good.
+pub const SHOWN: usize = 200;
+/// Of more cases, so many of the worst.
+const WORST: usize = 150;
 
 /// Why a report cannot be made.
 #[derive(Debug, Error)]
@@ -53,31 +58,52 @@ pub enum ReportError {
     Run(String),
 }
 
-/// Gives a run of a case, `None` where it was not executed or is not to be had any more, or says why it cannot be read.
-pub type Runs<'a> = dyn Fn(&Case, usize) -> Result<Option<Run>, String> + 'a;
+/// Where the motion of runs comes from.
+pub trait Motions {
+    /// A run of a case, `None` where it was not executed or is not to be had any more.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    fn run(&self, case: &Case, run: usize) -> Result<Option<Run>, String>;
 
-/// Gathers a report from a judged campaign folder; `run` gives those that are shown.
+    /// All runs of a case whose motion was kept.
+    ///
+    /// # Errors
+    /// Why they cannot be read.
+    fn kept(&self, case: CaseNumber) -> Result<Vec<Run>, String>;
+}
+
+/// Gathers a report from a judged campaign folder; `motions` gives the runs that are shown, `asked` are cases that are
+/// shown whatever came of them, the first of which is opened.
 ///
 /// # Errors
-/// Files that are missing or broken; as `run`, in words.
+/// Files that are missing or broken; as `motions`, in words.
 pub fn from_folder(
     folder: &CampaignFolder,
     setup: &Setup,
     verdict: Verdict,
     assumptions: Vec<String>,
-    run: &Runs,
+    motions: &dyn Motions,
+    asked: &[CaseNumber],
 ) -> Result<ReportData, ReportError> {
     let cases = folder.read_cases_without_profiles()?;
     let results = folder.read_results()?;
     // Older parts of the folder may have been deleted by hand: the tally only adds two numbers.
     let tally = folder.read_tally().unwrap_or_else(|_| Tally { solved: cases.len() as u64, ..Tally::default() });
     let mut in_full = Vec::new();
-    for result in worst_first(&results).into_iter().take(SHOWN) {
+    for result in chosen(worst_first(&results), asked) {
         let Some(case) = cases.iter().find(|case| case.number == result.case) else { continue };
+        // What is followed is planned from its witness, as the judge does it.
+        let mut case = case.clone();
+        folder.read_witness(&mut case)?;
         let planned = folder.read_planned(case.number)?;
-        let run = run(case, result.run).map_err(ReportError::Run)?;
+        let run = motions.run(&case, result.run).map_err(ReportError::Run)?;
+        let others = match setup.scenario.executor().repeat {
+            1 => Vec::new(),
+            _ => motions.kept(case.number).map_err(ReportError::Run)?,
+        };
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
-        in_full.push(shown(setup, case, result, planned, run.as_ref()).map_err(flight)?);
+        in_full.push(shown(setup, &case, result, planned, run.as_ref(), &others).map_err(flight)?);
     }
     let (baseline, scenario) = (folder.read_baseline()?, &setup.scenario);
     let pieces = Pieces {
@@ -92,9 +118,29 @@ pub fn from_folder(
         influences: folder.read_influences()?,
         coverage: folder.read_coverage()?,
         baseline: baseline
-            .and_then(|measured| Baseline::of(scenario.search().sought(), scenario.executor().repeat, &measured)),
+            .as_ref()
+            .and_then(|measured| Baseline::of(scenario.search().sought(), scenario.executor().repeat, measured)),
+        random: baseline.as_deref().unwrap_or_default(),
+        asked: asked.first().copied(),
     };
     Ok(report::assemble(pieces))
+}
+
+/// The cases that open: all, or of too many the worst and the others from bad to good, with what was asked for.
+fn chosen<'a>(ordered: Vec<&'a CaseResult>, asked: &[CaseNumber]) -> Vec<&'a CaseResult> {
+    if ordered.len() <= SHOWN {
+        return ordered;
+    }
+    let is_asked = |result: &&CaseResult| asked.contains(&result.case);
+    let mut found: Vec<&CaseResult> = ordered.iter().copied().filter(is_asked).take(SHOWN).collect();
+    let worst = WORST.min(SHOWN - found.len());
+    found.extend(ordered[..worst].iter().copied().filter(|result| !is_asked(result)));
+    let rest = &ordered[worst..];
+    let places = SHOWN.saturating_sub(found.len());
+    // The last of them is the best case.
+    let evenly = (1..=places).filter_map(|i| rest.get((i * rest.len() / places).saturating_sub(1)).copied());
+    found.extend(evenly.filter(|result| !is_asked(result)));
+    found
 }
 
 /// Writes [`html`].

@@ -11,17 +11,18 @@ use super::spread::{distributions, influences};
 use super::{cases, data, progress, regression, setup, worst};
 
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+/// Checked for their types by tests/run (`view/tsconfig.json`).
+const SCRIPTS: [&str; 3] =
+    [include_str!("view/scene.js"), include_str!("view/charts.js"), include_str!("view/page.js")];
 
 /// The whole file.
 pub fn html(data: &ReportData) -> String {
-    let plotly = plotly_source();
-    // Plotly sets styles by script and makes an empty style sheet, which a policy can only allow as a whole; scripts
-    // and loading are what could do harm, and none but these two run.
+    let script = script();
+    // Nothing is loaded, no style but this one is taken, and no script but this one runs.
     let policy = format!(
-        "default-src 'none'; script-src {} {}; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'",
-        hash(&plotly),
-        hash(SCRIPT)
+        "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
+        hash(&script),
+        hash(STYLE)
     );
     let body = body(data);
     let json = data::json(data);
@@ -30,23 +31,20 @@ pub fn html(data: &ReportData) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
          <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{body}\n\
          <script type=\"application/json\" id=\"data\">{json}</script>\n\
-         <script>{plotly}</script>\n<script>{SCRIPT}</script>\n</body>\n</html>\n"
+         <script>{script}</script>\n</body>\n</html>\n"
     )
 }
 
-/// plotly.js as the plotly crate embeds it: the first of the script elements that it gives.
-fn plotly_source() -> String {
-    let sources = plotly::Plot::offline_js_sources();
-    let start = sources.find('>').map_or(0, |at| at + 1);
-    let end = sources[start..].find("</script>").map_or(sources.len(), |at| start + at);
-    // A browser reads line ends as LF before it hashes.
-    sources[start..end].replace("\r\n", "\n").replace('\r', "\n")
+/// Its three files share one scope, and leave nothing outside of it.
+fn script() -> String {
+    format!("\"use strict\";\n{{\n{}\n}}\n", SCRIPTS.concat())
 }
 
-fn hash(script: &str) -> String {
-    format!("'sha256-{}'", STANDARD.encode(Sha256::digest(script.as_bytes())))
+fn hash(text: &str) -> String {
+    format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())))
 }
 
 fn body(data: &ReportData) -> String {

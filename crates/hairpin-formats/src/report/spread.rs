@@ -1,9 +1,12 @@
 //! How measures are spread over all cases, and which of the parameters that vary did it.
 
+use std::collections::BTreeSet;
+
 use hairpin::campaign::Influence;
-use hairpin::campaign::digits::number;
+use hairpin::campaign::digits::{limit, number};
 use hairpin::campaign::report::ReportData;
 use hairpin::judgement::Statistics;
+use serde_json::Value;
 
 use super::escape::escape;
 
@@ -17,30 +20,58 @@ pub(super) fn distributions(data: &ReportData) -> String {
     let rows: String = data
         .metrics
         .iter()
-        .filter_map(|metric| Statistics::of(&metric.values).map(|statistics| (metric, statistics)))
+        .filter_map(|metric| {
+            Statistics::of(&metric.values.iter().copied().flatten().collect::<Vec<f64>>())
+                .map(|statistics| (metric, statistics))
+        })
         .map(|(metric, s)| {
-            let values = [
-                metric.limit,
-                Some(s.max),
-                Some(s.mean),
-                Some(s.median),
-                Some(s.min),
-                Some(s.rmse),
-                Some(s.sse),
-                Some(s.std),
-            ];
+            let values =
+                [Some(s.max), Some(s.mean), Some(s.median), Some(s.min), Some(s.rmse), Some(s.sse), Some(s.std)];
             let values: String = values.iter().map(|value| format!("<td>{}</td>", number(*value))).collect();
+            let limit = limit(metric.limit);
             format!(
-                "<tr><th scope=\"row\">{} <span class=\"note\">{}</span></th>{values}</tr>",
+                "<tr><th scope=\"row\">{} <span class=\"note\">{}</span></th><td>{limit}</td>{values}</tr>",
                 metric.name, metric.unit
             )
         })
         .collect();
+    let random = data.metrics.iter().any(|metric| !metric.random.is_empty());
+    let (random, beside) = match random {
+        true => (" (grey: random feasible cases)", " Striped bars are the random feasible cases beside them."),
+        false => ("", ""),
+    };
+    let names: Vec<String> = data.metrics.iter().map(|metric| format!("{} {}", metric.name, metric.unit)).collect();
+    let drawn: BTreeSet<String> =
+        data.results.iter().flat_map(|result| result.drawn.iter().flat_map(numbers)).collect();
+    let across = choice(&names, &drawn, 1.min(names.len() - 1));
+    let upward = choice(&names, &drawn, 0);
     format!(
         "<section class=\"panel\" id=\"distributions\"><h2>Over all cases</h2>\
-         <div class=\"js\"><div id=\"share\" class=\"plot\"></div><div id=\"spread\" class=\"plot\"></div></div>\
+         <div class=\"js\"><p class=\"note\">Share of cases over a limit of the deviation{random}.</p><div id=\"share\" class=\"plot\"></div>\
+         <p class=\"note\">One value per case; a bar chooses its cases in the table.{beside}</p><div id=\"spread\"></div>\
+         <p class=\"tools\"><label>across <select id=\"across\">{across}</select></label> <label>upward <select id=\"upward\">{upward}</select></label> \
+         <span class=\"note\">a dot is a case (a square violates) and opens it</span></p><div id=\"scatter\" class=\"plot\"></div></div>\
          <div class=\"scroll\"><table class=\"spread\"><thead>{head}</thead><tbody>{rows}</tbody></table></div></section>"
     )
+}
+
+/// The numbers in a drawn value, in the names that the page's data have for them.
+fn numbers((key, value): &(String, Value)) -> Vec<String> {
+    match value {
+        Value::Number(_) => vec![key.clone()],
+        Value::Array(parts) => {
+            (0..parts.len()).filter(|i| parts[*i].is_number()).map(|i| format!("{key}[{i}]")).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Measures and draws to choose from, by their place in the page's data.
+fn choice(metrics: &[String], drawn: &BTreeSet<String>, chosen: usize) -> String {
+    let option = |(i, name): (usize, &String)| {
+        format!("<option value=\"{i}\"{}>{}</option>", if i == chosen { " selected" } else { "" }, escape(name))
+    };
+    metrics.iter().chain(drawn).enumerate().map(option).collect()
 }
 
 /// Which parameter did it.

@@ -16,7 +16,7 @@ const SIDE: f64 = 420.0;
 const MARGIN: f64 = 42.0;
 const GAP: f64 = 56.0;
 /// Points of a path that are drawn at most.
-const POINTS: usize = 400;
+const POINTS: usize = 250;
 
 /// Top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
 pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
@@ -46,6 +46,19 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
     svg
 }
 
+/// Side of the ground's picture, in its own units.
+const GROUND: f64 = 100.0;
+
+/// The ground's picture, once for all views; nothing where there is none.
+pub(super) fn ground(drawing: &Drawing) -> String {
+    let Some(picture) = drawing.relief.as_ref().and_then(relief::picture) else { return String::new() };
+    format!(
+        "<svg class=\"shared\" width=\"0\" height=\"0\" aria-hidden=\"true\"><defs><image id=\"ground\" width=\"{GROUND}\" \
+         height=\"{GROUND}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/></defs></svg>",
+        STANDARD.encode(picture)
+    )
+}
+
 /// A projection: world axes `across` and `up` onto the page.
 struct View {
     x0: f64,
@@ -73,14 +86,9 @@ fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &
         "<rect class=\"cage\" x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\"/>",
         view.width, view.span
     ));
-    if let Some(picture) = drawing.relief.as_ref().filter(|_| view.up == 1).and_then(relief::picture) {
-        add(format!(
-            "<image x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{:.1}\" height=\"{:.1}\" preserveAspectRatio=\"none\" \
-             href=\"data:image/png;base64,{}\"/>",
-            view.width,
-            view.span,
-            STANDARD.encode(picture)
-        ));
+    if drawing.relief.is_some() && view.up == 1 {
+        let (across, up) = (view.width / GROUND, view.span / GROUND);
+        add(format!("<use href=\"#ground\" transform=\"translate({x0:.1} {y0:.1}) scale({across:.5} {up:.5})\"/>"));
     }
     let ticks = |low: f64, extent: f64| {
         let step =
@@ -108,8 +116,8 @@ fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &
     add(format!("<polyline class=\"planned\" points=\"{}\"/>", track(&shown.planned, view)));
     if let Some(flown) = &shown.flown {
         add(format!("<polyline class=\"flown\" points=\"{}\"/>", track(flown, view)));
-        if let Some(measures) = &shown.result.measures {
-            let index = flown.times().partition_point(|t| *t < measures.t_worst).min(flown.len() - 1);
+        if let Some(moment) = &shown.moment {
+            let index = flown.times().partition_point(|t| *t < moment.at).min(flown.len() - 1);
             let (x, y) = view.place(&flown.position(index));
             add(format!("<circle class=\"worst\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\"/>"));
         }

@@ -1,44 +1,98 @@
 //! The worst cases in full: what was found of each, the 3D view with its slider, and drawings that need no script.
 
-use hairpin::campaign::digits::number;
-use hairpin::campaign::report::{ReportData, Shown, violation};
+use hairpin::campaign::digits::{number, signed_digits};
+use hairpin::campaign::report::{Length, ReportData, Shown, violation};
 use hairpin::judgement::Statistics;
 
 use super::escape::escape;
 use super::svg;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use serde_json::Value;
+
+/// Cases that are drawn without the script at most.
+const DRAWN: usize = 20;
 
 /// The section; none if no case is shown in full.
 pub(super) fn section(data: &ReportData) -> String {
     let Some(worst) = data.shown.first() else { return String::new() };
-    let about: String = data.shown.iter().enumerate().map(|(i, shown)| findings(shown, i == 0)).collect();
-    let views: String = data.shown.iter().enumerate().map(|(i, shown)| figure(data, shown, i == 0)).collect();
-    let id = worst.result.case.to_string();
+    let open = data.shown.iter().find(|shown| Some(shown.result.case) == data.opens).unwrap_or(worst);
+    let about: String = data.shown.iter().enumerate().map(|(i, shown)| findings(data, shown, i)).collect();
+    let views: String = data.shown.iter().take(DRAWN).map(|shown| figure(data, shown)).collect();
+    let id = open.result.case.to_string();
+    let heights = if data.drawing.relief.is_some() { HEIGHTS } else { "<select id=\"high\" hidden></select>" };
     format!(
-        "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>Case <span id=\"case-id\">{id}</span></h2>\
+        "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>Case <span id=\"case-id\">{id}</span> \
+         <span id=\"case-status\" class=\"status {status}\">{status}</span></h2>\
          <div class=\"pick js\"><button type=\"button\" id=\"before\" aria-label=\"one case less bad\">‹</button>\
-         <label for=\"pick\">worst cases</label><select id=\"pick\">{}</select>\
-         <button type=\"button\" id=\"after\" aria-label=\"next case\">›</button></div></div>{about}\
-         <div class=\"js\"><div id=\"space\" class=\"plot\"></div>\
-         <div class=\"slider\"><button type=\"button\" id=\"worst-moment\">worst moment</button>\
-         <input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\" step=\"1\" aria-label=\"time\">\
-         <output id=\"moment\" for=\"time\"></output></div>\
+         <label for=\"pick\">worst first</label><select id=\"pick\">{}</select>\
+         <button type=\"button\" id=\"after\" aria-label=\"next case\">›</button></div></div>\
+         <div class=\"js\"><p id=\"told\" class=\"told\"></p>{PICTURE}{legend}\
+         <div class=\"tools\">{TOOLS}{heights}<button type=\"button\" id=\"png\">PNG</button></div>\
+         <p class=\"note\" id=\"drawn-how\"></p>{KEYS}</div>{about}\
+         <div class=\"js\"><div class=\"tools\" id=\"commands\">{COMMANDS}</div><code id=\"command\"></code> \
+         <span id=\"copied\" class=\"note\" role=\"status\"></span>\
          <div id=\"series\" class=\"plot\"></div></div>\
          <p class=\"notice\">Tracks are <b>not aligned</b>: planned and flown positions stand in one frame and on one clock, as they were.</p>\
-         {views}</section>",
-        data.shown.iter().enumerate().map(|(i, shown)| option(shown, i)).collect::<String>()
+         {ground}{views}</section>",
+        data.shown.iter().enumerate().map(|(i, shown)| option(shown, i)).collect::<String>(),
+        status = open.result.status.word(),
+        legend = legend(data),
+        ground = svg::ground(&data.drawing),
     )
 }
 
-fn option(shown: &Shown, index: usize) -> String {
-    let measured = shown.result.measures.as_ref().map(|m| m.max_deviation);
-    let deviation = measured.map_or(shown.result.ended.clone(), |d| format!("{} m", number(Some(d))));
-    let status = shown.result.status.word();
-    format!("<option value=\"{index}\">{} · {deviation} · {status}</option>", shown.result.case)
+/// The canvases, and what moves in time.
+const PICTURE: &str = "<div id=\"space\"><canvas id=\"gl\" tabindex=\"0\" role=\"img\" aria-label=\"The case in space; keys turn it, see below\"></canvas>\
+    <canvas id=\"ink\" aria-hidden=\"true\"></canvas><p id=\"tip\" hidden></p></div>\
+    <div class=\"slider\"><button type=\"button\" id=\"play\" aria-label=\"play\">▶</button>\
+    <select id=\"speed\" aria-label=\"speed\"><option value=\"0.1\">0.1 ×</option><option value=\"0.25\">0.25 ×</option>\
+    <option value=\"1\" selected>1 ×</option><option value=\"2\">2 ×</option><option value=\"5\">5 ×</option><option value=\"20\">20 ×</option></select>\
+    <input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\" step=\"any\" aria-label=\"time\">\
+    <button type=\"button\" id=\"worst-moment\">worst moment</button><output id=\"moment\" for=\"time\"></output></div>";
+
+const TOOLS: &str = "<button type=\"button\" id=\"fit\">all of it</button><button type=\"button\" id=\"from-above\">from above</button>\
+    <button type=\"button\" id=\"from-side\">from the side</button><label><input type=\"checkbox\" id=\"follow\"> follow</label>\
+    <label><input type=\"checkbox\" id=\"ghost\" checked> plan’s ghost</label>";
+
+/// Ground that is nearly flat shows nothing at its own heights.
+const HEIGHTS: &str = "<label>heights <select id=\"high\"><option value=\"1\">as they are</option><option value=\"2\">2 ×</option>\
+    <option value=\"5\">5 ×</option><option value=\"10\">10 ×</option></select></label>";
+
+const KEYS: &str = "<details><summary>Mouse and keys</summary><p class=\"note\">Drag to turn, with shift or the right button to move, wheel or two \
+    fingers to zoom; a click on the path goes to that moment. With the picture in focus: arrows turn, shift and arrows move, + and − zoom, 0 all \
+    of it, t from above, s from the side, space plays, comma and full stop step, w worst moment, n and p next and previous case, f follow, g the \
+    plan’s ghost.</p></details>";
+
+const COMMANDS: &str = "<span>copy the command:</span><button type=\"button\" data-verb=\"replay\">replay</button>\
+    <button type=\"button\" data-verb=\"shrink\">shrink</button><button type=\"button\" data-verb=\"export\">export</button>\
+    <button type=\"button\" data-verb=\"report\">report of this case</button>";
+
+/// Under the picture, never over a curve.
+fn legend(data: &ReportData) -> String {
+    let others = if data.shown.iter().any(|shown| !shown.others.is_empty()) {
+        " <span class=\"key other\"></span>other runs"
+    } else {
+        ""
+    };
+    format!(
+        "<p class=\"keys\"><span class=\"key scale\"></span>{}, deviation 0 to <span id=\"scale-top\">–</span> \
+         <span class=\"key planned\"></span>planned{others} <span class=\"key worst\"></span>worst moment</p>",
+        done(data)
+    )
 }
 
-/// What is known of a case in words and numbers. All but the first wait for the script to be selected.
-fn findings(shown: &Shown, first: bool) -> String {
+fn done(data: &ReportData) -> &'static str {
+    if data.drawing.relief.is_some() { "driven" } else { "flown" }
+}
+
+fn option(shown: &Shown, index: usize) -> String {
+    let mark = shown.moment.as_ref().map_or(shown.result.ended.as_str(), |moment| moment.mark.as_str());
+    let status = shown.result.status.word();
+    format!("<option value=\"{index}\">{} · {} · {status}</option>", shown.result.case, escape(mark))
+}
+
+/// What is known of a case in words and numbers. Those that are not drawn without the script wait for it.
+fn findings(data: &ReportData, shown: &Shown, index: usize) -> String {
     let mut findings: Vec<String> = shown.result.violations.iter().map(violation).collect();
     findings.extend(shown.result.message.clone());
     if findings.is_empty() {
@@ -49,42 +103,53 @@ fn findings(shown: &Shown, first: bool) -> String {
         findings.push(format!("at the worst moment: {attitude}"));
     }
     findings.extend(shown.environment.iter().cloned());
-    let drawn: Vec<String> = shown.result.drawn.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+    let drawn: Vec<String> =
+        shown.result.drawn.iter().map(|(key, value)| format!("{key} = {}", short(value))).collect();
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();
     format!(
         "<div class=\"findings\" data-case=\"{}\"{}><ul>{list}</ul>\
          <p class=\"note\">run {} ({}), {}, score {}</p>{}</div>",
         shown.result.case,
-        if first { "" } else { " hidden" },
+        if index < DRAWN { "" } else { " hidden" },
         shown.result.run,
         escape(&drawn),
         escape(&shown.claim),
         number(Some(shown.score)),
-        statistics(shown.statistics.as_ref())
+        statistics(shown.statistics.as_ref(), &data.length)
     )
 }
 
-fn figure(data: &ReportData, shown: &Shown, first: bool) -> String {
+/// A value that was drawn, with the digits that people write.
+fn short(value: &Value) -> String {
+    match value {
+        Value::Number(one) if !(one.is_i64() || one.is_u64()) => one.as_f64().map_or(one.to_string(), signed_digits),
+        Value::Array(parts) => format!("[{}]", parts.iter().map(short).collect::<Vec<_>>().join(", ")),
+        other => other.to_string(),
+    }
+}
+
+fn figure(data: &ReportData, shown: &Shown) -> String {
     format!(
-        "<figure class=\"case\" data-case=\"{}\"{}>{}\
-         <figcaption><span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
+        "<figure class=\"case\" data-case=\"{id}\">{}\
+         <figcaption>case {id}: <span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
          <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
-        shown.result.case,
-        if first { "" } else { " hidden" },
         svg::views(shown, &data.drawing),
-        if data.drawing.relief.is_some() { "driven" } else { "flown" }
+        done(data),
+        id = shown.result.case,
     )
 }
 
-fn statistics(found: Option<&Statistics>) -> String {
+fn statistics(found: Option<&Statistics>, length: &Length) -> String {
     let Some(s) = found else { return String::new() };
     let names = ["max", "mean", "median", "min", "rmse", "sse", "std"];
-    let values = [s.max, s.mean, s.median, s.min, s.rmse, s.sse, s.std];
+    let factor = length.in_metre;
+    let values = [s.max, s.mean, s.median, s.min, s.rmse, factor * s.sse, s.std].map(|value| factor * value);
     let head: String = names.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
     let row: String = values.iter().map(|value| format!("<td>{}</td>", number(Some(*value)))).collect();
     format!(
-        "<table class=\"statistics\"><caption>deviation of this run, m (sse m²), over its judged samples, not aligned</caption>\
-         <thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>"
+        "<table class=\"statistics\"><caption>deviation of this run, {unit} (sse {unit}²), over its judged samples, not aligned</caption>\
+         <thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>",
+        unit = length.unit
     )
 }

@@ -69,7 +69,7 @@ pub(super) fn write(
         let run = run_with_motion(work, case, result.run)?;
         let planned = work.folder.read_planned(case.number)?;
         let refuse = |cause| Problem::input(format!("case {}: {cause}", case.id()));
-        let shown = shown(&work.setup, case, result, planned, run.as_ref()).map_err(refuse)?;
+        let shown = shown(&work.setup, case, result, planned, run.as_ref(), &[]).map_err(refuse)?;
         let rows = rows(work, case, (result, measures, cleared), order)?;
         flights.push(FlightCard { drawing: work.setup.drawing(&case.waypoints), shown, rows });
     }

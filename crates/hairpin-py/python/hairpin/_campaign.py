@@ -327,9 +327,10 @@ class Campaign:
 
         return compare(self, other, tolerance_m=tolerance_m)
 
-    def report(self) -> Path:
-        """Writes ``report.html`` anew, and gives its place."""
-        return Path(_native.report(self.folder, waiting()))
+    def report(self, *cases: str | int | Case) -> Path:
+        """Writes ``report.html`` anew, and gives its place; `cases` are among those that open, and it opens at the first."""
+        asked = [(one if isinstance(one, Case) else self[one]).number for one in cases]
+        return Path(_native.report(self.folder, asked, waiting()))
 
     # In a notebook.
 
@@ -339,6 +340,8 @@ class Campaign:
         if not path.is_file():
             path = self.report()
         one = case if isinstance(case, Case) else (self[case] if case is not None else self.worst)
+        if one and f'"id":"{one.id}"' not in path.read_text(encoding="utf-8"):
+            self.report(one)
         return Report(path, one.id if one else None, height)
 
     def plot(self, case: str | int | Case | None = None, ax: Any = None) -> Any:
@@ -463,7 +466,7 @@ class Report:
         text = self.path.read_text(encoding="utf-8")
         if self.case is not None:
             # The page's data are no script, so that its policy holds.
-            text = text.replace(_DATA + "{", f'{_DATA}{{"open":"{self.case}",', 1)
+            text = text.replace(_DATA + "{", f'{_DATA}{{"asked":"{self.case}",', 1)
         page = html.escape(text, quote=True)
         name = f"case {self.case}" if self.case else "report"
         return f'<iframe title="{name}" sandbox="allow-scripts" style="width:100%;height:{self.height}px;border:0" srcdoc="{page}"></iframe>'

@@ -35,6 +35,7 @@ def stress(
     repro: str | os.PathLike[str] | None = None,
     if_there: str = "refuse",
     time_limit_s: float | None = None,
+    budget_s: float | None = None,
     portable: bool = False,
     allow_commands: bool = False,
     threads: int | None = None,
@@ -57,6 +58,7 @@ def stress(
         repro: folder of saved cases that are run first.
         if_there: ``refuse``, ``resume`` or ``replace`` a campaign that is in the folder.
         time_limit_s: seconds after which the search stops and keeps what it has.
+        budget_s: seconds for the whole campaign; what it cut is told, and no pass.
         portable: one level of kernels that all machines have.
         allow_commands: what a stranger's folder asks to run may.
         threads: as many as the machine has if not given.
@@ -78,7 +80,7 @@ def stress(
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
     with serving(executor) as command:
-        begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s)
+        begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s, budget_s)
         said = _called(
             brought,
             lambda: _native.stress(begun, (_path(missions), _path(repro)), means(brought, portable, allow_commands), waiting(threads, progress)),
@@ -312,7 +314,7 @@ def _stress_with_texts(source: Source, *, out: Path, texts: Mapping[str, str], e
     """A whole campaign in place of the one in `out`, as the command line has it: values are TOML texts."""
     asked = scenario(source)
     begun = SimpleNamespace(
-        scenario=asked.path(), out=os.fspath(out), sets=[*asked.sets(), *texts.items(), *_command(executor)], if_there="replace", time_limit_s=None
+        scenario=asked.path(), out=os.fspath(out), sets=[*asked.sets(), *texts.items(), *_command(executor)], if_there="replace", time_limit_s=None, budget_s=None
     )
     said = _native.stress(begun, (None, None), means(None, False, False), waiting())
     return Campaign(said["paths"]["folder"], said=said)
@@ -332,6 +334,7 @@ def _begun(
     command: str | None,
     if_there: str,
     time_limit_s: float | None,
+    budget_s: float | None = None,
 ) -> Any:
     if if_there not in _IF_THERE:
         bound = "one of " + ", ".join(_IF_THERE)
@@ -340,7 +343,7 @@ def _begun(
     if seed is not None:
         sets.append(("seed", toml_value(seed)))
     sets += brought.sets + _command(command)
-    return SimpleNamespace(scenario=asked.path(), out=_path(out), sets=sets, if_there=if_there, time_limit_s=time_limit_s)
+    return SimpleNamespace(scenario=asked.path(), out=_path(out), sets=sets, if_there=if_there, time_limit_s=time_limit_s, budget_s=budget_s)
 
 
 def _command(command: str | None) -> list[tuple[str, str]]:

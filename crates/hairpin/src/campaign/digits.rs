@@ -1,5 +1,7 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
 
+use crate::judgement::decimals_of;
+
 /// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is
 /// never less than nothing: what these digits do not show has no sign.
 pub fn number(value: Option<f64>) -> String {
@@ -11,6 +13,11 @@ pub fn number(value: Option<f64>) -> String {
         Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
         Some(v) => format!("{v:.0}"),
     }
+}
+
+/// A limit with the digits that it was given with, two decimals at least; `–` for none.
+pub fn limit(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.decimals$}", decimals = decimals_of(value, 2)))
 }
 
 /// `value` ≥ 0 with its first three digits.

@@ -5,7 +5,7 @@ use super::chance::Baseline;
 use super::digits::grouped;
 use super::judge::Gravity;
 use super::scenario::Asked;
-use super::{Case, CaseResult, Evidence, Reruns, Setup, Status, Tally};
+use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
 
 /// Confidence of intervals where the spec names none.
@@ -32,7 +32,8 @@ pub fn verdict(
         })
         .filter(|claim| claim.count > 0)
         .collect();
-    let worst = worst_of(setup, results);
+    let worst = named(setup, results);
+    let case = worst.as_ref().map(|named| named.case.to_string()).unwrap_or_default();
     let how = how_obtained(setup);
     let how: Vec<&str> = how.iter().map(String::as_str).collect();
     let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
@@ -65,7 +66,7 @@ pub fn verdict(
         cut: cut.as_deref(),
         trouble: &trouble,
         doubt: doubt.as_deref().unwrap_or_default(),
-        worst: worst.as_ref().map(|(case, value, saturation)| Worst { case, value, saturation: *saturation }),
+        worst: worst.as_ref().map(|named| Worst { case: &case, value: &named.value, saturation: named.saturation }),
         beside: beside.as_ref().map(|(of, by_chance)| Beside { of, by_chance }),
         share_limit: setup.scenario.violation_share(),
         confidence,
@@ -142,8 +143,19 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
     vec!["simulated".into(), stand_in, who]
 }
 
-/// The worst result, and what is said of it: its gravest violation, or the deviation that came nearest to the limit.
-fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation, Option<f64>)> {
+/// What a verdict names.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Named {
+    /// The case of the worst result.
+    pub(super) case: CaseNumber,
+    /// Its gravest violation, or the deviation that came nearest to the limit; in the units that it is told in.
+    pub(super) value: Violation,
+    /// Share of rotor-time at a limit, 0 … 1, on that leg or run.
+    saturation: Option<f64>,
+}
+
+/// The worst result, and what is said of it.
+pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     let mut worst: Option<(&CaseResult, &Measures)> = None;
     let gravity = |result: &CaseResult, measures: &Measures| {
         let crashed = result.violations.first().is_some_and(Violation::is_crash);
@@ -173,7 +185,7 @@ fn worst_of(setup: &Setup, results: &[CaseResult]) -> Option<(String, Violation,
     };
     let value = result.violations.first().cloned().or_else(|| nearest().map(told))?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
-    Some((result.case.to_string(), value, saturation))
+    Some(Named { case: result.case, value, saturation })
 }
 
 /// The verdict of exit 5 on a search that a time limit ended too soon: that nothing is feasible was not found out.

@@ -17,9 +17,27 @@ pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
     (value.to_string(), limit.to_string())
 }
 
+/// Decimals that `limit` was given with, from `least` to four; `least` of one that was drawn or computed, and has more.
+pub fn decimals_of(limit: f64, least: usize) -> usize {
+    let mut scaled = limit;
+    for decimals in 0..=4 {
+        if decimals >= least && (scaled - scaled.round()).abs() < 1e-7 {
+            return decimals;
+        }
+        scaled *= 10.0;
+    }
+    least
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn limits_keep_the_digits_that_they_were_given_with() {
+        assert_eq!([0.5, 0.025, 10.0, 1e3 * 0.0101, 0.0004].map(|limit| decimals_of(limit, 2)), [2, 3, 2, 2, 4]);
+        assert_eq!((decimals_of(0.483_726_15, 2), decimals_of(10.0, 1)), (2, 1));
+    }
 
     #[test]
     fn digits_show_the_difference() {

@@ -10,6 +10,7 @@ mod clock;
 mod doubt;
 mod draw;
 mod execute;
+mod figure;
 mod graph;
 mod hidden;
 mod judge;

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
+use super::figure::figure;
 use super::{ArmSetup, assumptions};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::digits::number;
@@ -133,6 +134,7 @@ impl Say for ArmSetup {
             wheels: Vec::new(),
             radius: self.station.tool.radius,
             relief: None,
+            figure: Some(figure(&self.station)),
         }
     }
 

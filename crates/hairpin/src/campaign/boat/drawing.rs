@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point3, Vector3};
 
 use super::BoatSetup;
-use crate::campaign::kind::{Drawing, Surface};
+use crate::campaign::kind::{Drawing, FigureLink, Look, RobotFigure, Surface, block, prism};
 use crate::world::terrain::{KeepOut, KeepOutShape};
 
 /// Corners of a drawn disc.
@@ -24,6 +24,33 @@ pub(super) fn waters(setup: &BoatSetup) -> Drawing {
         wheels: Vec::new(),
         radius: setup.boat.radius,
         relief: None,
+        figure: Some(figure(setup.boat.radius)),
+    }
+}
+
+/// A hull of a ship's proportions inside its disc of `radius` (m); how long and wide it is, is a stand-in.
+fn figure(radius: f64) -> RobotFigure {
+    let (half, beam, deck) = (0.95 * radius, 0.28 * radius, 0.18 * radius);
+    let outline = [
+        [-half, -0.8 * beam],
+        [0.3 * half, -beam],
+        [0.75 * half, -0.5 * beam],
+        [half, 0.0],
+        [0.75 * half, 0.5 * beam],
+        [0.3 * half, beam],
+        [-half, 0.8 * beam],
+    ];
+    let bridge = block([-0.6 * half, -0.6 * beam, deck], [-0.1 * half, 0.6 * beam, deck + 0.25 * radius]);
+    let bow = prism(&[[0.5 * half, -0.6 * beam], [0.9 * half, 0.0], [0.5 * half, 0.6 * beam]], deck, 1.2 * deck);
+    RobotFigure {
+        links: vec![
+            FigureLink::still(Look::Body, true, vec![prism(&outline, -0.5 * deck, deck), bridge]),
+            FigureLink::still(Look::Nose, true, vec![bow]),
+        ],
+        fixed: false,
+        radius,
+        lift: 0.0,
+        told: "the hull (hatched) is a stand-in as long as the boat's disc is wide".into(),
     }
 }
 

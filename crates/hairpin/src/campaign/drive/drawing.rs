@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point3, Vector3};
 
 use super::DriveSetup;
+use super::figure::figure;
 use crate::campaign::kind::{Drawing, Relief, Surface};
 use crate::world::terrain::{KeepOut, KeepOutShape, Terrain};
 
@@ -52,6 +53,7 @@ pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
         wheels: wheels[..count].iter().map(|wheel| [wheel.x, wheel.y]).collect(),
         radius: setup.rover.suspension.outer_radius(),
         relief: Some(Relief { low, step, heights }),
+        figure: Some(figure(&setup.rover)),
     }
 }
 

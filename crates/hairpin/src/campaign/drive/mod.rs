@@ -8,6 +8,7 @@ mod claim;
 mod draw;
 mod drawing;
 mod execute;
+mod figure;
 mod knobs;
 mod legs;
 mod losses;

@@ -5,6 +5,7 @@ mod blocking;
 mod certificates;
 mod check;
 mod claim;
+mod figure;
 mod fit;
 mod fly;
 mod graph;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
+use super::figure::figure;
 use super::{FlightSetup, assumptions};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
@@ -77,6 +78,7 @@ impl Say for FlightSetup {
             wheels: Vec::new(),
             radius: self.robot.clearance_radius,
             relief: None,
+            figure: Some(figure(&self.robot)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Surface;
+use super::{RobotFigure, Surface};
 
 /// A rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,4 +43,6 @@ pub struct Drawing {
     pub radius: f64,
     /// The ground, if it drives.
     pub relief: Option<Relief>,
+    /// The robot; `None` where nothing of its shape is known.
+    pub figure: Option<RobotFigure>,
 }

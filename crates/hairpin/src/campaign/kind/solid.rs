@@ -32,9 +32,30 @@ pub fn surface(obstacle: &Obstacle) -> Surface {
     Surface { name: obstacle.name.clone(), vertices, triangles }
 }
 
-type Triangles = (Vec<Point3<f64>>, Vec<[u32; 3]>);
+pub(super) type Triangles = (Vec<Point3<f64>>, Vec<[u32; 3]>);
 
-fn cuboid(center: &Point3<f64>, half: &Vector3<f64>) -> Triangles {
+/// Triangles with a name.
+pub(super) fn named(name: &str, (vertices, triangles): Triangles) -> Surface {
+    Surface { name: name.into(), vertices, triangles }
+}
+
+/// A cylinder with flat ends.
+pub(super) fn cylinder(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangles {
+    let turn = UnitQuaternion::rotation_between(&Vector3::z(), &(b - a)).unwrap_or_else(UnitQuaternion::identity);
+    let around = |i: u32| {
+        let angle = TAU * f64::from(i) / f64::from(AROUND);
+        turn * Vector3::new(angle.cos(), angle.sin(), 0.0) * radius
+    };
+    let mut vertices = vec![*a, *b];
+    vertices.extend((0..AROUND).flat_map(|i| [a + around(i), b + around(i)]));
+    let side = |i: u32| {
+        let (p, q) = (2 + 2 * i, 2 + 2 * ((i + 1) % AROUND));
+        [[0, q, p], [1, p + 1, q + 1], [p, q, p + 1], [q, q + 1, p + 1]]
+    };
+    (vertices, (0..AROUND).flat_map(side).collect())
+}
+
+pub(super) fn cuboid(center: &Point3<f64>, half: &Vector3<f64>) -> Triangles {
     let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |c: usize| center + Vector3::new(sign(c, 0), sign(c, 1), sign(c, 2)).component_mul(half);
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -43,7 +64,7 @@ fn cuboid(center: &Point3<f64>, half: &Vector3<f64>) -> Triangles {
 }
 
 /// A capsule, or a sphere where `a` is `b`: rings of vertices from the pole beyond `b` to the pole beyond `a`.
-fn round(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangles {
+pub(super) fn round(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangles {
     let axis = b - a;
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
         if axis.z < 0.0 { UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI) } else { UnitQuaternion::identity() }
@@ -93,5 +114,7 @@ mod tests {
             let drawn = surface(&Obstacle { name: "o".into(), shape: shape.unwrap() });
             assert!((volume(&drawn) - expected).abs() < tolerance, "{} for {expected}", volume(&drawn));
         }
+        let drum = named("drum", cylinder(&Point3::new(1.0, 0.0, 0.0), &Point3::new(1.0, 2.0, 0.0), 0.5));
+        assert!((volume(&drum) - 0.5 * PI).abs() < 0.02 * PI, "{}", volume(&drum));
     }
 }

@@ -1,7 +1,9 @@
 //! From the pieces of a judged campaign to its report.
 
-use super::data::{Pieces, ReportData, Shown, worst_first};
+use super::data::{Pieces, ReportData, Shown, length, worst_first};
 use super::facts::{facts, key_numbers, metrics};
+use crate::campaign::CaseNumber;
+use crate::campaign::verdict::named;
 
 /// Puts the pieces of a report together.
 pub fn assemble(pieces: Pieces) -> ReportData {
@@ -11,12 +13,16 @@ pub fn assemble(pieces: Pieces) -> ReportData {
     };
     let mut shown = pieces.shown.clone();
     shown.sort_by_cached_key(order);
+    let is_shown = |case: &CaseNumber| shown.iter().any(|shown| shown.result.case == *case);
+    let named = pieces.asked.or_else(|| named(pieces.setup, pieces.results).map(|named| named.case));
     ReportData {
         title: pieces.setup.robot_name().to_owned(),
         verdict: pieces.verdict.clone(),
         key_numbers: key_numbers(&pieces),
         facts: facts(&pieces),
         drawing: pieces.setup.kind().drawing(&shown.iter().flat_map(Shown::places).collect::<Vec<_>>()),
+        length: length(pieces.setup),
+        opens: named.filter(is_shown).or_else(|| Some(shown.first()?.result.case)),
         deviation_limit: pieces.setup.scenario.deviation_limit(),
         results: worst_first(pieces.results).into_iter().cloned().collect(),
         metrics: metrics(&pieces),

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
-use super::text::attitude;
+use super::text::{attitude, violation};
+use crate::campaign::digits::number;
+use crate::campaign::judge::reference;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
@@ -22,16 +24,38 @@ use crate::trajectory::Track;
 pub struct Metric {
     /// Name: `max deviation`.
     pub name: &'static str,
-    /// Unit.
+    /// Unit that the specification is told in.
     pub unit: &'static str,
-    /// The specification's limit.
+    /// The specification's limit, in [`Self::unit`].
     pub limit: Option<f64>,
     /// Whether smaller is worse.
     pub lower_is_worse: bool,
-    /// One value per case that has one, in the order of the results.
+    /// One per result, in the order of [`ReportData::results`]; `None` where it was not measured.
     ///
     /// In [`Self::unit`].
-    pub values: Vec<f64>,
+    pub values: Vec<Option<f64>>,
+    /// Of random feasible cases that were run alike.
+    pub random: Vec<f64>,
+}
+
+/// The unit that lengths of a verdict are told in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Length {
+    /// `m`, or `mm` of arms.
+    pub unit: &'static str,
+    /// How many of it a metre has.
+    pub in_metre: f64,
+}
+
+/// The moment at which a case is opened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// s.
+    pub at: f64,
+    /// The violation, or the largest deviation, in words.
+    pub told: String,
+    /// The same in a few, to stand beside it.
+    pub mark: String,
 }
 
 /// A case that is shown in full.
@@ -67,6 +91,21 @@ pub struct Shown {
     ///
     /// `None` where none was.
     pub statistics: Option<Statistics>,
+    /// The moment of the gravest violation, or of the largest deviation where none is violated.
+    pub moment: Option<Moment>,
+    /// Its other runs and how far each was from the reference at its stamps, m.
+    pub others: Vec<OtherRun>,
+}
+
+/// Another run of a case that is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherRun {
+    /// Its number.
+    pub run: usize,
+    /// Its motion.
+    pub flown: Track,
+    /// m, one a stamp.
+    pub distances: Vec<f64>,
 }
 
 impl Shown {
@@ -92,6 +131,10 @@ pub struct ReportData {
     pub drawing: Drawing,
     /// Limit of the deviation, m.
     pub deviation_limit: Option<f64>,
+    /// What lengths of the verdict are told in.
+    pub length: Length,
+    /// The case that the verdict names, or else the first that is shown: the page opens with it.
+    pub opens: Option<CaseNumber>,
     /// All results, the worst first.
     pub results: Vec<CaseResult>,
     /// Every measure's values.
@@ -143,6 +186,10 @@ pub struct Pieces<'a> {
     pub coverage: Option<Coverage>,
     /// What random feasible cases came to.
     pub baseline: Option<Baseline>,
+    /// Their results.
+    pub random: &'a [CaseResult],
+    /// The case to open, where that is not the one that the verdict names.
+    pub asked: Option<CaseNumber>,
 }
 
 /// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
@@ -168,9 +215,9 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
     ordered
 }
 
-/// A case in full: `run` is the result's worst one. Distances are those that were judged.
+/// A case in full: `run` is the result's worst one, `others` are drawn beside it. Distances are those that were judged.
 ///
-/// The reference is the scenario's with the run's own draws: the leg being executed, the nearer of it and the one
+/// `case` has its witness: what is followed comes of it. The reference is the scenario's with the run's own draws: the leg being executed, the nearer of it and the one
 /// before, or the path that is followed.
 ///
 /// # Errors
@@ -181,6 +228,7 @@ pub fn shown(
     result: &CaseResult,
     planned: Track,
     run: Option<&Run>,
+    others: &[Run],
 ) -> Result<Shown, JudgementError> {
     let flown = run.and_then(|run| run.outcome.as_ref().ok()).map(|flight| flight.track.clone());
     let flown = flown.filter(|track| !track.is_empty());
@@ -189,22 +237,35 @@ pub fn shown(
     let drawn = vary::apply(&setup.scenario, &result.drawn);
     let Terms { from, corner, .. } = drawn.as_ref().unwrap_or(&setup.scenario).head().terms;
     let followed = match from {
-        DeviationFrom::Path if !setup.has_programs() => setup.kind().followed(case).ok(),
+        DeviationFrom::Path => {
+            let programmed = setup.kind().programs().and_then(|programs| programs.programmed(case));
+            reference(setup, case, programmed.as_ref())
+        }
         _ => None,
     };
-    let reference = match from {
+    let compared = match from {
         DeviationFrom::Leg => Reference::Leg,
         DeviationFrom::NearestLeg => Reference::NearestLeg,
         DeviationFrom::Path => Reference::Path(followed.as_ref().unwrap_or(&planned)),
     };
     let (mut distances, mut judged) = (Vec::new(), Vec::new());
-    if let Some(track) = &flown {
-        let settings = Settings { reference, corner, ..Settings::default() };
-        let everywhere = Settings { corner: 0.0, ..settings };
+    let settings = Settings { reference: compared, corner, ..Settings::default() };
+    let everywhere = Settings { corner: 0.0, ..settings };
+    let along = |track: &Track| -> Result<Vec<f64>, JudgementError> {
         let all = deviation_of_samples(track, &case.waypoints, &everywhere)?;
-        distances = all.into_iter().map(Option::unwrap_or_default).collect();
+        Ok(all.into_iter().map(Option::unwrap_or_default).collect())
+    };
+    if let Some(track) = &flown {
+        distances = along(track)?;
         judged = deviation_of_samples(track, &case.waypoints, &settings)?.iter().map(Option::is_some).collect();
     }
+    // A run that is no track is told by the judge; beside the worst one it is left out.
+    let other = |run: &Run| {
+        let flown = run.outcome.as_ref().ok()?.track.clone();
+        let distances = (!flown.is_empty()).then(|| along(&flown).ok()).flatten()?;
+        Some(OtherRun { run: run.run, flown, distances })
+    };
+    let others = others.iter().filter(|run| run.run != result.run).filter_map(other).collect();
     let counted: Vec<f64> = distances.iter().zip(&judged).filter(|(_, judged)| **judged).map(|(d, _)| *d).collect();
     Ok(Shown {
         result: result.clone(),
@@ -221,7 +282,33 @@ pub fn shown(
         distances,
         judged,
         statistics: Statistics::of(&counted),
+        moment: moment(result, &length(setup)),
+        others,
     })
+}
+
+/// What lengths are told in of the robot of `setup`.
+pub fn length(setup: &Setup) -> Length {
+    let metre = Violation { what: "deviation".into(), value: 1.0, limit: 1.0, unit: "m".into(), at: 0.0, leg: 0 };
+    match setup.kind().programs().map(|programs| programs.in_their_units(metre)) {
+        Some(told) if told.unit == "mm" => Length { unit: "mm", in_metre: told.value },
+        _ => Length { unit: "m", in_metre: 1.0 },
+    }
+}
+
+/// When a case is opened, and why then.
+fn moment(result: &CaseResult, length: &Length) -> Option<Moment> {
+    if let Some(first) = result.violations.first() {
+        let mark = first.event().unwrap_or_else(|| match first.what.as_str() {
+            "deviation" => first.printed().0,
+            what => format!("{} {}", what.replace('-', " "), first.printed().0),
+        });
+        return Some(Moment { at: first.at, told: violation(first), mark });
+    }
+    let measures = result.measures.as_ref()?;
+    let mark = format!("{} {}", number(Some(length.in_metre * measures.max_deviation)), length.unit);
+    let told = format!("largest deviation {mark} at t={:.2} s", measures.t_worst);
+    Some(Moment { at: measures.t_worst, told, mark })
 }
 
 /// The obstacles and keep-outs that stand around the waypoints of `case`, its own ones last.

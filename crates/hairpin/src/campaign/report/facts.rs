@@ -1,10 +1,11 @@
 //! What a report says in words and numbers beside its pictures.
 
-use super::data::{Metric, Pieces};
-use super::text::{cells, leg};
-use crate::campaign::digits::number;
+use super::data::{Metric, Pieces, length, worst_first};
+use super::text::leg;
+use crate::campaign::digits::{self, number};
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::{Asked, SearchMethod};
+use crate::campaign::verdict::{Named, named};
 use crate::campaign::{CaseResult, Status};
 use crate::judgement::{Chosen, Measures, Stress};
 
@@ -16,12 +17,29 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         pieces.results.iter().filter(|r| matches!(r.status, Status::Pass | Status::Fail | Status::Unjudged)).count();
     let failed = pieces.results.iter().filter(|r| r.status == Status::Fail).count();
     let mut numbers = Vec::new();
-    if let Some((worst, measures)) = largest_deviation(pieces.results) {
+    let told = length(pieces.setup);
+    let long = |metres: f64| format!("{} {}", number(Some(told.in_metre * metres)), told.unit);
+    if let Some(Named { case, value, .. }) = named(pieces.setup, pieces.results) {
+        let what = format!("worst: {}", value.what.replace('-', " "));
+        match value.event() {
+            Some(event) => numbers.push(of("worst", event, format!("at t = {:.2} s", value.at))),
+            None => {
+                let (number, limit) = value.printed();
+                numbers.push(of(&what, number, format!("limit {limit}")));
+            }
+        }
+        numbers.push(of("in case", case.to_string(), format!("t = {:.2} s, leg {}", value.at, leg(value.leg))));
+    }
+    // The verdict may name something else, in another case.
+    if let Some((worst, measures)) = largest_deviation(pieces.results)
+        && named(pieces.setup, pieces.results).is_none_or(|named| named.value.what != "deviation")
+    {
         let limit = pieces.setup.scenario.deviation_limit();
-        let limit = limit.map_or("no limit set".into(), |limit| format!("limit {} m", number(Some(limit))));
-        numbers.push(of("largest deviation", format!("{} m", number(Some(measures.max_deviation))), limit));
-        let place = format!("t = {} s, leg {}", number(Some(measures.t_worst)), leg(measures.leg_worst));
-        numbers.push(of("in case", cells(worst)[0].clone(), place));
+        let limit = limit.map_or("no limit set".into(), |metres| {
+            format!("limit {} {}", digits::limit(Some(told.in_metre * metres)), told.unit)
+        });
+        let place = format!("case {}, t = {:.2} s, {limit}", worst.case, measures.t_worst);
+        numbers.push(of("largest deviation", long(measures.max_deviation), place));
     }
     if let Some(random) = &pieces.baseline {
         let setup = pieces.setup;
@@ -111,12 +129,19 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
 /// specification has them.
 pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
     let limits = pieces.setup.scenario.head().terms.limits;
-    let metric = |name, unit, limit, of: fn(&Measures) -> Option<f64>| Metric {
-        name,
-        unit,
-        limit,
-        lower_is_worse: matches!(name, "clearance" | "tip-over margin"),
-        values: pieces.results.iter().filter_map(|result| result.measures.as_ref().and_then(of)).collect(),
+    let told = length(pieces.setup);
+    let ordered = worst_first(pieces.results);
+    let metric = |name, unit, limit: Option<f64>, of: fn(&Measures) -> Option<f64>| {
+        let (unit, factor) = if unit == "m" { (told.unit, told.in_metre) } else { (unit, 1.0) };
+        let value = |result: &CaseResult| Some(factor * result.measures.as_ref().and_then(of)?);
+        Metric {
+            name,
+            unit,
+            limit: limit.map(|limit| factor * limit),
+            lower_is_worse: matches!(name, "clearance" | "tip-over margin"),
+            values: ordered.iter().map(|result| value(result)).collect(),
+            random: pieces.random.iter().filter_map(value).collect(),
+        }
     };
     let all = vec![
         metric("max deviation", "m", limits.deviation, |m| Some(m.max_deviation)),
@@ -131,5 +156,5 @@ pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
         metric("saturation", "%", None, |m| m.saturation_share.map(|share| 100.0 * share)),
         metric("joint effort", "rad²/s³", None, |m| m.joint_effort),
     ];
-    all.into_iter().filter(|metric| !metric.values.is_empty()).collect()
+    all.into_iter().filter(|metric| metric.values.iter().any(Option::is_some)).collect()
 }

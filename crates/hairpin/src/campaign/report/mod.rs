@@ -6,5 +6,5 @@ mod facts;
 mod text;
 
 pub use assemble::assemble;
-pub use data::{Metric, Pieces, ReportData, Shown, shown, surroundings, worst_first};
-pub use text::{COLUMNS, attitude, cells, leg, violation};
+pub use data::{Length, Metric, Moment, OtherRun, Pieces, ReportData, Shown, length, shown, surroundings, worst_first};
+pub use text::{COLUMNS, attitude, cells, cells_in, columns_in, leg, violation};

@@ -2,6 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::data::Length;
 use crate::campaign::CaseResult;
 use crate::campaign::digits::{number, percent};
 use crate::judgement::Violation;
@@ -61,15 +62,31 @@ pub const COLUMNS: [&str; 11] = [
 ///
 /// What was not measured is a dash. Cases are numbered with four digits, saturation is a share in percent.
 pub fn cells(result: &CaseResult) -> [String; 11] {
+    cells_in(&Length { unit: "m", in_metre: 1.0 }, result)
+}
+
+/// [`COLUMNS`] where lengths are told in another unit.
+pub fn columns_in(length: &Length) -> [String; 11] {
+    COLUMNS.map(|name| match name.strip_suffix(" m") {
+        Some(what) => format!("{what} {}", length.unit),
+        None => name.to_owned(),
+    })
+}
+
+/// One row under [`columns_in`].
+pub fn cells_in(length: &Length, result: &CaseResult) -> [String; 11] {
     let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
+    let long = |value: fn(&crate::judgement::Measures) -> f64| {
+        number(result.measures.as_ref().map(|measures| length.in_metre * value(measures)))
+    };
     [
         result.case.to_string(),
         result.status.word().into(),
-        of(|m| m.max_deviation),
+        long(|m| m.max_deviation),
         of(|m| m.t_worst),
         result.measures.as_ref().map_or("–".into(), |m| leg(m.leg_worst)),
-        of(|m| m.mean_deviation),
-        of(|m| m.max_overshoot()),
+        long(|m| m.mean_deviation),
+        long(|m| m.max_overshoot()),
         of(|m| m.max_acceleration),
         percent(result.measures.as_ref().and_then(|m| m.saturation_share)),
         of(|m| m.total_time),
