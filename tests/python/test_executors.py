@@ -38,7 +38,7 @@ def test_another_simulator_flies_a_campaign(name, tmp_path):
     assert answer["counts"]["cases"] == answer["counts"]["pass"] == 1
     subprocess.run([HAIRPIN, "export", str(out), "--to", "csv"], check=True, capture_output=True)
     # Of what was flown only the rows are kept where it bends: an export has all samples again.
-    flight = pv.read_csv(out / "0000-0.csv").to_pydict()
+    flight = pv.read_csv(out / "export" / "0000-0.csv").to_pydict()
     times, legs = flight["t"], flight["leg"]
     assert len(times) > 200 and times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
     assert legs[0] == 0 and legs[-1] == 2 and all(b >= a for a, b in zip(legs, legs[1:]))

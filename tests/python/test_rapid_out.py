@@ -59,7 +59,7 @@ def declarations(lines):
 
 def test_programs_are_what_controllers_take(folder):
     for name in ("0000.mod", "0000_slow.mod", "0001.mod"):
-        lines = module(folder / name)
+        lines = module(folder / "export" / name)
         found = declarations(lines)
         for kind, value in found.values():
             if kind == "robtarget":
@@ -86,11 +86,11 @@ def test_programs_are_what_controllers_take(folder):
 
 
 def test_a_program_file_names_its_module(folder):
-    assert "<Module>0000.mod</Module>" in (folder / "0000.pgf").read_text()
+    assert "<Module>0000.mod</Module>" in (folder / "export" / "0000.pgf").read_text()
 
 
 def test_every_arc_is_clocked_between_standstills(folder):
-    lines = module(folder / "arc_clock.mod")
+    lines = module(folder / "export" / "arc_clock.mod")
     driven = [re.fullmatch(rf"clock_arc ([0-9]+),([0-9]+),({NAME});", line) for line in lines if line.startswith("clock_arc")]
     assert driven and all(driven)
     found = declarations(lines)
