@@ -3,10 +3,13 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use hairpin::campaign::{self, Case, CaseResult, Comparison};
+use hairpin::campaign::report::{self, Beside, OtherRun, Pieces, ReportData, Shown};
+use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Comparison};
+use hairpin::judgement::Verdict;
 
 use crate::Problem;
 use crate::differences::differences;
+use crate::execute::{run_with_motion, why_lost};
 use crate::names::listed;
 use crate::work::{Work, open_to_read};
 
@@ -50,6 +53,88 @@ pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem
     Ok(Compared { comparison, differences })
 }
 
+/// Cases of a comparison that are drawn at most.
+const DRAWN: usize = 200;
+
+/// Writes the page of two campaigns that were [`compare`]d into `file`: the runs of B over those of A, newly failing
+/// first, then what got worse the most.
+///
+/// # Errors
+/// Runs that are not to be had any more; a file that cannot be read or written.
+pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Result<(), Problem> {
+    let (before, after) = (open_to_read(a)?, open_to_read(b)?);
+    let old: HashMap<CaseNumber, (Case, CaseResult)> =
+        judged(&before, a)?.into_iter().map(|pair| (pair.0.number, pair)).collect();
+    let mut new = judged(&after, b)?;
+    new.retain(|(case, _)| {
+        let same = |was: &Case| was.waypoints == case.waypoints && was.environment == case.environment;
+        old.get(&case.number).is_some_and(|(was, _)| was.seed == case.seed && same(was))
+    });
+    let failing = |case: CaseNumber| compared.newly_failing.contains(&case.to_string());
+    let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
+    let worse = |result: &CaseResult| deviation(result) - old.get(&result.case).map_or(0.0, |(_, was)| deviation(was));
+    new.sort_by(|(_, x), (_, y)| {
+        failing(y.case).cmp(&failing(x.case)).then(worse(y).total_cmp(&worse(x))).then(x.case.cmp(&y.case))
+    });
+    let order: Vec<CaseNumber> = new.iter().map(|(case, _)| case.number).collect();
+    let mut in_full = Vec::new();
+    for (case, result) in new.iter().take(DRAWN) {
+        let Some((case_before, was)) = old.get(&case.number) else { continue };
+        let mut full = full(&after, case, result)?;
+        let earlier = self::full(&before, case_before, was)?;
+        let told = earlier.moment.as_ref().map_or(was.ended.as_str(), |moment| moment.told.as_str());
+        full.environment.push(format!("A: {}, {told}", was.status.word()));
+        full.others = (earlier.flown.map(|flown| OtherRun { run: was.run, flown, distances: earlier.distances }))
+            .into_iter()
+            .collect();
+        in_full.push(full);
+    }
+    let (cases, results): (Vec<Case>, Vec<CaseResult>) = new.into_iter().unzip();
+    let was: Vec<CaseResult> = order.iter().filter_map(|case| Some(old.get(case)?.1.clone())).collect();
+    let told = after.told()?;
+    let code = u8::from(!compared.newly_failing.is_empty());
+    let verdict = Verdict::of(&format!("{}: A {}, B {}", compared.sentence(), a.display(), b.display()), code);
+    let data = report::assemble(Pieces {
+        setup: &told,
+        cases: &cases,
+        results: &results,
+        tally: &after.folder.read_tally()?,
+        verdict,
+        assumptions: vec!["A and B are judged each by its own folder's spec.".into()],
+        shown: in_full,
+        frame: Vec::new(),
+        influences: Vec::new(),
+        coverage: None,
+        baseline: None,
+        random: &was,
+        asked: None,
+    });
+    let number = |label: &str, count: usize, note: String| [label.to_owned(), count.to_string(), note];
+    let data = ReportData {
+        beside: Beside { runs: "A, before", cases: "A, before" },
+        key_numbers: vec![
+            number("newly failing", compared.newly_failing.len(), compared.newly_failing.join(", ")),
+            number("worse", compared.worse, format!("of {} pairs", compared.pairs)),
+            number("better", compared.better, format!("{} unchanged", compared.unchanged)),
+            number("newly passing", compared.newly_passing.len(), compared.newly_passing.join(", ")),
+        ],
+        ..report::in_order(&data, &order)
+    };
+    Ok(hairpin_formats::report::write(file, &data)?)
+}
+
+/// A case with its worst run, where that is to be had.
+fn full(work: &Work, case: &Case, result: &CaseResult) -> Result<Shown, Problem> {
+    let mut case = case.clone();
+    work.folder.read_witness(&mut case)?;
+    let planned = work.folder.read_planned(case.number)?;
+    let run = match why_lost(work, &case, result.run)? {
+        Some(_) => None,
+        None => run_with_motion(work, &case, result.run)?,
+    };
+    report::shown(&work.told()?, &case, result, planned, run.as_ref(), &[]).map_err(Problem::input)
+}
+
 /// Every case with its result.
 fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> {
     let cases = work.folder.read_cases_without_profiles()?;
@@ -84,6 +169,10 @@ mod tests {
         let compared = compare(&folder, &folder, 1e-6).unwrap();
         assert_eq!((compared.comparison.pairs, compared.differences.len()), (2, 0));
         assert!(!compared.comparison.regresses() && compared.comparison.newly_failing.is_empty());
+        let file = folder.with_file_name("compared.html");
+        write_page(&folder, &folder, &compared.comparison, &file).unwrap();
+        let page = std::fs::read_to_string(file).unwrap();
+        assert!(page.contains("A, before") && page.contains("A: fail, "), "both runs of each case");
     }
 
     #[test]

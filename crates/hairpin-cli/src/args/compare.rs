@@ -23,6 +23,9 @@ pub(crate) struct Compare {
     /// last digit
     #[arg(long, value_name = "M", default_value_t = 1e-6, value_parser = super::numbers::not_negative, allow_negative_numbers = true)]
     pub(crate) tolerance_m: f64,
+    /// Write a page with the runs of B over those of A, newly failing cases first
+    #[arg(long, value_name = "FILE")]
+    pub(crate) page: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

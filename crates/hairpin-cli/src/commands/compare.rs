@@ -3,7 +3,7 @@
 use hairpin::campaign::Comparison;
 use hairpin::campaign::digits::number;
 use hairpin_jobs::Problem;
-use hairpin_jobs::compare::{Compared, compare, unpaired};
+use hairpin_jobs::compare::{Compared, compare, unpaired, write_page};
 use hairpin_jobs::names::listed;
 use serde_json::json;
 
@@ -21,6 +21,9 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         (false, true) => FINDING,
         (false, false) => DONE,
     };
+    if let Some(file) = &asked.page {
+        write_page(&asked.a, &asked.b, &compared, file)?;
+    }
     if asked.json {
         let mut object = json!(compared);
         object["verdict"] = json!(compared.sentence());

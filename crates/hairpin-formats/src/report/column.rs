@@ -23,6 +23,13 @@ pub(super) fn counts(values: impl IntoIterator<Item = u32>) -> Value {
     packed(0.0, 1.0, values.into_iter().map(|value| u16::try_from(value).unwrap_or(NOTHING)))
 }
 
+/// To so many decimals, without minus zeros.
+pub(super) fn round(value: f64, digits: i32) -> f64 {
+    let scale = 10_f64.powi(digits);
+    let rounded = (value * scale).round() / scale;
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
 fn packed(offset: f64, scale: f64, codes: impl Iterator<Item = u16>) -> Value {
     let bytes: Vec<u8> = codes.flat_map(u16::to_le_bytes).collect();
     json!([offset, scale, STANDARD.encode(bytes)])

@@ -13,6 +13,7 @@ mod progress;
 mod regression;
 mod relief;
 mod setup;
+mod solids;
 mod spread;
 mod svg;
 mod worst;

@@ -37,8 +37,11 @@ pub(super) fn distributions(data: &ReportData) -> String {
         .collect();
     let random = data.metrics.iter().any(|metric| !metric.random.is_empty());
     let (random, beside) = match random {
-        true => (" (grey: random feasible cases)", " Striped bars are the random feasible cases beside them."),
-        false => ("", ""),
+        true => (
+            format!(" (grey: {})", data.beside.cases),
+            format!(" Grey bars: {}, the shares of as many as there are.", data.beside.cases),
+        ),
+        false => (String::new(), String::new()),
     };
     let names: Vec<String> = data.metrics.iter().map(|metric| format!("{} {}", metric.name, metric.unit)).collect();
     let drawn: BTreeSet<String> =

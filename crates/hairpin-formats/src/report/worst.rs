@@ -70,9 +70,9 @@ const COMMANDS: &str = "<span>copy the command:</span><button type=\"button\" da
 /// Under the picture, never over a curve.
 fn legend(data: &ReportData) -> String {
     let others = if data.shown.iter().any(|shown| !shown.others.is_empty()) {
-        " <span class=\"key other\"></span>other runs"
+        format!(" <span class=\"key other\"></span>{}", data.beside.runs)
     } else {
-        ""
+        String::new()
     };
     format!(
         "<p class=\"keys\"><span class=\"key scale\"></span>{}, deviation 0 to <span id=\"scale-top\">–</span> \

@@ -86,7 +86,7 @@ function drawSeries(place, c, data, seek) {
   /** @typedef {{ name: string, look: string, t: ArrayLike<number>, y: ArrayLike<number> }} Curve */
   /** @type {{ title: string, curves: Curve[], limit: number | null, zero: boolean }[]} */
   const panels = [{ title: `deviation ${data.unit}`, limit: data.limit, zero: true, curves: [
-    ...c.runs.map((run, i) => ({ name: i ? "" : "other runs", look: "other", t: run.t, y: run.d })),
+    ...c.runs.map((run, i) => ({ name: i ? "" : data.beside, look: "other", t: run.t, y: run.d })),
     ...(f.judged.includes(0) ? [{ name: "in corners (overshoot judges)", look: "corner", t: f.t, y: corner }] : []),
     { name: "this run", look: "flown", t: f.t, y: judged },
   ] }, { title: "speed m/s", limit: null, zero: true, curves: [{ name: "", look: "plan", t: f.t, y: f.v }] }];

@@ -413,7 +413,7 @@ function listen() {
   on("fit", "click", () => fit());
   for (const [id, up] of /** @type {[string, number][]} */ ([["from-above", 1.57], ["from-side", 0]])) on(id, "click", () => fit(-Math.PI / 2, up));
   on("ghost", "change", (e) => { state.ghost = e.checked; request(); });
-  on("follow", "change", (e) => { state.follow = e.checked; if (scene && e.checked && data.robot) scene.distance = Math.min(scene.distance, 14 * data.robot.radius); request(); });
+  on("follow", "change", (e) => { state.follow = e.checked; if (scene && e.checked && data.robot) scene.distance = Math.min(scene.distance, 9 * data.robot.radius); request(); });
   on("high", "change", (e) => { state.high = Number(e.value); build(); fit(); });
   on("png", "click", picture);
   addEventListener("hashchange", () => { const index = data.cases.findIndex((c) => "#" + c.id === location.hash); if (index >= 0 && index !== state.index) select(index); });

@@ -215,7 +215,7 @@ class Scene {
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0); pen.clearRect(0, 0, this.width, this.height); pen.lineJoin = "round";
     for (const { p, text, look } of this.parts.words) {
       const at = this.project(p);
-      if (!at) continue;
+      if (!at || at[0] < 0 || at[0] > this.width || at[1] < 0 || at[1] > this.height) continue;
       const [x, y] = at, small = look === "tick";
       pen.strokeStyle = theme.paper; pen.fillStyle = small ? theme.soft : theme.ink;
       if (look === "point" || look === "worst") {

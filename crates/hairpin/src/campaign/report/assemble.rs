@@ -1,7 +1,8 @@
 //! From the pieces of a judged campaign to its report.
 
-use super::data::{Pieces, ReportData, Shown, length, worst_first};
+use super::data::{Beside, Metric, Pieces, ReportData, Shown, worst_first};
 use super::facts::{facts, key_numbers, metrics};
+use super::length::length;
 use crate::campaign::CaseNumber;
 use crate::campaign::verdict::named;
 
@@ -22,6 +23,7 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         facts: facts(&pieces),
         drawing: pieces.setup.kind().drawing(&shown.iter().flat_map(Shown::places).collect::<Vec<_>>()),
         length: length(pieces.setup),
+        beside: Beside::default(),
         opens: named.filter(is_shown).or_else(|| Some(shown.first()?.result.case)),
         deviation_limit: pieces.setup.scenario.deviation_limit(),
         results: worst_first(pieces.results).into_iter().cloned().collect(),
@@ -36,5 +38,23 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         stress: pieces.setup.scenario.search().sought(),
         curves: pieces.tally.curves.clone(),
         rounds: pieces.tally.rounds.clone(),
+    }
+}
+
+/// The same of `cases` alone, in their order; the page opens with the first.
+pub fn in_order(data: &ReportData, cases: &[CaseNumber]) -> ReportData {
+    let place = |case: &CaseNumber| data.results.iter().position(|result| result.case == *case);
+    let places: Vec<usize> = cases.iter().filter_map(place).collect();
+    let metrics = data
+        .metrics
+        .iter()
+        .map(|metric| Metric { values: places.iter().map(|place| metric.values[*place]).collect(), ..metric.clone() });
+    let full = cases.iter().filter_map(|case| data.shown.iter().find(|shown| shown.result.case == *case));
+    ReportData {
+        opens: cases.first().copied(),
+        metrics: metrics.collect(),
+        results: places.iter().map(|place| data.results[*place].clone()).collect(),
+        shown: full.cloned().collect(),
+        ..data.clone()
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
+use super::length::{Length, length};
 use super::text::{attitude, violation};
 use crate::campaign::digits::number;
 use crate::campaign::judge::reference;
@@ -38,13 +39,19 @@ pub struct Metric {
     pub random: Vec<f64>,
 }
 
-/// The unit that lengths of a verdict are told in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Length {
-    /// `m`, or `mm` of arms.
-    pub unit: &'static str,
-    /// How many of it a metre has.
-    pub in_metre: f64,
+/// What stands beside the runs and the cases of a report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Beside {
+    /// Beside the run that is shown of a case.
+    pub runs: &'static str,
+    /// Beside the cases in distributions.
+    pub cases: &'static str,
+}
+
+impl Default for Beside {
+    fn default() -> Self {
+        Self { runs: "other runs", cases: "random feasible cases" }
+    }
 }
 
 /// The moment at which a case is opened.
@@ -135,6 +142,8 @@ pub struct ReportData {
     pub length: Length,
     /// The case that the verdict names, or else the first that is shown: the page opens with it.
     pub opens: Option<CaseNumber>,
+    /// What stands beside them.
+    pub beside: Beside,
     /// All results, the worst first.
     pub results: Vec<CaseResult>,
     /// Every measure's values.
@@ -285,15 +294,6 @@ pub fn shown(
         moment: moment(result, &length(setup)),
         others,
     })
-}
-
-/// What lengths are told in of the robot of `setup`.
-pub fn length(setup: &Setup) -> Length {
-    let metre = Violation { what: "deviation".into(), value: 1.0, limit: 1.0, unit: "m".into(), at: 0.0, leg: 0 };
-    match setup.kind().programs().map(|programs| programs.in_their_units(metre)) {
-        Some(told) if told.unit == "mm" => Length { unit: "mm", in_metre: told.value },
-        _ => Length { unit: "m", in_metre: 1.0 },
-    }
 }
 
 /// When a case is opened, and why then.

@@ -1,6 +1,7 @@
 //! What a report says in words and numbers beside its pictures.
 
-use super::data::{Metric, Pieces, length, worst_first};
+use super::data::{Metric, Pieces, worst_first};
+use super::length::length;
 use super::text::leg;
 use crate::campaign::digits::{self, number};
 use crate::campaign::kind::{Facts, word};

@@ -3,8 +3,10 @@
 mod assemble;
 mod data;
 mod facts;
+mod length;
 mod text;
 
-pub use assemble::assemble;
-pub use data::{Length, Metric, Moment, OtherRun, Pieces, ReportData, Shown, length, shown, surroundings, worst_first};
+pub use assemble::{assemble, in_order};
+pub use data::{Beside, Metric, Moment, OtherRun, Pieces, ReportData, Shown, shown, surroundings, worst_first};
+pub use length::{Length, length};
 pub use text::{COLUMNS, attitude, cells, cells_in, columns_in, leg, violation};

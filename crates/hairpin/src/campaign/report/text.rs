@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::data::Length;
+use super::length::Length;
 use crate::campaign::CaseResult;
 use crate::campaign::digits::{number, percent};
 use crate::judgement::Violation;
