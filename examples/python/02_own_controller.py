@@ -21,7 +21,9 @@ class Pd:
 
 
 place = tempfile.mkdtemp()
-cases = hairpin.generate("demo-quadrotor", out=f"{place}/ours", values={"generate.search.cases": 3, "execute.repeat": 1, "execute.baseline": 0})
+cases = hairpin.generate(
+    "demo-quadrotor", out=f"{place}/ours", values={"generate.search.cases": 3, "execute.repeat": 1, "execute.baseline": 0}
+)
 ours = cases.execute().judge()
 own = cases.execute(controller=Pd, out=f"{place}/own").judge()
 for campaign in (own, ours):

@@ -21,7 +21,9 @@ def test_slow_keeps_within_five_metres(hairpin_stress):
 
 
 if __name__ == "__main__":
-    found = hairpin.stress(hairpin.Scenario("demo-quadrotor", robot=ROBOT), controller=slow, out=tempfile.mkdtemp() + "/out", values=FEW)
+    found = hairpin.stress(
+        hairpin.Scenario("demo-quadrotor", robot=ROBOT), controller=slow, out=tempfile.mkdtemp() + "/out", values=FEW
+    )
     print(found.verdict)
     print(found.worst.id, found.worst.max_deviation_m)
     print(found.shrink(budget=20))

@@ -1,4 +1,5 @@
 """Callables of the process: scores, targets, controllers, executors and judges; what goes wrong in them; who can go on."""
+
 import os
 import subprocess
 import sys
@@ -24,7 +25,12 @@ def pd_file():
 
 def gentle(t_s, state, reference):
     target = reference["waypoints_m"][min(reference["next"], len(reference["waypoints_m"]) - 1)]
-    return {"a_m_s2": [GAIN * np.clip(goal - place, -2.0, 2.0) - 2.5 * speed for goal, place, speed in zip(target, state["p_m"], state["v_m_s"], strict=True)]}
+    return {
+        "a_m_s2": [
+            GAIN * np.clip(goal - place, -2.0, 2.0) - 2.5 * speed
+            for goal, place, speed in zip(target, state["p_m"], state["v_m_s"], strict=True)
+        ]
+    }
 
 
 class Counting:
@@ -95,7 +101,11 @@ def test_a_run_that_raises_is_its_own_failure(cases, tmp_path):
     assert flown.exit_code == 4 and "no such gain" in flown.verdict
     judged = flown.judge()
     assert judged.exit_code == 4 and "LookupError: no such gain" in judged.worst.message
-    for answer, told in ((lambda *_: {"a_m_s2": [np.nan, 0, 0]}, "finite"), (lambda *_: 3.0, "dictionary"), (lambda *_: {"b": [0, 0, 0]}, "must be")):
+    for answer, told in (
+        (lambda *_: {"a_m_s2": [np.nan, 0, 0]}, "finite"),
+        (lambda *_: 3.0, "dictionary"),
+        (lambda *_: {"b": [0, 0, 0]}, "must be"),
+    ):
         wrong = cases.execute(controller=answer, out=tmp_path / told)
         assert wrong.exit_code == 4 and told in wrong.verdict
 
@@ -112,7 +122,10 @@ def sharp(leg):
 def test_vectorised_scores_find_what_single_ones_and_files_do(tmp_path):
     file = tmp_path / "sharp.py"
     file.write_text("def score(leg):\n    return leg['v_in_m_s'] * leg['turn_rad']\n")
-    found = [hairpin.generate("demo-quadrotor", score=score, out=tmp_path / str(n), values=SMALL) for n, score in enumerate((sharp_many, sharp, f"python:{file}"))]
+    found = [
+        hairpin.generate("demo-quadrotor", score=score, out=tmp_path / str(n), values=SMALL)
+        for n, score in enumerate((sharp_many, sharp, f"python:{file}"))
+    ]
     ways = [[case.waypoints_m.tolist() for case in campaign] for campaign in found]
     assert ways[0] == ways[1] == ways[2] and found[0].cases[0].score > 0.0
 
@@ -149,7 +162,12 @@ def straight(mission):
         legs += [leg] * samples
     rows.append(points[-1])
     legs.append(len(points) - 2)
-    return {"t_s": np.arange(len(rows)) * step, "p_m": np.array(rows), "q_wxyz": np.tile([1.0, 0, 0, 0], (len(rows), 1)), "leg": legs}
+    return {
+        "t_s": np.arange(len(rows)) * step,
+        "p_m": np.array(rows),
+        "q_wxyz": np.tile([1.0, 0, 0, 0], (len(rows), 1)),
+        "leg": legs,
+    }
 
 
 def test_executors_are_told_as_programs_are(cases, tmp_path):
@@ -163,13 +181,19 @@ def test_executors_are_told_as_programs_are(cases, tmp_path):
     failed = cases.execute(executor=breaks, out=tmp_path / "failed")
     assert failed.exit_code == 4 and "rotor lost" in failed.verdict
     done = subprocess.run([BIN, "execute", tmp_path / "out", "--allow-commands"], capture_output=True, text=True)
-    assert done.returncode == 4 and "lives in a Python process" in done.stdout + done.stderr + "".join(log.read_text() for log in (tmp_path / "out").glob("*.log"))
+    assert done.returncode == 4 and "lives in a Python process" in done.stdout + done.stderr + "".join(
+        log.read_text() for log in (tmp_path / "out").glob("*.log")
+    )
 
 
 def test_own_dynamics_meet_a_closed_form():
     # x'' = 1 from rest: x(t) = t²/2, exactly what a Runge-Kutta step of order 4 gives.
     falls = hairpin.dynamics(
-        lambda t, x, u: [x[1], u[0]], lambda t, x, to: [1.0], start=lambda mission: [0.0, 0.0], pose=lambda x: [x[0], 0.0, 0.0], step_s=0.1
+        lambda t, x, u: [x[1], u[0]],
+        lambda t, x, to: [1.0],
+        start=lambda mission: [0.0, 0.0],
+        pose=lambda x: [x[0], 0.0, 0.0],
+        step_s=0.1,
     )
     flown = falls({"waypoints_m": [[0, 0, 0], [2, 0, 0]], "accept_m": 0.05, "time_limit_s": 9.0})
     np.testing.assert_allclose(flown["p_m"][:, 0], 0.5 * flown["t_s"] ** 2, atol=1e-12)

@@ -1,4 +1,5 @@
 """The Python package against the command: the same results and bytes; interruption; errors with their parts."""
+
 import os
 import signal
 import subprocess
@@ -28,7 +29,11 @@ def command(*words, code=None):
 
 def contents(folder):
     files = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
-    return {str(path.relative_to(folder)): path.read_bytes() for path in files if path.name not in FREE and not path.name.startswith("timing")}
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in files
+        if path.name not in FREE and not path.name.startswith("timing")
+    }
 
 
 @pytest.fixture(scope="module")

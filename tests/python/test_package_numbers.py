@@ -1,4 +1,5 @@
 """`steer` and `max_load` of the package against the command, and against what they must be."""
+
 import csv
 import itertools
 import json
@@ -42,7 +43,9 @@ def test_many_are_what_the_command_answers(tmp_path):
         print("id,x,y,yaw,k0,kf", file=file)
         for number, row in enumerate(asked):
             print(number, *(repr(float(value)) for value in row), sep=",", file=file)
-    done = subprocess.run([BIN, "steer", "generic", "--queries", table, "--out", tmp_path / "r.csv", "--json"], capture_output=True, text=True)
+    done = subprocess.run(
+        [BIN, "steer", "generic", "--queries", table, "--out", tmp_path / "r.csv", "--json"], capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     drives = hairpin.steer("generic", queries=asked)
     rows = list(csv.DictReader(open(tmp_path / "r.csv")))
@@ -55,7 +58,9 @@ def test_many_are_what_the_command_answers(tmp_path):
         if drive.segments:
             theirs = [[float(row[f"a{power}"] or 0.0) for power in range(6)] for row in of_query]
             np.testing.assert_allclose(np.asarray(drive.curvature), theirs, rtol=1e-9, atol=1e-12)
-            np.testing.assert_allclose([s.length_m for s in drive.segments], [float(row["length_m"] or 0.0) for row in of_query], rtol=1e-9)
+            np.testing.assert_allclose(
+                [s.length_m for s in drive.segments], [float(row["length_m"] or 0.0) for row in of_query], rtol=1e-9
+            )
     assert len({drive.status for drive in drives}) > 1
     one = hairpin.steer("generic", **dict(zip(("x", "y", "yaw", "k0", "kf"), asked[0], strict=True)))
     assert (one.status, one.length_m) == (drives[0].status, drives[0].length_m) or one.status == "infeasible"
@@ -122,7 +127,11 @@ def test_the_heaviest_path_is_that_of_enumeration_and_of_the_command(tmp_path):
 def test_no_arc_and_bad_matrices():
     nothing = hairpin.max_load([[np.nan, np.nan], [np.nan, np.nan]], start=0, end=1)
     assert nothing.path is None and nothing.cost is None and nothing.feasible is False
-    for matrix, field in (([[0, -1.0], [1, 0]], "matrix[0, 1]"), (np.zeros((2, 3)), "matrix"), ([[0, np.inf], [1, 0]], "matrix[0, 1]")):
+    for matrix, field in (
+        ([[0, -1.0], [1, 0]], "matrix[0, 1]"),
+        (np.zeros((2, 3)), "matrix"),
+        ([[0, np.inf], [1, 0]], "matrix[0, 1]"),
+    ):
         with pytest.raises(ValueError) as found:
             hairpin.max_load(matrix)
         assert found.value.field == field

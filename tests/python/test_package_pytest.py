@@ -1,4 +1,5 @@
 """The pytest plugin, seen from outside; examples, docstrings and stubs of the package."""
+
 import doctest
 import importlib
 import importlib.metadata
@@ -22,7 +23,11 @@ def run(place, *words):
     installed = any(entry.value == "hairpin.pytest_plugin" for entry in importlib.metadata.entry_points(group="pytest11"))
     plugin = [] if installed else ["-p", "hairpin.pytest_plugin"]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", *plugin, "-q", "-rA", *map(str, words)], cwd=place, capture_output=True, text=True, timeout=120
+        [sys.executable, "-m", "pytest", *plugin, "-q", "-rA", *map(str, words)],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
     return done.returncode, done.stdout + done.stderr
 
@@ -42,7 +47,13 @@ def test_each_case_is_a_test(place):
 def test_a_failure_has_both_numbers_and_the_repro(place):
     one_of_two = (*SMALL, "--hairpin-set", "spec.deviation.max_m=4.5")
     code, said = run(place, "--hairpin", "scenario.toml", *one_of_two)
-    assert code == 1 and "1 failed, 1 passed" in said and "4.73 m > 4.50 m" in said and "hairpin replay" in said and "repro/0001.json" in said, said
+    assert (
+        code == 1
+        and "1 failed, 1 passed" in said
+        and "4.73 m > 4.50 m" in said
+        and "hairpin replay" in said
+        and "repro/0001.json" in said
+    ), said
     code, said = run(place, "--hairpin", "scenario.toml", *one_of_two, "--lf")
     assert code == 1 and "1 failed" in said and "passed" not in said and "scenario.toml::0000" not in said, said
     both = (*SMALL, "--hairpin-set", "spec.deviation.max_m=0.5")
@@ -107,14 +118,26 @@ def test_docstrings_tell_what_happens():
 
 
 def test_every_public_name_has_a_docstring():
-    assert [name for name in hairpin.__all__ if not (getattr(hairpin, name).__doc__ or name in ("STATUSES", "__version__", "ControllerLike", "Progress"))] == []
+    assert [
+        name
+        for name in hairpin.__all__
+        if not (getattr(hairpin, name).__doc__ or name in ("STATUSES", "__version__", "ControllerLike", "Progress"))
+    ] == []
 
 
 def test_stubs_are_true():
     pytest.importorskip("mypy")
     path = os.pathsep.join(sys.path)
     done = subprocess.run(
-        [sys.executable, "-m", "mypy.stubtest", "hairpin", "--ignore-disjoint-bases", "--mypy-config-file", str(ROOT / "pyproject.toml")],
+        [
+            sys.executable,
+            "-m",
+            "mypy.stubtest",
+            "hairpin",
+            "--ignore-disjoint-bases",
+            "--mypy-config-file",
+            str(ROOT / "pyproject.toml"),
+        ],
         capture_output=True,
         text=True,
         cwd=Path(hairpin.__file__).parents[1],

@@ -26,8 +26,8 @@ pub(crate) struct Wanted {
     time_limit_s: Option<f64>,
 }
 
-/// The heaviest path through the `points`·`points` numbers of `table`, row = from, NaN: no arc. The job reads a table of
-/// text, in which every number has the digits that make it itself, so that costs are the same whole numbers.
+/// The heaviest path through the `points`·`points` numbers of `table`, row = from, NaN: no arc. The job reads a table
+/// of text, in which every number has the digits that make it itself, so that costs are the same whole numbers.
 #[pyfunction]
 pub(crate) fn max_load<'py>(
     py: Python<'py>,

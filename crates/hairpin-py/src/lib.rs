@@ -1,5 +1,5 @@
-//! The Python door: what Python calls becomes the settings of a job, and what came of it plain objects. No algorithm and
-//! no words of its own; what is comfortable about the package lies in its Python sources, `python/hairpin`.
+//! The Python door: what Python calls becomes the settings of a job, and what came of it plain objects. No algorithm
+//! and no words of its own; what is comfortable about the package lies in its Python sources, `python/hairpin`.
 
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 

@@ -16,7 +16,20 @@ from hairpin._campaign import Campaign, Case, Comparison, Judged, Report, Run, S
 from hairpin._errors import ExecutorError, InputError, Interrupted, WriteError
 from hairpin._executors import adversary, dynamics
 from hairpin._heaviest import MaxLoad, max_load
-from hairpin._jobs import Explanation, Model, compare, execute, explain, generate, judge, learn, open_campaign, shrink, stress, verify
+from hairpin._jobs import (
+    Explanation,
+    Model,
+    compare,
+    execute,
+    explain,
+    generate,
+    judge,
+    learn,
+    open_campaign,
+    shrink,
+    stress,
+    verify,
+)
 from hairpin._live import live
 from hairpin._native import __version__
 from hairpin._scenario import Robot, Scenario, World

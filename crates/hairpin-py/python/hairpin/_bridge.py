@@ -41,7 +41,9 @@ def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
     with _lock:
         if PLACE not in os.environ or os.environ.get(_OWNER) != str(os.getpid()):
             _begin_to_listen()
-        name = next(name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors)
+        name = next(
+            name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors
+        )
         _executors[name] = executor
     try:
         yield f"{shlex.quote(sys.executable)} -m hairpin._relay {name}"

@@ -74,7 +74,12 @@ def bring(
             brought.sets.append((key, toml_value(given)))
             continue
         if what == "controller" and not callable(getattr(given, "control", given)):
-            raise InputError(f"`{what}` = {given!r}: must be a function, an object with `control`, or its class", what, repr(given), "a function, an object with `control`, or its class")
+            raise InputError(
+                f"`{what}` = {given!r}: must be a function, an object with `control`, or its class",
+                what,
+                repr(given),
+                "a function, an object with `control`, or its class",
+            )
         if what != "controller" and not callable(given):
             raise InputError(f"`{what}` = {given!r}: must be a function", what, repr(given), "a function")
         setattr(brought, what, make(given, brought.raised))
@@ -200,7 +205,9 @@ def source(given: Any, what: str = "controller") -> str | None:
     lines = list(pieces.values())
     if isinstance(whole, type):
         lines.append(f"_own = {name}()\n")
-        lines.append(f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n")
+        lines.append(
+            f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n"
+        )
         lines.append("def control(t_s, state, reference):\n    return _own.control(t_s, state, reference)\n")
     elif getattr(given, "hairpin_vectorised", False):
         # The command asks for one leg at a time.
@@ -238,7 +245,12 @@ def _gather(thing: Any, pieces: dict[str, str]) -> bool:
     definition = tree.body[0]
     if isinstance(definition, ast.FunctionDef | ast.ClassDef):
         # Decorators of ours are none of the file's.
-        definition.decorator_list = [d for d in definition.decorator_list if not (isinstance(d, ast.Name) and d.id == "vectorised") and not (isinstance(d, ast.Attribute) and d.attr == "vectorised")]
+        definition.decorator_list = [
+            d
+            for d in definition.decorator_list
+            if not (isinstance(d, ast.Name) and d.id == "vectorised")
+            and not (isinstance(d, ast.Attribute) and d.attr == "vectorised")
+        ]
         text = ast.unparse(definition) + "\n"
     if thing.__name__ in pieces:
         return True

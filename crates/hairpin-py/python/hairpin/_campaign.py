@@ -118,7 +118,9 @@ class Campaign:
         InputError: there is no campaign in it, or it is broken.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], *, brought: Brought | None = None, said: Mapping[str, Any] | None = None) -> None:
+    def __init__(
+        self, folder: str | os.PathLike[str], *, brought: Brought | None = None, said: Mapping[str, Any] | None = None
+    ) -> None:
         self.folder = Path(folder)
         self._brought = brought
         self._said = dict(said or {})
@@ -175,7 +177,9 @@ class Campaign:
         for one in self.cases:
             if one.id == case or one.number == case:
                 return one
-        raise InputError(f"`case` = {case!r}: must be one of {len(self)} cases from 0000", "case", repr(case), f"one of {len(self)} cases")
+        raise InputError(
+            f"`case` = {case!r}: must be one of {len(self)} cases from 0000", "case", repr(case), f"one of {len(self)} cases"
+        )
 
     def __repr__(self) -> str:
         return f"Campaign({str(self.folder)!r}: {self.verdict or f'{len(self)} cases'})"
@@ -195,7 +199,10 @@ class Campaign:
         for place in (self.folder / f"{table}.parquet", self.folder / table):
             if place.exists():
                 return parquet.read_table(place, filters=filters)
-        there = sorted({path.name for path in self.folder.iterdir() if any(path.glob("*.parquet"))} | {path.stem for path in self.folder.glob("*.parquet")})
+        there = sorted(
+            {path.name for path in self.folder.iterdir() if any(path.glob("*.parquet"))}
+            | {path.stem for path in self.folder.glob("*.parquet")}
+        )
         raise InputError(f"`table` = {table!r}: must be one of {', '.join(there)}", "table", repr(table), ", ".join(there))
 
     def to_pandas(self, table: str = "results") -> Any:
@@ -219,7 +226,8 @@ class Campaign:
         return {
             name: np.asarray(rows[name].to_numpy(), dtype=np.float64)
             for name in rows.column_names
-            if name not in ("case", "run") and not str(rows.schema.field(name).type).startswith(("string", "large_string", "dictionary"))
+            if name not in ("case", "run")
+            and not str(rows.schema.field(name).type).startswith(("string", "large_string", "dictionary"))
         }
 
     # Jobs that go on from here.
@@ -257,7 +265,9 @@ class Campaign:
             progress=progress,
         )
 
-    def judge(self, values: Mapping[str, Any] | None = None, *, threads: int | None = None, progress: Progress | None = None) -> Campaign:
+    def judge(
+        self, values: Mapping[str, Any] | None = None, *, threads: int | None = None, progress: Progress | None = None
+    ) -> Campaign:
         """Judges what was executed, with other values for keys of `spec`; see :func:`hairpin.judge`."""
         said = _native.judge(self.folder, sets_of(values), waiting(threads, progress))
         return Campaign(self.folder, brought=self._brought, said=said)
@@ -275,7 +285,11 @@ class Campaign:
             runs = self.to_arrow("executions", filters=[("case", "==", case.id)])["run"].unique().to_pylist()
             for run in sorted(runs):
                 answer = judge(Run(case, run, self.execution(case.id, run)))
-                found[case.id, run] = None if answer is None else (float(answer) if not isinstance(answer, bool | np.bool_) else (0.0 if answer else -1.0))
+                found[case.id, run] = (
+                    None
+                    if answer is None
+                    else (float(answer) if not isinstance(answer, bool | np.bool_) else (0.0 if answer else -1.0))
+                )
         return Judged(found)
 
     def verify(self, *, threads: int | None = None, progress: Progress | None = None) -> Verification:
@@ -475,7 +489,19 @@ class Report:
 def _case(one: Mapping[str, Any]) -> Case:
     violations = tuple(Violation(found["what"], found["value"], found["limit"], found["told"]) for found in one["violations"])
     waypoints = np.asarray(one["waypoints_m"], dtype=np.float64).reshape(-1, 3)
-    names = ("seed", "evidence", "score", "status", "run", "ended", "max_deviation_m", "mean_deviation_m", "t_worst_s", "leg_worst", "message")
+    names = (
+        "seed",
+        "evidence",
+        "score",
+        "status",
+        "run",
+        "ended",
+        "max_deviation_m",
+        "mean_deviation_m",
+        "t_worst_s",
+        "leg_worst",
+        "message",
+    )
     return Case(id=one["case"], waypoints_m=waypoints, violations=violations, **{name: one[name] for name in names})
 
 

@@ -124,7 +124,9 @@ def _posed(found: Any) -> dict[str, Floats]:
     return {key: np.array(value, dtype=np.float64) for key, value in table.items()}
 
 
-def _carried_out(mission: dict[str, Any], advance: Callable[[float, dict[str, Any]], dict[str, Floats]], step_s: float) -> dict[str, Any]:
+def _carried_out(
+    mission: dict[str, Any], advance: Callable[[float, dict[str, Any]], dict[str, Floats]], step_s: float
+) -> dict[str, Any]:
     """Steps until the last waypoint is reached, or the time is over."""
     waypoints = np.asarray(mission["waypoints_m"], dtype=np.float64)
     accept, limit = float(mission["accept_m"]), float(mission["time_limit_s"])

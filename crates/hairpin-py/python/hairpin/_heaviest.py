@@ -89,14 +89,23 @@ def max_load(
     np.fill_diagonal(costs, np.nan)
     for name, point in (("start", start), ("end", end)):
         if point is not None and not 0 <= point < len(costs):
-            raise InputError(f"`{name}` = {point}: must be from 0 to {len(costs) - 1}", name, str(point), f"from 0 to {len(costs) - 1}")
+            raise InputError(
+                f"`{name}` = {point}: must be from 0 to {len(costs) - 1}", name, str(point), f"from 0 to {len(costs) - 1}"
+            )
     for name, least, value in (("programs", 1, programs), ("visits", 1, visits), ("seed", 0, seed)):
         if value < least:
             raise InputError(f"`{name}` = {value}: must be at least {least}", name, str(value), f"at least {least}")
     if min_cost is not None and not 0 <= min_cost < np.inf:
         raise InputError(f"`min_cost` = {min_cost}: must be a number ≥ 0", "min_cost", str(min_cost), "a number ≥ 0")
     wanted = SimpleNamespace(
-        start=start, end=end, min_cost=min_cost, programs=programs, visits=visits, method=method, seed=seed, time_limit_s=time_limit_s
+        start=start,
+        end=end,
+        min_cost=min_cost,
+        programs=programs,
+        visits=visits,
+        method=method,
+        seed=seed,
+        time_limit_s=time_limit_s,
     )
     found = _native.max_load(costs.tobytes(), len(costs), wanted, waiting(threads, progress))
     paths = [(one["path"], one["cost"]) for one in found["paths"]]

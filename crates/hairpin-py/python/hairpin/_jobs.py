@@ -83,7 +83,9 @@ def stress(
         begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s, budget_s)
         said = _called(
             brought,
-            lambda: _native.stress(begun, (_path(missions), _path(repro)), means(brought, portable, allow_commands), waiting(threads, progress)),
+            lambda: _native.stress(
+                begun, (_path(missions), _path(repro)), means(brought, portable, allow_commands), waiting(threads, progress)
+            ),
         )
     return Campaign(said["paths"]["folder"], brought=brought, said=said)
 
@@ -118,7 +120,9 @@ def generate(
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
     with serving(executor) as command:
         begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s)
-        said = _called(brought, lambda: _native.generate(begun, means(brought, portable, allow_commands), waiting(threads, progress)))
+        said = _called(
+            brought, lambda: _native.generate(begun, means(brought, portable, allow_commands), waiting(threads, progress))
+        )
     return Campaign(said["folder"], brought=brought, said=said)
 
 
@@ -167,18 +171,34 @@ def execute(
     with serving(executor) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
         flights = SimpleNamespace(
-            folder=folder, out=_path(out), replaces=if_there == "replace", sets=sets, missions=_path(missions), repro=_path(repro), resume=resume
+            folder=folder,
+            out=_path(out),
+            replaces=if_there == "replace",
+            sets=sets,
+            missions=_path(missions),
+            repro=_path(repro),
+            resume=resume,
         )
-        said = _called(brought, lambda: _native.execute(flights, means(brought, portable, allow_commands), waiting(threads, progress)))
+        said = _called(
+            brought, lambda: _native.execute(flights, means(brought, portable, allow_commands), waiting(threads, progress))
+        )
     failed = said["executor_failed"]
     said["exit_code"] = 4 if failed else 0
     said["verdict"] = (
-        f"EXECUTOR FAILED {failed}/{said['runs']} runs ({said['trouble'] or ''})" if failed else f"EXECUTED {said['runs']} runs of {said['cases']} cases"
+        f"EXECUTOR FAILED {failed}/{said['runs']} runs ({said['trouble'] or ''})"
+        if failed
+        else f"EXECUTED {said['runs']} runs of {said['cases']} cases"
     )
     return Campaign(said["folder"], brought=brought, said=said)
 
 
-def judge(campaign: Campaign | str | os.PathLike[str], values: Mapping[str, Any] | None = None, *, threads: int | None = None, progress: Progress | None = None) -> Campaign:
+def judge(
+    campaign: Campaign | str | os.PathLike[str],
+    values: Mapping[str, Any] | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Campaign:
     """Judges an executed folder, with other values for keys of `spec`; the folder keeps them.
 
     Raises:
@@ -187,7 +207,9 @@ def judge(campaign: Campaign | str | os.PathLike[str], values: Mapping[str, Any]
     return open_campaign(campaign).judge(values, threads=threads, progress=progress)
 
 
-def verify(campaign: Campaign | str | os.PathLike[str], *, threads: int | None = None, progress: Progress | None = None) -> Verification:
+def verify(
+    campaign: Campaign | str | os.PathLike[str], *, threads: int | None = None, progress: Progress | None = None
+) -> Verification:
     """Integrates every witness of a folder by independent code. True where all hold.
 
     Raises:
@@ -248,12 +270,16 @@ def explain(
     sets = asked.sets() + sets_of(values) + brought.sets
     found = _called(
         brought,
-        lambda: _native.explain((asked.path(), sets), (graphs, time_limit_s), means(brought, portable, allow_commands), waiting(threads, progress)),
+        lambda: _native.explain(
+            (asked.path(), sets), (graphs, time_limit_s), means(brought, portable, allow_commands), waiting(threads, progress)
+        ),
     )
     return Explanation(found["verdict"], found["exit_code"], tuple(found["reasons"]), found)
 
 
-def compare(a: Campaign | str | os.PathLike[str], b: Campaign | str | os.PathLike[str], *, tolerance_m: float = 0.0) -> Comparison:
+def compare(
+    a: Campaign | str | os.PathLike[str], b: Campaign | str | os.PathLike[str], *, tolerance_m: float = 0.0
+) -> Comparison:
     """Two judged folders, paired by case and seed: `a` before, `b` after. True where nothing is newly failing.
 
     Args:
@@ -314,7 +340,12 @@ def _stress_with_texts(source: Source, *, out: Path, texts: Mapping[str, str], e
     """A whole campaign in place of the one in `out`, as the command line has it: values are TOML texts."""
     asked = scenario(source)
     begun = SimpleNamespace(
-        scenario=asked.path(), out=os.fspath(out), sets=[*asked.sets(), *texts.items(), *_command(executor)], if_there="replace", time_limit_s=None, budget_s=None
+        scenario=asked.path(),
+        out=os.fspath(out),
+        sets=[*asked.sets(), *texts.items(), *_command(executor)],
+        if_there="replace",
+        time_limit_s=None,
+        budget_s=None,
     )
     said = _native.stress(begun, (None, None), means(None, False, False), waiting())
     return Campaign(said["paths"]["folder"], said=said)

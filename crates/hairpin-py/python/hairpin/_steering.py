@@ -153,9 +153,7 @@ class Drives:
     def __getitem__(self, index: int) -> Drive:
         place = range(len(self))[index]
         rows = self.segments[self._starts[place] : self._starts[place + 1]]
-        segments = tuple(
-            Segment(_KINDS[int(row[1])], int(row[2]), float(row[3]), float(row[4]), row[5:].copy()) for row in rows
-        )
+        segments = tuple(Segment(_KINDS[int(row[1])], int(row[2]), float(row[3]), float(row[4]), row[5:].copy()) for row in rows)
         curvature = rows[:, 5:].copy().view(Curvature)
         curvature.lengths = rows[:, 3].copy()
         limit = self._limits[self._limit[place]] if self._limit[place] >= 0 else None
@@ -294,7 +292,9 @@ def steer(
     limit_s = None if time_limit_ms is None else _number("time_limit_ms", time_limit_ms, "a number ≥ 0") * 1e-3
     for name, path in (("terrain", terrain), ("keep_out", keep_out)):
         if path is not None and not os.path.isfile(path):
-            raise InputError(f"`{name}` = {os.fspath(path)!r}: must be a file that is there", name, os.fspath(path), "a file that is there")
+            raise InputError(
+                f"`{name}` = {os.fspath(path)!r}: must be a file that is there", name, os.fspath(path), "a file that is there"
+            )
     common = SimpleNamespace(
         direction=_number("direction", direction, "a finite number"),
         max_curvature=None if max_curvature is None else _number("max_curvature", max_curvature, "a number > 0"),
@@ -329,7 +329,12 @@ def steer(
     drive = drives[0]
     if drive.status == "invalid":
         field = drive.limit or "x"
-        raise InputError(f"`{field}`: must be within what can be planned (1e6 m, 1e6 rad)", field, "", "within what can be planned (1e6 m, 1e6 rad)")
+        raise InputError(
+            f"`{field}`: must be within what can be planned (1e6 m, 1e6 rad)",
+            field,
+            "",
+            "within what can be planned (1e6 m, 1e6 rad)",
+        )
     return drive
 
 

@@ -17,7 +17,13 @@ DEMO = "demo-quadrotor"
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("hairpin", "stressful trajectories as tests")
-    group.addoption("--hairpin", action="append", default=[], metavar="SCENARIO.toml", help="run a campaign; each of its cases is a test (may be given several times)")
+    group.addoption(
+        "--hairpin",
+        action="append",
+        default=[],
+        metavar="SCENARIO.toml",
+        help="run a campaign; each of its cases is a test (may be given several times)",
+    )
     group.addoption("--hairpin-out", metavar="DIR", help="folder of campaign folders; in pytest's cache if not given")
     group.addoption("--hairpin-set", action="append", default=[], metavar="KEY=VALUE", help="another value of a scenario's key")
     group.addoption("--hairpin-executor", metavar="COMMAND", help="program that carries missions out")
@@ -29,7 +35,9 @@ def pytest_configure(config: pytest.Config) -> None:
     scenarios = [Path(name) for name in config.getoption("--hairpin")]
     for scenario in scenarios:
         if not scenario.is_file():
-            raise pytest.UsageError(f"--hairpin {scenario}: must be a scenario file that is there (hairpin new quadrotor writes one)")
+            raise pytest.UsageError(
+                f"--hairpin {scenario}: must be a scenario file that is there (hairpin new quadrotor writes one)"
+            )
     if scenarios:
         asked = config.args_source is pytest.Config.ArgsSource.ARGS
         named = [str(scenario) for scenario in scenarios]
@@ -57,7 +65,9 @@ class ScenarioFile(pytest.File):
         from hairpin._jobs import _stress_with_texts
 
         try:
-            campaign = _stress_with_texts(self.path, out=folder / self.path.stem, texts=values, executor=config.getoption("--hairpin-executor"))
+            campaign = _stress_with_texts(
+                self.path, out=folder / self.path.stem, texts=values, executor=config.getoption("--hairpin-executor")
+            )
         except (hairpin.InputError, hairpin.ExecutorError) as error:
             raise self.CollectError(str(error)) from None
         for case in campaign:
@@ -79,7 +89,7 @@ class CaseItem(pytest.Item):
         if case is None:
             raise CaseFailed(str(self.campaign.verdict))
         if case.status == "unjudged":
-            pytest.skip("nothing is asked of it: spec = \"none\"")
+            pytest.skip('nothing is asked of it: spec = "none"')
         if case.status != "pass":
             raise CaseFailed(_told(self.campaign, case))
 
