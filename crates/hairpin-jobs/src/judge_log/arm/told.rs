@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::{Setup, Status};
 use hairpin::judgement::moves::offset_told;
-use hairpin::judgement::{Measures, Verdict, inconclusive, unjudged, violated, within_spec};
+use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
 
 use super::super::found::{JudgedLog, Outcome};
 use super::super::told::{file_name, where_and_when};
@@ -22,7 +22,9 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
     let (case, result) = (&found.case, &found.result);
     let with =
         |sentence: String| [Some(sentence), found.offset_words()].into_iter().flatten().collect::<Vec<_>>().join("; ");
-    if let Some(violation) = result.violations.first() {
+    // A log that ends early says nothing of how the arm went on.
+    let counts = |violation: &&Violation| found.short.is_none() || !violation.is_unfinished();
+    if let Some(violation) = result.violations.iter().find(counts) {
         return (Outcome::Fail, violated(case, how, &with(where_and_when(violation))));
     }
     if let Some(short) = &found.short {
