@@ -7,6 +7,7 @@ use hairpin::judgement::moves::offset_told;
 use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
 
 use super::super::found::{JudgedLog, Outcome};
+use super::super::matching::Matched;
 use super::super::told::{file_name, where_and_when};
 use super::found::{FoundProgram, JointsTold};
 
@@ -60,6 +61,15 @@ fn worst(measures: &Measures, setup: &Setup) -> String {
     }
 }
 
+/// `mean 0.21 mm off; next best 0002 at 18.40 mm`.
+fn in_millimetres(matched: &Matched) -> String {
+    let next = matched
+        .next
+        .as_ref()
+        .map_or(", the only case".to_owned(), |(case, far)| format!("; next best {case} at {:.2} mm", 1e3 * far));
+    format!("mean {:.2} mm off{next}", 1e3 * matched.mean_m)
+}
+
 impl JointsTold {
     fn in_words(&self) -> String {
         let by = if self.by_name { "by their names" } else { "by their numbers" };
@@ -105,7 +115,7 @@ impl FoundProgram {
         line(
             "case",
             match &self.matched {
-                Some(matched) => format!("matched to case {} ({})", self.case, matched.words()),
+                Some(matched) => format!("matched to case {} ({})", self.case, in_millimetres(matched)),
                 None => self.case.clone(),
             },
         );
