@@ -33,6 +33,7 @@ mod hardware;
 mod hours;
 mod import;
 mod interruptions;
+mod judge_arms;
 mod judge_logs;
 mod judge_vehicles;
 mod keep;

@@ -101,9 +101,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
-            let (times, joints) = planned_joints(work, case)?;
-            let text = joint_trajectory::text("base_link", &joint_names(work)?, &times, &joints)
-                .map_err(|error| error.to_string())?;
+            let (names, times, joints) = planned_joints(work, case)?;
+            let text =
+                joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
@@ -123,13 +123,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     })
 }
 
-/// The planned joints of an arm's case every 10 ms: times, s, and angles, rad.
-pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<(Vec<f64>, Vec<Joints>), String> {
+/// The planned joints of an arm's case every 10 ms: what they are called, times, s, and angles, rad.
+pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<([String; AXES], Vec<f64>, Vec<Joints>), String> {
     let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
-    arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())
-}
-
-/// What they are called.
-pub(super) fn joint_names(work: &Work) -> Result<[String; AXES], String> {
-    Ok(work.setup.own::<ArmSetup>().ok_or("it is no arm's")?.station.arm.joint_names.clone())
+    let (times, rows) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
+    Ok((arm.station.arm.joint_names.clone(), times, rows))
 }

@@ -36,7 +36,8 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
     let [pass, fail, open, invalid, unjudged] =
         [Outcome::Pass, Outcome::Fail, Outcome::Inconclusive, Outcome::Invalid, Outcome::Unjudged].map(of);
     let all = logs.len();
-    let how = format!("(flown, {}, {all} logs)", file_name(folder));
+    let word = if logs.iter().any(|log| log.program.is_some()) { "hardware" } else { "flown" };
+    let how = format!("({word}, {}, {all} logs)", file_name(folder));
     let counts = [(pass, "within spec"), (fail, "in violation"), (open, "inconclusive"), (invalid, "invalid")];
     let mut words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
     words.extend((unjudged > 0).then(|| format!("{unjudged} unjudged: spec = \"none\"")));

@@ -263,12 +263,12 @@ mod tests {
     #[test]
     fn student_is_that_of_tables() {
         // Two-sided 95 %: σ = 1.959964.
-        for (freedom, t) in [(1, 12.7062), (4, 2.776_445), (10, 2.228_139), (1000, 1.962_339)] {
+        for (freedom, t) in [(1.0, 12.7062), (4.0, 2.776_445), (10.0, 2.228_139), (1000.0, 1.962_339)] {
             let found = student_quantile(freedom, 1.959_963_985);
             assert!((found - t).abs() < 1e-4 * t, "{freedom}: {found}");
         }
-        assert!((student_quantile(4, 3.0) - 6.6201).abs() < 1e-3);
-        assert_eq!(student_quantile(4, 0.0), 0.0);
+        assert!((student_quantile(4.0, 3.0) - 6.6201).abs() < 1e-3);
+        assert_eq!(student_quantile(4.0, 0.0), 0.0);
     }
 
     #[test]

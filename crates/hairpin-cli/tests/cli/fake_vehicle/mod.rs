@@ -15,6 +15,9 @@ use std::path::Path;
 
 use hairpin::trajectory::Track;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use serde_json::Value;
+
+use crate::commands::json;
 
 pub(crate) use bag::{joint_states, odometry};
 pub(crate) use px4::{Happens, Px4};
@@ -72,4 +75,16 @@ pub(crate) fn waypoints(path: &Path) -> Vec<Point3<f64>> {
     let text = fs::read_to_string(path).unwrap();
     let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
     text.lines().skip(1).map(|line| Point3::from_slice(&numbers(line)[..3])).collect()
+}
+
+/// What `judge` says of a log of these bytes called `name`, against the campaign in `out`.
+pub(crate) fn judged(here: &Path, name: &str, bytes: &[u8], more: &[&str]) -> Value {
+    fs::write(here.join(name), bytes).unwrap();
+    let arguments = [&["judge", name, "--campaign", "out"], more].concat();
+    json(here, &arguments)["logs"][0].clone()
+}
+
+/// A number of an answer.
+pub(crate) fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value}"))
 }

@@ -30,6 +30,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(limit),
+        joint_names: Default::default(),
         links: Default::default(),
         estimated: Vec::new(),
         excluded: Vec::new(),

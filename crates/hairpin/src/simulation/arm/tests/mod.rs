@@ -47,6 +47,7 @@ fn arm() -> Arm {
             speed: speed.to_radians(),
             acceleration: 6.0 * speed.to_radians(),
         }),
+        joint_names: Default::default(),
         links: Default::default(),
         estimated: Vec::new(),
         excluded: Vec::new(),
