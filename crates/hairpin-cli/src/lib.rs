@@ -7,6 +7,7 @@ mod args;
 pub mod commands;
 mod console;
 mod exit;
+mod help;
 mod interrupt;
 mod settings;
 mod terminal;
@@ -41,7 +42,7 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode
         return exit::all_said(DONE);
     }
     if arguments.len() <= 1 {
-        console::warn_in_colour(args::WAYS_IN);
+        console::warn_in_colour(help::WAYS_IN);
         return WRONG_INPUT;
     }
     let parsed = match parse(&arguments) {
@@ -58,7 +59,7 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode
 }
 
 fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
-    let mut command = args::command();
+    let mut command = help::command();
     let matches = command.try_get_matches_from_mut(arguments)?;
     Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }

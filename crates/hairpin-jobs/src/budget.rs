@@ -1,5 +1,5 @@
-//! The time that a whole campaign has: until when it searches, executes and judges, and what was left undone for want of
-//! it. What is left undone is never taken for done: its cases are neither pass nor fail, and the verdict says so.
+//! The time that a whole campaign has: until when it searches, executes and judges, and what was left undone for want
+//! of it. What is left undone is never taken for done: its cases are neither pass nor fail, and the verdict says so.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;

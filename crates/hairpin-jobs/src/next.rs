@@ -1,5 +1,5 @@
-//! The commands that go on from a judged campaign, exact and to be copied: a place is quoted where a shell would take it
-//! apart.
+//! The commands that go on from a judged campaign, exact and to be copied: a place is quoted where a shell would take
+//! it apart.
 
 use std::path::Path;
 

@@ -2,9 +2,10 @@
 
 use hairpin_jobs::Problem;
 
-use crate::args::{Completions, command};
+use crate::args::Completions;
 use crate::console;
 use crate::exit::DONE;
+use crate::help::command;
 
 /// Runs the command.
 pub(crate) fn run(completions: &Completions) -> Result<u8, Problem> {

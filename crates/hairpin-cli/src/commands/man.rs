@@ -4,9 +4,10 @@ use hairpin_formats::atomic;
 use hairpin_jobs::Problem;
 use serde_json::json;
 
-use crate::args::{Man, command};
+use crate::args::Man;
 use crate::console;
 use crate::exit::DONE;
+use crate::help::command;
 
 /// Runs the command.
 pub(crate) fn run(asked: &Man) -> Result<u8, Problem> {

@@ -1,5 +1,5 @@
-//! The book in docs/: every page is in its summary, every link leads somewhere, and every command of a guide runs, in the
-//! order in which it stands there.
+//! The book in docs/: every page is in its summary, every link leads somewhere, and every command of a guide runs, in
+//! the order in which it stands there.
 
 use std::collections::BTreeSet;
 use std::fs;

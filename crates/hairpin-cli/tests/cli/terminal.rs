@@ -61,11 +61,7 @@ fn at_a_terminal_the_verdict_comes_first_and_in_colour() {
     let at: Vec<usize> = names.iter().map(|name| statistics.find(&format!(" {name}")).unwrap()).collect();
     assert!(at.is_sorted(), "evo's order: {statistics}");
     assert!(out.lines().any(|line| line.contains('█') && line.contains("limit 0.01 m")), "{out}");
-    let frame: Vec<&str> = out.lines().filter(|line| line.starts_with("frame: ")).collect();
-    assert!(frame.len() == 1 && frame[0].contains("; not aligned; ") && frame[0].ends_with("told by the executor"));
-    assert!(!out.contains("is neither a vehicle's local origin"), "{out}");
-    let (_, told, _) = run(here, &["-v", "judge", "a"]);
-    assert!(told.contains("is neither a vehicle's local origin"), "all of it where it is asked for: {told}");
+    assert!(out.contains("; alignment: not aligned; ") && out.contains("is neither a vehicle's local origin"), "{out}");
 
     for columns in [40, 80, 160] {
         let (code, screen) = seen(here, columns, &[], &["judge", "a"]);
@@ -75,7 +71,15 @@ fn at_a_terminal_the_verdict_comes_first_and_in_colour() {
         assert!(table[0].trim_start().starts_with("case"), "{screen}");
         assert!(table.iter().all(|line| line.chars().count() <= columns), "{columns}: {table:#?}");
         assert!(screen.contains(&format!("next: hairpin replay a --case {worst}")), "{screen}");
+        let frame: Vec<&str> = screen.lines().filter(|line| line.starts_with("frame: ")).collect();
+        assert!(frame.len() == 1 && frame[0].contains("; not aligned; "), "{screen}");
+        assert!(frame[0].ends_with("told by the executor") && !screen.contains("local origin"), "{screen}");
     }
+    let (_, all) = seen(here, 80, &[], &["-v", "judge", "a"]);
+    assert!(
+        all.contains("\norigins: the cage origin is neither a vehicle's local origin"),
+        "where it is asked for: {all}"
+    );
     let (_, plain) = seen(here, 80, &[("NO_COLOR", "1")], &["judge", "a"]);
     assert!(plain.starts_with("FAIL 4/4 (simulated"), "{plain}");
     let lax = ["judge", "a", "--set", "spec.deviation.max_m=20"];

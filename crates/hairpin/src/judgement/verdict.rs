@@ -142,10 +142,11 @@ impl Default for Judged<'_> {
 /// The verdict on executed cases.
 ///
 /// Cases that the executor failed to fly, whose data are inconclusive or that were left undone for want of time count
-/// neither as pass nor as fail: the share is of the others. What was cut short is no PASS. Without a share limit one violating case is a FAIL. With one, of cases that were drawn at random
-/// the Clopper-Pearson interval of the share decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if
-/// it straddles it; of any others, searched ones above all, the plain count does, for it is of nothing but them. Where
-/// nothing was asked for, what is no FAIL is UNJUDGED.
+/// neither as pass nor as fail: the share is of the others. What was cut short is no PASS. Without a share limit one
+/// violating case is a FAIL. With one, of cases that were drawn at random the Clopper-Pearson interval of the share
+/// decides: FAIL if it lies above the limit, PASS if below, INCONCLUSIVE if it straddles it; of any others, searched
+/// ones above all, the plain count does, for it is of nothing but them. Where nothing was asked for, what is no FAIL is
+/// UNJUDGED.
 ///
 /// ```
 /// use hairpin::judgement::{Chosen, Judged, verdict};

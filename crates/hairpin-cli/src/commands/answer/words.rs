@@ -26,7 +26,7 @@ impl Answer<'_> {
                 verdict();
                 console::say("");
             }
-            self.say_details();
+            self.say_details(seen);
             if !seen {
                 verdict();
             }
@@ -35,8 +35,9 @@ impl Answer<'_> {
         self.verdict.exit_code
     }
 
-    /// The table of the worst cases, the worst one's course, the frame, and which parameter did it.
-    fn say_details(&self) {
+    /// The table of the worst cases, the worst one's course, the frame, and which parameter did it. All that is said of
+    /// the frame stands in a log, and at a terminal where it is asked for.
+    fn say_details(&self, seen: bool) {
         if !self.judgement.results.is_empty() {
             console::say_lines(&self.table());
             console::say("");
@@ -46,8 +47,11 @@ impl Answer<'_> {
             lines.iter().for_each(|line| console::say(line));
         }
         let header = self.header();
-        if console::is_verbose() {
-            header.lines().iter().for_each(|[label, value]| console::say(&format!("{label}: {value}")));
+        let lines: Vec<String> = header.lines().iter().map(|[label, value]| format!("{label}: {value}")).collect();
+        if !seen {
+            console::say(&format!("{}\n", lines.join("; ")));
+        } else if console::is_verbose() {
+            console::say_lines(&lines.join("\n"));
             console::say("");
         } else {
             console::say(&format!("{}\n", header.line()));

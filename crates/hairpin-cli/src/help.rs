@@ -2,7 +2,7 @@
 
 use clap::{Arg, Command, CommandFactory};
 
-use super::Arguments;
+use crate::args::Arguments;
 
 /// What `hairpin` alone says.
 pub(crate) const WAYS_IN: &str = "\

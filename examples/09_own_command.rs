@@ -1,5 +1,5 @@
 //! The whole command line with a controller of one's own in it, which takes the place of whatever command a scenario
-//! names: `cargo run --example 03_own_command -- stress demo-quadrotor --set 'execute.controller="command: spring"'`.
+//! names: `cargo run --example 09_own_command -- stress demo-quadrotor --set 'execute.controller="command: spring"'`.
 
 use std::process::ExitCode;
 use std::sync::Arc;
