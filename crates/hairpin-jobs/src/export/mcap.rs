@@ -7,7 +7,7 @@ use hairpin::campaign::report::surroundings;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::mcap::{JointMotion, McapError, Recording, foxglove, ros2};
 
-use super::programs::planned_joints;
+use super::programs::{PlannedJoints, planned_joints};
 use super::written::Written;
 use crate::Problem;
 use crate::execute::runs_with_motion;
@@ -50,7 +50,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], reader: For) -> 
                 let mut case = (*case).clone();
                 work.folder.read_witness(&mut case)?;
                 if case.program().is_some() {
-                    let (names, times_s, rows) = planned_joints(work, &case).map_err(Problem::input)?;
+                    let PlannedJoints { names, times_s, rows } = planned_joints(work, &case).map_err(Problem::input)?;
                     let rows = rows.iter().map(|row| row.to_vec()).collect();
                     let names = names.to_vec();
                     recording.joints.push(JointMotion { name: "planned", names, times_s, rows });

@@ -101,9 +101,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
-            let (names, times, joints) = planned_joints(work, case)?;
+            let PlannedJoints { names, times_s, rows } = planned_joints(work, case)?;
             let text =
-                joint_trajectory::text("base_link", &names, &times, &joints).map_err(|error| error.to_string())?;
+                joint_trajectory::text("base_link", &names, &times_s, &rows).map_err(|error| error.to_string())?;
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
@@ -123,9 +123,17 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     })
 }
 
-/// The planned joints of an arm's case every 10 ms: what they are called, times, s, and angles, rad.
-pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<([String; AXES], Vec<f64>, Vec<Joints>), String> {
+/// What an arm's joints are to do.
+pub(super) struct PlannedJoints {
+    pub(super) names: [String; AXES],
+    pub(super) times_s: Vec<f64>,
+    /// Angles at these times, rad.
+    pub(super) rows: Vec<Joints>,
+}
+
+/// The planned joints of an arm's case every 10 ms.
+pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<PlannedJoints, String> {
     let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
-    let (times, rows) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
-    Ok((arm.station.arm.joint_names.clone(), times, rows))
+    let (times_s, rows) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
+    Ok(PlannedJoints { names: arm.station.arm.joint_names.clone(), times_s, rows })
 }

@@ -435,8 +435,7 @@ function start() {
     } catch (error) {
       byId("space").textContent = `This picture cannot be drawn here (${error instanceof Error ? error.message : error}); top and side view are below.`;
     }
-    // Whoever shows the page within another one asks by the data: there is no address then.
-    const asked = data.cases.findIndex((c) => c.id === (data.asked ?? location.hash.slice(1)));
+    const asked = data.cases.findIndex((c) => c.id === (data.asked ?? location.hash.slice(1))); // a page within another one has no address: it asks by the data
     select(asked >= 0 ? asked : data.open, true);
   }
   if (metrics.length) drawShare(byId("share"), metrics[0]);
