@@ -93,7 +93,9 @@ pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Res
     let was: Vec<CaseResult> = order.iter().filter_map(|case| Some(old.get(case)?.1.clone())).collect();
     let told = after.told()?;
     let code = u8::from(!compared.newly_failing.is_empty());
-    let verdict = Verdict::of(&format!("{}: A {}, B {}", compared.sentence(), a.display(), b.display()), code);
+    let sides = format!("(A {}, B {})", a.display(), b.display());
+    let failing = format!("NEWLY FAILING {}/{}", compared.newly_failing.len(), compared.pairs);
+    let verdict = Verdict::of(&format!("{failing} {sides}: {}", compared.sentence()), code);
     let data = report::assemble(Pieces {
         setup: &told,
         cases: &cases,

@@ -27,7 +27,7 @@ root.dataset.js = "1";
   for (let i = 1; v && i < sum.length; i++) sum[i] = sum[i - 1] + 0.5 * (v[i] + v[i - 1]) * (m.t[i] - m.t[i - 1]);
   m.channels.rolled = sum;
 }
-/** @type {Map<number, Case>} */ const known = new Map();
+const known = /** @type {Map<number, Case>} */ (new Map());
 /** @param {number} index @returns {Case} */ function caseOf(index) {
   const found = known.get(index), c = data.cases[index];
   if (found) return found;
@@ -41,7 +41,8 @@ root.dataset.js = "1";
 function stamp(times, t) {
   let [low, high] = [0, times.length - 1];
   while (high - low > 1) { const middle = (low + high) >> 1; if (times[middle] <= t) low = middle; else high = middle; }
-  return [low, high > low ? Math.min(1, Math.max(0, (t - times[low]) / (times[high] - times[low]))) : 0];
+  const share = high > low ? (t - times[low]) / (times[high] - times[low]) : 0; // what the page has of stamps is rounded
+  return [low, share < 0.02 ? 0 : share > 0.98 ? 1 : share];
 }
 /** @param {ArrayLike<number> | null | undefined} values @param {[number, number]} at */
 const valueAt = (values, [i, s]) => (values ? values[i] + (s ? s * (values[i + 1] - values[i]) : 0) : NaN);
@@ -257,8 +258,7 @@ function fit(azimuth, elevation) {
   for (const name of ["time", "play", "worst-moment"]) byId(name).disabled = !f;
   byId("time").max = String(f ? f.t[f.t.length - 1] : 1);
   for (const part of every("button[data-verb=shrink]")) part.hidden = !c.data.fails;
-  state.t = f ? c.data.at : 0;
-  playing(false);
+  state.t = f ? c.data.at : 0; playing(false);
   build();
   fit();
   cursor = drawSeries(byId("series"), c, data, seek);
