@@ -195,7 +195,7 @@ fn ten_minutes_at_250_hz() {
     fs::create_dir_all(&here).unwrap();
     // Up and down between two walls, 150 legs of 20 m at 5 m/s.
     let corner = |leg: usize| {
-        let (row, side) = (leg / 2 % 15, (leg + 1) / 2 % 2);
+        let (row, side) = (leg / 2 % 15, leg.div_ceil(2) % 2);
         Point3::new(5.0 + 20.0 * side as f64, 5.0 + row as f64, 5.0 + 0.1 * leg as f64)
     };
     let way: Vec<Point3<f64>> = (0..=150).map(corner).collect();
