@@ -20,6 +20,7 @@ fn suite() -> junit::Suite {
         properties: vec![("seed".into(), "10".into()), ("verdict".into(), "FAIL 1/5: worst 0.65 m > 0.50 m".into())],
         regressions: Default::default(),
         saved: Vec::new(),
+        again: Default::default(),
     }
 }
 
