@@ -120,6 +120,8 @@ fn assumptions(
 /// Runs of a folder; of those whose motion was not kept the first are executed again.
 struct Recorded<'a> {
     work: &'a Work,
+    /// Asked for by number: executed again, however many they are.
+    asked: &'a [CaseNumber],
     /// Executed again so far, and not to be had.
     again: Cell<usize>,
     lost: Cell<usize>,
@@ -133,7 +135,8 @@ impl Motions for Recorded<'_> {
         let said = |problem: Problem| problem.to_string();
         let facts = self.work.folder.facts_of(case.number).map_err(|error| error.to_string())?;
         let left_out = facts.iter().any(|facts| facts.run == run && !facts.is_kept());
-        if left_out && (self.again.get() >= AGAIN || why_lost(self.work, case, run).map_err(said)?.is_some()) {
+        let too_many = self.again.get() >= AGAIN && !self.asked.contains(&case.number);
+        if left_out && (too_many || why_lost(self.work, case, run).map_err(said)?.is_some()) {
             self.lost.set(self.lost.get() + 1);
             return Ok(None);
         }
@@ -156,7 +159,7 @@ fn write(
     regression: Option<&Regression>,
     asked: &[CaseNumber],
 ) -> Result<(), Problem> {
-    let recorded = Recorded { work, again: Cell::new(0), lost: Cell::new(0) };
+    let recorded = Recorded { work, asked, again: Cell::new(0), lost: Cell::new(0) };
     let mut data =
         hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &recorded, asked)
             .map_err(Problem::input)?;
