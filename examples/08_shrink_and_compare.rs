@@ -30,6 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("before: {}", stressed.verdict.sentence);
 
     let worst = worst_first(&stressed.judgement.results)[0].case;
+    drop(stressed); // It holds the folder.
     let shrink = ShrinkSettings { folder: before.clone(), case: worst, budget: 30, ..ShrinkSettings::default() };
     let shrunk = Shrinking::open(shrink)?.search(&Unwatched)?;
     println!("case {worst} in {} runs: {}", shrunk.runs, shrunk.target.file_name().unwrap_or_default().display());
