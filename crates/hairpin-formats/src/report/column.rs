@@ -35,21 +35,20 @@ fn packed(offset: f64, scale: f64, codes: impl Iterator<Item = u16>) -> Value {
     json!([offset, scale, STANDARD.encode(bytes)])
 }
 
-/// The numbers again.
-#[cfg(test)]
-pub(super) fn unpacked(column: &Value) -> Vec<f64> {
-    let (offset, scale) = (column[0].as_f64().unwrap(), column[1].as_f64().unwrap());
-    let bytes = STANDARD.decode(column[2].as_str().unwrap()).unwrap();
-    let code = |pair: &[u8]| u16::from_le_bytes([pair[0], pair[1]]);
-    bytes
-        .chunks(2)
-        .map(|pair| if code(pair) == NOTHING { f64::NAN } else { offset + scale * f64::from(code(pair)) })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The numbers again.
+    fn unpacked(column: &Value) -> Vec<f64> {
+        let (offset, scale) = (column[0].as_f64().unwrap(), column[1].as_f64().unwrap());
+        let bytes = STANDARD.decode(column[2].as_str().unwrap()).unwrap();
+        let code = |pair: &[u8]| u16::from_le_bytes([pair[0], pair[1]]);
+        bytes
+            .chunks(2)
+            .map(|pair| if code(pair) == NOTHING { f64::NAN } else { offset + scale * f64::from(code(pair)) })
+            .collect()
+    }
 
     #[test]
     fn columns_keep_their_ends_and_holes() {

@@ -172,7 +172,7 @@ fn motion(track: &Track, kept: &[usize], turns: bool, channels: &[&str]) -> Valu
     })
 }
 
-/// A recorded channel, or one of the two that attitudes tell: how far forward and left axis point above the horizon, °.
+/// A recorded channel, or one of two that attitudes tell: how far forward and left axis point above the horizon, °.
 fn channel(track: &Track, name: &str, i: usize) -> f64 {
     let axis = match name {
         "nose_up_deg" => nalgebra::Vector3::x(),

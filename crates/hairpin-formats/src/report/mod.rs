@@ -1,5 +1,5 @@
-//! `report.html`: one file that opens offline in any browser, with a view of its own (`view/`). Without JavaScript it still
-//! has the verdict, the table and the worst cases' top and side views.
+//! `report.html`: one file that opens offline in any browser, with a view of its own (`view/`). Without JavaScript it
+//! still has the verdict, the table and the worst cases' top and side views.
 
 mod cases;
 mod column;

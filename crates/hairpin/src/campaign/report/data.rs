@@ -226,7 +226,8 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
 
 /// A case in full: `run` is the result's worst one, `others` are drawn beside it. Distances are those that were judged.
 ///
-/// `case` has its witness: what is followed comes of it. The reference is the scenario's with the run's own draws: the leg being executed, the nearer of it and the one
+/// `case` has its witness: what is followed comes of it. The reference is the scenario's with the run's own draws:
+/// the leg being executed, the nearer of it and the one
 /// before, or the path that is followed.
 ///
 /// # Errors
