@@ -1,6 +1,6 @@
-//! The guides that take an hour (docs/…-hour.md), command by command as they stand there: what a page writes into files is
-//! written, what it runs is run, what it shows is held against what was said, and where its reader moves a real robot,
-//! a fake one moves.
+//! The guides that take an hour (docs/…-hour.md), command by command as they stand there: what a page writes into files
+//! is written, what it runs is run, what it shows is held against what was said, and where its reader moves a real
+//! robot, a fake one moves.
 
 use std::fs;
 use std::path::{Path, PathBuf};

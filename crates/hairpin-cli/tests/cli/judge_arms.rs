@@ -99,7 +99,8 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     assert_eq!(log["status"], "fail");
     close(number(&log["measures"]["latest"]["late_s"]), latest[0] + 0.3, 0.02);
 
-    // The recorder runs 0.5 s before the program does: nothing is fitted, `--from` names it, or it is taken off as asked.
+    // The recorder runs 0.5 s before the program does: nothing is fitted, `--from` names it, or it is taken off as
+    // asked.
     let stands = (0..50).map(|i| Row { t: -0.5 + 0.01 * f64::from(i), ..ran[0] });
     let early: Vec<Row> = stands.chain(ran.iter().copied()).collect();
     let bytes = joint_states(&early, NAMES, ORDER);

@@ -44,8 +44,8 @@ fn a_px4s_log_comes_to_what_the_simulation_was() {
     let close = |a: f64, b: f64, within: f64| assert!((a - b).abs() < within, "{a} {b}");
     let by_hand = worst(flown.iter(), &way);
 
-    // All of it, though it lies in a frame that is turned by 73.5°, 14 m away and 0.7 m lower; singles cost micrometres,
-    // PX4's sphere is undone.
+    // All of it, though it lies in a frame that is turned by 73.5°, 14 m away and 0.7 m lower; singles cost
+    // micrometres, PX4's sphere is undone.
     let log = judged(here, "whole.ulg", &of(&[], fine), &lax);
     assert_eq!((log["status"].as_str(), log["case"].as_str()), (Some("pass"), Some("0002")), "{log}");
     assert_eq!(

@@ -16,7 +16,8 @@ use super::steering::{LegEnd, LegJudge};
 use crate::math::minimum_snap::minimum_snap;
 use crate::trajectory::{Profile, ProfileLeg};
 
-/// A waypoint next to a leg that is refused is passed this much more slowly, and from a tenth of its speed on not at all.
+/// A waypoint next to a leg that is refused is passed this much more slowly, and from a tenth of its speed on not at
+/// all.
 const SLOWER: f64 = 1.12;
 /// A free leg's times are tried in steps of this ratio,
 const STRETCH: f64 = 1.2;
@@ -35,9 +36,9 @@ const HALVINGS: u32 = 24;
 ///
 /// Velocities at waypoints point along the minimum-snap curve through them. A leg without a demand takes the first time
 /// of a geometric ladder in which it may be flown between its ends, one with a demand its own. Where a leg is refused,
-/// its waypoints are passed more slowly, at last at rest: bodies that are level there bend a leg between two directions,
-/// and the less the slower they are. So a leg without a demand is refused only if it is refused straight and from rest
-/// to rest.
+/// its waypoints are passed more slowly, at last at rest: bodies that are level there bend a leg between two
+/// directions, and the less the slower they are. So a leg without a demand is refused only if it is refused straight
+/// and from rest to rest.
 ///
 /// # Errors
 /// The legs that are refused in the end, with their evidence.

@@ -63,7 +63,8 @@ impl ArmSetup {
         Ok((Flight { track: legs_of(&track)?, ended: Ended::Done, left_world: None, reached: times }, short))
     }
 
-    /// Mean distance (m) of `recording` from the path of `case`, and whether it runs to its end: which program it is of.
+    /// Mean distance (m) of `recording` from the path of `case`, and whether it runs to its end: which program it is
+    /// of.
     ///
     /// # Errors
     /// A case whose program cannot be planned; a recording that the oracle cannot align.
