@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use hairpin_formats::atomic::{is_temporary, remove_leftovers, write, write_with};
 
@@ -62,13 +62,20 @@ fn a_killed_writer_leaves_the_old_file_or_the_new_one() {
     let path = place.path().join("file");
     write(&path, &[b'z'; 300_000]).unwrap();
     for round in 0..12 {
+        let written = || fs::metadata(&path).unwrap().modified().unwrap();
+        let before = written();
         let mut writer = Command::new(std::env::current_exe().unwrap())
             .args(["--ignored", "--exact", "writer_to_be_killed", "--nocapture"])
             .env("HAIRPIN_TEST_WRITE_TO", &path)
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        std::thread::sleep(Duration::from_millis(40 + 7 * round));
+        // Amid its writing, however long a busy machine takes to start it.
+        let patience = Instant::now() + Duration::from_secs(60);
+        while written() == before && Instant::now() < patience {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(7 * round));
         writer.kill().unwrap();
         writer.wait().unwrap();
         let bytes = fs::read(&path).unwrap();
