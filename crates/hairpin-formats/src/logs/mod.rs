@@ -31,7 +31,8 @@ const FIRST_BYTES: u64 = 4_096;
 
 /// The log at `path`, whose format is told by its content; among texts, a name that ends in `.tum` or `.csv` decides.
 ///
-/// # Errors The file cannot be read, is of no format that is known, or breaks its format, with the byte or line where
+/// # Errors
+/// The file cannot be read, is of no format that is known, or breaks its format, with the byte or line where
 /// it does; it holds no motion, or more samples than [`MOST_SAMPLES`].
 pub fn read(path: &Path) -> Result<Logged, LogError> {
     let bytes =
@@ -47,7 +48,7 @@ pub fn read(path: &Path) -> Result<Logged, LogError> {
 pub fn is_text(path: &Path) -> Result<bool, LogError> {
     let unreadable = |cause| LogError::Unreadable { path: path.into(), cause };
     let mut first = Vec::new();
-    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let file = bounds::open(path, MOST_LOG_BYTES).map_err(unreadable)?;
     file.take(FIRST_BYTES).read_to_end(&mut first).map_err(unreadable)?;
     // Whatever its name is, for tables of controllers have others.
     let format = if first.contains(&0) { Format::of(&first, "") } else { Format::of(&first, ".csv") };

@@ -21,7 +21,8 @@ const JOINTS: &str = "trajectory_msgs/msg/JointTrajectory";
 
 /// Writes `recording`; obstacles are left to the other writer.
 ///
-/// # Errors There is no motion; a time that is none; rows of joints of another length than their names; the file
+/// # Errors
+/// There is no motion; a time that is none; rows of joints of another length than their names; the file
 /// cannot be written.
 pub fn write(path: &Path, recording: &Recording) -> Result<(), McapError> {
     let mut writer = Writer::new(path, "ros2")?;
