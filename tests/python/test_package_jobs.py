@@ -91,7 +91,7 @@ def test_tables_plots_and_cells(violating):
     shown = violating._repr_html_()
     assert "FAIL 2/2" in shown and "<svg" in shown
     cell = violating.show(violating.worst)._repr_html_()
-    assert cell.startswith("<iframe") and "srcdoc=" in cell and f"&quot;open&quot;:&quot;{violating.worst.id}&quot;" in cell
+    assert cell.startswith("<iframe") and "srcdoc=" in cell and f"&quot;asked&quot;:&quot;{violating.worst.id}&quot;" in cell
 
 
 def test_plots_are_drawn(violating):
