@@ -26,6 +26,8 @@ const SHORTEST: f64 = 0.6;
 /// to so many first guesses: in more, a leg that passes its ends at speed turns loops. One from rest to rest may take
 /// the longest.
 const LONGEST: f64 = 4.0;
+/// The first guess of a leg that has next to no length, s: from none no ladder leads on.
+const LEAST_TIME: f64 = 1e-3;
 /// A rest-to-rest septic's peak speed by its mean one.
 const PEAK: f64 = 35.0 / 16.0;
 /// Halvings of a leg's least time.
@@ -90,7 +92,7 @@ pub fn hold(
         let mut slower: Vec<usize> = refused
             .iter()
             .flat_map(|leg| [*leg, leg + 1])
-            .filter(|k| passed[*k] * share[*k] != Vector3::zeros())
+            .filter(|k| share[*k] > 0.0 && passed[*k] != Vector3::zeros())
             .collect();
         slower.dedup();
         if slower.is_empty() {
@@ -138,7 +140,7 @@ fn paced(length: f64, speed: f64, at_rest: [bool; 2]) -> f64 {
 
 /// A time in which a leg of this length might be flown, s.
 fn first_guess(judge: &LegJudge, length: f64) -> f64 {
-    (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
+    (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5).max(LEAST_TIME)
 }
 
 /// The velocities at the waypoints, m/s: along the minimum-snap curve for these times, with the least speed that is
