@@ -70,43 +70,87 @@ pub fn hold(
         .map(|(time, length)| time.unwrap_or_else(|| first_guess(judge, *length).min(longest)))
         .collect();
     let passed = velocities(judge, waypoints, speeds, &guessed);
-    let mut share = vec![1.0; waypoints.len()];
-    let mut legs: Vec<Option<Result<ProfileLeg, Infeasible>>> = vec![None; lengths.len()];
+    let mut flight = Held { judge, waypoints, demanded, guessed, longest, passed, legs: vec![None; lengths.len()] };
     loop {
-        for leg in 0..legs.len() {
-            if legs[leg].is_none() {
-                let [from, to] = [leg, leg + 1].map(|k| judge.end(waypoints[k], passed[k] * share[k]));
-                let at_rest = [leg, leg + 1].into_iter().all(|k| passed[k] * share[k] == Vector3::zeros());
-                legs[leg] = Some(match demanded[leg] {
-                    Some(time) => judge.judge(&from, &to, time),
-                    None => in_free_time(
-                        judge,
-                        [&from, &to],
-                        guessed[leg],
-                        if at_rest { longest } else { longest.min(LONGEST * guessed[leg]) },
-                    ),
-                });
-            }
-        }
-        let refused: Vec<usize> = (0..legs.len()).filter(|leg| !matches!(legs[*leg], Some(Ok(_)))).collect();
-        let mut slower: Vec<usize> = refused
-            .iter()
-            .flat_map(|leg| [*leg, leg + 1])
-            .filter(|k| share[*k] > 0.0 && passed[*k] != Vector3::zeros())
-            .collect();
-        slower.dedup();
-        if slower.is_empty() {
-            break;
-        }
-        for k in slower {
-            share[k] = if share[k] > 0.1 { share[k] / SLOWER } else { 0.0 };
-            legs[k - 1] = None;
-            legs[k] = None;
+        flight.judge_what_is_open();
+        if !flight.slow_beside_what_is_refused() {
+            return flight.end();
         }
     }
-    let failed: Vec<(usize, Infeasible)> =
-        legs.iter().enumerate().filter_map(|(leg, one)| Some((leg, *one.as_ref()?.as_ref().err()?))).collect();
-    if failed.is_empty() { Ok(Profile { legs: legs.into_iter().flatten().flatten().collect() }) } else { Err(failed) }
+}
+
+/// A flight whose waypoints are passed more and more slowly, round by round.
+struct Held<'a> {
+    judge: &'a LegJudge,
+    waypoints: &'a [Point3<f64>],
+    /// By leg, s: the time that its demand gives,
+    demanded: Vec<Option<f64>>,
+    /// and the one from which a free leg is tried.
+    guessed: Vec<f64>,
+    longest: f64,
+    /// By waypoint, m/s, at first;
+    passed: Vec<Passed>,
+    /// `None`: not judged since an end of it changed.
+    legs: Vec<Option<Result<ProfileLeg, Infeasible>>>,
+}
+
+/// How a waypoint is passed: with this share of a velocity (m/s).
+struct Passed {
+    velocity: Vector3<f64>,
+    share: f64,
+}
+
+impl Passed {
+    fn now(&self) -> Vector3<f64> {
+        self.velocity * self.share
+    }
+
+    /// From a tenth on at rest.
+    fn slower(&mut self) {
+        self.share = if self.share > 0.1 { self.share / SLOWER } else { 0.0 };
+    }
+}
+
+impl Held<'_> {
+    fn judge_what_is_open(&mut self) {
+        for leg in 0..self.legs.len() {
+            if self.legs[leg].is_none() {
+                self.legs[leg] = Some(self.judged(leg));
+            }
+        }
+    }
+
+    fn judged(&self, leg: usize) -> Result<ProfileLeg, Infeasible> {
+        let [from, to] = [leg, leg + 1].map(|k| self.judge.end(self.waypoints[k], self.passed[k].now()));
+        if let Some(time) = self.demanded[leg] {
+            return self.judge.judge(&from, &to, time);
+        }
+        let guess = self.guessed[leg];
+        let at_rest = self.passed[leg..=leg + 1].iter().all(|end| end.now() == Vector3::zeros());
+        let longest = if at_rest { self.longest } else { self.longest.min(LONGEST * guess) };
+        in_free_time(self.judge, [&from, &to], guess, longest)
+    }
+
+    /// Whether a waypoint of a refused leg could still be slowed; the legs beside it are open again.
+    fn slow_beside_what_is_refused(&mut self) -> bool {
+        let refused = (0..self.legs.len()).filter(|leg| matches!(self.legs[*leg], Some(Err(_))));
+        let mut beside: Vec<usize> = refused.flat_map(|leg| [leg, leg + 1]).collect();
+        beside.dedup();
+        beside.retain(|k| self.passed[*k].share > 0.0 && self.passed[*k].velocity != Vector3::zeros());
+        for k in &beside {
+            self.passed[*k].slower();
+            self.legs[k - 1] = None;
+            self.legs[*k] = None;
+        }
+        !beside.is_empty()
+    }
+
+    fn end(self) -> Result<Profile, Vec<(usize, Infeasible)>> {
+        let refused: Vec<(usize, Infeasible)> =
+            self.legs.iter().enumerate().filter_map(|(leg, one)| Some((leg, *one.as_ref()?.as_ref().err()?))).collect();
+        let flown = self.legs.into_iter().flatten().flatten().collect();
+        if refused.is_empty() { Ok(Profile { legs: flown }) } else { Err(refused) }
+    }
 }
 
 /// The leg between `ends` in the first time of the ladder from the guess (s) on in which it may be flown.
@@ -145,7 +189,7 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
 
 /// The velocities at the waypoints, m/s: along the minimum-snap curve for these times, with the least speed that is
 /// demanded beside them.
-fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>], times: &[f64]) -> Vec<Vector3<f64>> {
+fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>], times: &[f64]) -> Vec<Passed> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let last = waypoints.len() - 1;
     let velocity = |k: usize| {
@@ -162,7 +206,7 @@ fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>
             }
         }
     };
-    (0..waypoints.len()).map(velocity).collect()
+    (0..waypoints.len()).map(|k| Passed { velocity: velocity(k), share: 1.0 }).collect()
 }
 
 /// By how much more than any flight within the limits has the acceleration must be, m/s², that turns from leg to leg at
@@ -297,6 +341,22 @@ mod tests {
         let taken: f64 = flight.legs.iter().map(|leg| leg.duration).sum();
         assert!(taken < STRETCH * straight, "{taken} s, straight and at rest {straight} s");
         assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()));
+    }
+
+    /// A time of zero leads up no ladder, and a velocity that a share makes subnormal is no rest.
+    #[test]
+    fn waypoints_next_to_each_other_end_in_a_flight_or_in_a_refusal() {
+        let judge = judge(5.0);
+        for near in [1e-200, 1e-155, 1e-9, 1e-3] {
+            let points = [[0.0, 50.0, 5.0], [near, 50.0, 5.0], [3.0, 59.0, 5.0]]
+                .map(|[x, y, z]| Point3::new(x, y, z) + Vector3::new(50.0, 0.0, 0.0));
+            let exact = [[0.0, 0.0, 5.0], [near, 0.0, 5.0], [3.0, 9.0, 5.0]].map(Point3::from);
+            let flight = hold(&judge, &points, &[None; 2], 600.0).unwrap();
+            assert!(flight.legs.iter().all(|leg| judge.prove(leg).is_ok()), "{near}");
+            // Beside the world's corner that is refused, and it is told on both legs.
+            let refused = hold(&judge, &exact, &[None; 2], 600.0).unwrap_err();
+            assert_eq!(refused.iter().map(|(leg, _)| *leg).collect::<Vec<_>>(), [0, 1], "{near}");
+        }
     }
 
     #[test]
