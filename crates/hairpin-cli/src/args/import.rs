@@ -7,7 +7,8 @@ use clap::Args;
 #[derive(Debug, Args)]
 pub(crate) struct Import {
     /// RAPID modules that are one program (.mod, .sys; docs/rapid.md says which RAPID is understood) or the program
-    /// file (.pgf) that names them, KRL (.src), URScript (.script), or the log that arc_clock.mod wrote
+    /// file (.pgf) that names them, KRL (.src), URScript (.script), or the log that arc_clock.mod wrote; a robot's log
+    /// (.ulg, .bin, .mcap, .tum, .csv); a mission (.plan, .waypoints, .csv): which of them is told by the content
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Follow every move in the joints of an arm: reach, limits, singularities, configurations, collisions, by line

@@ -1,5 +1,7 @@
-//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking
-//! module.
+//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; the log of a clocking module;
+//! or the log of a robot or a mission, and what would be judged of it.
+
+mod elsewhere;
 
 use hairpin_formats::listing::{Module, Unmodelled};
 use hairpin_formats::quote::shortened;
@@ -12,7 +14,7 @@ use crate::args::Import;
 use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 use crate::{console, settings};
 
-/// Runs the command: 1 for findings, 5 where not all of the program is understood.
+/// Runs the command: 1 for findings, 5 where not all of what moves is understood.
 pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
     let follower = || asked.cell.clone().map_or_else(|| Follower::Robot(asked.robot.clone()), Follower::Cell);
     let imported = import(&ImportSettings {
@@ -28,6 +30,8 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
             clocked(&imported, asked.json);
             return Ok(DONE);
         }
+        Imported::Log(log) => return Ok(elsewhere::tell_log(&asked.files[0], &log, asked.json)),
+        Imported::Mission(mission) => return Ok(elsewhere::tell_mission(&mission, asked.json)),
     };
     // A line that changes motion is not understood: what comes after it is not known.
     let open = read.findings.iter().any(|finding| finding.open);
@@ -62,7 +66,7 @@ fn clocked(imported: &Imported, json: bool) {
     let Imported::Clocked { out, points, moves, readings } = imported else { return };
     if json {
         let object = json!({
-            "points": points, "arcs": moves, "readings": readings, "table": out, "exit_code": DONE,
+            "kind": "arc clock", "points": points, "arcs": moves, "readings": readings, "table": out, "exit_code": DONE,
         });
         console::say(&object.to_string());
     } else {
@@ -93,6 +97,7 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
     });
     let unclear_place = module.unclear_line.map(|line| place(module, line));
     let mut object = json!({
+        "kind": "program",
         "module": module.program.name,
         "procedure": module.program.procedure,
         "moves": module.program.moves.len(),

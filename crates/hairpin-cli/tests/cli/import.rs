@@ -202,6 +202,57 @@ fn mistakes_in_modules_name_their_file_and_program_files_stay_in_their_folder() 
 }
 
 /// What `export` writes in any language, `import` follows move by move.
+/// Where the fixtures of logs and missions are.
+fn fixture(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../hairpin-formats/tests/fixtures").join(name);
+    path.to_string_lossy().into_owned()
+}
+
+#[test]
+fn logs_and_missions_are_told_by_what_they_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path();
+    fs::write(place.join("a.txt"), "# t x y z qx qy qz qw\n0.0 0 0 1 0 0 0 1\n0.1 0.1 0 1 0 0 0 1\n").unwrap();
+    let step = |k: u32| format!("{:.1},{:.1},0,1\n", 0.1 * f64::from(k), 0.1 * f64::from(k));
+    let rows = |gap: u32| (0..20).filter(|k| *k < 8 || *k > 8 + gap).map(step).collect::<String>();
+    fs::write(place.join("whole.csv"), format!("t_s,x_m,y_m,z_m\n{}", rows(0))).unwrap();
+    fs::write(place.join("gap.csv"), format!("t_s,x_m,y_m,z_m\n{}", rows(7))).unwrap();
+    fs::write(place.join("mission.csv"), "x_m,y_m,z_m\n0,0,5\n3,4,5\n").unwrap();
+    for (file, kind, format) in [
+        (fixture("logs/flight.ulg"), "log", "PX4 ULog"),
+        (fixture("logs/flight.bin"), "log", "ArduPilot DataFlash"),
+        (fixture("logs/drive.mcap"), "log", "ROS 2 MCAP"),
+        ("a.txt".into(), "log", "TUM"),
+        ("whole.csv".into(), "log", "CSV"),
+        (fixture("missions/cage.plan"), "mission", "QGroundControl plan"),
+        (fixture("missions/cage.waypoints"), "mission", "QGC WPL 110"),
+        ("mission.csv".into(), "mission", "CSV"),
+    ] {
+        let object = json(place, &["import", &file]);
+        assert_eq!(
+            (object["kind"].as_str(), object["format"].as_str()),
+            (Some(kind), Some(format)),
+            "{file}: {object}"
+        );
+    }
+    assert_eq!(json(place, &["import", "mission.csv"])["length_m"].as_f64(), Some(5.0));
+
+    // What a judgement would cut out is a finding, with its time; what is whole is none.
+    let (code, out, error) = run(place, &["import", "whole.csv"]);
+    assert!(code == 0 && error.contains("next: hairpin judge whole.csv --mission"), "{code}: {out}{error}");
+    let (code, out, _) = run(place, &["import", "gap.csv"]);
+    assert!(code == 1 && out.contains("gap of 0.9 s at t = 0.7 s not judged"), "{code}: {out}");
+    let (code, _, error) = run(place, &["import", "mission.csv"]);
+    assert!(code == 0 && error.contains("next: hairpin check mission.csv --robot"), "{code}: {error}");
+
+    refused(place, &["import", "whole.csv", "--check"], &["--check", "hairpin judge"]);
+    refused(place, &["import", "mission.csv", "--out", "x.csv"], &["--out", "hairpin check"]);
+    fs::write(place.join("t.parquet"), b"PAR1\0\0").unwrap();
+    refused(place, &["import", "t.parquet"], &["Parquet", "import reads RAPID modules"]);
+    fs::write(place.join("note.txt"), "hello\n").unwrap();
+    refused(place, &["import", "note.txt"], &["note.txt", "no RAPID module", "missions"]);
+}
+
 #[test]
 fn what_is_exported_is_read_back() {
     let place = tempfile::tempdir().unwrap();

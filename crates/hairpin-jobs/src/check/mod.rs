@@ -11,6 +11,7 @@ use hairpin_formats::missions::{Frame, Mission};
 use crate::{Problem, Watch};
 
 pub use settings::CheckSettings;
+pub(crate) use world::read_anywhere;
 
 /// What came of it.
 #[derive(Debug)]

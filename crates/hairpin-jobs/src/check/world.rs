@@ -15,6 +15,8 @@ use crate::{Problem, Watch};
 
 /// Room around a mission in the open, m.
 const ROOM_M: f64 = 30.0;
+/// A shipped robot: what a mission says does not depend on which.
+const ANYBODY: &str = "flightgoggles";
 /// Endings of maps.
 const MAPS: [&str; 5] = ["tif", "tiff", "asc", "png", "npy"];
 
@@ -57,23 +59,34 @@ fn brings_a_world(robot: &str) -> bool {
     is_scenario(robot) && (Path::new(robot).is_file() || !library::robots().any(|shipped| shipped.name == robot))
 }
 
+/// The mission in `file` by itself, for whoever asks what it is: of no robot, and nothing is around it.
+///
+/// # Errors
+/// As of [`missions::read`].
+pub(crate) fn read_anywhere(file: &Path) -> Result<Mission, Problem> {
+    let anybody = setup_for(ANYBODY, &[])?;
+    let somewhere = open(&anybody, file, &Vector3::repeat(2.0 * ROOM_M))?;
+    missions::read(file, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)
+}
+
+/// `setup` with `size` (m) of nothing around its robot.
+fn open(setup: &Setup, mission: &Path, size: &Vector3<f64>) -> Result<Setup, Problem> {
+    setup
+        .in_the_open(size)
+        .map_err(|mistake| Problem::of_file(mission, mistake))?
+        .ok_or_else(|| Problem::input(format!("missions of {} are not checked", setup.robot_name())))
+}
+
 /// A robot alone: nothing is around it, and where the mission begins does not matter.
 fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup, Mission, String), Problem> {
     let setup = &with_its_own_limits(setup, sets)?;
-    let open = |size: &Vector3<f64>| {
-        let none = || format!("missions of {} are not checked", setup.robot_name());
-        setup
-            .in_the_open(size)
-            .map_err(|mistake| Problem::of_file(mission, mistake))?
-            .ok_or_else(|| Problem::input(none()))
-    };
-    let somewhere = open(&Vector3::repeat(2.0 * ROOM_M))?;
+    let somewhere = open(setup, mission, &Vector3::repeat(2.0 * ROOM_M))?;
     let mut read = missions::read(mission, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)?;
     let (mut low, mut high) = (read.waypoints[0].coords, read.waypoints[0].coords);
     for point in &read.waypoints {
         (low, high) = (low.inf(&point.coords), high.sup(&point.coords));
     }
-    let there = open(&(high - low + Vector3::repeat(2.0 * ROOM_M)))?;
+    let there = open(setup, mission, &(high - low + Vector3::repeat(2.0 * ROOM_M)))?;
     let shift = Vector3::repeat(ROOM_M) - low;
     for point in &mut read.waypoints {
         *point += shift;

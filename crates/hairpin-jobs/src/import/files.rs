@@ -10,8 +10,9 @@ use hairpin_formats::{krl, urscript};
 use crate::Problem;
 
 /// What `import` reads, for whoever brings something else.
-const READS: &str = "import reads RAPID modules (.mod, .sys, .prg) and program files (.pgf), KRL (.src with its .dat), \
-    URScript (.script), and logs that arc_clock.mod wrote";
+pub(super) const READS: &str = "import reads RAPID modules (.mod, .sys, .prg) and program files (.pgf), KRL (.src with \
+    its .dat), URScript (.script), logs that arc_clock.mod wrote, logs of robots that moved (PX4 ULog, ArduPilot \
+    DataFlash, ROS 2 MCAP, TUM, CSV) and missions (.plan, QGC WPL 110, tables of waypoints)";
 
 /// Files that are one program, at most.
 const MOST_FILES: usize = 1000;
@@ -38,7 +39,7 @@ impl Loaded {
     }
 }
 
-fn ending(path: &Path) -> String {
+pub(super) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
@@ -125,6 +126,11 @@ fn of_rapid(files: &[PathBuf], procedure: Option<&str>, frames: &Frames) -> Resu
 fn told(file: &Path, files: &[PathBuf]) -> String {
     let same = files.iter().filter(|other| other.file_name() == file.file_name()).count();
     if same > 1 { file.display().to_string() } else { name_of(file) }
+}
+
+/// Whether a file is called as programs are.
+pub(super) fn is_program_by_name(file: &Path) -> bool {
+    is_rapid_by_name(file) || ["pgf", "src", "dat", "script"].contains(&ending(file).as_str())
 }
 
 /// Whether a file is called as RAPID's are.

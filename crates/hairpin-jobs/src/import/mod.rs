@@ -1,27 +1,34 @@
-//! A program from elsewhere, line by line, and what an arm can do of it; or the log of a clocking module.
+//! What comes from elsewhere, and what it is: a program, line by line, and what an arm can do of it; the log of a
+//! clocking module; the log of a robot that moved; a mission.
 
 mod files;
 mod findings;
 mod follow;
+mod kind;
+mod log;
 
 use std::path::{Path, PathBuf};
 
 use hairpin_formats::listing::Module;
+use hairpin_formats::missions::Mission;
 use hairpin_formats::rapid::Frames;
 use hairpin_formats::scenario::setup_for;
 use hairpin_formats::{atomic, rapid};
 
 use crate::Problem;
+use crate::check::read_anywhere;
 use crate::sets::Set;
+use kind::Kind;
 
 pub use findings::MoveFinding;
 pub use follow::{Follow, Follower};
+pub use log::{ReadLog, ReadMotion};
 
 /// What is read, and what it is held against.
 #[derive(Debug, Clone, Default)]
 pub struct ImportSettings {
-    /// RAPID modules that are one program, a program file that names them, a program in KRL or URScript, or the log
-    /// that arc_clock.mod wrote.
+    /// RAPID modules that are one program, a program file that names them, a program in KRL or URScript; or one log or
+    /// mission.
     pub files: Vec<PathBuf>,
     /// Who is to do what the program says; nobody if not given.
     pub check: Option<Follower>,
@@ -29,7 +36,7 @@ pub struct ImportSettings {
     pub procedure: Option<String>,
     /// Keys with other values: of a cell the scenario's, of an arm alone `robot.KEY`.
     pub sets: Vec<Set>,
-    /// Of a log: where the table of costs goes; arc_ms.csv beside the log if not given.
+    /// Of an arc clock's log: where the table of costs goes; arc_ms.csv beside the log if not given.
     pub out: Option<PathBuf>,
 }
 
@@ -37,7 +44,11 @@ pub struct ImportSettings {
 pub enum Imported {
     /// A program, and what is found in it.
     Program(Box<Read>),
-    /// A log, of which a table of costs was made.
+    /// The log of a robot that moved.
+    Log(Box<ReadLog>),
+    /// A mission; on Earth, about its own home.
+    Mission(Box<Mission>),
+    /// The log of a clocking module, of which a table of costs was made.
     Clocked {
         /// The table.
         out: PathBuf,
@@ -60,15 +71,23 @@ pub struct Read {
     pub findings: Vec<MoveFinding>,
 }
 
-/// Reads a program or a log, and follows the one or tables the other.
+/// Reads what comes from elsewhere: follows a program, tables a clocking module's log.
 ///
 /// # Errors
-/// A file that cannot be read at all; no such arm.
+/// A file that cannot be read at all; no such arm; what is asked of programs alone, of something else.
 pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
     if let [file] = &settings.files[..] {
-        let bytes = files::load(file)?;
-        if rapid::is_log(&bytes) {
-            return clocked(settings, file, &bytes);
+        match Kind::of(file)? {
+            Kind::Program => {}
+            Kind::ArcClock => return clocked(settings, file, &files::load(file)?),
+            Kind::Log => {
+                of_programs_alone(settings, file, "a log; hairpin judge holds it against a mission or a campaign")?;
+                return Ok(Imported::Log(Box::new(ReadLog::of(file)?)));
+            }
+            Kind::Mission => {
+                of_programs_alone(settings, file, "a mission; hairpin check says whether a robot can do it")?;
+                return Ok(Imported::Mission(Box::new(read_anywhere(file)?)));
+            }
         }
     }
     let cell = match &settings.check {
@@ -81,6 +100,20 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
     let followed = settings.check.as_ref().map(follow).transpose()?;
     let findings = findings::findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
+}
+
+/// # Errors
+/// Something is asked that `file`, which is `what`, has no answer to.
+fn of_programs_alone(settings: &ImportSettings, file: &Path, what: &str) -> Result<(), Problem> {
+    let asked = [
+        ("--check", settings.check.is_some()),
+        ("--procedure", settings.procedure.is_some()),
+        ("--out", settings.out.is_some()),
+    ];
+    match asked.iter().find(|(_, is)| *is) {
+        Some((flag, _)) => Err(Problem::of_file(file, format!("{flag}: it is {what}"))),
+        None => Ok(()),
+    }
 }
 
 /// Makes the table of costs of what a clocking module logged.
@@ -112,7 +145,7 @@ mod tests {
             let settings = ImportSettings { files: vec![file.clone()], check, ..ImportSettings::default() };
             match import(&settings).unwrap() {
                 Imported::Program(read) => read,
-                Imported::Clocked { .. } => panic!("it is no log"),
+                _ => panic!("it is a program"),
             }
         };
         let alone = read(None);

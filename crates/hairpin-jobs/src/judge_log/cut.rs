@@ -38,15 +38,15 @@ impl Cut {
 }
 
 /// What is left of a log.
-pub(super) struct Left {
-    pub(super) samples: Vec<Sample>,
+pub(crate) struct Left {
+    pub(crate) samples: Vec<Sample>,
     /// Samples before which something was cut out.
-    pub(super) breaks: Vec<usize>,
-    pub(super) cuts: Vec<Cut>,
+    pub(crate) breaks: Vec<usize>,
+    pub(crate) cuts: Vec<Cut>,
 }
 
 /// Cuts `samples`, a part of `motion` in the world's frame that rises in time.
-pub(super) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], swiftness: &Swiftness) -> Left {
+pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], swiftness: &Swiftness) -> Left {
     let mut cuts = Vec::new();
     let (start, end) = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => (first.t_s, last.t_s),

@@ -30,6 +30,7 @@ use crate::{Problem, Watch};
 
 pub use arm::{FoundProgram, JointsTold};
 pub use cut::Cut;
+pub(crate) use cut::cut;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};
 pub(crate) use frame::IntoWorld;
 pub use frame::{Altitude, FrameSettings, FrameTold};
@@ -39,6 +40,7 @@ pub use matching::Matched;
 pub(crate) use matching::matched;
 pub use settings::{Against, LogSettings};
 pub use source::SourceTold;
+pub(crate) use source::clock_words;
 
 /// Judges a log, or all that are in a folder. In a folder one that cannot be judged is told, and the others are judged.
 ///

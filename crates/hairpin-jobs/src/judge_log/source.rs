@@ -43,25 +43,11 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
             Problem::input(format!("a {} log without two poses{joints}", logged.format))
         })?,
     };
-    let others = logged.motions.iter().filter(|other| other.name != motion.name);
-    let mut spans: Vec<f64> = motion.samples.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
-    spans.sort_unstable_by(f64::total_cmp);
-    let middle = spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY);
-    let told = SourceTold {
-        format: logged.format,
-        topic: motion.name.clone(),
-        words: words(motion.source, logged.format),
-        has_accuracy: motion.samples.iter().any(|sample| sample.accuracy_m.is_some()),
-        others: others.map(|other| other.name.clone()).collect(),
-        clock: clock_words(logged.clock),
-        samples: motion.samples.len(),
-        rate_hz: 1.0 / middle,
-    };
-    Ok((motion, told))
+    Ok((motion, SourceTold::of(logged, motion)))
 }
 
 /// Whose stamps times are.
-pub(super) fn clock_words(clock: Clock) -> &'static str {
+pub(crate) fn clock_words(clock: Clock) -> &'static str {
     match clock {
         Clock::SinceBoot => "since the vehicle's boot",
         Clock::Header => "of the messages' headers",
@@ -82,6 +68,24 @@ fn words(source: Source, format: &str) -> &'static str {
 }
 
 impl SourceTold {
+    /// Where `motion`, one of `logged`, is from.
+    pub(crate) fn of(logged: &Logged, motion: &LoggedMotion) -> Self {
+        let others = logged.motions.iter().filter(|other| other.name != motion.name);
+        let mut spans: Vec<f64> = motion.samples.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
+        spans.sort_unstable_by(f64::total_cmp);
+        let middle = spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY);
+        Self {
+            format: logged.format,
+            topic: motion.name.clone(),
+            words: words(motion.source, logged.format),
+            has_accuracy: motion.samples.iter().any(|sample| sample.accuracy_m.is_some()),
+            others: others.map(|other| other.name.clone()).collect(),
+            clock: clock_words(logged.clock),
+            samples: motion.samples.len(),
+            rate_hz: 1.0 / middle,
+        }
+    }
+
     /// As it stands in the sentence: an estimate that does not say how good it is is named there.
     pub(super) fn in_sentence(&self) -> String {
         let estimated = self.words.contains("estimate") || self.words == "source not told";

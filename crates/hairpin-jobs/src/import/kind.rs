@@ -1,0 +1,124 @@
+//! What a file holds, by its name and its first bytes.
+
+use std::io::Read;
+use std::path::Path;
+
+use hairpin_formats::bounds;
+use hairpin_formats::logs::{self, MOST_LOG_BYTES};
+use hairpin_formats::rapid;
+
+use super::files::{READS, is_program_by_name};
+use crate::Problem;
+
+/// By so many of the first bytes kinds are told apart.
+const FIRST_BYTES: u64 = 65_536;
+
+/// Kinds of files that come from elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Program,
+    ArcClock,
+    Log,
+    Mission,
+}
+
+impl Kind {
+    /// The kind of `file`; what nothing speaks for is taken for a program, whose reader says what it misses.
+    ///
+    /// # Errors
+    /// It cannot be read, or is no text and of no format that is known.
+    pub(super) fn of(file: &Path) -> Result<Self, Problem> {
+        if is_program_by_name(file) {
+            return Ok(Self::Program);
+        }
+        let refuse = |cause| Problem::of_file(file, cause);
+        let mut first = Vec::new();
+        let opened = bounds::open(file, MOST_LOG_BYTES).map_err(refuse)?;
+        opened.take(FIRST_BYTES).read_to_end(&mut first).map_err(refuse)?;
+        if !is_text(file)? {
+            return Ok(Self::Log);
+        }
+        Ok(Self::of_text(&first, &super::files::ending(file)))
+    }
+
+    fn of_text(first: &[u8], ending: &str) -> Self {
+        if rapid::is_log(first) {
+            return Self::ArcClock;
+        }
+        let start = first.trim_ascii_start();
+        if ["plan", "waypoints"].contains(&ending) || start.starts_with(b"QGC WPL") || start.starts_with(b"{") {
+            return Self::Mission;
+        }
+        let text = String::from_utf8_lossy(first);
+        let is_program = text.lines().any(|line| starts_module(line));
+        let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+        let columns = Columns::of(header);
+        match ending {
+            "tum" => Self::Log,
+            _ if is_program => Self::Program,
+            _ if columns.time => Self::Log,
+            _ if columns.place => Self::Mission,
+            "csv" => Self::Log,
+            _ if is_tum(&text) => Self::Log,
+            _ => Self::Program,
+        }
+    }
+}
+
+/// Of a log: see [`logs::is_text`], whose refusals of other programs' logs say what would make them readable.
+fn is_text(file: &Path) -> Result<bool, Problem> {
+    logs::is_text(file).map_err(|why| Problem::input(format!("{why}; {READS}")))
+}
+
+fn starts_module(line: &str) -> bool {
+    line.split_whitespace().next().is_some_and(|word| word.eq_ignore_ascii_case("MODULE"))
+}
+
+/// Whether the first line with numbers has the eight of a pose with its time.
+fn is_tum(text: &str) -> bool {
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let words: Vec<&str> = first.split_whitespace().collect();
+    words.len() == 8 && words.iter().all(|word| word.parse::<f64>().is_ok())
+}
+
+/// What a header says of a table.
+struct Columns {
+    time: bool,
+    place: bool,
+}
+
+impl Columns {
+    fn of(header: &str) -> Self {
+        let mut columns = Self { time: false, place: false };
+        for name in header.trim_start_matches(['\u{feff}', '#']).split([',', ';']) {
+            let name = name.trim().trim_matches('"').to_ascii_lowercase();
+            columns.time |= name == "t" || name.starts_with("t_") || name.contains("time") || name.contains("stamp");
+            columns.place |= ["x_m", "lat_deg"].contains(&name.as_str());
+        }
+        columns
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_told_apart_by_what_they_hold() {
+        for (text, ending, kind) in [
+            ("x_m,y_m,z_m\n1,2,3\n", "csv", Kind::Mission),
+            ("lat_deg,lon_deg,alt_amsl_m\n1,2,3\n", "csv", Kind::Mission),
+            ("t_s,x_m,y_m,z_m\n1,2,3,4\n", "csv", Kind::Log),
+            ("#timestamp [ns], p_RS_R_x [m]\n1,2\n", "csv", Kind::Log),
+            ("a,b\n1,2\n", "csv", Kind::Log),
+            ("# t x y z\n0.0 1 2 3 0 0 0 1\n", "txt", Kind::Log),
+            ("QGC WPL 110\n", "txt", Kind::Mission),
+            ("  {\"fileType\": \"Plan\"}", "json", Kind::Mission),
+            ("%%%\n  VERSION:1\n%%%\nMODULE m(SYSMODULE)\nENDMODULE\n", "txt", Kind::Program),
+            ("hello\n", "txt", Kind::Program),
+            ("", "csv", Kind::Log),
+        ] {
+            assert_eq!(Kind::of_text(text.as_bytes(), ending), kind, "{text:?}");
+        }
+    }
+}
