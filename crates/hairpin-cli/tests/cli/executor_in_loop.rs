@@ -124,9 +124,10 @@ fn the_loop_finds_more_than_chance() {
 fn what_fails_is_no_trial_and_counts() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    for kind in ["error", "exit", "nan"] {
+    let once = [("2", "3")];
+    for (kind, pools) in [("error", &[("1", "1"), ("2", "3")][..]), ("exit", &once), ("nan", &once)] {
         let mut kept = Vec::new();
-        for (threads, processes) in [("1", "1"), ("2", "3")] {
+        for (threads, processes) in pools {
             fs::write(here.join("q.toml"), scenario(ADAPTIVE, "high-velocity-90", &format!("--sick {kind}"))).unwrap();
             let out = format!("{kind}-{processes}");
             let processes = format!("execute.processes={processes}");
@@ -143,7 +144,7 @@ fn what_fails_is_no_trial_and_counts() {
             assert!((5..=25).contains(&count("failed")), "{tally}");
             kept.push(whatever_flies(&here.join(&out)));
         }
-        assert!(kept[0] == kept[1], "{kind}: processes change what is found");
+        assert!(kept.iter().all(|one| *one == kept[0]), "{kind}: processes change what is found");
     }
 }
 
