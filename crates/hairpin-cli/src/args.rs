@@ -4,6 +4,7 @@ mod bench;
 mod calibrate;
 mod check;
 mod check_executor;
+mod cluster;
 mod commands;
 mod compare;
 mod experiment;
@@ -36,6 +37,7 @@ pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
 pub(crate) use check::Check;
 pub(crate) use check_executor::CheckExecutor;
+pub(crate) use cluster::{Merge, Plan, RunShard};
 pub(crate) use commands::Commands;
 pub(crate) use compare::{Compare, FailOn};
 pub(crate) use experiment::Experiment;
@@ -112,6 +114,12 @@ pub(crate) enum Command {
     Shrink(Shrink),
     /// Compare two judged campaigns over the same cases: better, worse, newly failing
     Compare(Compare),
+    /// Divide a campaign for several machines: plan SCENARIO --out DIR, then run-shard and merge
+    Plan(Box<Plan>),
+    /// Make one machine's share of a plan: run-shard 3/8 DIR, or --shard from-env DIR
+    RunShard(RunShard),
+    /// Put together what shards have made: the same campaign as from one machine
+    Merge(Merge),
     /// Write a campaign's trajectories for other programs
     Export(Export),
     /// Read a program from elsewhere and check it by line: import CELL.mod --check
@@ -159,6 +167,9 @@ impl Command {
             Self::Compare(a) => a.json,
             Self::Shrink(a) => a.json,
             Self::Select(a) => a.json,
+            Self::Plan(a) => a.json,
+            Self::RunShard(a) => a.json,
+            Self::Merge(a) => a.json,
             Self::Explain(a) => a.json,
             Self::Calibrate(a) => a.json,
             Self::Fit(a) => a.json,

@@ -88,6 +88,8 @@ const OF_VERBS: &[(&str, &str, &[&str])] = &[
         ],
     ),
     ("steer", "Output", &["plot", "path", "wheels", "json"]),
+    ("plan", "Parts", &["cases", "parts"]),
+    ("run-shard", "Shard", &["shard", "shards"]),
     ("judge", "Logs", &["campaign", "mission", "robot", "world", "case", "source", "from", "to"]),
     ("judge", "Frame of logs", &["turn", "offset", "altitude"]),
     ("max-load", "Question", &["graph", "cloud", "start", "end", "min_cost", "visits", "programs"]),
@@ -159,6 +161,15 @@ const EXAMPLES: &[(&str, [&str; 2])] = &[
     ("explain", ["hairpin explain quadrotor.toml", "hairpin explain quadrotor.toml --set task.length=14"]),
     ("shrink", ["hairpin shrink out/quadrotor --case 17", "hairpin shrink out/quadrotor --case 17 --time-limit 60"]),
     ("compare", ["hairpin compare v1 v2", "hairpin compare v1 v2 --fail-on regression --json"]),
+    (
+        "plan",
+        [
+            "hairpin plan quadrotor.toml --out out/wide",
+            "hairpin plan quadrotor.toml --cases 10000 --parts 200 --out out/wide",
+        ],
+    ),
+    ("run-shard", ["hairpin run-shard 3/8 out/wide", "hairpin run-shard --shard from-env out/wide --threads 4"]),
+    ("merge", ["hairpin merge out/wide", "hairpin merge out/wide --json --remove-parts"]),
     ("export", ["hairpin export out/quadrotor --to csv,mcap --worst 10", "hairpin export out/arm --to rapid --case 3"]),
     ("import", ["hairpin import cell.mod --check --cell arm.toml", "hairpin import cell.mod --lines"]),
     (

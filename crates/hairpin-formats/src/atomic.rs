@@ -106,6 +106,38 @@ pub fn make_folder(path: &Path) -> Result<(), WriteError> {
     fs::create_dir_all(path).map_err(|cause| WriteError { path: path.into(), cause })
 }
 
+/// A folder under a temporary name in `parent`, which is made where it is not there; it goes when this is dropped.
+///
+/// # Errors
+/// As [`make_folder`].
+pub fn temporary_folder(parent: &Path) -> Result<tempfile::TempDir, WriteError> {
+    make_folder(parent)?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o777));
+    }
+    builder.tempdir_in(parent).map_err(|cause| WriteError { path: parent.into(), cause })
+}
+
+/// Gives a temporary folder its name, `path`, at once. Whether it has it: not where a folder with something in it
+/// stands there already.
+///
+/// # Errors
+/// Whatever else the system refuses.
+pub fn put_folder(temporary: tempfile::TempDir, path: &Path) -> Result<bool, WriteError> {
+    match fs::rename(temporary.path(), path) {
+        Ok(()) => {
+            let _ = temporary.keep();
+            Ok(true)
+        }
+        Err(cause) if matches!(cause.kind(), ErrorKind::DirectoryNotEmpty | ErrorKind::AlreadyExists) => Ok(false),
+        Err(cause) => Err(WriteError { path: path.into(), cause }),
+    }
+}
+
 /// Removes the temporaries that a killed process left in `folder` (not below it). Call it only where no other process
 /// writes. What cannot be removed does no harm: readers never look at these names.
 pub fn remove_leftovers(folder: &Path) {

@@ -1,10 +1,11 @@
 //! Generation: trajectories, their planned motion, and what the search did.
 
 use std::fmt::Display;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
-use hairpin::campaign::generate::Known;
+use hairpin::campaign::generate::{Known, generate_units};
 use hairpin::campaign::{Case, Setup, Stop, Tally, learn, planned};
 use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
@@ -52,7 +53,7 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let found = searched(&work.setup, &known, (deadline, watch), &mut |new, tally| {
+    let found = searched(&work.setup, &Scope::From(&known), (deadline, watch), &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
             trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
@@ -95,11 +96,19 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     Ok((cases, tally))
 }
 
-/// Searches on from what is `known`, and hands on what is found with the tally so far. Gives the tally in the end, and
-/// what went wrong with the user's program where that was the end of it.
+/// How much of a campaign is searched.
+enum Scope<'a> {
+    /// All of it, on from what is known.
+    From(&'a Known),
+    /// These units of work, whose cases are numbered from the number beside them.
+    Units(Range<u64>, u64),
+}
+
+/// Searches, and hands on what is found with the tally so far. Gives the tally in the end, and what went wrong with the
+/// user's program where that was the end of it.
 fn searched(
     setup: &Setup,
-    known: &Known,
+    scope: &Scope,
     (deadline, watch): (Deadline, &dyn Watch),
     found: &mut (dyn FnMut(&[Case], &Tally) + Send),
 ) -> Result<(Tally, Option<Problem>), Problem> {
@@ -114,8 +123,10 @@ fn searched(
     };
     let search = |Asked { executor, stop: over }: Asked| {
         let stop = Stop { cancelled: over, ..stop };
-        not_waiting_for(&code, watch, deadline, || {
-            hairpin::campaign::generate(setup, known, executor, &stop, &mut |new, tally| found(new, tally))
+        let found = &mut |new: &[Case], tally: &Tally| found(new, tally);
+        not_waiting_for(&code, watch, deadline, || match scope {
+            Scope::From(known) => hairpin::campaign::generate(setup, known, executor, &stop, found),
+            Scope::Units(units, first) => generate_units(setup, (units.clone(), *first), executor, &stop, found),
         })
     };
     let answer = in_the_loop(setup, &stopped, watch, search)?;
@@ -131,18 +142,33 @@ fn searched(
 /// # Errors
 /// Code or a program of the user's that failed; it was asked to stop.
 pub(crate) fn found_beside(setup: &Setup, deadline: Deadline, watch: &dyn Watch) -> Result<Vec<Case>, Problem> {
+    Ok(found_in(setup, &Scope::From(&Known::default()), deadline, watch)?.cases)
+}
+
+/// What these units of work come to, the cases numbered from `first` on.
+///
+/// # Errors
+/// As of [`found_beside`].
+pub(crate) fn find_units(
+    setup: &Setup,
+    (units, first): (Range<u64>, u64),
+    watch: &dyn Watch,
+) -> Result<Known, Problem> {
+    found_in(setup, &Scope::Units(units, first), Deadline::after(None), watch)
+}
+
+fn found_in(setup: &Setup, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -> Result<Known, Problem> {
     let mut cases = Vec::new();
-    let (_, trouble) =
-        searched(setup, &Known::default(), (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    let (tally, trouble) = searched(setup, scope, (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
     match trouble {
         Some(problem) => Err(problem),
         None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),
-        None => Ok(cases),
+        None => Ok(Known { cases, tally }),
     }
 }
 
 /// The tally of a generation that goes on: cases may come, and what is made of all of them is not there.
-fn unfinished(tally: &Tally) -> Tally {
+pub(crate) fn unfinished(tally: &Tally) -> Tally {
     Tally { complete: false, stopped: true, ..tally.clone() }
 }
 

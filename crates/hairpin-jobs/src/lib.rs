@@ -10,6 +10,7 @@ pub mod calibrate;
 pub mod certificate;
 pub mod check;
 pub mod check_executor;
+pub mod cluster;
 pub mod compare;
 pub mod consent;
 pub mod differences;

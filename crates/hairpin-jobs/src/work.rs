@@ -322,7 +322,7 @@ fn simd_of(level: Option<&str>) -> Simd {
 
 /// Refuses to go on in `folder` at another SIMD level: the bits would be the same, but what is written of their origin
 /// would not be true.
-fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
+pub(crate) fn same_level(folder: &CampaignFolder, simd: Simd) -> Result<(), Problem> {
     let (now, path) = (simd.level(), folder.path().display());
     match folder.simd_level()? {
         Some(before) if before != now => Err(Problem::input(if before == Simd::Portable.level() {

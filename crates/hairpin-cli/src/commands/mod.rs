@@ -5,6 +5,7 @@ pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod check;
 pub(crate) mod check_executor;
+pub(crate) mod cluster;
 pub(crate) mod compare;
 pub(crate) mod completions;
 mod course;

@@ -13,6 +13,7 @@ mod campaign;
 mod check;
 mod check_executor;
 mod ci_kit;
+mod cluster;
 mod compare;
 mod contract;
 mod controllers;

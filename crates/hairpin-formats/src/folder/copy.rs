@@ -70,25 +70,20 @@ impl CampaignFolder {
     fn copy_reruns(&self, cases: &[CaseNumber], there: &Self) -> Result<(), FolderError> {
         let mut all = Vec::new();
         for &case in cases {
-            let known = self.rerun_facts_of(case)?;
+            let known = self.reruns_of(&[case])?;
             if known.is_empty() {
                 for (again, run) in self.read_reruns(case)?.iter().enumerate() {
                     let landed = Landed::again(run, again, &BTreeSet::new());
                     all.push(((case, again), landed.map_err(|cause| there.no_room(RERUNS, cause))?));
                 }
             }
-            for facts in known {
-                all.push(((case, facts.run), self.landed(RERUNS, facts)?));
-            }
+            all.extend(known);
         }
-        let repeat = all.iter().map(|((_, again), _)| again + 1).max().unwrap_or_default();
-        let writer = there.write_reruns(repeat, all.iter().map(|(key, _)| *key));
-        all.into_iter().try_for_each(|(_, landed)| writer.land(landed))?;
-        writer.finish()
+        there.land_reruns(all)
     }
 
     /// A run that is known by `facts`, with its motion as it stands in `table`.
-    fn landed(&self, table: &str, facts: RunFacts) -> Result<Landed, FolderError> {
+    pub(super) fn landed(&self, table: &str, facts: RunFacts) -> Result<Landed, FolderError> {
         let key = (facts.case, facts.run);
         let motion = self.part_with(table, facts.case)?.map(|part| part.piece(key)).transpose()?.flatten();
         Ok(Landed::known(facts, motion))

@@ -25,6 +25,7 @@
 //! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
 //! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `repro/`, `junit.xml`, `report.html` | see the README |
+//! | `plan.json`, `parts/` | of a campaign for several machines: how it is divided, and what each of them made |
 //! | `export/` | what was exported; of earlier versions `missions/` and files in the folder itself |
 //! | `.hairpin` | the names in the folder that are hairpin's own: nothing else in it is replaced or removed |
 //!
@@ -39,7 +40,9 @@
 //! A folder may come from a stranger. Nothing in it is followed out of it: it is refused if it holds a link.
 
 mod cases;
+mod content;
 mod copy;
+mod division;
 mod error;
 mod executor;
 mod forget;
@@ -73,7 +76,9 @@ pub use graph::graph_decimals;
 pub use inside::inside;
 use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
-pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MISSIONS, MOVES, OPTIMUM, REASONS, SEARCHED};
+pub use names::{
+    ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MISSIONS, MOVES, OPTIMUM, PART, PLAN, REASONS, SEARCHED,
+};
 use names::{
     COVERAGE, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports, exports,
     exports_of_runs, stands_for,
@@ -135,6 +140,7 @@ impl CampaignFolder {
             folder.forget_cases()?;
             folder.forget_exports()?;
             folder.forget_model()?;
+            folder.forget_parts()?;
         }
         Ok(folder)
     }

@@ -28,6 +28,12 @@ pub const SEARCHED: &str = "searched.parquet";
 pub const MISSIONS: &str = "missions.json";
 /// How the largest stress of a search that executes rose.
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
+/// How a campaign was divided for several machines.
+pub const PLAN: &str = "plan.json";
+/// The folder of what these made.
+pub(super) const PARTS: &str = "parts";
+/// What one of them says of itself.
+pub const PART: &str = "part.json";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 
 /// What the program of the user's that executed says of itself.
@@ -55,6 +61,7 @@ pub(super) const OURS: &[&str] = &[
     SEARCHED,
     MISSIONS,
     BEST_SO_FAR,
+    PLAN,
     COVERAGE[0],
     COVERAGE[1],
     hairpin::campaign::learn::NAME,

@@ -6,6 +6,7 @@
 
 mod adaptive;
 mod by_chance;
+mod division;
 mod graphs;
 mod known;
 mod optima;
@@ -25,6 +26,7 @@ use super::trial::executed_case;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 pub use by_chance::{ByChance, Purpose, by_chance};
+pub use division::{expected_before, generate_units, joined, renumbered, sure_units};
 pub use known::Known;
 pub use optima::{Optimum, optima};
 pub use space::Space;
@@ -88,20 +90,41 @@ pub fn generate(
         Some(graphs) => graphs,
         None => wanted.saturating_mul(GRAPHS_PER_CASE),
     };
+    search_units(&graphs, collector, Limits { units, wanted }, stop, sink)
+}
+
+/// Where units of work end.
+struct Limits {
+    /// Number of the first that is not taken any more.
+    units: u64,
+    /// Number of cases with which it is enough.
+    wanted: u64,
+}
+
+/// Searches unit after unit, from where `collector` stands.
+fn search_units(
+    graphs: &Graphs,
+    mut collector: Collector,
+    Limits { units, wanted }: Limits,
+    stop: &Stop,
+    sink: &mut dyn FnMut(&[Case], &Tally),
+) -> Tally {
+    let (setup, varied) = (graphs.setup, varies(&graphs.setup.scenario));
+    let per_graph = setup.scenario.search().per_graph.max(1);
     let batch = 2 * rayon::current_num_threads() as u64;
     let cut_short = setup.scenario.executes() || setup.user_score().is_some();
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
         // What is executed is dear: no more graphs than may be needed.
-        let needed = (wanted - collector.cases as u64).div_ceil(search.per_graph.max(1));
+        let needed = (wanted - collector.cases as u64).div_ceil(per_graph);
         let last = units.min(first + if setup.scenario.executes() { batch.min(needed) } else { batch });
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
                 let begins = !(stop.cancelled)();
                 let outcome = begins.then(|| {
-                    if varied { drawn_case(&graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
+                    if varied { drawn_case(graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
                 });
                 // Where executions or the user's scores were denied, a graph was searched in part, and is searched
                 // again by whoever goes on.
@@ -174,13 +197,15 @@ struct Collector<'a> {
     tally: Tally,
     cases: usize,
     seen: HashSet<[u8; 16]>,
+    /// Whether repetitions are dropped.
+    drops: bool,
 }
 
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, executor: &'a dyn Executor, known: &Known) -> Self {
         let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program()))).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
-        Self { setup, executor, tally, cases: known.cases.len(), seen }
+        Self { setup, executor, tally, cases: known.cases.len(), seen, drops: true }
     }
 
     fn take(&mut self, outcome: Outcome, number: Option<usize>, wanted: u64) -> Vec<Case> {
@@ -202,7 +227,9 @@ impl<'a> Collector<'a> {
             if self.cases as u64 >= wanted {
                 break;
             }
-            if !self.seen.insert(fingerprint(met(&plan.waypoints, plan.witness.as_ref().and_then(Witness::program)))) {
+            let is_new =
+                self.seen.insert(fingerprint(met(&plan.waypoints, plan.witness.as_ref().and_then(Witness::program))));
+            if self.drops && !is_new {
                 self.tally.duplicates += 1;
                 continue;
             }

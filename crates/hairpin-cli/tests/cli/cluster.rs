@@ -1,0 +1,98 @@
+//! One campaign on several machines: the folder is the one that a single machine makes, whoever made which part, in
+//! which order, and who was killed at it.
+#![cfg(unix)]
+
+use std::fs;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::commands::{assert_same, hairpin, json, refused, run};
+use crate::guides::run_page;
+
+/// Flights, drives and boats in parts by graphs, and an arm, whose search is one.
+const KINDS: [(&str, &str); 4] = [
+    ("demo-quadrotor", "generate.search.cases=3"),
+    ("demo-rover", "generate.search={ method = \"uniform\", waypoints = 60, cases = 3 }"),
+    ("boat", "generate.search={ method = \"uniform\", waypoints = 60, cases = 3 }"),
+    ("demo-arm", "execute.repeat=2"),
+];
+
+#[test]
+fn the_commands_of_the_page_on_clusters_run() {
+    run_page("cluster.md");
+}
+
+#[test]
+fn shards_of_every_kind_make_the_folder_that_one_machine_makes() {
+    let place = tempfile::tempdir().unwrap();
+    let place = place.path();
+    for (scenario, set) in KINDS {
+        let (one, many) = (format!("{scenario}-one"), format!("{scenario}-many"));
+        let more = ["--set", set, "--set", "execute.baseline=1"];
+        let (code, out, error) = run(place, &[&["stress", scenario, "--out", &one][..], &more].concat());
+        assert!([0, 1].contains(&code), "{scenario}: {out}{error}");
+        let planned = json(place, &[&["plan", scenario, "--out", &many][..], &more].concat());
+        let by = if scenario == "demo-arm" { ("search", 6) } else { ("graph", 3) };
+        assert_eq!((planned["unit"].as_str(), planned["parts"].as_i64()), (Some(by.0), Some(by.1)), "{planned}");
+        refused(place, &["merge", &many], &["missing", "part-00000"]);
+        for shard in ["2/2", "1/2"] {
+            json(place, &["run-shard", shard, &many]);
+        }
+        let merged = json(place, &["merge", &many, "--remove-parts"]);
+        assert_eq!(merged["judged"]["exit_code"], code, "{scenario}");
+        assert_same(&place.join(one), &place.join(many));
+    }
+}
+
+#[test]
+fn a_shard_that_is_killed_is_run_again() {
+    let place = tempfile::tempdir().unwrap();
+    let place = place.path();
+    let plan = ["plan", "demo-quadrotor", "--cases", "8", "--set", "execute.repeat=2", "--set", "execute.baseline=0"];
+    let hash = |folder: &str| json(place, &["merge", folder])["content_hash"].as_str().unwrap().to_owned();
+    for folder in ["calm", "hit"] {
+        json(place, &[&plan[..], &["--out", folder]].concat());
+    }
+    json(place, &["run-shard", "1/1", "calm"]);
+    let mut command = hairpin(place, &["run-shard", "--shard", "1/1", "hit", "--threads", "1"]);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let parts = || fs::read_dir(place.join("hit/parts")).map_or(0, |entries| entries.count());
+    let begun = Instant::now();
+    // Two are there, or one and what is made of another.
+    while parts() < 2 && child.try_wait().unwrap().is_none() && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    // Its share falls to others, however they divide it.
+    let made: i64 =
+        (1..=3).map(|i| json(place, &["run-shard", &format!("{i}/3"), "hit"])["parts"]["made"].as_i64().unwrap()).sum();
+    assert!((1..8).contains(&made), "{made}");
+    assert_eq!(hash("calm"), hash("hit"));
+    // Once more is the same, and an ordinary campaign is what is left.
+    assert_eq!(hash("hit"), hash("calm"));
+    for verb in ["judge", "report", "verify"] {
+        let (code, out, error) = run(place, &[verb, "hit"]);
+        assert!([0, 1].contains(&code), "{verb}: {out}{error}");
+    }
+    assert_eq!(run(place, &["compare", "calm", "hit"]).0, 0);
+}
+
+#[test]
+fn what_is_no_plan_or_no_shard_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let place = place.path();
+    let plan = ["plan", "demo-quadrotor", "--out", "wide", "--set", "generate.search.cases=2"];
+    assert_eq!(run(place, &plan).0, 0);
+    refused(place, &["run-shard", "3/2", "wide"], &["3/2", "i from 1 to N"]);
+    refused(place, &["run-shard", "wide"], &["which shard?"]);
+    refused(place, &["run-shard", "--shard", "from-env", "wide"], &["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]);
+    refused(place, &["run-shard", "1/2", "elsewhere"], &["elsewhere"]);
+    refused(place, &plan, &["--resume", "--force"]);
+    refused(place, &[&plan[..], &["--resume", "--parts", "1"]].concat(), &["divided otherwise"]);
+    refused(place, &[&plan[..], &["--force", "--parts", "3"]].concat(), &["--parts 3", "1 to 2"]);
+    let (code, out, _) = run(place, &["stress", "demo-quadrotor", "--out", "one", "--set", "generate.search.cases=1"]);
+    assert!([0, 1].contains(&code), "{out}");
+    refused(place, &["merge", "one"], &["not divided"]);
+}

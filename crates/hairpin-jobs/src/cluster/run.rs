@@ -1,0 +1,98 @@
+//! A shard: the parts that are its own and not there yet.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::part::{Part, is_current, make};
+use super::plan::{Plan, Unit};
+use super::shard::Shard;
+use crate::consent::{Consent, Wish};
+use crate::watch::Steps;
+use crate::work::{open_to_read, same_level};
+use crate::{Problem, Seen, Watch};
+
+/// What a shard came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ran {
+    /// Its parts.
+    pub parts: u64,
+    /// Of these, those that were made now.
+    pub made: u64,
+    /// Cases in all of them.
+    pub cases: u64,
+    /// Of how many parts the plan is.
+    pub of: u64,
+    /// What is beside that to be known, in a sentence.
+    pub told: Option<String>,
+}
+
+/// Makes the parts of `shard` that the campaign in `folder` does not have, or not whole.
+///
+/// # Errors
+/// The folder is not divided, or by another version, or not for this machine's kernels; it asks to run what its user
+/// has not allowed; something cannot be written; it was asked to stop.
+pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Watch) -> Result<Ran, Problem> {
+    let work = open_to_read(folder)?.answered_by(&consent.code)?;
+    let plan = Plan::read(&work)?;
+    same_level(&work.folder, work.setup.simd)?;
+    consent.ask(folder, &Wish::of_campaign(&work.setup))?;
+    let own: Vec<u64> = shard.own(plan.parts).collect();
+    let steps = Steps::new(watch, "shard", 0, own.len());
+    let (made, cases) = (AtomicU64::new(0), AtomicU64::new(0));
+    let one = |part: &u64| -> Result<(), Problem> {
+        if watch.stopped() {
+            return Err(Problem::Interrupted(
+                "stopped; the parts that are whole stay, and the same command goes on".into(),
+            ));
+        }
+        let there = Part::whole(&work, &plan, *part);
+        if !there.as_ref().is_some_and(|(told, _)| is_current(&work, &plan, told)) {
+            make(&work, &plan, *part, there.as_ref().map(|(_, folder)| folder), &Quiet(watch))?;
+            made.fetch_add(1, Ordering::Relaxed);
+        }
+        // Those that one search has found are flown in the parts beside it.
+        let counts = plan.unit != Unit::Search || *part > 0 || plan.parts == 1;
+        let told = Part::told(&work, &plan, *part).filter(|_| counts);
+        cases.fetch_add(told.map_or(0, |told| told.cases), Ordering::Relaxed);
+        steps.step();
+        Ok(())
+    };
+    // Programs of the user's are started part by part: as many of them run as the scenario says.
+    let programs = work.setup.scenario.executor().command.is_some() || work.setup.steering_code().is_some();
+    // What others need comes first.
+    let searches = plan.unit == Unit::Search && own.first() == Some(&0);
+    let (before, others) = own.split_at(usize::from(searches));
+    before.iter().try_for_each(one)?;
+    if programs {
+        others.iter().try_for_each(one)?
+    } else {
+        others.par_iter().try_for_each(one)?
+    }
+    let (made, cases) = (made.into_inner(), cases.into_inner());
+    let idle = || format!("shard {shard} has nothing to do: {} has {} parts", folder.display(), plan.parts);
+    let early = || {
+        "the search of shard 1 was not there yet: run this shard again after it, or leave its runs to merge".to_owned()
+    };
+    let none_found = plan.unit == Unit::Search && cases == 0 && Part::told(&work, &plan, 0).is_none();
+    let told = own.is_empty().then(idle).or_else(|| none_found.then(early));
+    Ok(Ran { parts: own.len() as u64, made, cases, of: plan.parts, told })
+}
+
+/// Hears nothing of the steps of single parts.
+struct Quiet<'a>(&'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn stopped(&self) -> bool {
+        self.0.stopped()
+    }
+
+    fn seen(&self, run: Seen) {
+        self.0.seen(run);
+    }
+
+    fn warn(&self, line: &str) {
+        self.0.warn(line);
+    }
+}

@@ -1,0 +1,107 @@
+//! One campaign, in whatever parts, order and number of goes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::consent::Consent;
+use crate::sets::Set;
+use crate::stress::stress;
+use crate::testing::small_hull;
+use crate::work::CampaignSettings;
+use crate::{Problem, Unwatched};
+
+fn set(key: &str, value: &str) -> Set {
+    (key.to_owned(), value.to_owned())
+}
+
+fn settings(scenario: &str, out: &Path, more: &[Set]) -> CampaignSettings {
+    let mut sets = vec![set("execute.baseline", "2")];
+    sets.extend_from_slice(more);
+    CampaignSettings { scenario: scenario.into(), out: Some(out.into()), sets, ..CampaignSettings::default() }
+}
+
+fn on_one_machine(settings: &CampaignSettings) -> String {
+    stress(settings, None, &Unwatched).unwrap().work.folder.content_hash().unwrap()
+}
+
+fn planned(settings: &CampaignSettings, parts: Option<u64>) -> (PathBuf, Plan) {
+    let (work, plan) = plan(&PlanSettings { campaign: settings.clone(), cases: None, parts }, &Unwatched).unwrap();
+    (work.folder.path().to_owned(), plan)
+}
+
+fn run(folder: &Path, shards: &[&str]) -> Vec<Ran> {
+    let one = |text: &&str| run_shard(folder, text.parse().unwrap(), &Consent::default(), &Unwatched).unwrap();
+    shards.iter().map(one).collect()
+}
+
+fn merged(folder: &Path) -> Result<(String, usize), Problem> {
+    merge(folder, &Consent::default(), &Unwatched).map(|merged| (merged.content_hash, merged.taken))
+}
+
+#[test]
+fn any_shards_in_any_order_are_one_machine() {
+    let place = tempfile::tempdir().unwrap();
+    let more = [set("generate.search.cases", "5"), set("execute.repeat", "2")];
+    let one = on_one_machine(&settings("demo-quadrotor", &place.path().join("one"), &more));
+    let (folder, plan) = planned(&settings("demo-quadrotor", &place.path().join("many"), &more), None);
+    assert_eq!((plan.parts, plan.units), (5, 5));
+    let missing = merged(&folder).unwrap_err().to_string();
+    assert!(missing.contains("5 of 5 parts") && missing.contains("part-00000"), "{missing}");
+    run(&folder, &["3/3", "1/3"]);
+    let missing = merged(&folder).unwrap_err().to_string();
+    assert!(missing.contains("2 of 5 parts") && missing.contains("part-00001, part-00004"), "{missing}");
+    // What a killed process was making, and a part that was spoiled.
+    fs::create_dir(folder.join("parts/.hairpin-killed.tmp")).unwrap();
+    fs::write(folder.join("parts/part-00002/results.parquet"), "no table").unwrap();
+    let ran = run(&folder, &["2/3", "3/3"]);
+    assert_eq!(ran.iter().map(|ran| (ran.parts, ran.made)).collect::<Vec<_>>(), [(2, 2), (1, 1)]);
+    assert_eq!(merged(&folder).unwrap(), (one.clone(), 10));
+    assert!(!folder.join("parts/.hairpin-killed.tmp").exists());
+    // Once more, with other shards: all is there.
+    assert_eq!(run(&folder, &["1/2"])[0].made, 0);
+    assert_eq!(merged(&folder).unwrap().0, one);
+}
+
+#[test]
+fn graphs_without_a_case_move_the_numbers_of_those_behind() {
+    let place = tempfile::tempdir().unwrap();
+    let scenario = small_hull(place.path());
+    // One of its first five graphs has no trajectory.
+    let more = [set("generate.search.cases", "5")];
+    let one = on_one_machine(&settings(&scenario, &place.path().join("one"), &more));
+    let (folder, _) = planned(&settings(&scenario, &place.path().join("many"), &more), None);
+    run(&folder, &["3/3", "2/3", "1/3"]);
+    let (hash, first) = merged(&folder).unwrap();
+    assert_eq!(hash, one);
+    // A second time all parts know those before them.
+    run(&folder, &["1/3", "2/3", "3/3"]);
+    let (hash, second) = merged(&folder).unwrap();
+    assert_eq!(hash, one);
+    assert!(second > first, "{first} {second}");
+}
+
+#[test]
+fn one_search_is_one_part() {
+    let place = tempfile::tempdir().unwrap();
+    let search = "{ method = \"worst\", cases = 2, executions = 15 }";
+    let more = [set("generate.search", search), set("execute.repeat", "1")];
+    let one = on_one_machine(&settings("demo-quadrotor", &place.path().join("one"), &more));
+    let of_many = settings("demo-quadrotor", &place.path().join("many"), &more);
+    let (folder, plan) = planned(&of_many, None);
+    assert_eq!((plan.parts, plan.unit, plan.told().is_some()), (3, Unit::Search, true));
+    // The second flies a case of a search that is not there yet, and leaves it to whoever comes after.
+    let ran = run(&folder, &["2/2", "1/2"]);
+    assert!(ran[0].told.is_some() && (ran[0].cases, ran[1].cases) == (0, 1), "{ran:?}");
+    assert_eq!(merged(&folder).unwrap(), (one.clone(), 1));
+    let again = run(&folder, &["2/2", "1/2"]);
+    assert_eq!(again.iter().map(|ran| (ran.made, ran.cases)).collect::<Vec<_>>(), [(1, 1), (0, 1)]);
+    assert_eq!(merged(&folder).unwrap(), (one.clone(), 2));
+    let (whole, plan) = planned(&settings("demo-quadrotor", &place.path().join("whole"), &more), Some(1));
+    run(&whole, &["1/4"]);
+    assert_eq!((plan.parts, merged(&whole).unwrap()), (1, (one, 2)));
+    let changed =
+        fs::read_to_string(folder.join("scenario.toml")).unwrap().replace("executions = 15", "executions = 16");
+    fs::write(folder.join("scenario.toml"), changed).unwrap();
+    assert!(merged(&folder).unwrap_err().to_string().contains("not what it was"));
+}
