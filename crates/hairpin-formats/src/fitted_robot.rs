@@ -31,7 +31,7 @@ pub fn text(
     };
     table.insert("name".into(), json!(name));
     for number in numbers {
-        table.insert(number.key.clone(), json!(four_digits(number.value)));
+        put(&mut table, &number.key, four_digits(number.value))?;
         let from = if number.interval.is_some() { from } else { "derived, and not told by the logs" };
         let mut entry = Map::from_iter([("from".to_owned(), json!(from))]);
         if let Some(interval) = number.interval {
@@ -39,17 +39,14 @@ pub fn text(
         }
         estimated.insert(number.key.clone(), Value::Object(entry));
     }
-    table.retain(|_, value| !value.is_null());
+    table.retain(|_, value| !value.is_null() && value.as_object().is_none_or(|part| !part.is_empty()));
     let mut text: String = head.iter().map(|line| format!("# {line}\n")).collect();
     let rotors = table.remove("rotors");
     for (key, value) in &table {
         text.push_str(&on_a_line(key, value)?);
-        if let Some(number) = numbers.iter().find(|number| number.key == *key) {
-            let said = match number.interval.map(|interval| interval.map(four_digits)) {
-                Some([low, high]) => format!("   # estimated: {low} to {high} (95 %), from {from}"),
-                None => "   # estimated: derived, and not told by the logs".to_owned(),
-            };
-            text.push_str(&said);
+        let said: Vec<String> = numbers.iter().filter_map(|number| told(key, number, from)).collect();
+        if !said.is_empty() {
+            text.push_str(&format!("   # estimated: {}", said.join("; ")));
         }
         text.push('\n');
     }
@@ -63,11 +60,49 @@ pub fn text(
     if !estimated.is_empty() {
         text.push_str("\n[estimated]\n");
         for (key, entry) in &estimated {
-            text.push_str(&on_a_line(key, entry)?);
+            let key = if key.contains(['.', '[']) { format!("\"{key}\"") } else { key.clone() };
+            text.push_str(&on_a_line(&key, entry)?);
             text.push('\n');
         }
     }
     Ok(text)
+}
+
+/// Puts `value` where a dotted key says: into tables within tables, of which the last may be made, and at the places of
+/// lists.
+fn put(table: &mut Map<String, Value>, key: &str, value: f64) -> Result<(), String> {
+    let nowhere = || format!("`{key}` is no key of the robot");
+    match key.split_once('.') {
+        Some((outer, inner)) => {
+            let inside = table.entry(outer).or_insert_with(|| json!({}));
+            put(inside.as_object_mut().ok_or_else(nowhere)?, inner, value)
+        }
+        None => match key.strip_suffix(']').and_then(|key| key.split_once('[')) {
+            Some((list, place)) => {
+                let place: usize = place.parse().map_err(|_| nowhere())?;
+                *table.get_mut(list).and_then(|list| list.get_mut(place)).ok_or_else(nowhere)? = json!(value);
+                Ok(())
+            }
+            None => {
+                table.insert(key.to_owned(), json!(value));
+                Ok(())
+            }
+        },
+    }
+}
+
+/// What is said of `number` behind the line of the key `key`, if it is in it.
+fn told(key: &str, number: &FittedNumber, from: &str) -> Option<String> {
+    let inner = number.key.strip_prefix(key)?;
+    let named = match inner.strip_prefix('.') {
+        Some(inner) => format!("{inner} "),
+        None if inner.is_empty() => String::new(),
+        None => return None,
+    };
+    Some(match number.interval.map(|interval| interval.map(four_digits)) {
+        Some([low, high]) => format!("{named}{low} to {high} (95 %), from {from}"),
+        None => format!("{named}derived, and not told by the logs"),
+    })
 }
 
 fn on_a_line(key: &str, value: &Value) -> Result<String, String> {
@@ -88,6 +123,34 @@ mod tests {
     use hairpin::robot::quadrotor::QuadrotorDescription;
 
     use super::*;
+
+    /// Numbers within tables, and those of lists.
+    #[test]
+    fn numbers_deep_in_a_file_are_put_there() {
+        let before = json!({ "kind": "differential-drive", "name": "x", "track_m": 0.4, "response": {},
+            "limits": { "wheel_speed_m_s": 1.0, "wheel_acceleration_m_s2": 1.0 } });
+        let number =
+            |key: &str, value| FittedNumber { key: key.into(), value, interval: Some([0.9 * value, 1.1 * value]) };
+        let told = [number("response.latency_s", 0.2), number("response.turn_scale", 0.9)];
+        let written = text(&before, ("mine", &[], "2 logs"), &told).unwrap();
+        let after: hairpin::robot::ground::DifferentialDriveDescription = toml::from_str(&written).unwrap();
+        let built = after.build().unwrap();
+        assert_eq!((built.response.latency, built.response.turn_scale, built.response.speed_scale), (0.2, 0.9, 1.0));
+        assert_eq!(after.estimated["response.turn_scale"].interval, Some([0.81, 0.99]));
+        assert!(built.estimated.contains(&"response.latency_s"), "{:?}", built.estimated);
+        let line =
+            "   # estimated: latency_s 0.18 to 0.22 (95 %), from 2 logs; turn_scale 0.81 to 0.99 (95 %), from 2 logs";
+        assert!(written.contains(line), "{written}");
+
+        let shipped = crate::library::arms().next().unwrap();
+        let arm: hairpin::robot::arm::ArmDescription = toml::from_str(shipped.text).unwrap();
+        let mut robot = serde_json::to_value(&arm).unwrap();
+        robot["joints"]["lag_s"] = json!(vec![0.02; 6]);
+        let written = text(&robot, ("mine", &[], "2 logs"), &[number("joints.lag_s[4]", 0.03)]).unwrap();
+        let after: hairpin::robot::arm::ArmDescription = toml::from_str(&written).unwrap();
+        assert_eq!(after.joints.lag_s, Some([0.02, 0.02, 0.02, 0.02, 0.03, 0.02]));
+        assert!(after.build().unwrap().estimated.contains(&"joints.lag_s[4]".to_owned()));
+    }
 
     #[test]
     fn what_is_written_is_read_again() {

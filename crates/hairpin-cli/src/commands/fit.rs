@@ -45,7 +45,7 @@ fn improves(found: &Fitted) -> Option<bool> {
 fn why(estimate: &Estimate) -> Option<String> {
     let reason = match estimate.reading {
         Reading::Told => return None,
-        Reading::NoEffect => "nothing that was flown depends on it".to_owned(),
+        Reading::NoEffect => "nothing that was logged depends on it".to_owned(),
         Reading::Open => "the logs contradict no value up to a bound of it".to_owned(),
         Reading::Wide => "its interval is wider than 25 % on a side".to_owned(),
     };
@@ -90,10 +90,12 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
 fn tell(asked: &Fit, found: &Fitted, code: u8) {
     let fit = &found.fit;
     let all = fit.estimates.len();
-    let words = match (code, fit.unseen) {
+    let (unit, per_m) = fit.unit;
+    let unseen = fit.unseen.map(|unseen| unseen.map(|off| per_m * off));
+    let words = match (code, unseen) {
         (DONE, Some([before, after])) => {
             format!(
-                "FITTED {} of {all} numbers (estimated): {before:.3} m from logs that the fit has not seen becomes {after:.3} m",
+                "FITTED {} of {all} numbers (estimated): {before:.3} {unit} from logs that the fit has not seen becomes {after:.3} {unit}",
                 told(found)
             )
         }
@@ -103,7 +105,7 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
         ),
         (_, Some([before, after])) if told(found) > 0 => {
             format!(
-                "INCONCLUSIVE: {} of {all} numbers are told, but {before:.3} m from logs that the fit has not seen becomes {after:.3} m",
+                "INCONCLUSIVE: {} of {all} numbers are told, but {before:.3} {unit} from logs that the fit has not seen becomes {after:.3} {unit}",
                 told(found)
             )
         }
@@ -127,10 +129,9 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
             196.0 * deviation
         ));
     }
-    let of = |it: Deviation| format!("{} / {}", number(Some(it.rmse_m)), number(Some(it.max_m)));
-    let mut rows = vec![
-        ["log", "as given, m (rmse / max)", "fitted", "by a fit that has not seen it"].map(str::to_owned).to_vec(),
-    ];
+    let of = |it: Deviation| [it.rmse_m, it.max_m].map(|off| number(Some(per_m * off))).join(" / ");
+    let given = format!("as given, {unit} (rmse / max)");
+    let mut rows = vec![["log", given.as_str(), "fitted", "by a fit that has not seen it"].map(str::to_owned).to_vec()];
     for gap in &fit.gaps {
         rows.push(vec![gap.log.clone(), of(gap.before), of(gap.after), gap.unseen.map_or("–".into(), of)]);
     }

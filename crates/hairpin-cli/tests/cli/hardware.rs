@@ -91,8 +91,14 @@ fn a_day_has_a_page_a_flight_and_a_slow_first_run() {
     let page = fs::read_to_string(place.path().join("a/export/day-card.html")).unwrap();
     assert_eq!(page.matches("<section class=\"flight\"").count(), 2);
     assert!(page.contains("default-src 'none'") && !page.contains("<script") && !page.contains("http://"));
-    for words in ["worst moment", "End the flight when", "slow: 30 %", "no safety certificate", "<svg class=\"views\""]
-    {
+    for words in [
+        "worst moment",
+        "End the flight when",
+        "slow: 30 %",
+        "no safety certificate",
+        "<svg class=\"views\"",
+        "says nothing of its battery",
+    ] {
         assert!(page.contains(words), "{words}");
     }
     let order = out.lines().find_map(|line| line.strip_prefix("in the order of the day: ")).unwrap();

@@ -276,6 +276,7 @@ impl Built {
                 upper_deg: limit(1),
                 speed_deg_s: limit(2),
                 acceleration_deg_s2: None,
+                lag_s: None,
             },
             // Without names, or with names that two share, they are numbered.
             joint_names: if self.names.iter().any(|name| name.trim().is_empty()) { Vec::new() } else { self.names },
@@ -286,6 +287,7 @@ impl Built {
             exclude,
             estimates: self.said,
             masses: self.masses,
+            estimated: Default::default(),
         };
         UrdfArm { description, places: self.places }
     }

@@ -3,9 +3,16 @@
 //!
 //! A row more: a line in the page's table and a [`Sample`] of the same name in the list of its format's file.
 
+mod logs;
 mod maps;
 mod programs;
 mod tables;
+#[allow(dead_code)]
+#[path = "../../src/logs/tests/write_bag.rs"]
+mod write_bag;
+#[allow(dead_code)]
+#[path = "../../src/logs/tests/write_ulog.rs"]
+mod write_ulog;
 
 use std::collections::BTreeMap;
 
@@ -58,7 +65,7 @@ fn word(sample: &Sample) -> String {
 
 #[test]
 fn every_row_does_what_its_word_says() {
-    let samples: Vec<Sample> = [programs::samples(), tables::samples(), maps::samples()].concat();
+    let samples: Vec<Sample> = [programs::samples(), tables::samples(), maps::samples(), logs::samples()].concat();
     let found: BTreeMap<String, String> = samples.iter().map(|sample| (sample.row.to_owned(), word(sample))).collect();
     assert_eq!(found.len(), samples.len(), "two samples of one row");
     let rows = rows();

@@ -8,6 +8,7 @@ use hairpin::campaign::report::{leg, shown, violation};
 use hairpin::campaign::select::{By, Candidate, Choice};
 use hairpin::campaign::{Case, CaseResult, Environment};
 use hairpin::judgement::{Limits, Measures};
+use hairpin::robot::battery::Battery;
 use hairpin_formats::atomic;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::qgc::mission::Autopilot;
@@ -23,6 +24,8 @@ use crate::work::Work;
 
 /// Share of the plan's speeds in the first run of the day.
 const SLOW: f64 = 0.3;
+/// Take-off, the way to waypoint 0, the way home and landing, s a flight.
+const AROUND: f64 = 60.0;
 /// A flight that deviates so many times as far as its runs predict is not what was predicted.
 const BEYOND: f64 = 1.5;
 
@@ -74,9 +77,10 @@ pub(super) fn write(
         flights.push(FlightCard { drawing: work.setup.drawing(&case.waypoints), shown, rows });
     }
     let limits = work.setup.scenario.head().terms.limits;
+    let times = in_the_air(&chosen.iter().map(|index| (there[*index].0, there[*index].2)).collect::<Vec<_>>());
     let card = DayCard {
         title: work.setup.robot_name().to_owned(),
-        told: told(work, count, there.len()),
+        told: told(work, [count, there.len()], &times),
         abort: abort(&limits, room.margin),
         flights,
     };
@@ -172,7 +176,7 @@ fn saturation(measures: &Measures) -> String {
 }
 
 /// What is true of all flights.
-fn told(work: &Work, count: usize, of: usize) -> Vec<String> {
+fn told(work: &Work, [count, of]: [usize; 2], flights: &[(String, f64)]) -> Vec<String> {
     let caveat = work.setup.caveat();
     let mut told = vec![
         format!(
@@ -180,11 +184,41 @@ fn told(work: &Work, count: usize, of: usize) -> Vec<String> {
             By::Diverse.guarantee()
         ),
         "flown from the gentlest to the most stressful; the next one only after the last one went as predicted".into(),
-        "the robot's file says nothing of its battery: compare the durations with what it lasts".into(),
+        carried(work.setup.battery(), flights),
         format!("{PURPOSE}; predicted for {}", work.setup.robot_name()),
     ];
     told.extend((!caveat.is_empty()).then(|| caveat.to_owned()));
     told
+}
+
+/// The day's flights in their order, the slow one first, and how long each is in the air at worst, s.
+fn in_the_air(flights: &[(&Case, &Measures)]) -> Vec<(String, f64)> {
+    let slow = flights.first().map(|(case, measures)| (format!("{} slow", case.id()), measures.total_time / SLOW));
+    slow.into_iter().chain(flights.iter().map(|(case, measures)| (case.id(), measures.total_time))).collect()
+}
+
+/// What the battery lasts for: which flights each charge carries, and which none does.
+fn carried(battery: Option<Battery>, flights: &[(String, f64)]) -> String {
+    let Some(battery) = battery else {
+        return "the robot's file says nothing of its battery (`battery.endurance_s`): compare the durations with what it lasts".into();
+    };
+    let times: Vec<f64> = flights.iter().map(|(_, time)| time + AROUND).collect();
+    let charges = battery.charges(&times);
+    let on = |charge: Option<usize>| {
+        let of = flights.iter().zip(&charges).filter(|(_, on)| **on == charge);
+        of.map(|((case, _), _)| case.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let count = charges.iter().flatten().max().map_or(0, |last| last + 1);
+    let on_charges = (0..count).map(|charge| format!("charge {}: {}", charge + 1, on(Some(charge))));
+    let too_long =
+        charges.contains(&None).then(|| format!("longer than a charge, not to be flown as they are: {}", on(None)));
+    format!(
+        "battery: {:.0} s a charge ({:.0} % of {:.0} s kept back), {AROUND} s of each flight for take-off and the way home; {}",
+        battery.usable(),
+        100.0 * battery.reserve,
+        battery.endurance,
+        on_charges.chain(too_long).collect::<Vec<_>>().join("; ")
+    )
 }
 
 /// When a flight is ended.
@@ -197,4 +231,20 @@ fn abort(limits: &Limits, margin: f64) -> Vec<String> {
     abort.extend(limits.deviation.map(|most| format!("it deviates more than {most} m where this page predicts less")));
     abort.extend(limits.clearance.map(|least| format!("it comes nearer than {least} m to an obstacle")));
     abort
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_says_what_a_charge_carries() {
+        let flights = [("0002 slow", 100.0), ("0002", 30.0), ("0007", 40.0), ("0001", 500.0)];
+        let flights = flights.map(|(case, time)| (case.to_owned(), time));
+        let told = carried(Some(Battery { endurance: 400.0, reserve: 0.25 }), &flights);
+        let wanted = "battery: 300 s a charge (25 % of 400 s kept back), 60 s of each flight for take-off and the way home; \
+                      charge 1: 0002 slow, 0002; charge 2: 0007; longer than a charge, not to be flown as they are: 0001";
+        assert_eq!(told, wanted);
+        assert!(carried(None, &flights).contains("says nothing of its battery"));
+    }
 }

@@ -1,4 +1,4 @@
-//! From a log's file to a flight of a mission.
+//! From a log's file to a motion over a mission.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::waypoints;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::judge_log::{FrameSettings, IntoWorld, LegsBy, course, matched};
+use crate::judge_log::{FrameSettings, IntoWorld, LegsBy, arm_of, course, matched, ran};
 use crate::{Problem, Watch};
 
 /// What logs are flights of.
@@ -34,31 +34,52 @@ impl Missions {
         Ok(Self::One(file.display().to_string(), Box::new(Case::bare(CaseNumber(0), 0, points))))
     }
 
-    /// The mission of the log in `file`, and its name: the campaign's case that the file is called after, else the one
-    /// that its targets or its track say.
-    fn of(&self, file: &Path, log: &InWorld) -> Result<(String, &Case), Problem> {
+    /// The only case, or the campaign's that the log in `file` is called after; `None` of one that is called otherwise.
+    fn named(&self, file: &Path) -> Result<Option<&Case>, Problem> {
         let (folder, cases) = match self {
-            Self::One(name, case) => return Ok((name.clone(), case)),
+            Self::One(_, case) => return Ok(Some(case)),
             Self::Cases(folder, cases) => (folder, cases),
         };
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         let number = name.split(['-', '.']).next().unwrap_or_default();
-        let named = |number: usize| {
-            let case = cases.iter().find(|case| case.number.0 == number);
-            case.ok_or_else(|| {
-                let (folder, of) = (folder.display(), cases.len());
-                Problem::of_file(file, format!("no case of {folder}, which has {of}: logs may be called CASE-RUN.csv"))
-            })
-        };
-        let case = match (number.parse::<usize>(), &cases[..]) {
-            (Ok(number), _) => named(number)?,
-            (Err(_), [only]) => only,
-            (Err(_), cases) => {
-                let found = matched(cases, &log.samples, (log.logged, &log.progress, log.accept));
-                found.map_err(|problem| Problem::of_file(file, problem.to_string()))?.0
+        match (number.parse::<usize>(), &cases[..]) {
+            (Ok(number), _) => {
+                let case = cases.iter().find(|case| case.number.0 == number).ok_or_else(|| {
+                    let (folder, of) = (folder.display(), cases.len());
+                    let why = format!("no case of {folder}, which has {of}: logs may be called CASE-RUN.csv");
+                    Problem::of_file(file, why)
+                });
+                case.map(Some)
             }
-        };
-        Ok((format!("case {} of {}", case.id(), folder.display()), case))
+            (Err(_), [only]) => Ok(Some(only)),
+            (Err(_), _) => Ok(None),
+        }
+    }
+
+    /// All that there are.
+    fn cases(&self) -> &[Case] {
+        match self {
+            Self::One(_, case) => std::slice::from_ref(case.as_ref()),
+            Self::Cases(_, cases) => cases,
+        }
+    }
+
+    /// What the mission of `case` is called.
+    fn name(&self, case: &Case) -> String {
+        match self {
+            Self::One(name, _) => name.clone(),
+            Self::Cases(folder, _) => format!("case {} of {}", case.id(), folder.display()),
+        }
+    }
+
+    /// The mission of the log in `file`: the one that it is called after, else the one that its targets or its track
+    /// say.
+    fn of(&self, file: &Path, log: &InWorld) -> Result<&Case, Problem> {
+        if let Some(named) = self.named(file)? {
+            return Ok(named);
+        }
+        let found = matched(self.cases(), &log.samples, (log.logged, &log.progress, log.accept));
+        found.map(|(case, _)| case).map_err(|problem| Problem::of_file(file, problem.to_string()))
     }
 }
 
@@ -73,12 +94,17 @@ struct InWorld<'a> {
     accept: f64,
 }
 
-/// The flight that the log in `file` is of.
+/// The motion that the log in `file` is of: an arm's by its joints, all others in the world's frame.
 ///
 /// # Errors
 /// It cannot be read, has no motion of a body, or is about a place on Earth of its own where the world has none; no
 /// mission is known for it.
 pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn Watch) -> Result<Flown, Problem> {
+    if let Some(arm) = arm_of(setup) {
+        let named = missions.named(file)?;
+        let (case, track) = ran(file, arm, named.map_or(missions.cases(), std::slice::from_ref))?;
+        return Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track });
+    }
     let logged = logs::read(file).map_err(Problem::input)?;
     let place = Placement::of(&setup.scenario).map_err(Problem::input)?;
     match (&logged.frame, &place) {
@@ -97,9 +123,9 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
     let samples = mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<_, _>>()?;
     let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<_, _>>()?;
     let log = InWorld { logged: &logged, progress, samples, accept: setup.scenario.executor().accept };
-    let (mission, case) = missions.of(file, &log)?;
+    let case = missions.of(file, &log)?;
     let track = track(&log, case).map_err(|why| Problem::of_file(file, why))?;
-    Ok(Flown { log: file.display().to_string(), mission, case: case.clone(), track })
+    Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track })
 }
 
 /// What of a motion was the mission: from its begin, as far as the log tells it, to what ended it or the first moment

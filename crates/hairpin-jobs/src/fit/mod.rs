@@ -1,4 +1,4 @@
-//! A flying robot's numbers from logs of its flights.
+//! A robot's numbers from logs of its missions.
 
 mod flown;
 
@@ -12,6 +12,7 @@ use hairpin_formats::fitted_robot::{self, FittedNumber, four_digits};
 use hairpin_formats::scenario::{setup_for, shadowed};
 use serde_json::Value;
 
+use crate::judge_log::arm_of;
 use crate::sets::Set;
 use crate::work::open_with;
 use crate::{Problem, Watch};
@@ -109,6 +110,11 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
         }
         (None, Some(mission)) => {
             let setup = setup_for(&settings.robot, &settings.sets)?;
+            if arm_of(&setup).is_some() {
+                return Err(Problem::input(
+                    "an arm's logs are of programs, not of waypoints: --campaign OUT names the campaign that wrote them",
+                ));
+            }
             let missions = Missions::of_file(mission, &setup)?;
             Ok((setup, missions))
         }
@@ -119,10 +125,11 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
     }
 }
 
-/// The robot's table with what was told. What R leaves out and nobody told is written as it was derived, for what is
-/// derived follows from what was fitted.
+/// The robot's table with what was told. What R leaves out and nobody told is written as it was derived, where it was:
+/// what is derived follows from what was fitted.
 fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) -> Result<String, Problem> {
-    let robot = setup.handed().robot;
+    let spelt = setup.changed(vary::apply(&setup.scenario, &found.spelt)?)?;
+    let robot = spelt.handed().robot;
     let keys = |estimate: &Estimate| {
         let of_robot =
             estimate.number.keys.iter().filter_map(|(key, of)| Some((key.strip_prefix("robot.")?.to_owned(), *of)));
@@ -132,19 +139,23 @@ fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) ->
     for estimate in &found.estimates {
         for (key, of) in keys(estimate) {
             let told = estimate.is_told();
-            if told || robot.get(&key).is_none_or(Value::is_null) {
+            if told || (found.derives && robot.get(&key).is_none_or(Value::is_null)) {
                 let interval = estimate.interval.filter(|_| told).map(|ends| ends.map(|end| end * of));
                 numbers.push(FittedNumber { key, value: estimate.value * of, interval });
             }
         }
     }
     let name = settings.out.file_stem().map_or_else(|| "fitted".into(), |stem| stem.to_string_lossy().into_owned());
+    let (unit, of) = found.unit;
     let head = [
         format!(
             "{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements",
             setup.robot_name()
         ),
-        format!("of the robot. Residual {:.3} m over {from}; what was not told is as it was.", found.residual_m),
+        format!(
+            "of the robot. Residual {:.3} {unit} over {from}; what was not told is as it was.",
+            of * found.residual_m
+        ),
     ];
     fitted_robot::text(&robot, (&name, &head, from), &numbers).map_err(|why| Problem::of_file(&settings.out, why))
 }

@@ -29,6 +29,7 @@ use std::path::{Path, PathBuf};
 use crate::{Problem, Watch};
 
 pub use arm::{FoundProgram, JointsTold};
+pub(crate) use arm::{arm_of, ran};
 pub use cut::Cut;
 pub(crate) use cut::cut;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};

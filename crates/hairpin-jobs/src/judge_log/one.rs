@@ -85,8 +85,9 @@ pub(super) fn judge(
         notes,
     };
     if left.samples.len() >= 2 {
-        let log = judged.to_judge(&left)?;
-        found.flown = Some(judge_flown(&against.setup, &against.whole(case)?, &log).map_err(Problem::input)?);
+        let (log, whole) = (judged.to_judge(&left)?, against.whole(case)?);
+        found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
+        found.flown = Some(judge_flown(&against.setup, &whole, &log).map_err(Problem::input)?);
     }
     Ok(told::judged(file, found, &against.setup))
 }

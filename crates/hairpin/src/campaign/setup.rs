@@ -20,6 +20,8 @@ use super::user_target::RunMeter;
 use super::vary;
 use crate::judgement::Swiftness;
 use crate::math::simd::Simd;
+use crate::robot::battery::Battery;
+use crate::trajectory::Track;
 
 mod steered;
 
@@ -243,6 +245,11 @@ impl Setup {
         self.kind.is_outside(place)
     }
 
+    /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words.
+    pub fn backwards(&self, case: &Case, track: &Track) -> Option<String> {
+        self.kind.backwards(case, track)
+    }
+
     /// How fast its robot can be and become.
     pub fn swiftness(&self) -> Swiftness {
         self.kind.swiftness()
@@ -304,6 +311,11 @@ impl Setup {
     /// Names of the robot's numbers that were derived, not given.
     pub fn estimated(&self) -> Vec<&str> {
         self.robot_words().estimated
+    }
+
+    /// How long the robot goes on a charge, where its file says so.
+    pub fn battery(&self) -> Option<Battery> {
+        self.robot_words().battery
     }
 
     /// What of its shape a claim rests on that is not known, in a few words.

@@ -15,7 +15,9 @@
 //! the act share these equations, the proof does not.
 
 pub mod arm;
+pub mod battery;
 pub mod boat;
+pub mod estimated;
 pub mod ground;
 pub mod quadrotor;
 pub mod rover;

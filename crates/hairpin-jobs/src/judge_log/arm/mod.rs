@@ -18,7 +18,8 @@ mod tests;
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::{Case, Run, judge_runs};
+use hairpin::campaign::{Case, Run, Setup, judge_runs};
+use hairpin::trajectory::Track;
 use rayon::prelude::*;
 
 use super::against::Ready;
@@ -27,6 +28,21 @@ use super::settings::LogSettings;
 use crate::Problem;
 
 pub use found::{FoundProgram, JointsTold};
+
+/// The arm whose logs are recordings of programs; `None` of what moves about.
+pub(crate) fn arm_of(setup: &Setup) -> Option<&ArmSetup> {
+    setup.own::<ArmSetup>()
+}
+
+/// The recording of `arm` in `file`, and which of `cases` it ran; a bag's begins with its program.
+///
+/// # Errors
+/// It is no recording of this arm, or of no program of the campaign.
+pub(crate) fn ran<'a>(file: &Path, arm: &ArmSetup, cases: &'a [Case]) -> Result<(&'a Case, Track), Problem> {
+    let read = read::recording(file, arm, &LogSettings::default())?;
+    let (case, _) = matching::matched(arm, cases, &read.log).map_err(|why| Problem::of_file(file, why))?;
+    Ok((case, read.log.track))
+}
 
 /// The programs of a campaign, which logs are held against.
 pub(super) struct Programs<'a> {
@@ -40,7 +56,7 @@ impl<'a> Programs<'a> {
     /// # Errors
     /// What is asked of logs that say nothing of an arm's frame; the folder's files are broken.
     pub(super) fn of(against: &'a Ready, settings: &LogSettings) -> Result<Option<Self>, Problem> {
-        let Some(arm) = against.setup.own::<ArmSetup>() else { return Ok(None) };
+        let Some(arm) = arm_of(&against.setup) else { return Ok(None) };
         let named = settings.frame.turn_deg != 0.0 || settings.frame.offset_m != [0.0; 3];
         let (worlds, frames) = (settings.world.is_some(), "an arm's log is in its base's frame");
         for (asked, what) in [(worlds, "--world: what an arm must not meet is its cell's"), (named, frames)] {

@@ -143,16 +143,20 @@ pub(super) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
             own.name()
         ));
     }
+    let lags = match setup.station.arm.lags {
+        Some(lags) => format!("{} s (axes 1 to 6, the arm's own)", lags.map(|lag| lag.to_string()).join(", ")),
+        None => format!("{} s on every axis", execute.servo_lag_s),
+    };
     said.push(match &execute.logs {
         Some(logs) => format!(
             "Recorded on a real controller (hardware): `{logs}`. Places are taken for those of the tool's point in the arm's base frame; what \
              they are held against is the path and the time that hairpin's virtual controller plans for the program."
         ),
         None => format!(
-            "Simulated: hairpin's virtual controller, a stand-in for one whose numbers are not public: profile {}, servo lag of {} s \
-             on every axis, samples every 10 ms, measured positions with a standard deviation of {} mm.",
+            "Simulated: hairpin's virtual controller, a stand-in for one whose numbers are not public: profile {}, servo lag of {}, \
+             samples every 10 ms, measured positions with a standard deviation of {} mm.",
             serde_json::to_value(execute.profile).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default(),
-            execute.servo_lag_s,
+            lags,
             execute.noise_mm
         ),
     });

@@ -3,10 +3,12 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::ArmSetup;
+use super::fit;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Order, Same};
+use crate::campaign::kind::{Act, Fittable, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
+use crate::robot::arm::{AXES, Joints};
 use crate::simulation::SimulationError;
 use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape, Steering};
 use crate::trajectory::program::Program;
@@ -32,7 +34,12 @@ impl ArmSetup {
         let execute = &self.scenario.execute;
         let noise =
             Noise { position: execute.noise_mm * 1e-3, pause: execute.noise_mm * PAUSE_PER_MM, ..Noise::default() };
-        RunSettings { lag: execute.servo_lag_s, noise, ..RunSettings::default() }
+        RunSettings { lags: self.lags(), noise, ..RunSettings::default() }
+    }
+
+    /// Of the servos, s: the arm's own, or the scenario's for all axes.
+    pub(super) fn lags(&self) -> Joints {
+        self.station.arm.lags.unwrap_or([self.scenario.execute.servo_lag_s; AXES])
     }
 
     /// What is wrong with the arm.
@@ -80,6 +87,10 @@ impl Act for ArmSetup {
         let track = legs_of(&run.recording)?;
         let reached = reached(&track, case.waypoints.len(), ended);
         Ok(Flight { track, ended, left_world: None, reached })
+    }
+
+    fn fittable(&self) -> Result<Fittable, String> {
+        fit::fittable(self)
     }
 
     /// Cells stay as they are.

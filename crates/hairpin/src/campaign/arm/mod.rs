@@ -11,6 +11,7 @@ mod doubt;
 mod draw;
 mod execute;
 mod figure;
+mod fit;
 mod graph;
 mod hidden;
 mod judge;

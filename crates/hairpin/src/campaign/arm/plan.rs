@@ -42,7 +42,8 @@ impl ArmSetup {
         let orders = self.orders(program_of(case)?)?;
         let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
         let usual = RunSettings::default();
-        let settings = RunSettings { sample, interpolation: usual.interpolation.min(sample), lag: 0.0, ..usual };
+        let settings =
+            RunSettings { sample, interpolation: usual.interpolation.min(sample), lags: [0.0; AXES], ..usual };
         let recording = plan.execute(&settings, &[], 0)?.recording;
         let columns: Vec<&[f64]> = (1..=AXES).filter_map(|axis| recording.channel(&format!("q{axis}_rad"))).collect();
         let joints = |i: usize| std::array::from_fn(|axis| columns.get(axis).map_or(f64::NAN, |column| column[i]));

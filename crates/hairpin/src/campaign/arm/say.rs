@@ -35,6 +35,7 @@ impl Say for ArmSetup {
             has_sides: false,
             unknown_shapes: looked_at.then_some("link shapes estimated"),
             loops: Arm::LOOPS,
+            battery: None,
         }
     }
 

@@ -17,7 +17,15 @@ impl Say for BoatSetup {
         let boat = &self.boat;
         let estimated = boat.estimated.iter().map(String::as_str).collect();
         let loops = Boat::LOOPS;
-        RobotWords { name: &boat.name, caveat: &boat.caveat, estimated, has_sides: true, unknown_shapes: None, loops }
+        RobotWords {
+            name: &boat.name,
+            caveat: &boat.caveat,
+            estimated,
+            has_sides: true,
+            unknown_shapes: None,
+            loops,
+            battery: None,
+        }
     }
 
     fn assumptions(&self, _: &[Case], _: &Tally) -> Assumptions {

@@ -3,7 +3,7 @@
 use super::DriveSetup;
 use crate::campaign::scenario::GroundReach;
 use crate::feasibility::reach::drive::{Pace, Slopes};
-use crate::robot::rover::{Kinematics, Suspension};
+use crate::robot::rover::{Kinematics, Response, Suspension};
 
 /// What stands behind the legs.
 ///
@@ -114,6 +114,13 @@ pub(super) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
         "Simulated: suspension at rest at every step, slip by slope, latency {latency} s, steering lag and rate; \
          controller {who}, and its pose exactly."
     ));
+    let Response { speed_time_constant, speed_scale, turn_scale, .. } = setup.rover.response;
+    if (speed_time_constant, speed_scale, turn_scale) != (0.0, 1.0, 1.0) {
+        said.push(format!(
+            "Speeds lag by {speed_time_constant} s, and over the ground the vehicle goes by {speed_scale} of the wheels' way on \
+             {turn_scale} of their curvature. The plan does not know it."
+        ));
+    }
     if let Some([east, north, up]) = execute.external_force_n {
         said.push(format!(
             "A steady force of ({east}, {north}, {up}) N, east, north, up, pulls at the centre of mass: to slip, torque and tip-over \

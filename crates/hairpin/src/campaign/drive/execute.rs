@@ -1,14 +1,16 @@
 //! Drives a mission in our own simulator.
 
 use super::DriveSetup;
+use super::fit;
 use super::place::place;
 use super::plan::drive_of;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Order, Same};
+use crate::campaign::kind::{Act, Fittable, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::solve::{Choices, Outcome};
 use crate::feasibility::steering::shooting::{Control, Query, generate, rough};
+use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
 use crate::simulation::ground::{
     self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie,
@@ -22,9 +24,11 @@ impl Act for DriveSetup {
         let (nominal, execute): (&Self, _) = (nominal.setup(), &self.scenario.execute);
         let plan = drive_of(nominal, case);
         // The scenario's latency takes the place of the robot's.
-        let vehicle = if execute.latency_s.is_some() { &self.planner } else { &self.rover };
+        let own = if execute.latency_s.is_some() { 0.0 } else { self.rover.response.latency };
+        let vehicle =
+            Rover { response: Response { latency: own, ..self.rover.response }, ..self.rover.as_ref().clone() };
         let sortie = GroundSortie {
-            vehicle,
+            vehicle: &vehicle,
             nominal: &nominal.rover,
             terrain: &self.map,
             keep_outs: &self.keep_out,
@@ -49,6 +53,10 @@ impl Act for DriveSetup {
             GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
         };
         ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
+    }
+
+    fn fittable(&self) -> Result<Fittable, String> {
+        fit::fittable(self)
     }
 
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {

@@ -3,12 +3,14 @@
 mod alter;
 mod ask;
 mod assumptions;
+mod backwards;
 mod check;
 mod claim;
 mod draw;
 mod drawing;
 mod execute;
 mod figure;
+mod fit;
 mod knobs;
 mod legs;
 mod losses;

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
-use super::{DriveSetup, assumptions, drawing};
+use super::{DriveSetup, assumptions, backwards, drawing};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
     Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say, reached_within, word,
@@ -25,6 +25,7 @@ impl Say for DriveSetup {
             has_sides: true,
             unknown_shapes: None,
             loops: Rover::LOOPS,
+            battery: None,
         }
     }
 
@@ -77,6 +78,10 @@ impl Say for DriveSetup {
             start: Point3::new(start.x_m, start.y_m, height),
             farthest: farthest(&self.map),
         }
+    }
+
+    fn backwards(&self, case: &Case, track: &Track) -> Option<String> {
+        backwards::backwards(self, case, track)
     }
 
     fn is_outside(&self, place: &Point3<f64>) -> bool {

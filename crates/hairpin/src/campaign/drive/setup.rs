@@ -12,7 +12,7 @@ use crate::campaign::scenario::{
 use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite, Pace, Slopes};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
-use crate::robot::rover::{Response, Rover};
+use crate::robot::rover::Rover;
 use crate::simulation::OwnController;
 use crate::trajectory::Direction;
 use crate::world::terrain::generate::{Recipe, generate};
@@ -29,7 +29,7 @@ pub struct DriveSetup {
     pub attachments: Arc<Attachments>,
     /// The vehicle.
     pub rover: Arc<Rover>,
-    /// The vehicle as plans have it: without latency, which a leg's end cannot hand to the next one.
+    /// The vehicle as plans have it ([`Response::as_planned`](crate::robot::rover::Response::as_planned)).
     pub planner: Arc<Rover>,
     /// The ground.
     pub map: Arc<ElevationMap>,
@@ -182,7 +182,7 @@ fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
 
 /// `rover` as plans have it.
 fn planner_of(rover: &Rover) -> Rover {
-    Rover { response: Response { latency: 0.0, ..rover.response }, ..rover.clone() }
+    Rover { response: rover.response.as_planned(), ..rover.clone() }
 }
 
 /// The ground of a section; `seed` is the scenario's.

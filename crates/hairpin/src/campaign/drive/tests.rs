@@ -1,6 +1,7 @@
 //! Drives that are drawn, changed and crossed: each is held to its limits by another integrator, and of what is changed
 //! no more is solved again than it takes.
 
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
 use super::DriveSetup;
@@ -12,8 +13,8 @@ use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
-use crate::trajectory::Drive;
 use crate::trajectory::drive::Gear;
+use crate::trajectory::{Drive, Track};
 
 /// A shipped robot's table.
 fn robot(file: &str) -> Value {
@@ -102,6 +103,29 @@ fn drives_are_drawn_by_numbers_and_are_feasible() {
             assert!(drawn[..number].iter().all(|other| other.waypoints[1..] != plan.waypoints[1..]), "draws differ");
         }
         assert!(drive(&solver.draw(2).unwrap()) == drive(&drawn[2]), "a number is a drive");
+    }
+}
+
+/// A plan in reverse is told as that; one that goes forward, driven with the nose behind, as what was not planned.
+#[test]
+fn what_goes_backwards_is_told() {
+    let turned = |track: &Track| {
+        let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
+        let poses = track.poses().iter().map(|pose| pose * Isometry3::from_parts(Default::default(), about)).collect();
+        Track::new(track.times().to_vec(), poses, track.channels().to_vec()).unwrap()
+    };
+    for (gear, as_it_is, nose_behind) in [
+        ("reverse", Some("legs 0, 1, 2, 3, 4, as planned;"), None),
+        ("forward", None, Some("legs 0, 1, 2, 3, 4, where the plan goes forward;")),
+    ] {
+        let setup = setup(car(), &[("generate.manoeuvres", json!([gear]))]);
+        let case = solver(&setup).draw(0).unwrap().case(7, 0, 0);
+        let track = super::plan::track(setup.own().unwrap(), &case).unwrap();
+        for (track, wanted) in [(track.clone(), as_it_is), (turned(&track), nose_behind)] {
+            let told = setup.backwards(&case, &track);
+            assert!(told.as_deref().is_none_or(|told| wanted.is_some_and(|words| told.contains(words))), "{told:?}");
+            assert_eq!(told.is_some(), wanted.is_some(), "{gear}");
+        }
     }
 }
 

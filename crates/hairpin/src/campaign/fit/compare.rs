@@ -5,6 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::FitError;
 use super::passages::{Missed, passages};
 use crate::campaign::Case;
+use crate::campaign::kind::{Output, Sampling};
 use crate::simulation::Acceptance;
 use crate::trajectory::Track;
 
@@ -25,6 +26,12 @@ pub struct Flown {
 /// How motions are compared.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rule {
+    /// What of them.
+    pub(super) outputs: &'static [(Output, usize)],
+    /// How long and how often.
+    pub(super) sampling: Sampling,
+    /// World axes in which distances are.
+    pub(super) axes: usize,
     /// Where a waypoint counts as reached.
     pub(super) acceptance: Acceptance,
     /// Within so many m.
@@ -33,22 +40,15 @@ pub(super) struct Rule {
     pub(super) timed: bool,
 }
 
-/// Shortest motion of a log that is compared, s, and least samples in a second.
-const LEAST_S: f64 = 5.0;
-const LEAST_HZ: f64 = 8.0;
-/// Samples are compared so often, s.
-pub(super) const PERIOD: f64 = 0.1;
+impl Rule {
+    /// How many standard deviations its outputs have.
+    pub(super) fn deviations(&self) -> usize {
+        self.outputs.iter().map(|(_, number)| number + 1).max().unwrap_or(0)
+    }
+}
+
 /// After the last waypoint so much is compared, s: what a simulation lingers.
 const AFTER: f64 = 2.0;
-/// A log may begin so far from the first waypoint, in radii.
-const START: f64 = 1.0;
-
-/// What a stretch of a track is made of: position, and velocity, thrust axis and the mean of the rotors' squared speeds
-/// where there are any.
-const OUTPUTS: [usize; 9] = [0, 0, 1, 2, 2, 3, 4, 4, 5];
-
-/// How many numbers outputs have.
-pub(super) const OUTPUT_NUMBERS: usize = 6;
 
 /// The log's side of a comparison.
 #[derive(Debug, Clone)]
@@ -57,44 +57,30 @@ pub(super) struct Compared {
     pub(super) samples: Vec<(usize, f64)>,
     /// Of each sample all outputs that the log has.
     pub(super) logged: Vec<Vec<f64>>,
-    /// Of each output: which of [`OUTPUTS`].
+    /// Of each output: which standard deviation it has.
     pub(super) outputs: Vec<usize>,
     /// How long it is, s.
     pub(super) end: f64,
-    columns: Columns,
-}
-
-/// Which outputs a track has.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Columns {
-    velocity: bool,
-    attitude: bool,
-    rotors: bool,
-}
-
-impl Columns {
-    fn of(track: &Track) -> Self {
-        let has = |names: &[&str]| names.iter().all(|name| track.channel(name).is_some());
-        Self {
-            velocity: has(&VELOCITY),
-            attitude: track.channel(crate::trajectory::ATTITUDE_UNKNOWN).is_none(),
-            rotors: has(&ROTORS),
-        }
-    }
-
-    fn outputs(self) -> Vec<usize> {
-        let has = |output: usize| match output {
-            0 | 1 => true,
-            2 | 3 => self.velocity,
-            4 => self.attitude,
-            _ => self.rotors,
-        };
-        OUTPUTS.into_iter().filter(|output| has(*output)).collect()
-    }
+    /// When each leg of the log begins, s.
+    begun: Vec<f64>,
+    which: Vec<Output>,
 }
 
 const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 const ROTORS: [&str; 4] = ["rotor1_rad_s", "rotor2_rad_s", "rotor3_rad_s", "rotor4_rad_s"];
+const JOINTS: [&str; 6] = ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"];
+
+/// Whether `track` has an output.
+fn has(track: &Track, output: Output) -> bool {
+    let all = |names: &[&str]| names.iter().all(|name| track.channel(name).is_some());
+    match output {
+        Output::Position(_) => true,
+        Output::Velocity(_) => all(&VELOCITY),
+        Output::Axis(..) => track.channel(crate::trajectory::ATTITUDE_UNKNOWN).is_none(),
+        Output::Thrust => all(&ROTORS),
+        Output::Joint(_) => all(&JOINTS),
+    }
+}
 
 impl Compared {
     /// The legs of a log that are compared.
@@ -105,22 +91,27 @@ impl Compared {
         let times = track.times();
         let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
         let found = end - start;
-        if found < LEAST_S {
-            return Err(FitError::Short { log: log.clone(), found, least: LEAST_S });
+        let Sampling { least_s, least_hz, period, .. } = rule.sampling;
+        if found < least_s {
+            return Err(FitError::Short { log: log.clone(), found, least: least_s });
         }
         let rate = (track.len() - 1) as f64 / found;
-        if rate < LEAST_HZ {
-            return Err(FitError::Sparse { log: log.clone(), found: rate, least: LEAST_HZ });
+        if rate < least_hz {
+            return Err(FitError::Sparse { log: log.clone(), found: rate, least: least_hz });
+        }
+        let (which, outputs): (Vec<Output>, Vec<usize>) =
+            rule.outputs.iter().copied().filter(|(output, _)| has(track, *output)).unzip();
+        if which.is_empty() {
+            return Err(FitError::Outputs { log: log.clone() });
         }
         let begins = track.position(0);
-        let away = (begins - case.waypoints[0]).norm();
-        let within = START * rule.radius;
+        let away = distance(&begins, &case.waypoints[0], rule.axes);
+        let within = rule.sampling.start_m.unwrap_or(rule.radius);
         if away > within {
             let told = |p: &Point3<f64>| format!("({:.2}, {:.2}, {:.2}) m", p.x, p.y, p.z);
             let (begins, start) = (told(&begins), told(&case.waypoints[0]));
             return Err(FitError::Start { log: log.clone(), mission: mission.clone(), begins, away, start, within });
         }
-        let columns = Columns::of(track);
         let begun = begins_of_legs(track, &case.waypoints, rule).map_err(|Missed { waypoint, nearest }| {
             let nearest = nearest * rule.radius;
             let within = rule.radius;
@@ -137,19 +128,46 @@ impl Compared {
             } else {
                 (from + AFTER).min(end)
             };
-            let count = ((to - from) / PERIOD).floor() as usize;
-            samples.extend((0..count).map(|i| (leg, (i as f64 + 0.5) * PERIOD)));
+            let count = ((to - from) / period).floor() as usize;
+            samples.extend((0..count).map(|i| (leg, (i as f64 + 0.5) * period)));
         }
-        let logged = samples.iter().map(|(leg, tau)| outputs_at(track, columns, begun[*leg] + tau)).collect();
-        Ok(Self { samples, logged, outputs: columns.outputs(), end: found, columns })
+        let mut compared = Self { samples, logged: Vec::new(), outputs, end: found, begun, which };
+        compared.logged = compared.outputs_of(track, &compared.begun, &compared.which, rule);
+        Ok(compared)
     }
 
     /// What `flown` says in the place of the log, sample by sample; `None` where it passes not all waypoints.
     pub(super) fn simulated(&self, flown: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Option<Vec<Vec<f64>>> {
         let begun = begins_of_legs(flown, waypoints, rule).ok()?;
-        let at = |(leg, tau): &(usize, f64)| outputs_at(flown, self.columns, begun[*leg] + tau);
-        Some(self.samples.iter().map(at).collect())
+        Some(self.outputs_of(flown, &begun, &self.which, rule))
     }
+
+    /// How far `flown` is from the log, `track`, sample by sample, m; `None` where it passes not all waypoints.
+    pub(super) fn distances(
+        &self,
+        track: &Track,
+        flown: &Track,
+        waypoints: &[Point3<f64>],
+        rule: &Rule,
+    ) -> Option<Vec<f64>> {
+        let begun = begins_of_legs(flown, waypoints, rule).ok()?;
+        let axes: Vec<Output> = (0..rule.axes).map(Output::Position).collect();
+        let logged = self.outputs_of(track, &self.begun, &axes, rule);
+        let simulated = self.outputs_of(flown, &begun, &axes, rule);
+        let pairs = logged.iter().zip(&simulated);
+        Some(pairs.map(|(y, f)| y.iter().zip(f).map(|(y, f)| (y - f) * (y - f)).sum::<f64>().sqrt()).collect())
+    }
+
+    fn outputs_of(&self, track: &Track, begun: &[f64], which: &[Output], rule: &Rule) -> Vec<Vec<f64>> {
+        let at = |(leg, tau): &(usize, f64)| outputs_at(track, which, begun[*leg] + tau, rule.sampling.period);
+        self.samples.iter().map(at).collect()
+    }
+}
+
+/// In the first `axes` of the world.
+fn distance(a: &Point3<f64>, b: &Point3<f64>, axes: usize) -> f64 {
+    let way = a - b;
+    way.iter().take(axes).map(|part| part * part).sum::<f64>().sqrt()
 }
 
 /// When each leg begins, and what comes after the last waypoint; the whole motion as one where it goes by the clock.
@@ -162,11 +180,11 @@ fn begins_of_legs(track: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Resu
 
 /// The outputs at `t`, each by a line through the samples within half a period of it, or between the two around it
 /// where these are few; as at its end where the track is over.
-fn outputs_at(track: &Track, columns: Columns, t: f64) -> Vec<f64> {
+fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> {
     let times = track.times();
     let t = t.clamp(times[0], times[times.len() - 1]);
     let near =
-        times.partition_point(|time| *time < t - 0.5 * PERIOD)..times.partition_point(|time| *time <= t + 0.5 * PERIOD);
+        times.partition_point(|time| *time < t - 0.5 * period)..times.partition_point(|time| *time <= t + 0.5 * period);
     let range = if near.len() >= 4 {
         near
     } else {
@@ -174,27 +192,22 @@ fn outputs_at(track: &Track, columns: Columns, t: f64) -> Vec<f64> {
         after - 1..after + 1
     };
     let line = Line::through(&times[range.clone()], t);
-    let mut found = Vec::with_capacity(OUTPUTS.len());
-    let mut push = |value: &dyn Fn(usize) -> f64| found.push(line.at(range.clone().map(value)));
-    for axis in 0..3 {
-        push(&|i| track.position(i)[axis]);
-    }
-    if columns.velocity {
-        for name in VELOCITY {
-            let values = track.channel(name).unwrap_or_default();
-            push(&|i| values[i]);
+    let through = |value: &dyn Fn(usize) -> f64| line.at(range.clone().map(value));
+    let channel = |name: &str| {
+        let values = track.channel(name).unwrap_or_default();
+        through(&|i| values[i])
+    };
+    let output = |output: &Output| match *output {
+        Output::Position(axis) => through(&|i| track.position(i)[axis]),
+        Output::Velocity(axis) => channel(VELOCITY[axis]),
+        Output::Axis(own, axis) => through(&|i| (track.poses()[i].rotation * Vector3::ith(own, 1.0))[axis]),
+        Output::Thrust => {
+            let speeds = ROTORS.map(|name| track.channel(name).unwrap_or_default());
+            through(&|i| 0.25 * speeds.iter().map(|speed| speed[i] * speed[i]).sum::<f64>())
         }
-    }
-    if columns.attitude {
-        for axis in 0..2 {
-            push(&|i| (track.poses()[i].rotation * Vector3::z())[axis]);
-        }
-    }
-    if columns.rotors {
-        let speeds = ROTORS.map(|name| track.channel(name).unwrap_or_default());
-        push(&|i| 0.25 * speeds.iter().map(|speed| speed[i] * speed[i]).sum::<f64>());
-    }
-    found
+        Output::Joint(axis) => channel(JOINTS[axis]),
+    };
+    which.iter().map(output).collect()
 }
 
 /// Weights of samples whose least-squares line is asked for at one time.

@@ -31,6 +31,12 @@ pub enum FitError {
         /// 1/s.
         least: f64,
     },
+    /// Nothing in it that is compared.
+    #[error("{log}: it has no joint angles, which an arm is fitted by")]
+    Outputs {
+        /// Its name.
+        log: String,
+    },
     /// Too little in all logs together.
     #[error(
         "{stretches} stretches of {stretch_s} s in all logs, at least {least} are needed to tell {numbers} numbers and \

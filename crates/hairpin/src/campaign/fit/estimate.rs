@@ -1,12 +1,13 @@
 //! Fits: estimates, intervals, and which numbers cannot be told.
 
 use nalgebra::{DMatrix, SymmetricEigen};
+use serde_json::Value;
 
 use super::FitError;
-use super::compare::{Flown, OUTPUT_NUMBERS};
+use super::compare::Flown;
 use super::gap::{Gap, deviation};
 use super::simulate::Loops;
-use super::stretches::{STRETCH, colour, objective, residuals};
+use super::stretches::{colour, objective, residuals};
 use super::whiten::Filter;
 use crate::campaign::Setup;
 use crate::campaign::kind::Adjustable;
@@ -93,6 +94,12 @@ pub struct Fit {
     pub unseen: Option<[f64; 2]>,
     /// Keys of the scenario with what is told.
     pub keys: Vec<(String, f64)>,
+    /// Keys of the robot that are written out, so that single numbers of them can be told.
+    pub spelt: Vec<(String, Value)>,
+    /// Whether what the robot leaves out is derived from its other numbers.
+    pub derives: bool,
+    /// Unit that gaps are told in, and so many of it in a metre.
+    pub unit: (&'static str, f64),
 }
 
 /// Fits the robot and controller of `setup` to logs; `stopped` is asked now and then.
@@ -157,13 +164,14 @@ impl Found {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Self, FitError> {
         // Who is stopped simulates no more, so that all searches end at once.
-        let none = vec![Filter::NONE; OUTPUT_NUMBERS];
+        let none = vec![Filter::NONE; loops.rule.deviations()];
         let raw = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &none) };
         let coarse = objective(loops, which, &raw);
         let (stretches, numbers) = (coarse.blocks(), given.len());
         if stretches < numbers + LEAST_FREEDOM {
             let least = numbers + LEAST_FREEDOM;
-            return Err(FitError::Few { stretches, stretch_s: STRETCH, least, numbers });
+            let stretch_s = loops.rule.sampling.stretch;
+            return Err(FitError::Few { stretches, stretch_s, least, numbers });
         }
         let over = |error: FitError| if stopped() { FitError::Stopped } else { error };
         let all: Vec<usize> = (0..numbers).collect();
@@ -248,6 +256,9 @@ impl Found {
         Fit {
             confounded: self.confounded(loops, &estimates),
             keys: keys.collect(),
+            spelt: loops.spelt.clone(),
+            derives: loops.derives,
+            unit: loops.unit,
             residual_m,
             inflation,
             stretches: self.stretches,

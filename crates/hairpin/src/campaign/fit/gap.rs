@@ -28,11 +28,10 @@ pub struct Gap {
 
 /// The deviation from log number `at` with `theta`; infinite where the mission is not flown with it.
 pub(super) fn deviation(loops: &Loops, theta: &[f64], at: usize) -> Deviation {
-    let Some(residuals) = loops.residuals(theta, &[at]) else {
+    let Some(distances) = loops.distances(theta, at) else {
         return Deviation { rmse_m: f64::INFINITY, max_m: f64::INFINITY };
     };
-    let samples = &residuals[0];
-    let squares = samples.iter().map(|r| r[..3].iter().map(|r| r * r).sum::<f64>());
-    let (sum, most) = squares.fold((0.0, 0.0f64), |(sum, most), square| (sum + square, most.max(square)));
-    Deviation { rmse_m: (sum / samples.len().max(1) as f64).sqrt(), max_m: most.sqrt() }
+    let sum: f64 = distances.iter().map(|far| far * far).sum();
+    let max_m = distances.iter().copied().fold(0.0, f64::max);
+    Deviation { rmse_m: (sum / distances.len().max(1) as f64).sqrt(), max_m }
 }

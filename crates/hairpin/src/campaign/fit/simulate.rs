@@ -19,18 +19,27 @@ pub(super) struct Loops<'a> {
     pub(super) flown: Vec<&'a Flown>,
     pub(super) compared: Vec<Compared>,
     pub(super) rule: Rule,
+    /// Keys of the robot that were written out for it.
+    pub(super) spelt: Vec<(String, Value)>,
+    /// Whether what the robot leaves out is derived from its other numbers.
+    pub(super) derives: bool,
+    /// Of gaps, and so many of it in a metre.
+    pub(super) unit: (&'static str, f64),
 }
 
 impl<'a> Loops<'a> {
     pub(super) fn new(setup: &Setup, flown: &'a [Flown]) -> Result<Self, FitError> {
-        let Fittable { calm, numbers, acceptance, timed } = setup.kind().fittable().map_err(FitError::NotFittable)?;
+        let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, timed } =
+            setup.kind().fittable().map_err(FitError::NotFittable)?;
         if flown.is_empty() {
             return Err(FitError::NoLogs);
         }
-        let setup = setup.drawn(&calm).map_err(|mistake| FitError::NotFittable(mistake.to_string()))?;
-        let rule = Rule { acceptance, radius: setup.scenario.executor().accept, timed };
+        let keys = [&calm[..], &spelt[..]].concat();
+        let setup = setup.drawn(&keys).map_err(|mistake| FitError::NotFittable(mistake.to_string()))?;
+        let radius = setup.scenario.executor().accept;
+        let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
         let compared: Result<Vec<Compared>, FitError> = flown.iter().map(|one| Compared::of(one, &rule)).collect();
-        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared: compared?, rule })
+        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared: compared?, rule, spelt, derives, unit })
     }
 
     /// The keys of the scenario with `theta` in them.
@@ -50,8 +59,8 @@ impl<'a> Loops<'a> {
         let around = setup.around(case).map_err(|mistake| mistake.to_string())?;
         let time_limit = self.compared[at].end + PATIENCE;
         let order = Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed };
-        let kind = around.kind();
-        let flight = kind.run(kind.same(), case, &order).map_err(|error| error.to_string())?;
+        // Who made the plan, and who steers, know the robot as it was given.
+        let flight = around.kind().run(self.setup.kind().same(), case, &order).map_err(|error| error.to_string())?;
         match flight.ended.is_crash() {
             true => Err(format!("it ends in `{}`", flight.ended.word())),
             false => Ok(flight.track),
@@ -71,6 +80,13 @@ impl<'a> Loops<'a> {
                 Some(differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect())
             })
             .collect()
+    }
+
+    /// How far the motion with these numbers is from log number `at`, sample by sample, m.
+    pub(super) fn distances(&self, theta: &[f64], at: usize) -> Option<Vec<f64>> {
+        let (setup, flown) = (self.with(theta).ok()?, self.flown[at]);
+        let track = self.fly(&setup, at).ok()?;
+        self.compared[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
     }
 
     /// Why the first mission that is not simulated with `theta` is not.

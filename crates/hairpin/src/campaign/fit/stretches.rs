@@ -1,12 +1,9 @@
 //! Residuals of logs in the order of an objective: filtered leg by leg, in stretches that count as nearly independent.
 
-use super::compare::{Compared, OUTPUT_NUMBERS, PERIOD};
+use super::compare::Compared;
 use super::simulate::Loops;
 use super::whiten::{Filter, Leg, filters, whitened};
 use crate::math::output_error::{Objective, Parameter};
-
-/// A log's length in stretches as good as independent, s: a gust and the loop that answers it are over.
-pub(super) const STRETCH: f64 = 3.0;
 
 /// The objective on the logs `which`, by the residuals' function.
 pub(super) fn objective<'a>(
@@ -14,14 +11,16 @@ pub(super) fn objective<'a>(
     which: &[usize],
     residuals: &'a (dyn Fn(&[f64]) -> Option<Vec<f64>> + Sync),
 ) -> Objective<'a> {
+    let sampling = &loops.rule.sampling;
     let (mut output, mut block, mut begins) = (Vec::new(), Vec::new(), Vec::new());
     for &log in which {
         let compared = &loops.compared[log];
         let (mut leg, mut since, mut first) = (usize::MAX, 0usize, true);
-        let stretch = (STRETCH / PERIOD).round() as usize;
+        let stretch = (sampling.stretch / sampling.period).round() as usize;
         for (own, _) in &compared.samples {
-            // From waypoint to waypoint stretches begin with legs, by the clock after their time.
-            let next = if loops.rule.timed { since >= stretch } else { *own != leg && since >= stretch };
+            // Of whole legs, or after their time.
+            let by_legs = sampling.whole_legs && !loops.rule.timed;
+            let next = since >= stretch && (*own != leg || !by_legs);
             if first || next {
                 begins.push(first);
                 (since, first) = (0, false);
@@ -53,7 +52,7 @@ pub(super) fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: 
 /// The filters that leave residuals of `theta` without memory.
 pub(super) fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
     let logs = loops.residuals(theta, which)?;
-    let mut found = vec![Filter::NONE; OUTPUT_NUMBERS];
+    let mut found = vec![Filter::NONE; loops.rule.deviations()];
     // Logs may have different outputs: those of one kind at once.
     for outputs in which.iter().map(|log| &loops.compared[*log].outputs) {
         let alike = which.iter().zip(&logs).filter(|(log, _)| loops.compared[**log].outputs == *outputs);

@@ -1,39 +1,36 @@
-//! Fits to flights of our own simulator with other numbers, in gusts and with an estimator's noise that the fit knows
-//! nothing of.
+//! Fits to motions of our own simulator with other numbers, disturbed and logged by what the fit knows nothing of.
 
+mod arms;
 mod draws;
+mod drives;
 
 use std::collections::BTreeMap;
 
 use super::*;
-use draws::{Truth, flown, scenario};
+use crate::campaign::Setup;
+use draws::Truth;
 
 /// A number from the environment.
 fn asked<T: std::str::FromStr>(name: &str, otherwise: T) -> T {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(otherwise)
 }
 
-/// The experiment of docs/fit.md: `DRAWS` vehicles from number `FROM` on, of whose numbers each lies within its
-/// interval in nine of ten draws. With `HELD_OUT` logs kept from the fit there is one fit a draw, else one for each log
-/// besides.
-#[test]
-#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_lie_within_their_intervals"]
-fn numbers_lie_within_their_intervals() {
-    let (draws, from, count) = (asked("DRAWS", 20u64), asked("FROM", 0u64), asked("LOGS", 5usize));
-    let robot = asked("ROBOT", "flightgoggles".to_owned());
-    let controller = asked("CONTROLLER", "stable-waypoint".to_owned());
-    let setup = scenario(&robot, &controller);
+/// The experiment of docs/fit.md: `DRAWS` robots from number `FROM` on, of whose numbers each lies within its interval
+/// in nine of ten draws. With `HELD_OUT` logs kept from the fit there is one fit a draw, else one for each log besides.
+fn numbers_lie(setup: &Setup, draw: &dyn Fn(u64) -> (Truth, Vec<Flown>)) {
+    let (draws, from) = (asked("DRAWS", 20u64), asked("FROM", 0u64));
     let mut tally: BTreeMap<&str, [u64; 3]> = BTreeMap::new();
-    let mut better = 0;
+    let mut halves: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let (mut better, mut gaps) = (0, [0.0; 2]);
     for seed in from..from + draws {
-        let truth = Truth::draw(&setup, seed);
-        let logs = flown(&setup, &truth, seed, (count, asked("ROTORS", false)));
+        let (truth, logs) = draw(seed);
         let settings = FitSettings { held_out: asked("HELD_OUT", 0) };
-        let found = fit(&setup, &logs, &settings, &|| false).unwrap();
+        let found = fit(setup, &logs, &settings, &|| false).unwrap();
         let [before, after] = found.unseen.unwrap();
         better += u64::from(after < before);
+        gaps = [gaps[0] + before / draws as f64, gaps[1] + after / draws as f64];
         println!(
-            "draw {seed}: unseen {before:.3} m, then {after:.3} m; inflation {:.1}, {} stretches",
+            "draw {seed}: unseen {before:.4} m, then {after:.4} m; inflation {:.1}, {} stretches",
             found.inflation, found.stretches
         );
         for estimate in &found.estimates {
@@ -50,8 +47,60 @@ fn numbers_lie_within_their_intervals() {
             );
             let entry = tally.entry(field).or_default();
             *entry = [entry[0] + u64::from(held), entry[1] + u64::from(told), entry[2] + u64::from(told && held)];
+            if let (true, Some([low, high])) = (told, estimate.interval) {
+                halves.entry(field).or_default().push(0.5 * (high - low) / estimate.best.abs());
+            }
         }
     }
-    println!("of {draws} draws within, told, told and within: {tally:?}; better on unseen logs {better}");
+    println!("of {draws} draws within, told, told and within: {tally:?}; better on unseen logs {better}: {gaps:.4?} m");
+    for (field, mut halves) in halves {
+        halves.sort_by(f64::total_cmp);
+        println!(
+            "  {field:24} half of the interval: {:.3} in the median, {:.3} at most",
+            halves[halves.len() / 2],
+            halves[halves.len() - 1]
+        );
+    }
     assert!(tally.values().all(|[held, ..]| 10 * held >= 9 * draws), "{tally:?}");
+}
+
+#[test]
+#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_lie_within_their_intervals"]
+fn numbers_lie_within_their_intervals() {
+    let setup = draws::scenario(
+        &asked("ROBOT", "flightgoggles".to_owned()),
+        &asked("CONTROLLER", "stable-waypoint".to_owned()),
+    );
+    let shape = (asked("LOGS", 5), asked("ROTORS", false));
+    numbers_lie(&setup, &|seed| {
+        let truth = Truth::draw(&setup, seed, &Truth::of_flights);
+        let logs = draws::flown(&setup, &truth, seed, shape);
+        (truth, logs)
+    });
+}
+
+#[test]
+#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_of_drives_lie"]
+fn numbers_of_drives_lie_within_their_intervals() {
+    let setup = drives::scenario(
+        &asked("ROBOT", "differential-drive".to_owned()),
+        &asked("CONTROLLER", "pure-pursuit".to_owned()),
+    );
+    let shape = (asked("LOGS", 6), asked("BUMPS", 0.1));
+    numbers_lie(&setup, &|seed| {
+        let truth = Truth::draw(&setup, seed, &drives::drawn);
+        let logs = drives::flown(&setup, &truth, seed, shape);
+        (truth, logs)
+    });
+}
+
+#[test]
+#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_of_arms_lie"]
+fn numbers_of_arms_lie_within_their_intervals() {
+    let setup = arms::scenario();
+    numbers_lie(&setup, &|seed| {
+        let truth = Truth::draw(&setup, seed, &arms::drawn);
+        let logs = arms::flown(&setup, &truth, seed, asked("LOGS", 4));
+        (truth, logs)
+    });
 }

@@ -3,9 +3,22 @@
 use serde_json::Value;
 
 use super::FlightSetup;
-use crate::campaign::kind::{Adjustable, Fittable};
+use crate::campaign::kind::{Adjustable, Fittable, Output, Sampling};
 use crate::math::power::square;
 use crate::simulation::{ControllerKind, ControllerSettings};
+
+/// Position, and velocity, thrust axis and the mean of the rotors' squared speeds where there are any.
+const OUTPUTS: [(Output, usize); 9] = [
+    (Output::Position(0), 0),
+    (Output::Position(1), 0),
+    (Output::Position(2), 1),
+    (Output::Velocity(0), 2),
+    (Output::Velocity(1), 2),
+    (Output::Velocity(2), 3),
+    (Output::Axis(2, 0), 4),
+    (Output::Axis(2, 1), 4),
+    (Output::Thrust, 5),
+];
 
 /// Drag terms: as the robot has them; where it has none, the linear one, which rotors always have.
 pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> Result<Fittable, String> {
@@ -102,7 +115,13 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
     let calm = [("world.gusts", Value::Null), ("world.discrete_gust", Value::Null), ("execute.noise", false.into())];
     Ok(Fittable {
         calm: calm.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+        spelt: Vec::new(),
+        derives: true,
         numbers,
+        outputs: &OUTPUTS,
+        axes: 3,
+        unit: ("m", 1.0),
+        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 3.0, whole_legs: true, start_m: None },
         acceptance: controller.kind.acceptance(),
         timed: matches!(controller.kind, ControllerKind::MinimumSnap | ControllerKind::Geometric),
     })

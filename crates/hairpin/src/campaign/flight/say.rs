@@ -15,6 +15,7 @@ use crate::campaign::kind::{
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
 use crate::math::rotation::angle_between;
+use crate::robot::battery::{Battery, BatteryDescription};
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
 use crate::simulation::{Acceptance, Controlled, ControllerKind};
 use crate::trajectory::Flight;
@@ -23,7 +24,15 @@ impl Say for FlightSetup {
     fn robot_words(&self) -> RobotWords<'_> {
         let Quadrotor { name, caveat, estimated, .. } = &*self.robot;
         let estimated = estimated.iter().map(String::as_str).collect();
-        RobotWords { name, caveat, estimated, has_sides: true, unknown_shapes: None, loops: Quadrotor::LOOPS }
+        RobotWords {
+            name,
+            caveat,
+            estimated,
+            has_sides: true,
+            unknown_shapes: None,
+            loops: Quadrotor::LOOPS,
+            battery: self.battery(),
+        }
     }
 
     fn assumptions(&self, cases: &[Case], _: &Tally) -> Assumptions {
@@ -50,7 +59,7 @@ impl Say for FlightSetup {
     /// A robot that flies has all its numbers, derived ones too.
     fn handed(&self) -> Handed {
         Handed {
-            robot: json!(description(&self.robot)),
+            robot: json!(description(&self.robot, self.described().and_then(|robot| robot.battery))),
             world: json!(self.scenario.world),
             external_force: None,
             limits: json!(self.scenario.generate.limits),
@@ -144,8 +153,19 @@ fn legs_met(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f
     }
 }
 
+impl FlightSetup {
+    /// As its file has it.
+    fn described(&self) -> Option<&QuadrotorDescription> {
+        self.scenario.robot.resolved().ok()
+    }
+
+    fn battery(&self) -> Option<Battery> {
+        self.described()?.battery().ok()?
+    }
+}
+
 /// All numbers of a robot.
-fn description(robot: &Quadrotor) -> QuadrotorDescription {
+fn description(robot: &Quadrotor, battery: Option<BatteryDescription>) -> QuadrotorDescription {
     let rotor =
         |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };
     QuadrotorDescription {
@@ -169,6 +189,7 @@ fn description(robot: &Quadrotor) -> QuadrotorDescription {
         max_speed_m_s: Some(robot.max_speed),
         clearance_radius_m: Some(robot.clearance_radius),
         gravity_m_s2: Some(robot.gravity),
+        battery,
         estimated: BTreeMap::new(),
     }
 }

@@ -40,7 +40,7 @@ pub(in crate::campaign) trait Act {
     /// # Errors
     /// Why nothing is fitted, in a sentence's part.
     fn fittable(&self) -> Result<Fittable, String> {
-        Err("only flights are fitted to logs".into())
+        Err("no numbers of robots of this kind are fitted to logs".into())
     }
 
     /// Obstacles that are asked for, placed in the way of an execution of `case` along `track`, clear of its plan.

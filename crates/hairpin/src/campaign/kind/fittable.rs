@@ -25,15 +25,59 @@ pub struct Adjustable {
     pub other: f64,
 }
 
-/// Numbers, and how missions are carried out while they are fitted.
+/// An output of a motion, which a simulation and a log have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::campaign) enum Output {
+    /// Of the body's origin, or the tool's point, along a world axis, m.
+    Position(usize),
+    /// Likewise, m/s.
+    Velocity(usize),
+    /// Of the first axis of the body the part along the second, of the world.
+    Axis(usize, usize),
+    /// Mean of the squares of all rotors' speeds, rad²/s².
+    Thrust,
+    /// Angle of an axis of an arm, from 0, rad.
+    Joint(usize),
+}
+
+/// How long and how often logs are compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::campaign) struct Sampling {
+    /// Shortest motion of a log, s.
+    pub(in crate::campaign) least_s: f64,
+    /// Least samples of a log in a second.
+    pub(in crate::campaign) least_hz: f64,
+    /// Samples are compared so often, s.
+    pub(in crate::campaign) period: f64,
+    /// A log's length in stretches as good as independent, s: what disturbs, and the loop that answers it, are over.
+    pub(in crate::campaign) stretch: f64,
+    /// Whether stretches are of whole legs.
+    pub(in crate::campaign) whole_legs: bool,
+    /// A log may begin so far from the first waypoint, m; within the radius of a waypoint if not given.
+    pub(in crate::campaign) start_m: Option<f64>,
+}
+
+/// Numbers, and how missions are carried out and compared while they are fitted.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct Fittable {
     /// Keys with values that leave out whatever is drawn by chance.
     pub(in crate::campaign) calm: Vec<(String, Value)>,
+    /// Keys of the robot as it is, written out so that single numbers of them can be adjusted.
+    pub(in crate::campaign) spelt: Vec<(String, Value)>,
+    /// Whether what the robot leaves out is derived from its other numbers.
+    pub(in crate::campaign) derives: bool,
     /// What is adjusted.
     pub(in crate::campaign) numbers: Vec<Adjustable>,
+    /// What is compared, of what logs have; outputs of one number have one standard deviation.
+    pub(in crate::campaign) outputs: &'static [(Output, usize)],
+    /// World axes in which the gap is told.
+    pub(in crate::campaign) axes: usize,
+    /// Unit of the gap, and so many of it in a metre.
+    pub(in crate::campaign) unit: (&'static str, f64),
+    /// How long and how often.
+    pub(in crate::campaign) sampling: Sampling,
     /// Where a waypoint counts as reached.
     pub(in crate::campaign) acceptance: Acceptance,
-    /// Whether who steers goes by the clock, not from waypoint to waypoint.
+    /// Whether motions are compared by the clock from their begin, not from waypoint to waypoint.
     pub(in crate::campaign) timed: bool,
 }

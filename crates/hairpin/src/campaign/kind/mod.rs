@@ -38,7 +38,7 @@ pub use drawing::{Drawing, Relief, Rotor};
 pub use figure::{FigureLink, Look, RobotFigure, Turned};
 pub(super) use figure::{block, capsule, prism, rod, wheel};
 pub use fittable::Adjustable;
-pub(super) use fittable::Fittable;
+pub(super) use fittable::{Fittable, Output, Sampling};
 pub(super) use knob::{Condition, Knob, Knobs, Standing, Turn};
 pub(super) use of_robot::Kind;
 pub(super) use programs::Programs;

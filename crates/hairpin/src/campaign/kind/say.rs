@@ -7,7 +7,8 @@ use serde_json::Value;
 use super::{Axis, Drawing, Programs, Room};
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
-use crate::trajectory::Flight;
+use crate::robot::battery::Battery;
+use crate::trajectory::{Flight, Track};
 
 /// The robot in words.
 #[derive(Debug, Clone)]
@@ -24,6 +25,8 @@ pub(in crate::campaign) struct RobotWords<'a> {
     pub(in crate::campaign) unknown_shapes: Option<&'static str>,
     /// What of ours carries out what a stranger's controller asks for.
     pub(in crate::campaign) loops: Option<&'static str>,
+    /// How long it goes on a charge, where its file says so.
+    pub(in crate::campaign) battery: Option<Battery>,
 }
 
 /// "Assumptions and limits of this run", by what they are about.
@@ -120,6 +123,12 @@ pub(in crate::campaign) trait Say {
 
     /// What executors are handed.
     fn handed(&self) -> Handed;
+
+    /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words; `None` where none was,
+    /// and of what has no back.
+    fn backwards(&self, _case: &Case, _track: &Track) -> Option<String> {
+        None
+    }
 
     /// Whether a place lies where the robot cannot be: outside of its world.
     fn is_outside(&self, place: &Point3<f64>) -> bool;

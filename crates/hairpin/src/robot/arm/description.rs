@@ -3,6 +3,8 @@
 //! Either seven lengths ([`OpwDescription`]) or six joints ([`ChainDescription`], as URDF has them); never both, so
 //! that an arm has one geometry.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Isometry3, Translation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,6 +15,7 @@ use super::chain::{Chain, Joint};
 use super::opw::Opw;
 use super::{AXES, Arm, JointLimit, Joints, Kinematics};
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
+use crate::robot::estimated::{EstimatedNumber, OWN_NUMBERS, estimated_keys};
 
 /// The `kind` of an arm's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -80,6 +83,9 @@ pub struct ArmDescription {
     /// Masses of links, of all six that move or of none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub masses: Vec<MassDescription>,
+    /// Keys of this file whose numbers were estimated from logs: `joints.lag_s[0]` … `joints.lag_s[5]`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub estimated: BTreeMap<String, EstimatedNumber>,
 }
 
 /// Brandstötter's parameters.
@@ -153,6 +159,9 @@ pub struct JointsDescription {
     /// Largest accelerations; what reaches the largest speed in 0.2 s if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration_deg_s2: Option<[f64; AXES]>,
+    /// Time constants of the servos' lag, in the place of `execute.servo_lag_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lag_s: Option<[f64; AXES]>,
 }
 
 /// A part of a link.
@@ -216,6 +225,10 @@ const MOST_BODIES: usize = 4000;
 /// Points of one hull, at most.
 const MOST_POINTS: usize = 256;
 
+/// Keys of the servos' lags.
+const LAGS: [&str; AXES] =
+    ["joints.lag_s[0]", "joints.lag_s[1]", "joints.lag_s[2]", "joints.lag_s[3]", "joints.lag_s[4]", "joints.lag_s[5]"];
+
 /// Time to the largest speed where a file gives no accelerations, s.
 const RISE_TIME: f64 = 0.2;
 
@@ -247,6 +260,9 @@ impl ArmDescription {
         let links = self.links(stand_ins, &mut estimated)?;
         let limits = self.joints.build(&mut estimated)?;
         estimated.extend(self.estimates.iter().cloned());
+        let keys = estimated_keys(&self.estimated, &LAGS.map(|key| (key, self.joints.lag_s.is_some())));
+        let keys = keys.map_err(|key| wrong("estimated", key, OWN_NUMBERS))?;
+        estimated.extend(keys.into_iter().map(str::to_owned));
         Ok(Arm {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
@@ -254,6 +270,7 @@ impl ArmDescription {
             chain,
             kinematics,
             limits,
+            lags: self.joints.lags()?,
             joint_names: self.joint_names()?,
             links,
             excluded: self.excluded()?,
@@ -448,6 +465,15 @@ impl JointsDescription {
             };
         }
         Ok(limits)
+    }
+
+    /// s.
+    fn lags(&self) -> Result<Option<Joints>, ArmError> {
+        let Some(lags) = self.lag_s else { return Ok(None) };
+        for (key, lag) in LAGS.iter().zip(lags) {
+            within(key, lag, 0.0, 10.0)?;
+        }
+        Ok(Some(lags))
     }
 }
 

@@ -95,6 +95,8 @@ pub struct Arm {
     pub kinematics: Kinematics,
     /// What the joints may do.
     pub limits: [JointLimit; AXES],
+    /// Time constants of the servos' lag, s, where the file has them.
+    pub lags: Option<Joints>,
     /// What the joints are called by ROS.
     pub joint_names: [String; AXES],
     /// Links, the base first.

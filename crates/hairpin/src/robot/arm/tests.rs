@@ -345,6 +345,7 @@ fn files_are_held_to_their_bounds() {
             upper_deg: [100.0; 6],
             speed_deg_s: [200.0; 6],
             acceleration_deg_s2: None,
+            lag_s: None,
         },
         joint_names: Vec::new(),
         capsules: Vec::new(),
@@ -354,6 +355,7 @@ fn files_are_held_to_their_bounds() {
         exclude: Vec::new(),
         estimates: Vec::new(),
         masses: Vec::new(),
+        estimated: Default::default(),
     };
     let built = sound.build().unwrap();
     assert_eq!(built.estimated, ["capsules", "joints.acceleration_deg_s2"]);

@@ -1,10 +1,13 @@
 //! A car as the kinematic bicycle: ẋ = v cosψ, ẏ = v sinψ, ψ̇ = v tan(δ)/L at the middle of the rear axle; the front
 //! one is steered.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, named};
+use super::{GroundResponse, Named, estimates, named};
+use crate::robot::estimated::EstimatedNumber;
 use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rover, RoverError, within};
 
 /// The `kind` of a car's file.
@@ -42,6 +45,12 @@ pub struct CarDescription {
     pub speed_m_s: Option<f64>,
     /// What it may do.
     pub limits: CarLimits,
+    /// How it follows its commands; at once and exactly if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response: Option<GroundResponse>,
+    /// Keys of this file whose numbers were estimated from logs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub estimated: BTreeMap<String, EstimatedNumber>,
 }
 
 /// Bounds of a car's motion, the same to both sides and in both gears.
@@ -74,6 +83,8 @@ pub struct CarLimits {
 ///     width_m: None,
 ///     speed_m_s: Some(2.0),
 ///     limits,
+///     response: None,
+///     estimated: Default::default(),
 /// }
 /// .build()?;
 /// let tightest = 1.0 / car.vehicle().limits.curvature;
@@ -105,7 +116,9 @@ pub struct Car {
     pub acceleration: f64,
     /// Speed where none is given, m/s.
     pub default_speed: f64,
-    /// Names of the numbers that were derived here, not given.
+    /// How it follows its commands.
+    pub response: Response,
+    /// Names of the numbers that were derived here, not given, or estimated.
     pub estimated: Vec<&'static str>,
 }
 
@@ -119,7 +132,11 @@ impl CarDescription {
         let speed = within("limits.speed_m_s", limits.speed_m_s, 1e-3, MOST_SPEED)?;
         let wheelbase = within("wheelbase_m", self.wheelbase_m, 1e-3, 100.0)?;
         let given = [("speed_m_s", self.speed_m_s), ("length_m", self.length_m), ("width_m", self.width_m)];
-        let estimated = given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key).collect();
+        let derived = given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key);
+        let response = self.response.as_ref();
+        let estimated = derived.chain(estimates(&self.estimated, response)?).collect();
+        let steering_rate = within("limits.steering_rate_deg_s", limits.steering_rate_deg_s, 0.1, 1e4)?.to_radians();
+        let wheels = Response { steering_rate, steered_axle: wheelbase, ..Response::default() };
         Ok(Car {
             name: named(&self.name)?,
             caveat: self.caveat.clone(),
@@ -128,10 +145,11 @@ impl CarDescription {
             length: within("length_m", self.length_m.unwrap_or(1.6 * wheelbase), wheelbase, 1e3)?,
             width: within("width_m", self.width_m.unwrap_or(0.8 * wheelbase), 1e-3, 1e3)?,
             steering: within("limits.steering_deg", limits.steering_deg, 0.1, 85.0)?.to_radians(),
-            steering_rate: within("limits.steering_rate_deg_s", limits.steering_rate_deg_s, 0.1, 1e4)?.to_radians(),
+            steering_rate,
             speed,
             acceleration: within("limits.acceleration_m_s2", limits.acceleration_m_s2, 1e-3, 1e3)?,
             default_speed: within("speed_m_s", self.speed_m_s.unwrap_or(0.25 * speed), 1e-4, speed)?,
+            response: GroundResponse::build(response, wheels)?,
             estimated,
         })
     }
@@ -153,12 +171,10 @@ impl Car {
             joint: f64::INFINITY,
             turns_in_place: false,
         };
-        let response =
-            Response { steering_rate: self.steering_rate, steered_axle: self.wheelbase, ..Response::default() };
         let Self { name, caveat, source, estimated, .. } = self;
         let overhang = 0.5 * (self.length - self.wheelbase);
         let outline =
             Belly { front: self.wheelbase + overhang, rear: -overhang, half_width: 0.5 * self.width, height: 0.0 };
-        Named { name, caveat, source, estimated, outline }.vehicle(limits, response, self.default_speed)
+        Named { name, caveat, source, estimated, outline }.vehicle(limits, self.response, self.default_speed)
     }
 }

@@ -1,11 +1,14 @@
 //! A differential drive: two wheels on one axle, each with a speed of its own. ẋ = v cosψ, ẏ = v sinψ, ψ̇ = ω at the
 //! axle's middle.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Named, named};
+use super::{GroundResponse, Named, estimates, named};
 use crate::math::power::square;
+use crate::robot::estimated::EstimatedNumber;
 use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rover, RoverError, within};
 
 /// The `kind` of a differential drive's file.
@@ -41,6 +44,12 @@ pub struct DifferentialDriveDescription {
     pub speed_m_s: Option<f64>,
     /// What it may do.
     pub limits: DifferentialDriveLimits,
+    /// How it follows its commands; at once and exactly if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response: Option<GroundResponse>,
+    /// Keys of this file whose numbers were estimated from logs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub estimated: BTreeMap<String, EstimatedNumber>,
 }
 
 /// Bounds of each wheel's rim, the same in both directions.
@@ -74,7 +83,9 @@ pub struct DifferentialDrive {
     pub wheel_acceleration: f64,
     /// Speed where none is given, m/s.
     pub default_speed: f64,
-    /// Names of the numbers that were derived here, not given.
+    /// How it follows its commands.
+    pub response: Response,
+    /// Names of the numbers that were derived here, not given, or estimated.
     pub estimated: Vec<&'static str>,
 }
 
@@ -89,6 +100,9 @@ impl DifferentialDriveDescription {
         let speed = self.speed_m_s.unwrap_or(0.5 * wheel_speed);
         let track = within("track_m", self.track_m, 1e-3, 100.0)?;
         let given = [("speed_m_s", self.speed_m_s), ("radius_m", self.radius_m)];
+        let response = self.response.as_ref();
+        let derived = given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key);
+        let wheels = Response { steered_axle: 0.5 * track, ..Response::default() };
         Ok(DifferentialDrive {
             name: named(&self.name)?,
             caveat: self.caveat.clone(),
@@ -99,7 +113,8 @@ impl DifferentialDriveDescription {
             wheel_acceleration: within("limits.wheel_acceleration_m_s2", limits.wheel_acceleration_m_s2, 1e-3, 1e3)?,
             // A wheel at its limit leaves nothing to turn with.
             default_speed: within("speed_m_s", speed, 1e-3 * wheel_speed, 0.99 * wheel_speed)?,
-            estimated: given.iter().filter(|(_, value)| value.is_none()).map(|(key, _)| *key).collect(),
+            response: GroundResponse::build(response, wheels)?,
+            estimated: derived.chain(estimates(&self.estimated, response)?).collect(),
         })
     }
 }
@@ -125,10 +140,9 @@ impl DifferentialDrive {
             joint: f64::INFINITY,
             turns_in_place: true,
         };
-        let response = Response { steered_axle: 0.5 * self.track, ..Response::default() };
         let Self { name, caveat, source, estimated, .. } = self;
         // The circle as the rectangle of no width that has its radius.
         let outline = Belly { front: self.radius, rear: -self.radius, ..Belly::default() };
-        Named { name, caveat, source, estimated, outline }.vehicle(limits, response, v)
+        Named { name, caveat, source, estimated, outline }.vehicle(limits, self.response, v)
     }
 }

@@ -3,6 +3,7 @@
 
 mod car;
 mod differential_drive;
+mod response;
 
 #[cfg(test)]
 mod tests;
@@ -11,7 +12,11 @@ pub use car::{Car, CarDescription, CarKind, CarLimits};
 pub use differential_drive::{
     DifferentialDrive, DifferentialDriveDescription, DifferentialDriveKind, DifferentialDriveLimits,
 };
+pub use response::GroundResponse;
 
+use std::collections::BTreeMap;
+
+use crate::robot::estimated::{EstimatedNumber, OWN_NUMBERS, estimated_keys};
 use crate::robot::rover::{Belly, Body, Kinematics, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
 
 fn named(name: &str) -> Result<String, RoverError> {
@@ -19,6 +24,16 @@ fn named(name: &str) -> Result<String, RoverError> {
         return Err(RoverError { field: "name".into(), value: "\"\"".into(), bound: "a name for reports".into() });
     }
     Ok(name.to_owned())
+}
+
+/// The keys that a file calls estimated, of those that logs tell.
+fn estimates(
+    told: &BTreeMap<String, EstimatedNumber>,
+    response: Option<&GroundResponse>,
+) -> Result<Vec<&'static str>, RoverError> {
+    let keys = estimated_keys(told, &GroundResponse::numbers(response));
+    let wrong = |key: &str| RoverError { field: "estimated".into(), value: key.into(), bound: OWN_NUMBERS.into() };
+    keys.map_err(wrong)
 }
 
 /// What car and differential drive have in common as vehicles without suspension.

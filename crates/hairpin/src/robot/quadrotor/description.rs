@@ -13,6 +13,8 @@ use thiserror::Error;
 
 use super::{Quadrotor, Rotor, derived};
 use crate::math::power::square;
+use crate::robot::battery::{Battery, BatteryDescription};
+use crate::robot::estimated::{EstimatedNumber, OWN_NUMBERS, estimated_keys};
 
 /// One rotor of a robot file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -87,20 +89,12 @@ pub struct QuadrotorDescription {
     /// Gravity; 9.81 if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity_m_s2: Option<f64>,
+    /// How long it flies on a charge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub battery: Option<BatteryDescription>,
     /// Keys of this file whose numbers were estimated from logs.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub estimated: BTreeMap<String, EstimatedNumber>,
-}
-
-/// How a number of a robot file was estimated.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct EstimatedNumber {
-    /// 95 % interval, in the key's unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub interval: Option<[f64; 2]>,
-    /// From what.
-    pub from: String,
 }
 
 /// The `kind` of a quadrotor's file.
@@ -205,31 +199,37 @@ impl QuadrotorDescription {
             caveat: self.caveat.clone(),
         };
         check_hover(&robot)?;
+        self.battery()?;
         Ok(robot)
+    }
+
+    /// How long it flies on a charge; `None` where the file does not say.
+    ///
+    /// # Errors
+    /// The key that is out of bounds, with the bound.
+    pub fn battery(&self) -> Result<Option<Battery>, QuadrotorError> {
+        let built = self.battery.map(|battery| battery.build()).transpose();
+        built.map_err(|(key, value, bound)| QuadrotorError::new(key, value, bound))
     }
 
     /// The keys whose numbers the file has and calls estimated.
     fn estimates(&self) -> Result<Vec<String>, QuadrotorError> {
-        let given = |key: &str| match key {
-            "mass_kg" => true,
-            "inertia_kg_m2" => self.inertia_kg_m2.is_some(),
-            "thrust_coefficient_n_s2" => self.thrust_coefficient_n_s2.is_some(),
-            "moment_coefficient_n_m_s2" => self.moment_coefficient_n_m_s2.is_some(),
-            "rotor_speed_rad_s" => self.rotor_speed_rad_s.is_some(),
-            "thrust_to_weight" => self.thrust_to_weight.is_some(),
-            "rotor_time_constant_s" => self.rotor_time_constant_s.is_some(),
-            "drag_linear_n_s_m" => self.drag_linear_n_s_m.is_some(),
-            "drag_quadratic_n_s2_m2" => self.drag_quadratic_n_s2_m2.is_some(),
-            "aerodynamic_moment_n_m_s2" => self.aerodynamic_moment_n_m_s2.is_some(),
-            "max_speed_m_s" => self.max_speed_m_s.is_some(),
-            _ => false,
-        };
-        match self.estimated.keys().find(|key| !given(key)) {
-            Some(key) => {
-                Err(QuadrotorError::new("estimated", key, "keys of this file that have a number of their own"))
-            }
-            None => Ok(self.estimated.keys().cloned().collect()),
-        }
+        let given = [
+            ("mass_kg", true),
+            ("inertia_kg_m2", self.inertia_kg_m2.is_some()),
+            ("thrust_coefficient_n_s2", self.thrust_coefficient_n_s2.is_some()),
+            ("moment_coefficient_n_m_s2", self.moment_coefficient_n_m_s2.is_some()),
+            ("rotor_speed_rad_s", self.rotor_speed_rad_s.is_some()),
+            ("thrust_to_weight", self.thrust_to_weight.is_some()),
+            ("rotor_time_constant_s", self.rotor_time_constant_s.is_some()),
+            ("drag_linear_n_s_m", self.drag_linear_n_s_m.is_some()),
+            ("drag_quadratic_n_s2_m2", self.drag_quadratic_n_s2_m2.is_some()),
+            ("aerodynamic_moment_n_m_s2", self.aerodynamic_moment_n_m_s2.is_some()),
+            ("max_speed_m_s", self.max_speed_m_s.is_some()),
+        ];
+        let keys = estimated_keys(&self.estimated, &given);
+        let keys = keys.map_err(|key| QuadrotorError::new("estimated", key, OWN_NUMBERS))?;
+        Ok(keys.into_iter().map(str::to_owned).collect())
     }
 
     /// The four rotors, regular: thrust, roll, pitch and yaw can be had independently.

@@ -18,7 +18,7 @@ pub mod published;
 
 use nalgebra::Vector3;
 
-pub use description::{EstimatedNumber, QuadrotorDescription, QuadrotorError, QuadrotorKind, RotorDescription};
+pub use description::{QuadrotorDescription, QuadrotorError, QuadrotorKind, RotorDescription};
 pub use model::{EulerState, QuadrotorState, from_euler_state, level_rest, to_euler_state};
 
 use crate::math::power::square;

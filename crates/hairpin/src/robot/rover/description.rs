@@ -3,6 +3,8 @@
 //! What binds is what is given: a limit that is left out is infinite, but for the change of curvature, without which no
 //! path has a best shape. Geometry is that of the left side.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,7 +14,8 @@ use super::error::{RoverError, place, within, wrong};
 use super::four_wheel::FourWheel;
 use super::weight::{ForcesDescription, Weight};
 use super::wheels::{Steering, Wheels, WheelsDescription};
-use super::{Kinematics, Limits, MOST_SPEED, Response, RockerBogie, Rover, Slip, Suspension};
+use super::{Kinematics, Limits, MOST_SPEED, Response, RockerBogie, Rover, Slip, Suspension, Unplanned};
+use crate::robot::estimated::{EstimatedNumber, OWN_NUMBERS, estimated_keys};
 
 /// The `kind` of a rover's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -79,6 +82,9 @@ pub struct RoverDescription {
     /// What it weighs and overcomes; needs `mass_kg`. With it, or with `wheels.torque_n_m`, the wheels' torque is told.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forces: Option<ForcesDescription>,
+    /// Keys of this file whose numbers were estimated from logs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub estimated: BTreeMap<String, EstimatedNumber>,
 }
 
 fn is_zero(value: &f64) -> bool {
@@ -143,7 +149,7 @@ pub struct LimitsDescription {
 
 /// Delays and lags; none if not given.
 ///
-/// Delays are the act's: a planner's legs are made without latency, which controllers then meet.
+/// All but the steering's lag and rate are the act's: plans leave them out, and controllers meet them.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseDescription {
@@ -159,6 +165,15 @@ pub struct ResponseDescription {
     /// Distance of the steered axle from the line through the turning centre; from the wheels if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steered_axle_m: Option<f64>,
+    /// First-order lag of the speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_time_constant_s: Option<f64>,
+    /// Way over the ground by that of the wheels, on any slope: wheels of another radius, or that slip; 1 if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_scale: Option<f64>,
+    /// Curvature over the ground by that of the wheels: those that scrub turn less; 1 if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn_scale: Option<f64>,
 }
 
 /// Largest |κ′| where a file gives none, 1/m².
@@ -177,7 +192,7 @@ impl RoverDescription {
         if self.name.trim().is_empty() {
             return Err(wrong("name", "\"\"", "a name for reports"));
         }
-        let mut estimated = Vec::new();
+        let mut estimated = self.estimates()?;
         let suspension = self.suspension()?;
         let limits = self.limits(&mut estimated)?;
         let response = self.response(&suspension, &mut estimated)?;
@@ -201,6 +216,21 @@ impl RoverDescription {
             default_speed,
             estimated,
         })
+    }
+
+    /// The keys whose numbers the file has and calls estimated.
+    fn estimates(&self) -> Result<Vec<&'static str>, RoverError> {
+        let response = &self.response;
+        let given = [
+            ("slip_at_20_deg", true),
+            ("side_slip_at_20_deg", true),
+            ("response.latency_s", true),
+            ("response.steering_time_constant_s", true),
+            ("response.speed_time_constant_s", response.speed_time_constant_s.is_some()),
+            ("response.speed_scale", response.speed_scale.is_some()),
+            ("response.turn_scale", response.turn_scale.is_some()),
+        ];
+        estimated_keys(&self.estimated, &given).map_err(|key| wrong("estimated", key, OWN_NUMBERS))
     }
 
     /// The slip under the load: s₂₀ (1 + load / mass)ⁿ.
@@ -260,7 +290,12 @@ impl RoverDescription {
             Some(rate) => within("response.steering_rate_deg_s", rate, 1e-3, 1e4)?.to_radians(),
             None => f64::INFINITY,
         };
-        Ok(Response {
+        let unplanned = Unplanned {
+            speed_time_constant: given.speed_time_constant_s,
+            speed_scale: given.speed_scale,
+            turn_scale: given.turn_scale,
+        };
+        unplanned.build(Response {
             latency: within("response.latency_s", given.latency_s, 0.0, 60.0)?,
             steering_time_constant: within(
                 "response.steering_time_constant_s",
@@ -270,6 +305,7 @@ impl RoverDescription {
             )?,
             steering_rate: rate,
             steered_axle: within("response.steered_axle_m", axle, 1e-3, 100.0)?,
+            ..Response::default()
         })
     }
 

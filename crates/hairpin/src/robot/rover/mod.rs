@@ -35,6 +35,7 @@ mod forces;
 mod four_wheel;
 mod kinematics;
 mod motion;
+mod response;
 mod rest;
 mod rocker_bogie;
 mod rolling;
@@ -54,6 +55,8 @@ pub use forces::Effort;
 pub use four_wheel::FourWheel;
 pub use kinematics::{Kinematics, Slip};
 pub use motion::{RateSlopes, Rates, rate_slopes, rates, slip_share};
+pub use response::Response;
+pub(super) use response::Unplanned;
 pub use rest::{Gradient, Settled, Unsettled};
 pub use rocker_bogie::RockerBogie;
 pub use rolling::{Twist, WheelMotion};
@@ -137,33 +140,4 @@ pub struct Limits {
     pub joint: f64,
     /// Whether the vehicle can turn in place.
     pub turns_in_place: bool,
-}
-
-/// How the steering follows its command.
-///
-/// A commanded κ waits for the latency, then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Response {
-    /// A command acts this much later, s.
-    pub latency: f64,
-    /// Time constant of the first-order lag of steering, s; 0: none.
-    pub steering_time_constant: f64,
-    /// Largest rate of the steering angle, rad/s.
-    pub steering_rate: f64,
-    /// Distance of the steered axle from the line through the turning centre, m: κ = tan(δ) / it.
-    pub steered_axle: f64,
-}
-
-impl Response {
-    /// Whether the wheels take time to steer.
-    pub fn lags(&self) -> bool {
-        self.steering_time_constant > 0.0 || self.steering_rate.is_finite()
-    }
-}
-
-impl Default for Response {
-    /// At once and exactly.
-    fn default() -> Self {
-        Self { latency: 0.0, steering_time_constant: 0.0, steering_rate: f64::INFINITY, steered_axle: 1.0 }
-    }
 }

@@ -84,7 +84,7 @@ impl Plan<'_> {
             Fault::ToolOffset(offset) => tool * offset,
             _ => tool,
         });
-        let lags: [f64; AXES] = std::array::from_fn(|k| settings.lag + extra(faults, k));
+        let lags: [f64; AXES] = std::array::from_fn(|k| settings.lags[k] + extra(faults, k));
         let mut joints: Vec<Joint> = (0..AXES).map(|k| self.joint(faults, k, lags[k], step)).collect();
         let slowest = lags.into_iter().fold(0.0, f64::max);
         let end = match (self.timed.last(), begins.last()) {

@@ -1,5 +1,6 @@
 //! How programs are planned and run; every number is a stand-in for a controller whose own is not public.
 
+use crate::robot::arm::{AXES, Joints};
 use crate::simulation::SimulationError;
 
 /// How speed rises and falls.
@@ -45,8 +46,8 @@ pub struct RunSettings {
     pub sample: f64,
     /// Time between set points of the servos, s; rounded so that samples are whole multiples.
     pub interpolation: f64,
-    /// Time constant of every joint's lag, s. What is left after a controller's feed-forward.
-    pub lag: f64,
+    /// Time constant of each joint's lag, s. What is left after a controller's feed-forward.
+    pub lags: Joints,
     /// What differs from run to run.
     pub noise: Noise,
 }
@@ -54,7 +55,7 @@ pub struct RunSettings {
 impl Default for RunSettings {
     /// Samples every 10 ms, set points every 2 ms, a lag of 5 ms, no noise.
     fn default() -> Self {
-        Self { sample: 0.01, interpolation: 0.002, lag: 0.005, noise: Noise::default() }
+        Self { sample: 0.01, interpolation: 0.002, lags: [0.005; AXES], noise: Noise::default() }
     }
 }
 
@@ -91,7 +92,7 @@ impl RunSettings {
     pub(super) fn check(&self) -> Result<(), SimulationError> {
         positive("sample", self.sample, 10.0)?;
         positive("interpolation", self.interpolation, self.sample)?;
-        at_least_0("lag", self.lag, 10.0)?;
+        self.lags.iter().try_for_each(|lag| at_least_0("lags", *lag, 10.0))?;
         at_least_0("noise.position", self.noise.position, 1.0)?;
         at_least_0("noise.orientation", self.noise.orientation, 1.0)?;
         at_least_0("noise.joints", self.noise.joints, 1.0)?;

@@ -8,7 +8,7 @@ use nalgebra::Isometry3;
 use super::command::DriveCommand;
 use super::plant::{Lost, Plant};
 use crate::math::power::square;
-use crate::robot::rover::{Response, Rover};
+use crate::robot::rover::Rover;
 use crate::simulation::SimulationError;
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Channel, Direction, Drive, DriveLeg, Timing, Track};
@@ -103,7 +103,7 @@ impl Plan {
         at_once.limits.speed = f64::INFINITY;
         at_once.limits.curvature = f64::INFINITY;
         at_once.limits.turns_in_place = true;
-        at_once.response = Response { latency: 0.0, ..nominal.response };
+        at_once.response = nominal.response.as_planned();
         let mut draft = Draft::default();
         for leg in 0..drive.legs.len() {
             draft.add_leg(&at_once, terrain, drive, leg).map_err(|lost| {

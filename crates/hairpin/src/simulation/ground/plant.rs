@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::command::DriveCommand;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Effort, Gradient, Rover, Settled, Suspension, Unsettled, slip_share};
+use crate::robot::rover::{Effort, Gradient, Response, Rover, Settled, Suspension, Unsettled, slip_share};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -39,6 +39,10 @@ impl From<Unsettled> for Lost {
 /// Longest step, m of travel and rad of a turn in place.
 const STEP: f64 = 0.004;
 const TURN_STEP: f64 = 0.02;
+/// Longest step of a speed that lags, in its time constants.
+const LAG_STEP: f64 = 0.1;
+/// A wheel that is told to stand and turns slower than this does stand: static friction holds it, m/s.
+const HELD: f64 = 1e-3;
 /// Newton's last step of the suspension is taken from gaps of at most this, m: it leaves its square.
 const GAP: f64 = 1e-4;
 /// Speeds below this are none, m/s and rad/s.
@@ -47,8 +51,8 @@ const STILL: f64 = 1e-9;
 /// State of a driving vehicle:
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
 /// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and
-/// the rate ω of turns in place follow their commands with the bounded acceleration, and v with no more than the
-/// wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground. A steady force at the centre of
+/// the rate ω of turns in place follow their commands with a lag and the bounded acceleration, and v with no more than
+/// the wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground. A steady force at the centre of
 /// mass is a tilt of gravity to slip, torque and tip-over margin.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
@@ -139,11 +143,13 @@ impl<'a> Plant<'a> {
     /// In steps of at most 4 mm of travel and 0.02 rad in place; none is taken for a vehicle that neither moves nor
     /// turns.
     pub(super) fn advance(&mut self, command: &DriveCommand, time: f64) -> Result<(), Lost> {
+        let lag = self.vehicle.response.speed_time_constant;
+        let finest = if lag > 0.0 { LAG_STEP * lag } else { f64::INFINITY };
         let mut left = time;
         while left > 1e-12 {
             let fastest = self.speed.abs().max(self.bounded_speed(command).abs());
             let turning = self.turn_rate.abs().max(command.turn_rate.abs());
-            let h = left.min(STEP / fastest.max(STILL)).min(TURN_STEP / turning.max(STILL));
+            let h = left.min(STEP / fastest.max(STILL)).min(TURN_STEP / turning.max(STILL)).min(finest);
             self.step(command, h)?;
             left -= h;
         }
@@ -181,11 +187,13 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
-    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place, standing as `pose` and its gradient say with
-    /// `yaw`.
+    /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place of the wheels, which the vehicle follows on its
+    /// scales, standing as `pose` and its gradient say with `yaw`.
     fn motion(&self, stands: (&Settled, &Gradient), yaw: f64, way: f64, bend: f64, turn: f64) -> [f64; 3] {
         let (sin, cos) = libm::sincos(yaw);
         let sign = if way < 0.0 { -1.0 } else { 1.0 };
+        let Response { speed_scale, turn_scale, .. } = self.vehicle.response;
+        let (way, bend, turn) = (speed_scale * way, turn_scale * bend, speed_scale * turn_scale * turn);
         let pull = self.pulled(stands.0, yaw);
         let driven = self.vehicle.rates_under(stands, yaw, self.travels, (sign, bend), [pull.x, pull.y]);
         let turned = self.vehicle.turning(stands, yaw);
@@ -213,9 +221,15 @@ impl<'a> Plant<'a> {
     /// speed at once the new one.
     fn accelerate(&mut self, command: &DriveCommand, h: f64) -> (f64, f64) {
         let most = self.vehicle.limits.acceleration * h;
+        let lag = self.vehicle.response.speed_time_constant;
+        let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };
+        let stands = |wanted: f64, now: f64| lag > 0.0 && wanted == 0.0 && now.abs() < HELD;
         let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
         let before = self.speed;
-        self.speed += (wanted - before).clamp(-most, most);
+        self.speed += (share * (wanted - before)).clamp(-most, most);
+        if stands(wanted, self.speed) {
+            self.speed = 0.0;
+        }
         self.hold_to_torque(before, h);
         self.gained = (self.speed.abs() - before.abs()) / h;
         let standing = before.abs() < STILL && self.speed.abs() < STILL && self.vehicle.limits.turns_in_place;
@@ -223,8 +237,12 @@ impl<'a> Plant<'a> {
         // What the steered wheels may do on their circle about the middle.
         let most = most / self.vehicle.response.steered_axle;
         let turning = self.turn_rate;
-        self.turn_rate += (wanted - turning).clamp(-most, most);
-        let bounded = self.vehicle.limits.acceleration.is_finite() || self.vehicle.wheels.torque.is_finite();
+        self.turn_rate += (share * (wanted - turning)).clamp(-most, most);
+        if stands(wanted, self.turn_rate * self.vehicle.response.steered_axle) {
+            self.turn_rate = 0.0;
+        }
+        let limits = &self.vehicle.limits;
+        let bounded = limits.acceleration.is_finite() || self.vehicle.wheels.torque.is_finite() || lag > 0.0;
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         if bounded {
             (h * mean(before, self.speed), h * mean(turning, self.turn_rate))
@@ -278,7 +296,8 @@ impl<'a> Plant<'a> {
             return 0.0;
         }
         let pull = self.pulled(&self.pose, self.yaw);
-        slip_share(&self.pose, self.travels, self.speed.signum(), &self.vehicle.slip, [pull.x, pull.y])
+        let share = slip_share(&self.pose, self.travels, self.speed.signum(), &self.vehicle.slip, [pull.x, pull.y]);
+        share + (1.0 - self.vehicle.response.speed_scale) * (1.0 - share)
     }
 
     /// Velocity of the body's origin, m/s, world frame.

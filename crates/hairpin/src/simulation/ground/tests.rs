@@ -67,6 +67,31 @@ fn steering_lags_by_its_time_constant_and_rate() {
     assert!((plant.curvature() - vehicle.limits.curvature).abs() < 1e-9);
 }
 
+/// x = s v (t − T (1 − e^(−t/T))) of a speed that lags by T on a scale s; a circle of the scaled curvature; and a wheel that
+/// is told to stand comes to stand.
+#[test]
+fn speeds_lag_and_the_ground_makes_less_of_the_wheels() {
+    let level = plane(0.0, 0.0);
+    let mut vehicle = shipped("rocky8");
+    vehicle.response = Response { speed_time_constant: 0.5, speed_scale: 0.9, turn_scale: 0.8, ..Response::default() };
+    let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
+    plant.advance(&GO, 2.0).unwrap();
+    let (gained, way) = (1.0 - (-4.0_f64).exp(), 0.09 * (2.0 - 0.5 * (1.0 - (-4.0_f64).exp())));
+    assert!((plant.speed - 0.1 * gained).abs() < 1e-12, "{}", plant.speed);
+    assert!((plant.x - way).abs() < 1e-3 * way && (plant.slip() - 0.1).abs() < 1e-12, "{} {way}", plant.x);
+    assert!((plant.velocity().x - 0.09 * gained).abs() < 1e-12);
+    plant.advance(&DriveCommand { speed: 0.0, ..GO }, 3.0).unwrap();
+    assert_eq!(plant.speed, 0.0);
+    vehicle.response = Response { speed_scale: 0.9, turn_scale: 0.8, ..Response::default() };
+    let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
+    plant.advance(&DriveCommand { curvature: 0.5, ..GO }, 10.0).unwrap();
+    let yaw = 0.4 * 0.9;
+    assert!((plant.yaw - yaw).abs() < 1e-9 && (plant.x - yaw.sin() / 0.4).abs() < 1e-5, "{} {}", plant.yaw, plant.x);
+    let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
+    plant.advance(&DriveCommand { turn_rate: 0.3, ..DriveCommand::default() }, 2.0).unwrap();
+    assert!((plant.yaw - 0.6 * 0.72).abs() < 1e-9, "{}", plant.yaw);
+}
+
 #[test]
 fn speeds_follow_with_the_bounded_acceleration_and_turns_wait_for_a_stop() {
     let level = plane(0.0, 0.0);

@@ -30,6 +30,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(limit),
+        lags: None,
         joint_names: Default::default(),
         links: Default::default(),
         estimated: Vec::new(),
@@ -195,7 +196,7 @@ fn compared(plan: &Plan, path: &ArmPath, case: &str) -> [usize; 2] {
         }
         begin = one.end;
     }
-    let run = plan.execute(&RunSettings { lag: 0.0, ..RunSettings::default() }, &[], 1).unwrap().recording;
+    let run = plan.execute(&RunSettings { lags: [0.0; 6], ..RunSettings::default() }, &[], 1).unwrap().recording;
     let angle = |k: usize| run.channel(&format!("q{}_rad", k + 1)).unwrap()[run.len() - 1];
     let last = path.at(*pieces.last().unwrap(), 1.0).unwrap().0;
     assert!((0..6).all(|k| (angle(k) - last[k]).abs() < 1e-9), "{case}: ends in {last:?}");

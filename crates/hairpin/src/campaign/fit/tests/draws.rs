@@ -29,35 +29,37 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    /// Thrust, drag and bandwidth within 30 % of the file's, a lag of 0.6 to 1.6 of it, a latency of up to 0.12 s.
-    pub(super) fn draw(setup: &Setup, seed: u64) -> Self {
+    /// As `of` says of each number and a share of 0 to 1.
+    pub(super) fn draw(setup: &Setup, seed: u64, of: &dyn Fn(&Adjustable, f64) -> f64) -> Self {
         let Fittable { numbers, .. } = setup.kind().fittable().unwrap();
         let mut random = stream(named_seed(seed, "truth", 0));
-        let values = numbers.iter().map(|number| {
-            let share = unit(&mut random);
-            match number.field {
-                "latency_s" => 0.12 * share,
-                "rotor_time_constant_s" => number.value * (0.6 + share),
-                "thrust_to_weight" => 1.0 + (number.value - 1.0) * (0.7 + 0.6 * share),
-                _ => number.value * (0.7 + 0.6 * share),
-            }
-        });
-        let values = values.collect();
+        let values = numbers.iter().map(|number| of(number, unit(&mut random))).collect();
         Self { numbers, values }
+    }
+
+    /// Of flights: thrust, drag and bandwidth within 30 % of the file's, a lag of 0.6 to 1.6 of it, a latency of up to
+    /// 0.12 s.
+    pub(super) fn of_flights(number: &Adjustable, share: f64) -> f64 {
+        match number.field {
+            "latency_s" => 0.12 * share,
+            "rotor_time_constant_s" => number.value * (0.6 + share),
+            "thrust_to_weight" => 1.0 + (number.value - 1.0) * (0.7 + 0.6 * share),
+            _ => number.value * (0.7 + 0.6 * share),
+        }
     }
 
     pub(super) fn of(&self, field: &str) -> f64 {
         self.values[self.numbers.iter().position(|number| number.field == field).unwrap()]
     }
 
-    /// The setup of the vehicle, in gusts.
-    fn setup(&self, setup: &Setup) -> Setup {
+    /// The setup of the vehicle, with what disturbs it.
+    pub(super) fn setup(&self, setup: &Setup, disturbed: &[(&str, Value)]) -> Setup {
+        let mut draws = setup.kind().fittable().unwrap().spelt;
         let keys = self.numbers.iter().zip(&self.values);
-        let mut draws: Vec<(String, Value)> = keys
-            .flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of))))
-            .collect();
-        draws.push(("world.gusts".into(), json!({ "std_m_s": 0.5, "correlation_s": 2.0 })));
-        draws.push(("execute.noise".into(), json!(true)));
+        draws.extend(
+            keys.flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of)))),
+        );
+        draws.extend(disturbed.iter().map(|(key, value)| ((*key).to_owned(), value.clone())));
         setup.drawn(&draws).unwrap()
     }
 }
@@ -79,7 +81,8 @@ fn mission(random: &mut Stream) -> Vec<Point3<f64>> {
 /// estimator's slow drift of 2 cm and by 1 cm from sample to sample; with the speeds of the rotors too, if these are
 /// asked for.
 pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, (count, rotors): (usize, bool)) -> Vec<Flown> {
-    let vehicle = truth.setup(setup);
+    let gusts = json!({ "std_m_s": 0.5, "correlation_s": 2.0 });
+    let vehicle = truth.setup(setup, &[("world.gusts", gusts), ("execute.noise", json!(true))]);
     let mut random = stream(named_seed(seed, "missions", 0));
     let fly = |number: usize| {
         let case = Case::bare(CaseNumber(number), named_seed(seed, "gusts", number as u64), mission(&mut random));

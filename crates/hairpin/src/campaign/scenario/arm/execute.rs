@@ -29,7 +29,7 @@ pub struct ArmExecute {
     pub repeat: u64,
     /// trapezoid | s-curve.
     pub profile: TimeLawName,
-    /// Time constant of the axes' servo lag.
+    /// Time constant of the axes' servo lag, where the arm's file has none of its own (`joints.lag_s`).
     pub servo_lag_s: f64,
     /// Jitter of the virtual controller: standard deviation of measured positions.
     pub noise_mm: f64,

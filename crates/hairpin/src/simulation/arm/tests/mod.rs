@@ -47,6 +47,7 @@ fn arm() -> Arm {
             speed: speed.to_radians(),
             acceleration: 6.0 * speed.to_radians(),
         }),
+        lags: None,
         joint_names: Default::default(),
         links: Default::default(),
         estimated: Vec::new(),
@@ -85,7 +86,7 @@ fn joints(q: Joints) -> Order {
 }
 
 fn exact() -> RunSettings {
-    RunSettings { lag: 0.0, ..RunSettings::default() }
+    RunSettings { lags: [0.0; 6], ..RunSettings::default() }
 }
 
 /// Distance of `p` from the segment a–b.

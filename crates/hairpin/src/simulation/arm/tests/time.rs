@@ -130,7 +130,7 @@ fn the_tool_lags_behind_by_speed_times_time_constant() {
     let (start, orders) = straight(0.3, speed);
     let plan =
         Plan::new(&arm, &start, &orders, &PlanSettings { acceleration: 1.0, ..PlanSettings::default() }).unwrap();
-    let settings = RunSettings { lag, ..RunSettings::default() };
+    let settings = RunSettings { lags: [lag; 6], ..RunSettings::default() };
     let (late, on_time) = (plan.execute(&settings, &[], 1).unwrap(), plan.execute(&exact(), &[], 1).unwrap());
     let (from, to) = (Point3::new(0.3, -0.15, 0.25), Point3::new(0.3, 0.15, 0.25));
     for (i, t) in late.recording.times().iter().enumerate().filter(|(_, t)| (0.5..2.8).contains(*t)) {

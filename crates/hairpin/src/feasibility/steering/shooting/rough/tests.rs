@@ -149,6 +149,7 @@ fn slip_delay_and_lag_are_met_as_well() {
             steering_time_constant: 0.2,
             steering_rate: 30.0_f64.to_radians(),
             steered_axle: 0.47,
+            ..Response::default()
         },
         ..shipped("rocky8")
     };

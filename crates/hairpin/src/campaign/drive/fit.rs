@@ -1,0 +1,76 @@
+//! What logs of drives may tell: how late and how lazily wheels follow, and how the ground answers them.
+
+use serde_json::json;
+
+use super::DriveSetup;
+use crate::campaign::kind::{Adjustable, Fittable, Output, Sampling};
+use crate::campaign::scenario::GroundDescription;
+use crate::simulation::Acceptance;
+
+/// Place, and heading where it is known. Odometry's speeds are the wheels', not the vehicle's.
+const OUTPUTS: [(Output, usize); 4] =
+    [(Output::Position(0), 0), (Output::Position(1), 0), (Output::Axis(0, 0), 1), (Output::Axis(0, 1), 1)];
+
+/// Slips by slope are of rovers alone.
+pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
+    let execute = &setup.scenario.execute;
+    if setup.controller.is_some() || execute.controller_in_force().is_none() {
+        return Err("a controller of ours must drive (`execute.controller`): of others hairpin has no model".into());
+    }
+    let (response, slip) = (&setup.rover.response, &setup.rover.slip);
+    let number = |name, field: &'static str, unit, value, bounds, step, other| Adjustable {
+        name,
+        field,
+        unit,
+        keys: vec![(format!("robot.response.{field}"), 1.0)],
+        value,
+        bounds,
+        step,
+        other,
+    };
+    let lag = |name, field, value: f64| number(name, field, "s", value, [0.0, 3.0], 0.03, value + 0.2);
+    let scale = |name, field, value: f64| number(name, field, "", value, [0.3, 3.0], 0.02, 0.9 * value);
+    let late = execute.latency_s.unwrap_or(response.latency);
+    let mut latency = number("latency", "latency_s", "s", late, [0.0, 3.0], 0.02, late + 0.15);
+    if execute.latency_s.is_some() {
+        latency.keys = vec![("execute.latency_s".into(), 1.0)];
+    }
+    let mut numbers = vec![
+        latency,
+        lag("steering lag", "steering_time_constant_s", response.steering_time_constant),
+        lag("speed lag", "speed_time_constant_s", response.speed_time_constant),
+        scale("speed scale", "speed_scale", response.speed_scale),
+        scale("turn scale", "turn_scale", response.turn_scale),
+    ];
+    let described = setup.scenario.robot.resolved().map_err(|mistake| mistake.to_string())?;
+    let given = match described {
+        GroundDescription::Rover(rover) => json!(rover.response),
+        GroundDescription::Car(car) => json!(car.response.unwrap_or_default()),
+        GroundDescription::DifferentialDrive(drive) => json!(drive.response.unwrap_or_default()),
+    };
+    if let GroundDescription::Rover(rover) = described {
+        let loaded = |unloaded: f64, loaded: f64| if unloaded > 0.0 { loaded / unloaded } else { 1.0 };
+        for (name, field, given, now) in [
+            ("slip", "slip_at_20_deg", rover.slip_at_20_deg, slip.at_20_deg),
+            ("side slip", "side_slip_at_20_deg", rover.side_slip_at_20_deg, slip.side_at_20_deg),
+        ] {
+            let most = 0.95 / loaded(given, now).max(1.0);
+            numbers.push(Adjustable {
+                keys: vec![(format!("robot.{field}"), 1.0)],
+                ..number(name, field, "", given, [0.0, most], 0.02, (given + 0.1).min(most))
+            });
+        }
+    }
+    Ok(Fittable {
+        calm: vec![("execute.noise".into(), false.into())],
+        spelt: vec![("robot.response".into(), given)],
+        derives: false,
+        numbers,
+        outputs: &OUTPUTS,
+        axes: 2,
+        unit: ("m", 1.0),
+        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
+        acceptance: Acceptance::Cylinder { height: f64::INFINITY },
+        timed: false,
+    })
+}
