@@ -5,6 +5,12 @@ use hairpin::campaign::kind::Handed;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::greeting::Greeting;
+
+/// Bytes of a message, and of a row of its timed motion: most need no more.
+const ROOM: usize = 4 << 10;
+const ROOM_OF_A_ROW: usize = 180;
+
 /// What hairpin says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
@@ -30,7 +36,9 @@ pub enum ToExecutor {
 impl ToExecutor {
     /// As it is sent, with the end of its line.
     pub fn line(&self) -> Vec<u8> {
-        let mut line = serde_json::to_vec(self).expect("messages are trees of strings and finite numbers");
+        let rows = if let Self::Mission(mission) = self { mission.timed.len() } else { 0 };
+        let mut line = Vec::with_capacity(ROOM + rows * ROOM_OF_A_ROW);
+        serde_json::to_writer(&mut line, self).expect("messages are trees of strings and finite numbers");
         line.push(b'\n');
         line
     }
@@ -92,8 +100,9 @@ pub struct TimedMessage {
 /// has its file's, and its map is the campaign folder's.
 ///
 /// What protocol 2 added is left out of protocol 1, whose programs may mind what they do not know.
-pub fn mission_message(mission: &Mission, protocol: u64) -> ToExecutor {
-    let timed = mission.timed.iter().map(|sample| TimedMessage {
+pub fn mission_message(mission: &Mission, to: &Greeting) -> ToExecutor {
+    let wanted = if to.timed == Some(false) { &[] } else { &mission.timed[..] };
+    let timed = wanted.iter().map(|sample| TimedMessage {
         t_s: sample.t,
         p_m: sample.position.coords.into(),
         v_m_s: sample.velocity.into(),
@@ -110,7 +119,7 @@ pub fn mission_message(mission: &Mission, protocol: u64) -> ToExecutor {
         external_force_n: external_force,
         waypoints_m: mission.waypoints.iter().map(|p| p.coords.into()).collect(),
         accept_m: mission.accept,
-        more: (protocol > 1).then(more),
+        more: (to.protocol > 1).then(more),
         time_limit_s: mission.time_limit,
         timed: timed.collect(),
     }))
@@ -123,7 +132,7 @@ pub(super) fn acceptance_height(mission: &Mission) -> f64 {
 
 /// What tells one mission from another: BLAKE3 of its message, whatever its case is called.
 pub(super) fn mission_key(mission: &Mission) -> [u8; 32] {
-    let mut message = mission_message(mission, 2);
+    let mut message = mission_message(mission, &Greeting { protocol: 2, ..Greeting::default() });
     if let ToExecutor::Mission(message) = &mut message {
         message.case.clear();
     }
