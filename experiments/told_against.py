@@ -7,7 +7,6 @@ with the executor in the loop, flown by both. Prints the rows of EXPERIMENTS.md 
 beside the executors' packages (tests/python/requirements.txt has all of them). Folders that are there are not flown again.
 """
 import argparse
-import json
 import shlex
 import subprocess
 import sys
@@ -28,14 +27,15 @@ ROOM = [
 ]
 # Name: robot, space, its nearest of kin among the built-in controllers, command, and what a search in its loop may cost: searches, cases, executions a case.
 EXECUTORS = {
-    "rotorpy": ("flightgoggles", HALL, "geometric", "rotorpy_executor.py", (2, 4, 16)),
-    "mujoco": ("flightgoggles", HALL, "stable-waypoint", "mujoco_executor.py", (3, 4, 25)),
+    "rotorpy": ("flightgoggles", HALL, "geometric", "rotorpy_executor.py", (1, 4, 16)),
+    "mujoco": ("flightgoggles", HALL, "stable-waypoint", "mujoco_executor.py", (2, 4, 25)),
     "foundation-policy": ("x500", HALL, "stable-waypoint", "foundation_policy_executor.py", (3, 4, 25)),
-    "drone-models": ("crazyflie", ROOM, "crazyflie-goto", "drone_models_executor.py", (2, 4, 16)),
+    "drone-models": ("crazyflie", ROOM, "crazyflie-goto", "drone_models_executor.py", (1, 4, 16)),
     "skeleton": ("flightgoggles", HALL, "stable-waypoint", "skeleton.cpp", (1, 20, 200)),
-    "firmware-full-state": ("crazyflie", ROOM, "geometric", "crazyflie_firmware.py --mode full_state", (3, 4, 25)),
-    "firmware-go-to": ("crazyflie", ROOM, "crazyflie-goto", "crazyflie_firmware.py --mode go_to", (3, 4, 25)),
+    "firmware-full-state": ("crazyflie", ROOM, "geometric", "crazyflie_firmware.py --mode full_state", (1, 4, 25)),
+    "firmware-go-to": ("crazyflie", ROOM, "crazyflie-goto", "crazyflie_firmware.py --mode go_to", (1, 4, 25)),
 }
+SIDES = ["uniform here", "uniform there", "found here", "found here, flown there", "found there", "found there, flown here"]
 CONTROLLERS = ["geometric", "stable-waypoint", "px4-mission", "crazyflie-goto"]
 
 
@@ -112,11 +112,11 @@ def tell(name, out, program):
     theirs = hairpin(program, out / "executor", "execute", ours, "--executor", command)
     uniform, uniform_there = flown(ours, "baseline"), flown(theirs, "baseline")
     found, found_there = flown(ours, "results"), flown(theirs, "results")
-    rows = {"executor": name, "robot": robot, "controller": controller}
+    rows = {"executor": f"{name} ({robot}; `{controller}`)"}
     for other in CONTROLLERS:
         folder = ours if other == controller else hairpin(
             program, out / other, "execute", ours, sets=[f'execute.controller="{other}"'])
-        rows[f"rank correlation, {other}"] = rank_correlation(flown(folder, "baseline")[0], uniform_there[0])
+        rows[other] = rank_correlation(flown(folder, "baseline")[0], uniform_there[0])
     looped, looped_here = ([], []), ([], [])
     for number in range(searches):
         seed = SEED + 10 + number
@@ -132,12 +132,17 @@ def tell(name, out, program):
     rows["found here, flown there"] = lift(found_there[0], uniform_there[0])
     rows["found there"] = lift(np.array(looped[0]), uniform_there[0])
     rows["found there, flown here"] = lift(np.array(looped_here[0]), uniform[0])
-    sides = {"uniform here": uniform, "uniform there": uniform_there, "found here": found, "found here, flown there": found_there,
-             "found there": looped, "found there, flown here": looped_here}
-    for side, (deviations, ended) in sides.items():
+    for side, (deviations, ended) in zip(SIDES, [uniform, uniform_there, found, found_there, looped, looped_here]):
         mean = np.exp(np.nanmean(np.log(np.array(deviations, dtype=float))))
-        rows[f"{side}: n, geometric mean, m; crashed, timed out"] = f"{len(ended)}, {mean:.3g}; {ends(ended)}"
+        rows[f"{side}, m"] = f"{mean:.3g} ({len(ended)}; {ends(ended)})"
     return rows
+
+
+def table(rows, *columns):
+    print("|", " | ".join(["executor", *columns]), "|\n|", " | ".join(["---"] * (1 + len(columns))), "|")
+    for row in rows:
+        print("|", " | ".join(row[column] for column in ("executor", *columns)), "|")
+    print()
 
 
 def main():
@@ -147,8 +152,13 @@ def main():
     arguments.add_argument("--out", type=Path, default=ROOT / "out" / "told-against")
     arguments.add_argument("--hairpin", type=Path, default=ROOT / "target" / "release" / "hairpin")
     asked = arguments.parse_args()
-    for name in asked.only:
-        print(json.dumps(tell(name, asked.out, str(asked.hairpin.resolve())), indent=2, ensure_ascii=False), flush=True)
+    rows = [tell(name, asked.out, str(asked.hairpin.resolve())) for name in asked.only]
+    print("Rank correlation (95 %) of uniform missions there with those here, under\n")
+    table(rows, *CONTROLLERS)
+    print("Lifts, % (95 %)\n")
+    table(rows, "found here", "found here, flown there", "found there", "found there, flown here")
+    print("Geometric means (cases; crashed, timed out)\n")
+    table(rows, *(f"{side}, m" for side in SIDES))
 
 
 if __name__ == "__main__":

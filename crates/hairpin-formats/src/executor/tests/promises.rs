@@ -50,7 +50,9 @@ fn the_timed_motion_is_left_out_for_whom_does_not_want_it() {
     let text = fs::read_to_string(&file).unwrap().replace("deterministic=True", "deterministic=True, timed=False");
     assert!(text.contains("timed=False"));
     fs::write(&file, text).unwrap();
-    assert!(fly_all(&told, limits(), 1, 1, &|_| Ok(asked.clone()), &|_, flight| drop(flight.unwrap()), &|| false).is_some());
+    assert!(
+        fly_all(&told, limits(), 1, 1, &|_| Ok(asked.clone()), &|_, flight| drop(flight.unwrap()), &|| false).is_some()
+    );
 }
 
 #[test]
@@ -113,7 +115,13 @@ fn acceptance_is_a_cylinder_from_protocol_2_on() {
 fn programs_are_known_by_what_they_say_of_themselves() {
     let folder = tempfile::tempdir().unwrap();
     let greeting = |command: &Command| fly_all(command, limits(), 2, 3, &|i| Ok(mission(i)), &|_, _| {}, &|| false);
-    let second = Greeting { name: "second".into(), version: Some("7".into()), protocol: 2, deterministic: Some(true), timed: None };
+    let second = Greeting {
+        name: "second".into(),
+        version: Some("7".into()),
+        protocol: 2,
+        deterministic: Some(true),
+        timed: None,
+    };
     assert_eq!(greeting(&speaks_2(folder.path(), "good(m)")), Some(second));
     let first = Greeting { name: "test".into(), protocol: 1, ..Greeting::default() };
     assert_eq!(greeting(&python(folder.path(), "good(m)")), Some(first));
