@@ -97,7 +97,7 @@ def main():
     for line in sys.stdin:
         message = json.loads(line)
         if message["type"] == "hello":
-            say(type="ready", protocol=2, name=f"drone-models {DRONE}, Mellinger")
+            say(type="ready", protocol=2, name=f"drone-models {DRONE}, Mellinger", timed=False)
         elif message["type"] == "reset":
             say(type="ready", case=message["case"], run=message["run"])
         elif message["type"] == "mission":

@@ -165,10 +165,15 @@ inline std::string quoted(const std::string &text) {
     return out + "\"";
 }
 
+// Whether the simulator says so; where it says nothing, it does.
+template <class Simulator> constexpr auto wants_timed(int) -> decltype(bool(Simulator::timed)) { return Simulator::timed; }
+template <class Simulator> constexpr bool wants_timed(long) { return true; }
+
 // Speaks the protocol until `bye`. What libraries print to stdout goes to stderr, the protocol alone to stdout.
 template <class Simulator> int run() {
     std::FILE *protocol = fdopen(dup(1), "w");
     dup2(2, 1);
+    std::ios::sync_with_stdio(false);  // a mission is long, and read a character at a time otherwise
     std::string of, line, rows;
     const auto say = [&](const std::string &fields) {
         std::fprintf(protocol, "{%s}\n", fields.c_str());
@@ -190,7 +195,7 @@ template <class Simulator> int run() {
             const std::string type = message["type"].text;
             if (type == "hello") {
                 say("\"type\":\"ready\",\"protocol\":2,\"name\":" + quoted(Simulator::name) + ",\"version\":" + quoted(Simulator::version) +
-                    ",\"deterministic\":" + (Simulator::deterministic ? "true" : "false"));
+                    ",\"deterministic\":" + (Simulator::deterministic ? "true" : "false") + ",\"timed\":" + (wants_timed<Simulator>(0) ? "true" : "false"));
             } else if (type == "reset") {
                 of = "\"case\":" + quoted(message["case"].text) + ",\"run\":" + message["run"].text;
                 say("\"type\":\"ready\"," + of);

@@ -115,7 +115,7 @@ def serve(name, version, pilot):
     for line in sys.stdin:
         message = json.loads(line)
         if message["type"] == "hello":
-            say(type="ready", protocol=2, name=name, deterministic=True, version=version)
+            say(type="ready", protocol=2, name=name, deterministic=True, version=version, timed=False)
         elif message["type"] == "reset":
             say(type="ready", case=message["case"], run=message["run"])
         elif message["type"] == "mission":

@@ -7,7 +7,7 @@
 // ---- yours: a point with drag that chases the next waypoint
 struct Simulator {
     static constexpr const char *name = "C++ skeleton", *version = "1";
-    static constexpr bool deterministic = true;
+    static constexpr bool deterministic = true, timed = false;  // whether mission.timed is wanted: it is long
     static constexpr double step_s = 0.02;
     hairpin::Mission mission;
     hairpin::Pose now;

@@ -12,6 +12,7 @@ import sys
 # ---- yours: a point with drag that chases the next waypoint -------------------------------------------------------
 class Simulator:
     NAME, VERSION, DETERMINISTIC, STEP_S = "python skeleton", "1", True, 0.02
+    TIMED = False  # whether it follows mission["timed"], which is left out otherwise
 
     def __init__(self, mission):
         """At rest at the first waypoint. Draw all noise from mission["seed"], and it is deterministic."""
@@ -68,7 +69,8 @@ def main():
     for line in sys.stdin:
         message = json.loads(line)
         if message["type"] == "hello":
-            say(type="ready", protocol=2, name=Simulator.NAME, version=Simulator.VERSION, deterministic=Simulator.DETERMINISTIC)
+            say(type="ready", protocol=2, name=Simulator.NAME, version=Simulator.VERSION, deterministic=Simulator.DETERMINISTIC,
+                timed=Simulator.TIMED)
         elif message["type"] == "reset":
             of = {"case": message["case"], "run": message["run"]}
             say(type="ready", **of)

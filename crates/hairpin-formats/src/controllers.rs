@@ -84,7 +84,9 @@ impl Steersman {
         if let Some(trouble) = self.trouble() {
             return Err(trouble);
         }
-        match held(&self.idle).pop() {
+        // Of a run that has ended nothing is left to be said: who says more would be heard as another run's.
+        let mut idle = std::iter::from_fn(|| held(&self.idle).pop());
+        match idle.find_map(|mut process| process.unasked().is_none().then_some(process)) {
             Some(process) => Ok(process),
             None => self.start(),
         }
@@ -219,6 +221,12 @@ struct Bearing<'a> {
 
 impl Turns for Run {
     fn turn(&mut self, t_s: f64, state: &Value, reference: &Value) -> Result<Value, String> {
+        // Taken for the answer to this turn, it would be one turn late, and so would all others.
+        let unasked = if self.may_answer { None } else { self.process.unasked() };
+        if let Some(line) = unasked {
+            let said = excerpt(&String::from_utf8_lossy(&line), QUOTED);
+            return Err(format!("it said `{said}` where nothing was asked: must be one line for each \"control\""));
+        }
         let reference = Bearing { waypoints_m: self.waypoints.as_ref(), planned: reference };
         let told = self.process.tell(&Turn { t_s, state, reference });
         told.map_err(|why| self.steersman.complaint(&self.process, why))?;

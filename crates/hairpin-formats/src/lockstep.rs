@@ -73,17 +73,27 @@ impl Lockstep {
     /// Its next line, if that comes before the time `until`.
     pub(crate) fn hear(&mut self, stopped: &AtomicBool, until: Option<Instant>) -> Result<Vec<u8>, Silence> {
         while !stopped.load(Ordering::Relaxed) {
+            // Looked at before what is there: who answers each line a little late is late in the end.
+            if until.is_some_and(|until| Instant::now() >= until) {
+                return Err(Silence::Late);
+            }
             match self.answers.next(LOOK) {
                 Ok(Line::Text(line)) => return Ok(line),
                 Ok(Line::TooLong) => return Err(Silence::Endless),
                 Err(RecvTimeoutError::Disconnected) => return Err(Silence::Gone),
-                Err(RecvTimeoutError::Timeout) if until.is_some_and(|until| Instant::now() >= until) => {
-                    return Err(Silence::Late);
-                }
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
         Err(Silence::Stopped)
+    }
+
+    /// A line that is there before anything was asked; none where there is nothing to read.
+    pub(crate) fn unasked(&mut self) -> Option<Vec<u8>> {
+        match self.answers.next(Duration::ZERO) {
+            Ok(Line::Text(line)) => Some(line),
+            Ok(Line::TooLong) => Some(Vec::new()),
+            Err(_) => None,
+        }
     }
 
     /// The last line that it wrote to stderr before it ended; empty where it wrote none.

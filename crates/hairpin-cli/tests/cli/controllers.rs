@@ -173,6 +173,35 @@ fn a_program_that_hangs_is_given_up() {
     assert!(told[7].contains("3 runs in a row") || told[3].contains("3 runs in a row"), "{told:?}");
 }
 
+/// A line for each turn: no more of them, none later than a run may take, and no others.
+#[test]
+fn programs_that_fall_out_of_step_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let good = fs::read_to_string(Path::new(EXAMPLES).join("pd_program.py")).unwrap();
+    let answer = "    print(json.dumps({\"a_m_s2\": command}), flush=True)\n";
+    let (late, unasked) = ("its run was not over after 0.3 s", "where nothing was asked");
+    for (limit, does, words) in [
+        ("0.3", "    __import__('time').sleep(600)\n", late),
+        ("0.3", "    __import__('time').sleep(0.01)\n", late),
+        ("20.0", answer, unasked),
+        ("20.0", &format!("    while True:\n    {answer}"), unasked),
+        ("20.0", "    if asked[\"t_s\"] == 0.0:\n        __import__('os').fork()\n", unasked),
+        ("20.0", "    sys.exit('no thrust left')\n", "no thrust left"),
+        ("20.0", "    command[0] = float('nan')\n", "NaN"),
+    ] {
+        assert!(good.ends_with(answer));
+        fs::write(here.join("sick.py"), good.replace(answer, &format!("{does}{answer}"))).unwrap();
+        let text = scenario("command: python3 sick.py").replace("timeout_s = 20.0", &format!("timeout_s = {limit}"));
+        fs::write(here.join("q.toml"), text).unwrap();
+        let one = ["--set", "generate.search.cases=1", "--set", "spec.deviation.max_m=50"];
+        let told = json(here, &[&["stress", "q.toml", "--out", "a", "--force"], &one[..]].concat());
+        let verdict = told["verdict"].as_str().unwrap();
+        assert_eq!(told["exit_code"], 4, "{does}: {told}");
+        assert!(verdict.starts_with("EXECUTOR FAILED 1/1") && verdict.contains(words), "{does}: {verdict}");
+    }
+}
+
 #[test]
 fn what_cannot_steer_is_refused_before_anything_flies() {
     let folder = tempfile::tempdir().unwrap();

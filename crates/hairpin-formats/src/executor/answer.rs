@@ -99,7 +99,7 @@ impl Worker {
         cancelled: &dyn Fn() -> bool,
         before: &mut Option<Failed>,
     ) -> Result<Flight, Failure> {
-        self.say(&mission_message(mission, self.protocol));
+        self.say(&mission_message(mission, self.greeting()));
         let seconds = self.limits.mission.as_secs_f64();
         let mut astray: Option<(String, String)> = None;
         let mut recording = Recording::new(mission, self.protocol);

@@ -22,6 +22,9 @@ pub struct Greeting {
     /// Whether, by its own word, the same mission is the same flight to the bit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deterministic: Option<bool>,
+    /// Whether missions come with their timed motion, which is nearly all of their length; they do unless it says no.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timed: Option<bool>,
 }
 
 impl Greeting {
@@ -32,6 +35,6 @@ impl Greeting {
             other => excerpt(&other.to_string(), LONGEST_NAME),
         });
         let name = excerpt(ready.name.trim(), LONGEST_NAME);
-        Self { name, version, protocol, deterministic: ready.deterministic }
+        Self { name, version, protocol, deterministic: ready.deterministic, timed: ready.timed }
     }
 }

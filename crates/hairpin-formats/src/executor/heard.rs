@@ -41,6 +41,8 @@ pub struct ReadyMessage {
     pub version: Option<Value>,
     /// Whether the same mission is the same flight, to the bit.
     pub deterministic: Option<bool>,
+    /// Whether missions are to come with their timed motion.
+    pub timed: Option<bool>,
     /// Of which case.
     pub case: Option<Value>,
     /// Of which run.

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! > {"type":"hello","hairpin":2}
-//! < {"type":"ready","protocol":2,"name":"my simulator","version":"1.4","deterministic":true}
+//! < {"type":"ready","protocol":2,"name":"my simulator","version":"1.4","deterministic":true,"timed":false}
 //! > {"type":"reset","case":"0117","run":0}
 //! < {"type":"ready","case":"0117","run":0}
 //! > {"type":"mission","case":"0117","run":0,"seed":123,"robot":{…},"world":{…},"waypoints_m":[[x,y,z],…],
@@ -26,6 +26,8 @@
 //! out: legs are then assigned along the path, velocities differentiated, and the attitude counts as unknown (channel
 //! [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). `done` may be claimed anywhere: the judge sees what was flown, and a
 //! `done` without the last waypoint is an unfinished mission.
+//!
+//! `"timed":false` in the first `ready` asks for missions without the planned motion, which is nearly all of their length.
 //!
 //! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
 //!
@@ -65,7 +67,7 @@ pub use greeting::Greeting;
 pub use heard::{EndReason, FromExecutor, PoseMessage};
 pub use in_loop::{InLoop, Told};
 pub(crate) use lines::{Line, Lines, Tail};
-pub use message::{TimedMessage, ToExecutor, mission_message};
+pub use message::{ToExecutor, mission_message};
 pub use process::kill_all;
 pub(crate) use process::{end, start};
 pub use queue::fly_all;

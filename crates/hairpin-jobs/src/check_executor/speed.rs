@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::Mission;
 use hairpin::trajectory::Flight;
-use hairpin_formats::executor::{QUIET, Said, Speaker, Transcript, mission_message, read_flight};
+use hairpin_formats::executor::{Greeting, QUIET, Said, Speaker, Transcript, mission_message, read_flight};
 
 /// How fast it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,12 +40,12 @@ pub(super) struct Timed {
     read: Duration,
 }
 
-/// What of one mission in `protocol` the protocol took, as its `transcript` has it.
-pub(super) fn timed(mission: &Mission, protocol: u64, transcript: &Transcript) -> Timed {
-    let said = &transcript.said;
+/// What of one mission the protocol took that `greeting` speaks, as its `transcript` has it.
+pub(super) fn timed(mission: &Mission, greeting: &Greeting, transcript: &Transcript) -> Timed {
+    let (said, protocol) = (&transcript.said, greeting.protocol);
     let reset = (protocol > 1).then(|| answered_within(said)).flatten();
     let begun = Instant::now();
-    let line = mission_message(mission, protocol).line();
+    let line = mission_message(mission, greeting).line();
     let written = begun.elapsed();
     drop(line);
     let after = said.iter().position(|said| said.line.starts_with("{\"type\":\"mission\"")).map_or(0, |at| at + 1);

@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use hairpin::campaign::Timed;
+use nalgebra::Vector3;
+
 use super::second::speaks_2;
 use super::*;
 
@@ -25,12 +28,40 @@ fn missions_of_protocol_2_say_more() {
     assert!(keys(&first).iter().all(|key| second.get(key).is_some()), "{first} {second}");
 }
 
+/// Who does not follow the plan need not read it.
+#[test]
+fn the_timed_motion_is_left_out_for_whom_does_not_want_it() {
+    let sample = Timed { t: 0.5, position: Point3::new(1.0, 2.0, 3.0), velocity: Vector3::new(0.1, 0.2, 0.3) };
+    let asked = Mission { timed: vec![sample; 40], ..mission(0) };
+    let said = |word: Option<bool>, protocol: u64| -> serde_json::Value {
+        let greeting = Greeting { protocol, timed: word, ..Greeting::default() };
+        serde_json::from_slice(&mission_message(&asked, &greeting).line()).unwrap()
+    };
+    for protocol in [1, 2] {
+        let mut all = said(None, protocol);
+        assert_eq!(all["timed"][39], json!({ "t_s": 0.5, "p_m": [1.0, 2.0, 3.0], "v_m_s": [0.1, 0.2, 0.3] }));
+        assert_eq!(said(Some(true), protocol), all);
+        all["timed"] = json!([]);
+        assert_eq!(said(Some(false), protocol), all);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let told = speaks_2(folder.path(), "if m['timed']: raise SystemExit('too much')\ngood(m)");
+    let file = folder.path().join("second.py");
+    let text = fs::read_to_string(&file).unwrap().replace("deterministic=True", "deterministic=True, timed=False");
+    assert!(text.contains("timed=False"));
+    fs::write(&file, text).unwrap();
+    assert!(
+        fly_all(&told, limits(), 1, 1, &|_| Ok(asked.clone()), &|_, flight| drop(flight.unwrap()), &|| false).is_some()
+    );
+}
+
 #[test]
 fn limits_are_those_of_the_scenario() {
     let given = [("max_speed_m_s", 4.5), ("max_tilt_deg", 30.0)];
     let given = given.map(|(key, value)| (format!("generate.limits.{key}"), json!(value)));
     let setup = mission(0).setup.drawn(&given).unwrap();
-    let line = mission_message(&Mission { setup, ..mission(0) }, 2).line();
+    let second = Greeting { protocol: 2, ..Greeting::default() };
+    let line = mission_message(&Mission { setup, ..mission(0) }, &second).line();
     let said: serde_json::Value = serde_json::from_slice(&line).unwrap();
     assert_eq!(said["limits"], json!({ "max_speed_m_s": 4.5, "max_tilt_deg": 30.0 }));
 }
@@ -84,7 +115,13 @@ fn acceptance_is_a_cylinder_from_protocol_2_on() {
 fn programs_are_known_by_what_they_say_of_themselves() {
     let folder = tempfile::tempdir().unwrap();
     let greeting = |command: &Command| fly_all(command, limits(), 2, 3, &|i| Ok(mission(i)), &|_, _| {}, &|| false);
-    let second = Greeting { name: "second".into(), version: Some("7".into()), protocol: 2, deterministic: Some(true) };
+    let second = Greeting {
+        name: "second".into(),
+        version: Some("7".into()),
+        protocol: 2,
+        deterministic: Some(true),
+        timed: None,
+    };
     assert_eq!(greeting(&speaks_2(folder.path(), "good(m)")), Some(second));
     let first = Greeting { name: "test".into(), protocol: 1, ..Greeting::default() };
     assert_eq!(greeting(&python(folder.path(), "good(m)")), Some(first));
