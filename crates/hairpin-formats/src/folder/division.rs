@@ -14,6 +14,9 @@ use super::run_writer::{Landed, RunWriter};
 use super::{CampaignFolder, FOLDERS, FolderError, LOCK, entries};
 use crate::atomic::{self, WriteError, is_temporary};
 
+/// Which run of which case was run again, and what came of it.
+type Rerun = ((CaseNumber, usize), Landed);
+
 impl CampaignFolder {
     /// `parts/part-NNNNN`.
     pub fn part_folder(&self, part: u64) -> PathBuf {
@@ -100,7 +103,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// A file cannot be read.
-    pub fn reruns_of(&self, cases: &[CaseNumber]) -> Result<Vec<((CaseNumber, usize), Landed)>, FolderError> {
+    pub fn reruns_of(&self, cases: &[CaseNumber]) -> Result<Vec<Rerun>, FolderError> {
         let mut all = Vec::new();
         for &case in cases {
             for facts in self.rerun_facts_of(case)? {
@@ -114,7 +117,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     /// A part cannot be written.
-    pub fn land_reruns(&self, all: Vec<((CaseNumber, usize), Landed)>) -> Result<(), FolderError> {
+    pub fn land_reruns(&self, all: Vec<Rerun>) -> Result<(), FolderError> {
         let repeat = all.iter().map(|((_, again), _)| again + 1).max().unwrap_or_default();
         let writer = self.write_reruns(repeat, all.iter().map(|(key, _)| *key));
         all.into_iter().try_for_each(|(_, landed)| writer.land(landed))?;

@@ -20,9 +20,9 @@ pub(super) fn backwards(setup: &DriveSetup, case: &Case, track: &Track) -> Optio
     }
     let legs = track.channel("leg")?;
     let mut ways: BTreeMap<usize, f64> = BTreeMap::new();
-    for i in 1..track.len() {
-        let ahead = track.poses()[i - 1].rotation * Vector3::x();
-        *ways.entry(legs[i] as usize).or_default() += (track.position(i) - track.position(i - 1)).dot(&ahead);
+    for (leg, pair) in legs.iter().skip(1).zip(track.poses().windows(2)) {
+        let way = pair[1].translation.vector - pair[0].translation.vector;
+        *ways.entry(*leg as usize).or_default() += way.dot(&(pair[0].rotation * Vector3::x()));
     }
     let gone: Vec<usize> = ways.into_iter().filter(|(_, way)| *way < -LEAST).map(|(leg, _)| leg).collect();
     let numbers = |legs: &[usize]| legs.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
