@@ -9,6 +9,7 @@ mod draw;
 mod drawing;
 mod execute;
 mod figure;
+mod held;
 mod knobs;
 mod legs;
 mod losses;
@@ -28,5 +29,6 @@ mod tests;
 mod verify;
 mod walking;
 
+pub use held::{broken, steerable};
 pub use setup::DriveSetup;
-pub use site::{Site, drive_piece, flat_claim, replay_flat};
+pub use site::{Site, drive_piece, flat_claim, replay_flat, replay_pieces};
