@@ -380,7 +380,8 @@ typedef struct {
    */
   double length_m;
   /**
-   * By how much the drive misses the goal's place, m: replayed by other equations in the plane, as predicted on a map.
+   * By how much the drive misses the goal's place, m: replayed by other equations in the plane, as predicted on a
+   * map.
    */
   double miss_m;
   /**

@@ -82,7 +82,8 @@ pub struct Drive {
     pub looks: u64,
     /// Metres driven.
     pub length_m: f64,
-    /// By how much the drive misses the goal's place, m: replayed by other equations in the plane, as predicted on a map.
+    /// By how much the drive misses the goal's place, m: replayed by other equations in the plane, as predicted on a
+    /// map.
     pub miss_m: f64,
     /// The same of the heading, rad.
     pub miss_yaw_rad: f64,

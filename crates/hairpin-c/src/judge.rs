@@ -327,7 +327,7 @@ fn attitude(index: usize, wxyz: &[f64; 4]) -> Result<UnitQuaternion<f64>, Refuse
     let [w, x, y, z] = *wxyz;
     let quaternion = Quaternion::new(w, x, y, z);
     let length = quaternion.norm();
-    if !((length - 1.0).abs() <= UNIT) {
+    if length.is_nan() || (length - 1.0).abs() > UNIT {
         let sentence = format_args!("`samples[{index}].attitude_wxyz` has length {length}: must be 1");
         return Err(Refused::new(HAIRPIN_INVALID, sentence));
     }

@@ -16,7 +16,7 @@ use hairpin_c::steer::{hairpin_steer, hairpin_steer_free, hairpin_steer_new};
 use crate::called::{Steerer, nothing, said};
 
 /// Compiled again, for what no entry lets a test do: panic.
-#[allow(dead_code)]
+#[allow(dead_code, unreachable_pub)]
 #[path = "../../src/refusal.rs"]
 mod refusal;
 
