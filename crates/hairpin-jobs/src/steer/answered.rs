@@ -7,7 +7,7 @@ use hairpin::feasibility::steering::clear::Intrusion;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::{Parameters, Problem};
 use hairpin::feasibility::steering::shooting::flat::Limit;
-use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
+use hairpin::feasibility::steering::shooting::query::Curvatures;
 use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Segment;
@@ -93,11 +93,6 @@ impl Near {
     }
 }
 
-/// Share by which rounding may exceed a limit.
-const ROUNDING: f64 = 1e-9;
-/// Jump of curvature that is one, 1/m.
-const JUMP: f64 = 1e-6;
-
 /// What the replay holds a drive to; with `free_end` its last curvature is as it comes.
 pub(super) fn claim(asked: &Asked, segments: &[Segment], free_end: bool) -> DriveClaim {
     let length: f64 = segments.iter().map(Segment::length_m).sum();
@@ -125,24 +120,4 @@ pub fn limit_name(limit: Limit) -> &'static str {
 /// A drive as plain numbers.
 pub(super) fn pieces(solution: &Solution) -> Vec<DrivePiece> {
     solution.segments.iter().map(drive_piece).collect()
-}
-
-/// The first limit that a replayed drive breaks, and by how much.
-pub(super) fn broken(
-    replay: &DriveReplay,
-    bounds: &Curvatures,
-    precision: &Precision,
-) -> Option<(&'static str, Option<f64>)> {
-    let [x, y, yaw] = replay.error;
-    let found = [
-        ("curvature_1_m", replay.max_curvature, bounds.most * (1.0 + ROUNDING)),
-        ("curvature_rate_1_m2", replay.max_curvature_rate, bounds.most_rate * (1.0 + ROUNDING)),
-        ("position_m", libm::hypot(x, y), precision.position),
-        ("yaw_rad", yaw.abs(), precision.yaw),
-        ("end_curvature_1_m", replay.error_curvature.abs(), precision.curvature),
-        ("start_curvature_1_m", replay.start_error_curvature.abs(), JUMP),
-        ("curvature_jump_1_m", replay.max_jump, JUMP),
-    ];
-    let over = found.into_iter().find(|(_, value, bound)| value.is_nan() || value > bound);
-    over.map(|(name, value, bound)| (name, Some(value - bound)))
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use hairpin::campaign::drive::Site;
+use hairpin::campaign::drive::{Site, broken};
 use hairpin::feasibility::steering::clear::{Around, Intrusion, footprint};
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
@@ -18,7 +18,7 @@ use hairpin::world::terrain::{ElevationMap, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 use hairpin_formats::terrain::{Georeference, MapFile};
 
-use super::answered::{Answered, Near, broken, claim, pieces};
+use super::answered::{Answered, Near, claim, pieces};
 use super::pace::{direction, start};
 use super::plane::{STANDING, Task};
 use super::trace::trace_step;

@@ -1,7 +1,7 @@
 //! How fast a drive is driven and what that asks of the vehicle: accelerations, steering rates, wheels.
 
 use hairpin::campaign::states::{Followed, States};
-use hairpin::feasibility::steering::shooting::{Control, Curvatures, SPEED_PRECISION};
+use hairpin::feasibility::steering::shooting::{Control, SPEED_PRECISION};
 use hairpin::robot::rover::Rover;
 use hairpin::trajectory::drive::{Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, SpeedError, SpeedProfile, Timing};
@@ -78,16 +78,6 @@ impl Pace {
             SpeedProfile::Ramp { start, end }
         };
         profile.checked()
-    }
-
-    /// The bounds of curvature with what steering leaves of them at the profile's highest speed.
-    ///
-    /// |δ̇| ≤ |dδ/dκ| |κ′| v, and dδ/dκ of the steered axle is at most its distance.
-    pub(super) fn tightened(&self, bounds: &Curvatures, rover: &Rover, profile: &SpeedProfile) -> Curvatures {
-        let most = bounds.most.min(rover.steerable_curvature());
-        let by_axle = rover.response.steering_rate / (rover.response.steered_axle * profile.top());
-        let by_wheels = rover.wheels.steer_rate / (rover.steering_gain(most) * profile.top());
-        Curvatures { most, most_rate: bounds.most_rate.min(by_axle).min(by_wheels) }
     }
 
     /// The first limit that the speeds break along `segments`, and by how much.

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use hairpin::campaign::drive;
 use hairpin::feasibility::steering::clear::{self, Hazards};
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Precision};
@@ -13,7 +14,7 @@ use hairpin::verification::{DriveReplay, replay_drive};
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
 
-use super::answered::{self, Answered, Near, claim, limit_name, pieces};
+use super::answered::{Answered, Near, claim, limit_name, pieces};
 use super::pace::start;
 use super::solver::Solver;
 use super::trace::{retrace, trace_step};
@@ -83,7 +84,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         retrace(boundary, control, &shaping, &choices, &solution);
     }
     let mut replay = replayed(asked, &solution, boundary.free_end);
-    let mut broken = answered::broken(&replay, &bounds, &precision);
+    let mut broken = drive::broken(&replay, &bounds, &precision);
     let default = control == Control::Quintic && boundary.swing == 0.0;
     if solution.outcome == Outcome::Solved && broken.is_some() && default && solution.method == Method::SingleArc {
         // The solver believes what the replay does not: closed forms remain.
@@ -95,7 +96,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         parameters = second.parameters;
         solving += again.elapsed();
         replay = replayed(asked, &solution, boundary.free_end);
-        broken = answered::broken(&replay, &bounds, &precision);
+        broken = drive::broken(&replay, &bounds, &precision);
     }
     let lacks = match solution.arc {
         Some(flat::Status::Infeasible { limit, excess }) if !default => Some((limit_name(limit), Some(excess))),

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use hairpin::campaign::drive::steerable;
 use hairpin::campaign::states::States;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
@@ -141,7 +142,7 @@ impl Vehicle {
         }
         let free_end = asked.free_end && self.pace.control == Control::VelocityPolynomial;
         let boundary = Boundary { query, speed: profile, swing, free_end };
-        let shaping = self.pace.tightened(&bounds, &self.rover, &profile);
+        let shaping = steerable(&bounds, &self.rover, profile.top());
         let task = Task {
             rover: &self.rover,
             keep_outs: &self.keep_outs,

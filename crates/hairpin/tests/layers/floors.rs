@@ -83,7 +83,7 @@ pub(crate) const VARIANTS: &[(&str, &[&str])] = &[
 
 /// The crates from the ground up; each knows only those before it.
 pub(crate) const CRATES: &[&str] =
-    &["hairpin", "hairpin_formats", "hairpin_jobs", "hairpin_lab", "hairpin_cli", "hairpin_py"];
+    &["hairpin", "hairpin_formats", "hairpin_jobs", "hairpin_lab", "hairpin_cli", "hairpin_py", "hairpin_c"];
 
 /// What a crate must never know of other people's crates and of the process it runs in.
 pub(crate) const FOREIGN: &[(&str, &[&str])] = &[

@@ -11,6 +11,7 @@ mod drawing;
 mod execute;
 mod figure;
 mod fit;
+mod held;
 mod knobs;
 mod legs;
 mod losses;
@@ -30,5 +31,6 @@ mod tests;
 mod verify;
 mod walking;
 
+pub use held::{broken, steerable};
 pub use setup::DriveSetup;
-pub use site::{Site, drive_piece, flat_claim, replay_flat};
+pub use site::{Site, drive_piece, flat_claim, replay_flat, replay_pieces};

@@ -4,13 +4,13 @@ use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_grou
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
 use crate::robot::rover::{Kinematics, Rover, Suspension};
-use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList, shortened};
+use crate::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
     DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, replay_drive,
     replay_ground,
 };
-use crate::world::terrain::ElevationMap;
+use crate::world::terrain::{ElevationMap, Rationed};
 
 /// A rover on a map, and how it travels.
 #[derive(Debug, Clone, Copy)]
@@ -104,6 +104,25 @@ impl Site<'_> {
             steer,
             over,
         )
+    }
+
+    /// What [`Self::solve`] finds with `looks` looks at the ground, at most, and how many of them are left: without any
+    /// it stopped, and the answer is the best so far.
+    pub fn solve_within(
+        &self,
+        start: &Planar,
+        goal: &Planar,
+        bounds: &Curvatures,
+        settings: &Settings,
+        steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
+        looks: u64,
+    ) -> (Answer, u64) {
+        let (rover, ground) = (self.rover, Rationed::new(self.map, looks));
+        let steps = Steps::default().for_rate(bounds.most_rate);
+        let course = Course { rover, terrain: &ground, speed: self.speed, direction: self.direction, steps };
+        let over = || ground.left() == 0;
+        let answer = rough::solve_until(&course, start, goal, bounds, settings, steer, &over);
+        (answer, ground.left())
     }
 
     /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds
@@ -248,6 +267,13 @@ pub fn flat_claim(query: &Query, direction: f64) -> DriveClaim {
         end: [goal.x, goal.y, goal.yaw],
         end_curvature: goal.curvature,
     }
+}
+
+/// `segments` as they would be written, replayed against `claim` in the plane; nothing is taken from the heap.
+pub fn replay_pieces(segments: &SegmentList, claim: &DriveClaim) -> DriveReplay {
+    let mut pieces = [DrivePiece::Turn { angle_rad: 0.0 }; MOST_SEGMENTS];
+    pieces.iter_mut().zip(segments.iter()).for_each(|(piece, segment)| *piece = drive_piece(segment));
+    replay_drive(&pieces[..segments.len()], claim)
 }
 
 /// `segments` as they would be written, replayed against a flat `query` of a vehicle that travels at `direction` to its

@@ -11,6 +11,7 @@ mod flat;
 pub mod generate;
 pub mod keep_out;
 mod map;
+mod rationed;
 pub mod rocks;
 mod smooth;
 
@@ -20,6 +21,7 @@ mod tests;
 pub use flat::{Flat, Function};
 pub use keep_out::{KeepOut, KeepOutShape, KeepOuts};
 pub use map::{ElevationMap, Grid, HoleRule, MapError};
+pub use rationed::Rationed;
 pub use rocks::{Rock, Rocks, add_rocks};
 
 use thiserror::Error;

@@ -94,7 +94,7 @@ impl<'a> Search<'a> {
             let [c0, ..] = start.shape;
             let cubic = self.task.freedoms == Freedoms::One;
             let start = if cubic { Free { shape: [c0, 0.0, 0.0], ..start } } else { start };
-            let fit = arc::descend(&self.task, &ends, start, self.settings.iterations.min(ARC_STEPS));
+            let fit = arc::descend(&self.task, &ends, start, self.left(ARC_STEPS));
             self.iterations += fit.iterations;
             if fit.good {
                 self.keep(Grade::Good(fit.free.length), Curve::Arc(ends, fit.free));
@@ -105,18 +105,25 @@ impl<'a> Search<'a> {
         for word in words.iter().take(self.settings.starts as usize) {
             let shortest = word.length() / bounds.most;
             let short = matches!(self.best, Some((Grade::Good(length), _)) if length < SHORT * shortest);
-            if short || !shortest.is_finite() {
+            let spent = self.best.is_some() && self.left(1) == 0;
+            if short || spent || !shortest.is_finite() {
                 break;
             }
             self.along(word);
         }
     }
 
+    /// Steps that the next descent may take, `wanted` at most.
+    fn left(&self, wanted: u32) -> u32 {
+        let Settings { iterations, most_steps, .. } = *self.settings;
+        wanted.min(iterations).min(most_steps.saturating_sub(self.iterations))
+    }
+
     /// Looks for a curve that turns like `word`.
     fn along(&mut self, word: &Word) {
         let ends = Ends::along(self.query, word);
         let chains = self.settings.control == Control::Quintic;
-        let steps = if chains { self.settings.iterations.min(ARC_STEPS) } else { self.settings.iterations };
+        let steps = self.left(if chains { ARC_STEPS } else { u32::MAX });
         let start = Free::along(&ends, word, &self.task.bounds);
         let fit = arc::descend(&self.task, &ends, start, steps);
         self.iterations += fit.iterations;
@@ -126,7 +133,7 @@ impl<'a> Search<'a> {
         }
         if chains {
             let start = Chain::along(&ends, word, &self.task.bounds);
-            let fit = chain::descend(&self.task, &ends, start, self.settings.iterations);
+            let fit = chain::descend(&self.task, &ends, start, self.left(u32::MAX));
             self.iterations += fit.iterations;
             self.keep(grade(fit.miss, self.task.tolerance, fit.chain.length, || fit.bends), Curve::Chain(fit.chain));
         }
@@ -146,8 +153,8 @@ impl<'a> Search<'a> {
         if let Some((Grade::Good(_), Curve::Arc(ends, free))) = &mut self.best
             && self.settings.cost != Cost::Any
         {
-            let Settings { cost, iterations, .. } = *self.settings;
-            let (refined, taken) = arc::refine(&self.task, ends, *free, cost, iterations);
+            let left = self.settings.iterations.min(self.settings.most_steps.saturating_sub(self.iterations));
+            let (refined, taken) = arc::refine(&self.task, ends, *free, self.settings.cost, left);
             *free = refined;
             self.iterations += taken;
         }

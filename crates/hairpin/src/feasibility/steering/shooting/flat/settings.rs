@@ -12,6 +12,8 @@ pub struct Settings<'t> {
     pub precision: Precision,
     /// Steps of each descent at most.
     pub iterations: u32,
+    /// Steps of all descents together at most: what bounds the time that a query takes.
+    pub most_steps: u32,
     /// Share of each step that is taken, in (0, 1].
     pub step_scale: f64,
     /// Ways around (Dubins' words, 6 at most) to start from, at most.
@@ -27,11 +29,12 @@ pub struct Settings<'t> {
 }
 
 impl Default for Settings<'_> {
-    /// 1 cm, 0.01 rad, 0.01 1/m; 20 whole steps, 8 starts; fifth order; the first good curve.
+    /// 1 cm, 0.01 rad, 0.01 1/m; 20 whole steps of each descent, 8 starts; fifth order; the first good curve.
     fn default() -> Self {
         Self {
             precision: Precision::default(),
             iterations: 20,
+            most_steps: u32::MAX,
             step_scale: 1.0,
             starts: 8,
             control: Control::default(),

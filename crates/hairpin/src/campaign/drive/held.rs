@@ -1,0 +1,36 @@
+//! What drives are held to: bounds with what steering leaves of them, and the first limit that a replay breaks.
+
+use crate::feasibility::steering::shooting::{Curvatures, Precision};
+use crate::robot::rover::Rover;
+use crate::verification::DriveReplay;
+
+/// Share by which rounding may exceed a limit.
+const ROUNDING: f64 = 1e-9;
+/// Jump of curvature that is one, 1/m.
+const JUMP: f64 = 1e-6;
+
+/// The bounds of curvature with what the steering of `rover` leaves of them at `speed`, m/s.
+///
+/// |δ̇| ≤ |dδ/dκ| |κ′| v, and dδ/dκ of the steered axle is at most its distance.
+pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
+    let most = bounds.most.min(rover.steerable_curvature());
+    let by_axle = rover.response.steering_rate / (rover.response.steered_axle * speed);
+    let by_wheels = rover.wheels.steer_rate / (rover.steering_gain(most) * speed);
+    Curvatures { most, most_rate: bounds.most_rate.min(by_axle).min(by_wheels) }
+}
+
+/// The first limit that a replayed drive breaks, by its name in answers, and by how much.
+pub fn broken(replay: &DriveReplay, bounds: &Curvatures, precision: &Precision) -> Option<(&'static str, Option<f64>)> {
+    let [x, y, yaw] = replay.error;
+    let found = [
+        ("curvature_1_m", replay.max_curvature, bounds.most * (1.0 + ROUNDING)),
+        ("curvature_rate_1_m2", replay.max_curvature_rate, bounds.most_rate * (1.0 + ROUNDING)),
+        ("position_m", libm::hypot(x, y), precision.position),
+        ("yaw_rad", yaw.abs(), precision.yaw),
+        ("end_curvature_1_m", replay.error_curvature.abs(), precision.curvature),
+        ("start_curvature_1_m", replay.start_error_curvature.abs(), JUMP),
+        ("curvature_jump_1_m", replay.max_jump, JUMP),
+    ];
+    let over = found.into_iter().find(|(_, value, bound)| value.is_nan() || value > bound);
+    over.map(|(name, value, bound)| (name, Some(value - bound)))
+}
