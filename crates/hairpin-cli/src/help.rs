@@ -88,7 +88,7 @@ const OF_VERBS: &[(&str, &str, &[&str])] = &[
         ],
     ),
     ("steer", "Output", &["plot", "path", "wheels", "json"]),
-    ("judge", "Logs", &["campaign", "mission", "robot", "world", "case", "source", "from", "to"]),
+    ("judge", "Logs", &["campaign", "mission", "robot", "world", "case", "source", "from", "to", "page"]),
     ("judge", "Frame of logs", &["turn", "offset", "altitude"]),
     ("max-load", "Question", &["graph", "cloud", "start", "end", "min_cost", "visits", "programs"]),
     ("max-load", "Search", &["method", "nodes", "seed"]),

@@ -75,7 +75,7 @@ pub fn worst_in_full(work: &Work, cases: &[Case], results: &[CaseResult]) -> Opt
     let case = cases.iter().find(|case| case.number == worst.case)?;
     let run = run_with_motion(work, case, worst.run).ok().flatten()?;
     let planned = work.folder.read_planned(case.number).ok()?;
-    shown(&work.setup, case, worst, planned, Some(&run), &[]).ok()
+    shown(&work.setup, case, worst, planned, Some((&run).into()), &[]).ok()
 }
 
 /// Writes `report.html`.

@@ -36,15 +36,16 @@ pub(super) fn json(data: &ReportData) -> String {
         "obstacles": obstacles,
         "robot": data.drawing.figure.as_ref().map(robot),
         "beside": data.beside.runs,
+        "folder": data.folder,
         "unit": data.length.unit,
         "done": if data.drawing.relief.is_some() { "driven" } else { "flown" },
         "limit": data.deviation_limit.map(|limit| tidy(data.length.in_metre * limit)),
         "open": data.shown.iter().position(|shown| Some(shown.result.case) == data.opens).unwrap_or_default(),
-        "ids": data.results.iter().map(|result| result.case.to_string()).collect::<Vec<_>>(),
+        "ids": data.results.iter().map(|result| data.name(result.case)).collect::<Vec<_>>(),
         "status": data.results.iter().map(|result| result.status.word()).collect::<Vec<_>>(),
         "metrics": data.metrics.iter().map(metric).collect::<Vec<_>>(),
         "draws": draws(data),
-        "cases": data.shown.iter().map(|shown| case(shown, samples, &data.length, &mut others)).collect::<Vec<_>>(),
+        "cases": data.shown.iter().map(|shown| case(data, shown, samples, &mut others)).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
 }
@@ -93,7 +94,8 @@ fn draws(data: &ReportData) -> Vec<Value> {
     columns.into_iter().map(|(name, values)| json!({ "name": name, "values": column(values) })).collect()
 }
 
-fn case(shown: &Shown, samples: usize, length: &Length, others: &mut usize) -> Value {
+fn case(data: &ReportData, shown: &Shown, samples: usize, others: &mut usize) -> Value {
+    let length = &data.length;
     // Balls and boxes: few triangles each, and those of the world do not count here.
     let mut left = TRIANGLES;
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 3), round(p.y, 3), round(p.z, 3)]).collect();
@@ -103,7 +105,7 @@ fn case(shown: &Shown, samples: usize, length: &Length, others: &mut usize) -> V
     *others -= runs.len();
     let moment = shown.moment.as_ref();
     json!({
-        "id": shown.result.case.to_string(),
+        "id": data.name(shown.result.case),
         "status": shown.result.status.word(),
         "fails": shown.result.status == Status::Fail,
         "run": shown.result.run,

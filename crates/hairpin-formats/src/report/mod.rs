@@ -20,7 +20,7 @@ mod worst;
 
 use std::path::Path;
 
-use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
+use hairpin::campaign::report::{self, Drawn, Pieces, ReportData, shown, worst_first};
 use hairpin::campaign::{Baseline, Case, CaseNumber, CaseResult, Run, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
@@ -104,14 +104,14 @@ pub fn from_folder(
             _ => motions.kept(case.number).map_err(ReportError::Run)?,
         };
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
-        in_full.push(shown(setup, &case, result, planned, run.as_ref(), &others).map_err(flight)?);
+        in_full.push(shown(setup, &case, result, planned, run.as_ref().map(Drawn::from), &others).map_err(flight)?);
     }
     let (baseline, scenario) = (folder.read_baseline()?, &setup.scenario);
     let pieces = Pieces {
         setup,
         cases: &cases,
         results: &results,
-        tally: &tally,
+        tally: Some(&tally),
         verdict,
         assumptions,
         shown: in_full,

@@ -18,8 +18,8 @@ const GAP: f64 = 56.0;
 /// Points of a path that are drawn at most.
 const POINTS: usize = 250;
 
-/// Top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
-pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
+/// Of what is called `name`: top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
+pub(super) fn views(shown: &Shown, name: &str, drawing: &Drawing) -> String {
     let size = drawing.size;
     let scale = SIDE / size.max();
     let low = drawing.low;
@@ -27,8 +27,8 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
     let height = top.max(side);
     let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
     let mut svg = format!(
-        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {}\">",
-        shown.result.case
+        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of {}\">",
+        name
     );
     let at = |x0: f64, across: usize, up: usize, span: f64| View {
         x0,

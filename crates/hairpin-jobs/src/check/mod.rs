@@ -11,6 +11,7 @@ use hairpin_formats::missions::{Frame, Mission};
 use crate::{Problem, Watch};
 
 pub use settings::CheckSettings;
+pub(crate) use world::open_around;
 
 /// What came of it.
 #[derive(Debug)]

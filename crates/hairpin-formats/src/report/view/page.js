@@ -113,7 +113,7 @@ function build() {
     built.targets.push({ name: o.name, xyz, t });
     built.glass.push({ mesh: s.mesh(xyz, t), at: HERE, colour: colour("solid", 0.5), dark: colour("dark"), lit: true, hatch: false });
   }
-  for (const run of c.runs) line(run.p, [rgba(theme.soft, 0.45)], 1.5);
+  for (const run of c.runs) line(run.p, [rgba(theme.soft, c.runs.length > 2 ? 0.45 : 0.9)], c.runs.length > 2 ? 1.5 : 3);
   line(c.planned.p, [rgba(theme.plan)], 3, s.reach / 60);
   if (f) {
     const top = deepest(f);
@@ -293,7 +293,7 @@ function drawChosen() {
 const show = () => byId("flight").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
 
 /** The command that does `verb` to a case, typed where this page's folder is known. @param {string} verb @param {string} id */ function command(verb, id) {
-  const place = location.protocol === "file:" ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, "") || "/" : "OUT";
+  const place = data.folder || (location.protocol === "file:" ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, "") || "/" : "OUT");
   const out = /^[\w./~@%+=:,-]+$/.test(place) ? place : "'" + place.replaceAll("'", "'\\''") + "'";
   return `hairpin ${verb} ${out} ${verb === "export" ? "--to csv,mcap " : ""}--case ${id}`;
 }
