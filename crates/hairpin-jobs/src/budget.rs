@@ -10,6 +10,7 @@ use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 use serde::Serialize;
 
+use crate::generate::UNPROVEN;
 use crate::watch::Until;
 use crate::{Deadline, Problem, Watch};
 
@@ -132,6 +133,10 @@ impl Budget {
     pub(crate) fn cut_of_search(&self, scenario: &Scenario, cases: &[Case], tally: &Tally) -> Option<String> {
         if tally.complete || !tally.stopped {
             return None;
+        }
+        if tally.cut.as_deref() == Some(UNPROVEN) {
+            self.leave_undone_visibly(UNPROVEN.into());
+            return tally.cut.clone();
         }
         if !self.end(Part::Search).passed() {
             // It was cut before, and nobody went on with it.

@@ -13,6 +13,7 @@
 //! | `executions/` | flights: poses, velocities, rotor speeds, the rows where they bend |
 //! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
+//! | `executed.tsv` | of a search that was stopped: what it executed, so that going on does not do it again |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
 //! | `searched.parquet` | beside missions made elsewhere: what a search found, likewise; not judged |
 //! | `missions.json` | of missions made elsewhere: file, frame, what their check said |
@@ -41,6 +42,7 @@
 mod cases;
 mod copy;
 mod error;
+mod executed;
 mod executor;
 mod forget;
 mod graph;

@@ -28,6 +28,8 @@ pub const SEARCHED: &str = "searched.parquet";
 pub const MISSIONS: &str = "missions.json";
 /// How the largest stress of a search that executes rose.
 pub const BEST_SO_FAR: &str = "best-so-far.tsv";
+/// What the executions of a search came to that was stopped.
+pub(super) const EXECUTED: &str = "executed.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 
 /// What the program of the user's that executed says of itself.
@@ -55,6 +57,7 @@ pub(super) const OURS: &[&str] = &[
     SEARCHED,
     MISSIONS,
     BEST_SO_FAR,
+    EXECUTED,
     COVERAGE[0],
     COVERAGE[1],
     hairpin::campaign::learn::NAME,

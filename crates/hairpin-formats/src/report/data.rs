@@ -100,7 +100,11 @@ fn case(data: &ReportData, shown: &Shown, samples: usize, others: &mut usize) ->
     let mut left = TRIANGLES;
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 3), round(p.y, 3), round(p.z, 3)]).collect();
     let kept = thin(shown.planned.len(), samples / PLANNED, &[]);
-    let planned = motion(&shown.planned, &kept, turns(&shown.planned), &[]);
+    // What the figure is posed by: of arms the joints.
+    let joints = (1..=6).map(|axis| format!("q{axis}_rad")).filter(|name| shown.planned.channel(name).is_some());
+    let joints: Vec<String> = joints.collect();
+    let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+    let planned = motion(&shown.planned, &kept, turns(&shown.planned), &joints);
     let runs: Vec<&OtherRun> = shown.others.iter().take(*others).collect();
     *others -= runs.len();
     let moment = shown.moment.as_ref();

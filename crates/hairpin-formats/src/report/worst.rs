@@ -152,6 +152,15 @@ fn short(value: &Value) -> String {
     }
 }
 
+/// A file of its own with top and side view of the case that the page opens with; nothing where no case is shown.
+pub fn picture(data: &ReportData) -> Option<String> {
+    let shown = data.shown.iter().find(|shown| Some(shown.result.case) == data.opens)?;
+    let told = shown.moment.as_ref().map_or("", |moment| moment.told.as_str());
+    let name = format!("case {}", data.name(shown.result.case));
+    let title = escape(&format!("{}, {name}: {told}", data.title));
+    Some(svg::picture(shown, &escape(&name), [&title, done(data)], &data.drawing))
+}
+
 fn figure(data: &ReportData, shown: &Shown) -> String {
     let (what, id) = (if data.logs.is_empty() { "case" } else { "log" }, escape(&data.name(shown.result.case)));
     format!(

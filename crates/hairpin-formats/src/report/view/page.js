@@ -135,7 +135,7 @@ function build() {
 /** The robot in the pose that it has at `t`; of a plan a ghost. @param {Motion} m @param {number} t @param {boolean} ghost @returns {{ solids: Solid[], lines: Line[], size: number }} */
 function figure(m, t, ghost) {
   const robot = data.robot, s = /** @type {Scene} */ (scene), solids = /** @type {Solid[]} */ ([]), lines = /** @type {Line[]} */ ([]), at = stamp(m.t, t);
-  if (!robot || (ghost && robot.fixed)) return { solids, lines, size: 1 };
+  if (!robot || (ghost && robot.fixed && !m.channels.q1_rad)) return { solids, lines, size: 1 };
   let p = lifted(placeAt(m, t)), q = attitudeAt(m, t), size = 1;
   if (robot.fixed) [p, q] = [[0, 0, 0], [1, 0, 0, 0]];
   else size = Math.max(1, 64 / (2 * Math.max(robot.radius, 1e-3) * s.scaleAt(p)));
