@@ -229,7 +229,7 @@ function tell() {
 function fit(azimuth, elevation) {
   if (!scene) return;
   const c = caseOf(state.index), points = [...c.data.waypoints, ...c.planned.p, ...(c.flown ? c.flown.p : [])].map(lifted), n = points.length || 1;
-  if (data.robot && data.robot.fixed && c.flown) for (const { at } of figure(c.flown, state.t, false).solids) points.push([at[12], at[13], at[14]]);
+  if (data.robot && data.robot.fixed && c.flown) for (const { at } of figure(c.flown, state.t, false).solids) points.push([at[12], at[13], at[14]], [at[12], at[13], 1.25 * at[14]]);
   const mean = times(points.reduce(add, [0, 0, 0]), 1 / n);
   const sum = (/** @type {number} */ a, /** @type {number} */ b) => points.reduce((s, p) => s + (p[a] - mean[a]) * (p[b] - mean[b]), 0);
   const side = 0.5 * Math.atan2(2 * sum(0, 1), sum(0, 0) - sum(1, 1)) - Math.PI / 2 + 0.35;
