@@ -48,7 +48,7 @@ fn grouped(arg: Arg, verb: &str) -> Arg {
 
 /// Headings of options that many verbs have.
 const GROUPS: &[(&str, &[&str])] = &[
-    ("Files", &["out", "force", "resume", "repro", "missions", "junit", "keep"]),
+    ("Files", &["out", "force", "resume", "repro", "missions", "junit", "keep", "page", "picture"]),
     ("Scenario", &["sets", "seed", "executor"]),
     ("Time and machine", &["threads", "portable", "time_limit", "budget", "allow_commands"]),
     ("Output", &["json", "verbose"]),

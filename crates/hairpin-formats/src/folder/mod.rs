@@ -77,8 +77,8 @@ use inside::refuse_links;
 use list::{List, all, is_of_an_earlier_version};
 pub use names::{ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MISSIONS, MOVES, OPTIMUM, REASONS, SEARCHED};
 use names::{
-    COVERAGE, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports, exports,
-    exports_of_runs, stands_for,
+    COVERAGE, EXECUTED, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports,
+    exports, exports_of_runs, stands_for,
 };
 pub(crate) use names::{SCENARIO, is_of_a_motion, is_written_to};
 

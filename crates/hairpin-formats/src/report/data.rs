@@ -39,6 +39,7 @@ pub(super) fn json(data: &ReportData) -> String {
         "folder": data.folder,
         "unit": data.length.unit,
         "done": if data.drawing.relief.is_some() { "driven" } else { "flown" },
+        "digits": digits(data),
         "limit": data.deviation_limit.map(|limit| tidy(data.length.in_metre * limit)),
         "open": data.shown.iter().position(|shown| Some(shown.result.case) == data.opens).unwrap_or_default(),
         "ids": data.results.iter().map(|result| data.name(result.case)).collect::<Vec<_>>(),
@@ -48,6 +49,12 @@ pub(super) fn json(data: &ReportData) -> String {
         "cases": data.shown.iter().map(|shown| case(data, shown, samples, &mut others)).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
+}
+
+/// Decimals that deviations are told with: two, or as many as their limit was given with.
+fn digits(data: &ReportData) -> usize {
+    let limit = data.deviation_limit.map_or(0.0, |limit| tidy(data.length.in_metre * limit)).to_string();
+    limit.split_once('.').map_or(0, |(_, decimals)| decimals.len()).clamp(2, 5)
 }
 
 /// The ground; holes are nothing.

@@ -61,6 +61,10 @@ pub(super) fn write(file: &Path, judged: &JudgedLogs, against: &Ready) -> Result
         facts: facts(judged, against),
         ..data
     };
+    for card in data.key_numbers.iter_mut().filter(|card| many && card[0] == "in case") {
+        let named = data.logs.iter().find(|(number, _)| number.to_string() == card[1]);
+        (card[0], card[1]) = ("in log".into(), named.map_or_else(String::new, |(_, name)| name.clone()));
+    }
     data.key_numbers.extend(cards(judged, &data.length));
     if !many {
         // Of one there is no distribution.
