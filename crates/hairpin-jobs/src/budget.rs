@@ -10,9 +10,11 @@ use hairpin::campaign::{Case, Tally};
 use hairpin::judgement::Verdict;
 use serde::Serialize;
 
-use crate::generate::UNPROVEN;
 use crate::watch::Until;
 use crate::{Deadline, Problem, Watch};
+
+/// What is left undone of an arm whose first program is not proven in time to be the heaviest.
+pub(crate) const UNPROVEN: &str = "the proof that no program is heavier than the first";
 
 /// What the report takes at least, s, where the budget is not as short as that.
 const REPORT_S: f64 = 2.0;

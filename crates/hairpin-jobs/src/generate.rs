@@ -10,6 +10,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
 use rayon::prelude::*;
 
+use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
@@ -41,9 +42,6 @@ pub fn generate(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Genera
     let (cases, tally) = find_cases(&work, Deadline::after(settings.time_limit_s), Deadline::after(None), watch)?;
     Ok(Generated { work, cases, tally })
 }
-
-/// What is left undone of an arm whose first program is not proven in time to be the heaviest.
-pub(crate) const UNPROVEN: &str = "the proof that no program is heavier than the first";
 
 /// Finds the cases until `deadline` and writes them; what an arm claims of them is proven until `proof`. An interrupted
 /// generation goes on where its last checkpoint was.
@@ -93,8 +91,9 @@ pub(crate) fn find_cases(
             clock: &|| begun.elapsed().as_secs_f64(),
         };
         let is_proven = optimum::keep(work, arm, &graph, &cases, &stop)?;
-        if !is_proven && !watch.stopped() {
-            cases.iter_mut().for_each(|case| case.bound = None);
+        if !is_proven && proof.passed() && !watch.stopped() {
+            let claims = |case: &&mut Case| case.gap().is_some_and(|gap| gap <= 1e-9);
+            cases.iter_mut().filter(claims).for_each(|case| case.bound = None);
             work.folder.write_results(&cases, &[])?;
             (tally.complete, tally.stopped, tally.cut) = (false, true, Some(UNPROVEN.into()));
         }

@@ -202,7 +202,7 @@ mod tests {
         let picture = folder.with_file_name("drawn.svg");
         let reported = report(&folder, &[], Some(&picture)).unwrap();
         let drawn = std::fs::read_to_string(picture).unwrap();
-        assert!(drawn.starts_with("<svg xmlns=") && drawn.contains("top view") && drawn.contains("largest deviation"));
+        assert!(drawn.starts_with("<svg xmlns=") && drawn.contains("top view") && drawn.contains("deviation"));
         assert!(report(&folder, &[4711], None).unwrap_err().to_string().contains("has no case 4711"));
         assert_eq!(reported.verdict, judged.judgement.verdict);
         assert!(reported.path.is_file() && reported.coverage.is_some());

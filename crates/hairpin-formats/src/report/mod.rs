@@ -144,8 +144,9 @@ fn chosen<'a>(ordered: Vec<&'a CaseResult>, cases: &[Case], asked: &[CaseNumber]
     let by_number: HashMap<CaseNumber, &Case> = cases.iter().map(|case| (case.number, case)).collect();
     // All are as stressful as each other: how far they are apart decides alone.
     let candidate = |result: &CaseResult| {
-        let case = by_number.get(&result.case)?;
-        Some(Candidate { stress: 0.0, ..Candidate::new(case, Some(result), BTreeSet::new()) })
+        let mut candidate = Candidate::new(by_number.get(&result.case)?, Some(result), BTreeSet::new());
+        candidate.stress = 0.0;
+        Some(candidate)
     };
     let (rest, candidates): (Vec<&CaseResult>, Vec<Candidate>) =
         rest.into_iter().filter_map(|result| Some((result, candidate(result)?))).unzip();

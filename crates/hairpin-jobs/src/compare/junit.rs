@@ -7,7 +7,7 @@ use hairpin::campaign::report::{Length, length, violation};
 use hairpin::campaign::{CaseResult, Comparison, Status};
 use hairpin_formats::junit::{Outcome, OutcomeKind, outcomes_text};
 
-use super::{Compared, pairs};
+use super::campaigns::{Compared, pairs};
 use crate::Problem;
 use crate::next::replay_command;
 use crate::work::open_to_read;

@@ -6,7 +6,7 @@ use hairpin::campaign::report::{self, Beside, Drawn, OtherRun, Pieces, ReportDat
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Comparison};
 use hairpin::judgement::Verdict;
 
-use super::pairs;
+use super::campaigns::pairs;
 use crate::Problem;
 use crate::execute::{run_with_motion, why_lost};
 use crate::work::{Work, open_to_read};

@@ -17,6 +17,7 @@ mod frame;
 mod legs;
 mod matching;
 mod one;
+mod over;
 mod page;
 mod remedy;
 mod settings;

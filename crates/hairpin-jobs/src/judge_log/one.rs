@@ -14,7 +14,7 @@ use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
 use super::settings::LogSettings;
-use super::{matching, sheet, source, told};
+use super::{matching, over, source, told};
 use crate::Problem;
 
 /// Judges the log in `file`.
@@ -91,7 +91,7 @@ pub(super) fn judge(
     }
     let judged = told::judged(file, found, &against.setup);
     match settings.page {
-        Some(_) => sheet::of_flight(judged, &whole, log, against),
+        Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),
     }
 }

@@ -23,8 +23,8 @@ use rayon::prelude::*;
 
 use super::against::Ready;
 use super::found::JudgedLog;
+use super::over;
 use super::settings::LogSettings;
-use super::sheet;
 use crate::Problem;
 
 pub use found::{FoundProgram, JointsTold};
@@ -86,7 +86,7 @@ impl<'a> Programs<'a> {
         };
         let judged = told::judged(file, found, &against.setup);
         match settings.page {
-            Some(_) => sheet::of_program(judged, case, &run, against),
+            Some(_) => over::of_program(judged, case, &run, against),
             None => Ok(judged),
         }
     }
