@@ -109,8 +109,10 @@ async function used() {
     }
     const [file] = await Promise.all([page.waitForEvent("download"), page.locator("#png").click()]);
     assert.match(file.suggestedFilename(), /^hairpin-\d+-.*\.png$/);
-    await page.locator("#commands button[data-verb=replay]").click();
-    assert.match(await page.locator("#command").innerText(), /^hairpin replay .+ --case \d+$/, "a command to copy");
+    if (await page.locator("#commands").count()) { // a page of logs has none
+      await page.locator("#commands button[data-verb=replay]").click();
+      assert.match(await page.locator("#command").innerText(), /^hairpin replay .+ --case \d+$/, "a command to copy");
+    }
     for (const keys of await page.locator(".keys").all()) {
       const [k, charts] = [await keys.boundingBox(), await page.locator("svg.chart, #space").all()];
       for (const chart of charts) {

@@ -48,7 +48,7 @@ fn grouped(arg: Arg, verb: &str) -> Arg {
 
 /// Headings of options that many verbs have.
 const GROUPS: &[(&str, &[&str])] = &[
-    ("Files", &["out", "force", "resume", "repro", "missions", "junit", "keep"]),
+    ("Files", &["out", "force", "resume", "repro", "missions", "junit", "keep", "page", "picture"]),
     ("Scenario", &["sets", "seed", "executor"]),
     ("Time and machine", &["threads", "portable", "time_limit", "budget", "allow_commands"]),
     ("Output", &["json", "verbose"]),
@@ -90,7 +90,7 @@ const OF_VERBS: &[(&str, &str, &[&str])] = &[
     ("steer", "Output", &["plot", "path", "wheels", "json"]),
     ("plan", "Parts", &["cases", "parts"]),
     ("run-shard", "Shard", &["shard", "shards"]),
-    ("judge", "Logs", &["campaign", "mission", "robot", "world", "case", "source", "from", "to"]),
+    ("judge", "Logs", &["campaign", "mission", "robot", "world", "case", "source", "from", "to", "page"]),
     ("judge", "Frame of logs", &["turn", "offset", "altitude"]),
     ("max-load", "Question", &["graph", "cloud", "start", "end", "min_cost", "visits", "programs"]),
     ("max-load", "Search", &["method", "nodes", "seed"]),

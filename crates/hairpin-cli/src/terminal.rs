@@ -44,7 +44,11 @@ impl Runs {
         if self.flown == 0 {
             return String::new();
         }
-        let worst = self.worst.map_or(String::new(), |worst| format!(", worst {worst:.2} m"));
+        // Arms stray by millimetres.
+        let worst = self.worst.map_or(String::new(), |worst| match worst < 0.0995 {
+            true => format!(", worst {:.2} mm", 1e3 * worst),
+            false => format!(", worst {worst:.2} m"),
+        });
         let violations = if self.violations == 1 { "violation" } else { "violations" };
         format!(", {} flown, {} {violations}{worst}", self.flown, self.violations)
     }
@@ -115,6 +119,8 @@ impl Watch for Terminal {
     }
 
     fn finished(&self, _: &'static str) {
+        // What comes next has runs of its own.
+        *self.runs.lock().unwrap_or_else(PoisonError::into_inner) = Runs::default();
         if let Some((_, bar)) = self.bar().take() {
             bar.finish_and_clear();
         }

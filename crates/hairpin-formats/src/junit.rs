@@ -76,6 +76,8 @@ pub struct Outcome {
     pub kind: OutcomeKind,
     /// In a sentence.
     pub sentence: String,
+    /// What stands below it, line by line, where it did not pass.
+    pub more: Vec<String>,
 }
 
 /// What a test came to.
@@ -85,6 +87,8 @@ pub enum OutcomeKind {
     Pass,
     /// A violation.
     Violation,
+    /// Worse than before.
+    Regression,
     /// Nothing was asked for.
     Skipped,
     /// The data allow no verdict, which is no pass.
@@ -98,12 +102,13 @@ pub fn outcomes_text(name: &str, properties: &[(String, String)], outcomes: &[Ou
     for (name, value) in properties {
         tests.add_property(Property::new(clean(name), clean(value)));
     }
-    for Outcome { name, kind, sentence } in outcomes {
+    for Outcome { name, kind, sentence, more } in outcomes {
         let status = match kind {
             OutcomeKind::Pass => TestCaseStatus::success(),
-            OutcomeKind::Violation => not_passed(NonSuccessKind::Failure, "SpecViolation", sentence, &[]),
+            OutcomeKind::Violation => not_passed(NonSuccessKind::Failure, "SpecViolation", sentence, more),
+            OutcomeKind::Regression => not_passed(NonSuccessKind::Failure, "Regression", sentence, more),
             OutcomeKind::Skipped => skipped(sentence),
-            OutcomeKind::Open => not_passed(NonSuccessKind::Error, "Inconclusive", sentence, &[]),
+            OutcomeKind::Open => not_passed(NonSuccessKind::Error, "Inconclusive", sentence, more),
         };
         tests.add_test_case(named(&suite, name.clone(), status));
     }

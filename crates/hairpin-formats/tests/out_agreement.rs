@@ -64,7 +64,7 @@ fn page(setup: &Setup, violation: Option<Violation>) -> (String, String) {
         setup,
         cases: &cases,
         results: &results,
-        tally: &tally,
+        tally: Some(&tally),
         verdict: verdict.clone(),
         assumptions: vec![],
         shown: cases.iter().zip(&results).map(full).collect(),

@@ -13,6 +13,9 @@ use serde::Serialize;
 use crate::watch::Until;
 use crate::{Deadline, Problem, Watch};
 
+/// What is left undone of an arm whose first program is not proven in time to be the heaviest.
+pub(crate) const UNPROVEN: &str = "the proof that no program is heavier than the first";
+
 /// What the report takes at least, s, where the budget is not as short as that.
 const REPORT_S: f64 = 2.0;
 
@@ -132,6 +135,10 @@ impl Budget {
     pub(crate) fn cut_of_search(&self, scenario: &Scenario, cases: &[Case], tally: &Tally) -> Option<String> {
         if tally.complete || !tally.stopped {
             return None;
+        }
+        if tally.cut.as_deref() == Some(UNPROVEN) {
+            self.leave_undone_visibly(UNPROVEN.into());
+            return tally.cut.clone();
         }
         if !self.end(Part::Search).passed() {
             // It was cut before, and nobody went on with it.

@@ -11,6 +11,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
 use rayon::prelude::*;
 
+use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
@@ -39,12 +40,18 @@ pub struct Generated {
 /// As of [`plan`]; a file that cannot be written; it was asked to stop.
 pub fn generate(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Generated, Problem> {
     let work = plan(settings, watch)?.begin()?;
-    let (cases, tally) = find_cases(&work, Deadline::after(settings.time_limit_s), watch)?;
+    let (cases, tally) = find_cases(&work, Deadline::after(settings.time_limit_s), Deadline::after(None), watch)?;
     Ok(Generated { work, cases, tally })
 }
 
-/// Finds the cases and writes them. An interrupted generation goes on where its last checkpoint was.
-pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> Result<(Vec<Case>, Tally), Problem> {
+/// Finds the cases until `deadline` and writes them; what an arm claims of them is proven until `proof`. An interrupted
+/// generation goes on where its last checkpoint was.
+pub(crate) fn find_cases(
+    work: &Work,
+    deadline: Deadline,
+    proof: Deadline,
+    watch: &dyn Watch,
+) -> Result<(Vec<Case>, Tally), Problem> {
     let known = known(work)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
@@ -63,7 +70,8 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    let (tally, executor_trouble) = found?;
+    let (mut tally, executor_trouble) = found?;
+    work.folder.write_executed(tally.answers.as_deref())?;
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {
         return Err(problem);
@@ -76,14 +84,20 @@ pub(crate) fn find_cases(work: &Work, deadline: Deadline, watch: &dyn Watch) -> 
         && let Ok(graph) = graph_of(arm)
     {
         work.folder.write_graph(arm, &graph)?;
-        // What is claimed is proven, however late it is.
+        // What is claimed is proven, or claimed no more.
         let begun = Instant::now();
         let stop = Stop {
-            cancelled: &|| watch.stopped(),
+            cancelled: &|| watch.stopped() || proof.passed(),
             progress: &|done, of| watch.progress(WHAT, done, of),
             clock: &|| begun.elapsed().as_secs_f64(),
         };
-        optimum::keep(work, arm, &graph, &cases, &stop)?;
+        let is_proven = optimum::keep(work, arm, &graph, &cases, &stop)?;
+        if !is_proven && proof.passed() && !watch.stopped() {
+            let claims = |case: &&mut Case| case.gap().is_some_and(|gap| gap <= 1e-9);
+            cases.iter_mut().filter(claims).for_each(|case| case.bound = None);
+            work.folder.write_results(&cases, &[])?;
+            (tally.complete, tally.stopped, tally.cut) = (false, true, Some(UNPROVEN.into()));
+        }
         // What a controller reads is what is executed and judged: numbers as the module has them.
         cases = work.folder.read_cases()?;
     }
@@ -179,7 +193,9 @@ fn known(work: &Work) -> Result<Known, Problem> {
     if !folder.has_cases() || !folder.has_tally() {
         return Ok(Known::default());
     }
-    let known = Known { cases: folder.read_cases()?, tally: folder.read_tally()? };
+    let answers = folder.read_executed()?;
+    let tally = Tally { answers: answers.map(Box::new), cut: None, ..folder.read_tally()? };
+    let known = Known { cases: folder.read_cases()?, tally };
     let begun = !known.cases.is_empty();
     if !known.tally.missions.is_empty() {
         return Err(Problem::input(format!(
@@ -191,6 +207,7 @@ fn known(work: &Work) -> Result<Known, Problem> {
     if begun && known.cases.is_empty() {
         // Flights of what is generated anew would be taken for those of what is.
         folder.forget_cases()?;
+        folder.write_executed(known.tally.answers.as_deref())?;
     }
     Ok(known)
 }
@@ -222,8 +239,54 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let found = generate(&small(&place), &Unwatched).unwrap();
         assert_eq!((found.cases.len(), found.tally.complete), (2, true));
-        let again = find_cases(&found.work, Deadline::after(None), &Unwatched).unwrap();
+        let again = find_cases(&found.work, Deadline::after(None), Deadline::after(None), &Unwatched).unwrap();
         assert_eq!(again, (found.cases, found.tally));
+    }
+
+    /// Stops after so many executions, and counts them.
+    #[derive(Debug, Default)]
+    struct Counting {
+        most: Option<usize>,
+        seen: std::sync::atomic::AtomicUsize,
+    }
+
+    impl Watch for Counting {
+        fn stopped(&self) -> bool {
+            let seen = self.seen.load(std::sync::atomic::Ordering::Relaxed);
+            self.most.is_some_and(|most| seen >= most)
+        }
+
+        fn seen(&self, run: crate::Seen) {
+            assert!(run.deviation.is_some());
+            self.seen.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        }
+    }
+
+    #[test]
+    fn a_search_that_was_stopped_executes_nothing_twice_and_finds_what_it_would_have_found() {
+        let [place, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+        let settings = |place| {
+            let mut settings = small(place);
+            settings.scenario = crate::testing::small_hull(place.path());
+            let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 30 }";
+            settings.sets.push(("generate.search".into(), search.into()));
+            settings
+        };
+        let whole = Counting::default();
+        let uninterrupted = generate(&settings(&other), &whole).unwrap();
+        let count = |watch: &Counting| watch.seen.load(std::sync::atomic::Ordering::Relaxed);
+        let begun = Counting { most: Some(25), ..Counting::default() };
+        let stopped = generate(&settings(&place), &begun).map(|found| found.cases.len());
+        assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
+        let executed = place.path().join("out/executed.tsv");
+        assert!(executed.is_file());
+        let resumed = CampaignSettings { if_there: crate::work::IfThere::Resume, ..settings(&place) };
+        let rest = Counting::default();
+        let found = generate(&resumed, &rest).unwrap();
+        assert_eq!((&found.cases, &found.tally), (&uninterrupted.cases, &uninterrupted.tally));
+        // Runs that choose which draws the search is executed under are no plans of it: there are none here.
+        assert!(count(&begun) >= 25 && count(&begun) + count(&rest) == count(&whole), "{begun:?} {rest:?} {whole:?}");
+        assert!(!executed.exists(), "nothing is left to go on with");
     }
 
     #[test]

@@ -26,19 +26,25 @@ pub struct Optimum {
     pub findings: Vec<String>,
 }
 
-/// Writes the proof, where the first case claims to be optimal.
-pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case], stop: &Stop) -> Result<(), Problem> {
+/// Writes the proof, where the first case claims to be optimal; whether it is proven then, or claims nothing.
+pub(crate) fn keep(
+    work: &Work,
+    arm: &ArmSetup,
+    graph: &ArmGraph,
+    cases: &[Case],
+    stop: &Stop,
+) -> Result<bool, Problem> {
     let path = work.folder.file(OPTIMUM);
     let claimed = cases.first().is_some_and(|case| case.gap().is_some_and(|gap| gap <= 1e-9));
     let found = if claimed { arm.optimum(graph, stop).map_err(Problem::input)? } else { None };
     let Some((question, found, walk)) = found else {
         return match fs::remove_file(&path) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => Err(Problem::of_file(&path, cause)),
-            _ => Ok(()),
+            _ => Ok(!claimed),
         };
     };
     let Some(mut object) = certificate::object(question.points, question.ends, &found, walk.as_ref()) else {
-        return Ok(());
+        return Ok(true);
     };
     object["decimals"] = graph_decimals(graph).into();
     if question.points > graph.points() {
@@ -46,7 +52,8 @@ pub(crate) fn keep(work: &Work, arm: &ArmSetup, graph: &ArmGraph, cases: &[Case]
         object["from_home"] = json!(rows(&|row| question.costs[graph.points() * question.points + row].is_some()));
         object["to_home"] = json!(rows(&|row| question.costs[row * question.points + graph.points() + 1].is_some()));
     }
-    Ok(atomic::write(&path, certificate::sealed(object).as_bytes())?)
+    atomic::write(&path, certificate::sealed(object).as_bytes())?;
+    Ok(true)
 }
 
 /// Checks the folder's, if it has one: that it is of this graph and of the first program, and that no path is heavier.

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::coverage::Coverage;
-use hairpin::campaign::report::{Shown, shown, worst_first};
+use hairpin::campaign::report::{ReportData, Shown, shown, worst_first};
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Run, Setup, Tally};
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin_formats::atomic;
 use hairpin_formats::report::Motions;
 
 use crate::Problem;
@@ -32,12 +33,12 @@ pub struct Reported {
 }
 
 /// Writes the `report.html` of the judged campaign in `folder`, with the cases of the numbers `asked` among those that
-/// open, and opened at the first of them.
+/// open, and opened at the first of them; and into the file `picture` top and side view of the case that it opens with.
 ///
 /// # Errors
 /// A campaign that is not judged, that has not such a case, or of whose worst case the run is not to be had any more; a
 /// file that cannot be read or written.
-pub fn report(folder: &Path, asked: &[usize]) -> Result<Reported, Problem> {
+pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<Reported, Problem> {
     let work = open_to_read(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let tally = work.folder.read_tally()?;
@@ -64,7 +65,12 @@ pub fn report(folder: &Path, asked: &[usize]) -> Result<Reported, Problem> {
     let assumptions = assumptions((&work, &told), &cases, &tally, (&moves, regression.as_ref()))?;
     // They are read again for what is shown of them.
     drop((cases, results));
-    write((&work, &told), &verdict, assumptions, regression.as_ref(), &asked)?;
+    let data = write((&work, &told), &verdict, assumptions, regression.as_ref(), &asked)?;
+    if let Some(file) = picture {
+        let drawn = hairpin_formats::report::picture(&data);
+        let drawn = drawn.ok_or_else(|| Problem::input("--picture: no case is there to be drawn"))?;
+        atomic::write(file, drawn.as_bytes())?;
+    }
     Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
 }
 
@@ -75,7 +81,7 @@ pub fn worst_in_full(work: &Work, cases: &[Case], results: &[CaseResult]) -> Opt
     let case = cases.iter().find(|case| case.number == worst.case)?;
     let run = run_with_motion(work, case, worst.run).ok().flatten()?;
     let planned = work.folder.read_planned(case.number).ok()?;
-    shown(&work.setup, case, worst, planned, Some(&run), &[]).ok()
+    shown(&work.setup, case, worst, planned, Some((&run).into()), &[]).ok()
 }
 
 /// Writes `report.html`.
@@ -88,7 +94,7 @@ pub(crate) fn write_report(
 ) -> Result<(), Problem> {
     let told = work.told()?;
     let assumptions = assumptions((work, &told), cases, tally, (moves, regression))?;
-    write((work, &told), verdict, assumptions, regression, &[])
+    write((work, &told), verdict, assumptions, regression, &[]).map(drop)
 }
 
 fn assumptions(
@@ -158,7 +164,7 @@ fn write(
     assumptions: Vec<String>,
     regression: Option<&Regression>,
     asked: &[CaseNumber],
-) -> Result<(), Problem> {
+) -> Result<ReportData, Problem> {
     let recorded = Recorded { work, asked, again: Cell::new(0), lost: Cell::new(0) };
     let mut data =
         hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &recorded, asked)
@@ -177,7 +183,8 @@ fn write(
     if data.shown.iter().any(level) {
         data.assumptions.push("The executor sent no attitudes: they are unknown, and drawn level.".into());
     }
-    Ok(hairpin_formats::report::write(&work.folder.file("report.html"), &data)?)
+    hairpin_formats::report::write(&work.folder.file("report.html"), &data)?;
+    Ok(data)
 }
 
 #[cfg(test)]
@@ -189,11 +196,14 @@ mod tests {
     #[test]
     fn what_is_not_judged_has_no_report() {
         let (_place, folder) = executed();
-        let refused = report(&folder, &[]).unwrap_err().to_string();
+        let refused = report(&folder, &[], None).unwrap_err().to_string();
         assert!(refused.starts_with("not judged yet"), "{refused}");
         let judged = judge(&folder, &[]).unwrap();
-        let reported = report(&folder, &[]).unwrap();
-        assert!(report(&folder, &[4711]).unwrap_err().to_string().contains("has no case 4711"));
+        let picture = folder.with_file_name("drawn.svg");
+        let reported = report(&folder, &[], Some(&picture)).unwrap();
+        let drawn = std::fs::read_to_string(picture).unwrap();
+        assert!(drawn.starts_with("<svg xmlns=") && drawn.contains("top view") && drawn.contains("deviation"));
+        assert!(report(&folder, &[4711], None).unwrap_err().to_string().contains("has no case 4711"));
         assert_eq!(reported.verdict, judged.judgement.verdict);
         assert!(reported.path.is_file() && reported.coverage.is_some());
     }

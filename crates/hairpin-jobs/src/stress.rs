@@ -120,7 +120,7 @@ pub fn stress_begun(
     replayed: Vec<Replayed>,
     watch: &dyn Watch,
 ) -> Result<Stressed, Problem> {
-    let (cases, mut tally) = find_cases(&work, budget.end_of_search(Part::Search), watch)?;
+    let (cases, mut tally) = find_cases(&work, budget.end_of_search(Part::Search), budget.end(Part::Search), watch)?;
     let cut = budget.cut_of_search(&work.setup.scenario, &cases, &tally);
     if cut != tally.cut {
         tally.cut = cut;

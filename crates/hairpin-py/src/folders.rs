@@ -169,7 +169,7 @@ pub(crate) fn report(
     asked: Vec<usize>,
     waiting: Waiting,
 ) -> PyResult<Bound<'_, PyAny>> {
-    let said = waiting.wait(py, |_| Ok(json!(hairpin_jobs::report::report(&folder, &asked)?.path)))?;
+    let said = waiting.wait(py, |_| Ok(json!(hairpin_jobs::report::report(&folder, &asked, None)?.path)))?;
     object(py, &said)
 }
 

@@ -26,6 +26,9 @@ pub(crate) struct Compare {
     /// Write a page with the runs of B over those of A, newly failing cases first
     #[arg(long, value_name = "FILE")]
     pub(crate) page: Option<PathBuf>,
+    /// Write a JUnit file: newly failing cases are failures, those that failed before are skipped
+    #[arg(long, value_name = "PATH")]
+    pub(crate) junit: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]
     pub(crate) json: bool,

@@ -49,6 +49,9 @@ pub(crate) struct Judge {
     /// Override one key of spec, or execute.log_clock of an arm's logs; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) sets: Vec<String>,
+    /// Of logs: write a page with what was planned, simulated and flown over each other
+    #[arg(long, value_name = "FILE")]
+    pub(crate) page: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) junit: Junit,
     /// One JSON object on stdout

@@ -251,6 +251,9 @@ pub(crate) struct ReportArguments {
     /// Have this case among those that open, and open the page at it; repeatable
     #[arg(long, value_name = "ID")]
     pub(crate) case: Vec<usize>,
+    /// Write top and side view of the case that it opens with, for papers and pages
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) picture: Option<PathBuf>,
     /// Open it in the browser
     #[arg(long)]
     pub(crate) open: bool,

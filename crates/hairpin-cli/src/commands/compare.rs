@@ -3,10 +3,11 @@
 use hairpin::campaign::Comparison;
 use hairpin::campaign::digits::number;
 use hairpin_jobs::Problem;
-use hairpin_jobs::compare::{Compared, compare, unpaired, write_page};
+use hairpin_jobs::compare::{Compared, compare, junit_text, unpaired, write_page};
 use hairpin_jobs::names::listed;
 use serde_json::json;
 
+use super::junit;
 use crate::args::{Compare, FailOn};
 use crate::console;
 use crate::exit::{DONE, FINDING, INCONCLUSIVE};
@@ -14,15 +15,21 @@ use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 /// Runs the command: 0, or 1 on newly failing cases and, where that was asked for, on regression; 5 where no pair could
 /// be compared.
 pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
-    let Compared { comparison: compared, differences } = compare(&asked.a, &asked.b, asked.tolerance_m)?;
-    let regression = asked.fail_on == FailOn::Regression && compared.regresses();
+    junit::check(asked.junit.as_deref())?;
+    let found = compare(&asked.a, &asked.b, asked.tolerance_m)?;
+    let Compared { comparison: compared, differences } = &found;
+    let of_metrics = asked.fail_on == FailOn::Regression;
+    let regression = of_metrics && compared.regresses();
     let code = match (compared.inconclusive(), !compared.newly_failing.is_empty() || regression) {
         (true, _) => INCONCLUSIVE,
         (false, true) => FINDING,
         (false, false) => DONE,
     };
     if let Some(file) = &asked.page {
-        write_page(&asked.a, &asked.b, &compared, file)?;
+        write_page(&asked.a, &asked.b, compared, file)?;
+    }
+    if let Some(file) = &asked.junit {
+        junit::write(file, junit_text(&asked.a, &asked.b, &found, of_metrics)?.as_bytes())?;
     }
     if asked.json {
         let mut object = json!(compared);
@@ -32,7 +39,7 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         object["scenario_differences"] = json!(differences);
         console::say(&object.to_string());
     } else {
-        in_words(&compared, &differences);
+        in_words(compared, differences);
     }
     Ok(code)
 }

@@ -1,36 +1,38 @@
 //! A case's deviation in two lines: evo's statistics, and its course as a row of bars.
 
-use hairpin::campaign::digits::number;
-use hairpin::campaign::report::Shown;
+use hairpin::campaign::digits::{limit as given, number};
+use hairpin::campaign::report::{Length, Shown};
 
 /// From nothing to the largest.
 const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 /// Bars of a row.
 const WIDTH: usize = 48;
 
-/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to `limit`.
-pub(super) fn course(shown: &Shown, limit: Option<f64>) -> Vec<String> {
+/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to `limit` (m), in
+/// the unit that the verdict has.
+pub(super) fn course(shown: &Shown, limit: Option<f64>, length: &Length) -> Vec<String> {
     let mut lines = Vec::new();
+    let Length { unit, in_metre } = *length;
     let result = &shown.result;
     if let Some(told) = &shown.statistics {
-        let value = |name: &str, value: f64, unit: &str| format!("{name} {} {unit}", number(Some(value)));
+        let value = |name: &str, value: f64| format!("{name} {} {unit}", number(Some(in_metre * value)));
         let values = [
-            value("max", told.max, "m"),
-            value("mean", told.mean, "m"),
-            value("median", told.median, "m"),
-            value("min", told.min, "m"),
-            value("rmse", told.rmse, "m"),
-            value("sse", told.sse, "m²"),
-            value("std", told.std, "m"),
+            value("max", told.max),
+            value("mean", told.mean),
+            value("median", told.median),
+            value("min", told.min),
+            value("rmse", told.rmse),
+            format!("sse {} {unit}²", number(Some(in_metre * in_metre * told.sse))),
+            value("std", told.std),
         ];
         lines.push(format!("case {}, run {}: {} (deviation, not aligned)", result.case, result.run, values.join(", ")));
     }
     let times = shown.flown.as_ref().map_or(&[][..], |track| track.times());
     if let (Some(row), [first, .., last]) = (bars(times, &shown.distances), times) {
-        let limit = limit.map_or(String::new(), |limit| format!(", limit {} m", number(Some(limit))));
+        let limit = limit.map_or(String::new(), |metres| format!(", limit {} {unit}", given(Some(in_metre * metres))));
         let span = format!("{} … {} s", number(Some(*first)), number(Some(*last)));
-        let most = shown.distances.iter().copied().fold(0.0, f64::max);
-        lines.push(format!("{row}  {span}, at most {} m{limit}", number(Some(most))));
+        let most = in_metre * shown.distances.iter().copied().fold(0.0, f64::max);
+        lines.push(format!("{row}  {span}, at most {} {unit}{limit}", number(Some(most))));
     }
     lines
 }

@@ -32,6 +32,12 @@ fn against(asked: &Judge) -> Result<Option<Against>, Problem> {
         (None, None) => None,
     };
     let of_logs = asked.world.is_some() || asked.source.is_some() || asked.from.is_some() || asked.to.is_some();
+    if against.is_none() && asked.page.is_some() && !asked.path.is_file() {
+        return Err(Problem::input(format!(
+            "--page is of logs; hairpin report {} writes a campaign's",
+            asked.path.display()
+        )));
+    }
     let named = asked.turn != 0.0 || asked.offset != [0.0; 3];
     if against.is_none() && (asked.path.is_file() || of_logs || named) {
         return Err(Problem::input(format!(

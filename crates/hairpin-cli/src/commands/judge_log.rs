@@ -34,6 +34,7 @@ pub(super) fn run(asked: &Judge, against: Against, watch: &dyn Watch) -> Result<
         source: asked.source.clone(),
         from_s: asked.from,
         to_s: asked.to,
+        page: asked.page.clone(),
     };
     let judged = judge_log(&settings, watch)?;
     if let Some(path) = asked.junit.path() {
@@ -61,6 +62,7 @@ fn junit_text(judged: &JudgedLogs) -> String {
                 _ => OutcomeKind::Open,
             },
             sentence: log.verdict.sentence.clone(),
+            more: Vec::new(),
         })
         .collect();
     let verdict = judged.count.iter().map(|count| ("verdict".to_owned(), count.sentence.clone()));

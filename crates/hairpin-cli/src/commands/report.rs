@@ -10,7 +10,7 @@ use crate::exit::DONE;
 
 /// Runs the command: 0 when the report is written, whatever the verdict in it.
 pub(crate) fn run(asked: &ReportArguments) -> Result<u8, Problem> {
-    let Reported { path, verdict, coverage } = report(&asked.folder, &asked.case)?;
+    let Reported { path, verdict, coverage } = report(&asked.folder, &asked.case, asked.picture.as_deref())?;
     if asked.json {
         let object = json!({ "verdict": verdict.sentence, "exit_code": DONE, "report": path, "coverage": coverage });
         console::say(&object.to_string());

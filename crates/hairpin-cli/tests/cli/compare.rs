@@ -32,6 +32,15 @@ fn two_folders_are_paired_by_case_and_seed() {
     let object = json(here, &["compare", "a", "b"]);
     assert_eq!((&object["exit_code"], names(&object, "newly_failing").len()), (&1.into(), 8), "{object}");
     assert!(object["verdict"].as_str().unwrap().starts_with("better 0, worse 0, newly failing 8; "), "{object}");
+    // For a build server: each newly failing case with both runs and the command that flies it again.
+    assert_eq!(run(here, &["compare", "a", "b", "--junit", "new/compare.xml"]).0, 1);
+    let junit = std::fs::read_to_string(here.join("new/compare.xml")).unwrap();
+    assert!(junit.contains("tests=\"8\" failures=\"8\" errors=\"0\"") && !junit.contains("<skipped"), "{junit}");
+    for words in
+        ["type=\"Regression\"", "\nB: fail, ", ">A: pass, largest deviation ", "\nagain: hairpin replay b --case 0003<"]
+    {
+        assert!(junit.contains(words), "{words}: {junit}");
+    }
     let back = json(here, &["compare", "b", "a"]);
     assert_eq!((&back["exit_code"], &back["newly_passing"]), (&0.into(), &object["newly_failing"]));
 
@@ -51,7 +60,13 @@ fn two_folders_are_paired_by_case_and_seed() {
     // All eight are worse: 2 / 2⁸.
     assert_eq!((&overshoot["rank_biserial"], &overshoot["p"]), (&1.0.into(), &0.0078125.into()));
     assert!(overshoot["interval"][0].as_f64().unwrap() <= overshoot["median_difference"].as_f64().unwrap());
-    assert_eq!(json(here, &["compare", "a", "b", "--fail-on", "regression"])["exit_code"], 1);
+    let worse = ["compare", "a", "b", "--fail-on", "regression", "--junit", "worse.xml"];
+    assert_eq!(json(here, &worse)["exit_code"], 1);
+    // What failed before is no failure; what got worse beyond chance is, as the exit code says.
+    let junit = std::fs::read_to_string(here.join("worse.xml")).unwrap();
+    let worse = metrics.iter().filter(|metric| metric["change"] == "worse").count();
+    assert!(junit.contains(&format!("tests=\"{}\" failures=\"{worse}\" errors=\"0\"", 8 + worse)), "{junit}");
+    assert!(junit.contains("regression of max_overshoot_m") && junit.matches("<skipped").count() == 8, "{junit}");
     assert_eq!(json(here, &["compare", "b", "a", "--fail-on", "regression"])["exit_code"], 0);
     assert_eq!(json(here, &["compare", "a", "b", "--tolerance-m", "1000"])["unchanged"], 8);
 }

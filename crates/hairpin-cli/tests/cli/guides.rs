@@ -17,23 +17,41 @@ const TOP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 pub(crate) fn run_page(page: &str) {
     let text = fs::read_to_string(Path::new(TOP).join("docs").join(page)).unwrap_or_else(|e| panic!("{page}: {e}"));
     let place = tempfile::tempdir().unwrap();
-    let bin = Path::new(env!("CARGO_BIN_EXE_hairpin")).parent().unwrap();
-    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
     let commands = commands(&text);
     assert!(!commands.is_empty(), "{page} has no commands");
     for line in commands {
-        let mut shell = Command::new("sh");
-        shell.args(["-e", "-c", &line]).current_dir(place.path()).env("PATH", &path).env("HAIRPIN_REPOSITORY", TOP);
-        shell.env("XDG_STATE_HOME", place.path().join(".state"));
-        let wanted = line.split_once("# ").map_or(0, |(_, comment)| exit_code(comment));
-        let (code, out, error) = told(&mut shell);
-        assert_eq!(code, wanted, "{page}: {line}\n{out}{error}");
-        assert!(!error.contains("hairpin's own"), "{page}: {line}\n{error}");
+        let said = run_line(page, place.path(), &line);
+        assert!(!said.contains("hairpin's own"), "{page}: {line}\n{said}");
+    }
+    // A picture that its commands make is what the page shows.
+    let shown = Path::new(TOP).join("docs").join(page);
+    for picture in links(&text).into_iter().filter(|link| link.ends_with(".svg")) {
+        let [made, shown] = [place.path().join(&picture), shown.with_file_name(&picture)]
+            .map(|file| fs::read_to_string(&file).unwrap_or_else(|e| panic!("{page}: {}: {e}", file.display())));
+        let new = Path::new(env!("CARGO_TARGET_TMPDIR")).join(&picture);
+        if made != shown {
+            fs::write(&new, made).unwrap();
+            panic!("{page}: {picture} is not what its commands make now, which is {}", new.display());
+        }
     }
 }
 
+/// Runs a line of a page as a shell does, in the folder `here`, and says what it said on both streams. The comment
+/// behind it names its exit code (`# exit code 1`, `# exit 1`), or it is 0.
+pub(crate) fn run_line(page: &str, here: &Path, line: &str) -> String {
+    let bin = Path::new(env!("CARGO_BIN_EXE_hairpin")).parent().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let mut shell = Command::new("sh");
+    shell.args(["-e", "-c", line]).current_dir(here).env("PATH", &path).env("HAIRPIN_REPOSITORY", TOP);
+    shell.env("XDG_STATE_HOME", here.join(".state"));
+    let wanted = line.split_once("# ").map_or(0, |(_, comment)| exit_code(comment));
+    let (code, out, error) = told(&mut shell);
+    assert_eq!(code, wanted, "{page}: {line}\n{out}{error}");
+    out + &error
+}
+
 fn exit_code(comment: &str) -> i32 {
-    let named = comment.split_once("exit code ").map(|(_, code)| code);
+    let named = ["exit code ", "exit "].iter().find_map(|word| Some(comment.split_once(word)?.1));
     named.and_then(|code| code.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()).unwrap_or(0)
 }
 

@@ -4,7 +4,6 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use hairpin::campaign::{Case, Setup, execute_run};
 use hairpin::math::random::{standard_normals, stream};
@@ -14,6 +13,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};
 
 use crate::fake_vehicle::{Px4, Row, joint_states, odometry, rows_of};
+use crate::guides::run_line;
 
 /// Where the reader's robot moves.
 const MOVES: &str = "<!-- the vehicle moves -->";
@@ -32,7 +32,7 @@ fn follow(name: &str, here: &Path, moves: &dyn Fn(&Path)) {
         let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
         match fence.split_once(' ').unwrap_or((fence, "")) {
             ("toml", file) => fs::write(here.join(file), block.join("\n") + "\n").unwrap(),
-            ("sh", _) => block.iter().for_each(|command| said = run(here, command)),
+            ("sh", _) => block.iter().for_each(|command| said = run_line(name, here, command)),
             ("text", _) => block.iter().for_each(|shown| {
                 let told = said.lines().any(|line| is_like(line.trim(), shown.trim()));
                 assert!(told, "{name} shows\n{shown}\nbut it said\n{said}");
@@ -41,47 +41,6 @@ fn follow(name: &str, here: &Path, moves: &dyn Fn(&Path)) {
         }
     }
     assert!(moved, "{name} moves nothing");
-}
-
-/// Runs a line of a page, and says what it said on both streams. `# exit N` behind it is its exit code, else 0.
-fn run(here: &Path, line: &str) -> String {
-    let (command, code) =
-        line.split_once("# exit ").map_or((line, 0), |(command, code)| (command, code.trim().parse().unwrap()));
-    let words = words(here, command);
-    assert_eq!(words[0], "hairpin", "{line}");
-    let mut process = Command::new(env!("CARGO_BIN_EXE_hairpin"));
-    process.current_dir(here).args(&words[1..]).env("XDG_STATE_HOME", here.join(".state"));
-    let output = process.output().unwrap();
-    let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    assert_eq!(output.status.code(), Some(code), "{line}\n{said}");
-    said
-}
-
-/// As a shell does: words between spaces, quoted ones whole, `*` in a file's name all that there are.
-fn words(here: &Path, command: &str) -> Vec<String> {
-    let (mut words, mut word, mut quote) = (Vec::new(), String::new(), None);
-    for c in command.trim().chars().chain([' ']) {
-        match (c, quote) {
-            (c, Some(open)) if c == open => quote = None,
-            ('\'' | '"', None) => quote = Some(c),
-            (' ', None) if word.is_empty() => {}
-            (' ', None) => words.push(std::mem::take(&mut word)),
-            (c, _) => word.push(c),
-        }
-    }
-    let all = |word: String| match word.split_once('*') {
-        Some((before, after)) if !before.contains('=') => {
-            let folder = Path::new(before.rsplit_once('/').map_or("", |(folder, _)| folder));
-            let names = fs::read_dir(here.join(folder)).unwrap().map(|entry| entry.unwrap().file_name());
-            let paths = names.map(|name| folder.join(name).to_string_lossy().into_owned());
-            let mut found: Vec<String> =
-                paths.filter(|path| path.starts_with(before) && path.ends_with(after)).collect();
-            found.sort();
-            found
-        }
-        _ => vec![word],
-    };
-    words.into_iter().flat_map(all).collect()
 }
 
 /// Whether `line` is what a page shows, where `…` is anything.
@@ -99,15 +58,7 @@ fn is_like(line: &str, shown: &str) -> bool {
 }
 
 #[test]
-fn pages_are_read_as_a_shell_and_a_reader_do() {
-    let here = tempfile::tempdir().unwrap();
-    for name in ["a.ulg", "b.ulg", "c.txt"] {
-        fs::write(here.path().join(name), "").unwrap();
-    }
-    assert_eq!(
-        words(here.path(), "hairpin fit *.ulg --set 'robot=\"x y\"'"),
-        ["hairpin", "fit", "a.ulg", "b.ulg", "--set", "robot=\"x y\""]
-    );
+fn pages_are_read_as_a_reader_does() {
     assert!(is_like("FAIL 1/2: 0.3 m > 0.2 m", "FAIL …: … m > 0.2 m") && is_like("a", "a") && is_like("ab", "a…"));
     assert!(!is_like("FAIL 1/2: 0.3 m > 0.25 m", "FAIL …: … m > 0.2 m") && !is_like("ab", "a") && !is_like("b", "a…"));
 }

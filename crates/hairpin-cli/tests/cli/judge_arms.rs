@@ -73,7 +73,9 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     assert_eq!(code, 0, "{out}{error}");
     let whole = json(here, &["judge", "hardware"]);
     assert!(whole["verdict"].as_str().unwrap().starts_with("PASS 2/2 (hardware"), "{whole}");
-    let both = json(here, &["judge", "logs", "--campaign", "out"]);
+    let both = json(here, &["judge", "logs", "--campaign", "out", "--page", "logs.html"]);
+    let page = fs::read_to_string(here.join("logs.html")).unwrap();
+    assert!(page.contains("\"unit\":\"mm\"") && page.contains("<h2>Logs, the worst first</h2>"), "a page of programs");
     let worst = both["logs"].as_array().unwrap().iter().map(|log| number(&log["measures"]["max_deviation_m"]));
     close(worst.fold(0.0, f64::max), number(&whole["worst"]["max_deviation_m"]), 1e-5);
 

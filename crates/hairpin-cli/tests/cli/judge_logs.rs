@@ -3,7 +3,32 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::commands::{SMALL, json, refused, run};
+use serde_json::{Value, json};
+
+use crate::commands::{self, SMALL, refused, run};
+
+/// What the script of a page draws.
+fn page_data(page: &Path) -> Value {
+    let text = fs::read_to_string(page).unwrap();
+    let (_, data) = text.split_once("id=\"data\">").unwrap();
+    serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()
+}
+
+/// The first number of a column of a page: offset, scale, and base64 of 16-bit numbers.
+fn first(column: &Value) -> f64 {
+    let digit = |c: u8| {
+        u32::from(match c {
+            b'A'..=b'Z' => c - b'A',
+            b'a'..=b'z' => c - b'a' + 26,
+            b'0'..=b'9' => c - b'0' + 52,
+            b'+' => 62,
+            _ => 63,
+        })
+    };
+    let bits = column[2].as_str().unwrap().bytes().take(3).fold(0, |bits, c| bits << 6 | digit(c));
+    let low_first = (bits >> 10 & 255) + 256 * (bits >> 2 & 255);
+    column[0].as_f64().unwrap() + column[1].as_f64().unwrap() * f64::from(low_first)
+}
 
 /// A file that `export` wrote, wherever it keeps them.
 fn exported(out: &Path, name: &str) -> PathBuf {
@@ -26,7 +51,7 @@ fn an_exported_flight_is_judged_as_the_campaign_judged_it() {
     for case in ["0000", "0001", "0002", "0003"] {
         let csv = exported(&out, &format!("{case}-0.csv"));
         let csv = csv.to_string_lossy();
-        let found = json(here, &["judge", &csv, "--campaign", "out"]);
+        let found = commands::json(here, &["judge", &csv, "--campaign", "out"]);
         let log = &found["logs"][0];
         assert_eq!(log["case"], case, "{log}");
         assert_eq!((log["legs_by"].as_str(), log["evidence"].as_str()), (Some("count"), Some("flown")));
@@ -35,7 +60,7 @@ fn an_exported_flight_is_judged_as_the_campaign_judged_it() {
         assert!((flown - simulated).abs() < 2e-4 && (of(&log["gap_m"])).abs() < 2e-4, "{flown} {simulated}");
         // As poses alone, legs are assigned: nearly the same, and by the same case.
         let tum = exported(&out, &format!("{case}.exec.tum"));
-        let found = json(here, &["judge", &tum.to_string_lossy(), "--campaign", "out"]);
+        let found = commands::json(here, &["judge", &tum.to_string_lossy(), "--campaign", "out"]);
         let log = &found["logs"][0];
         assert_eq!((&log["case"], log["legs_by"].as_str()), (&case.into(), Some("assigned")), "{log}");
         let assigned = of(&log["measures"]["max_deviation_m"]);
@@ -54,8 +79,20 @@ fn words_and_codes_of_logs() {
         fs::copy(exported(&out, &format!("{case}-0.csv")), here.join(format!("logs/{case}.csv"))).unwrap();
     }
     let lax = ["--campaign", "out", "--set", "spec.deviation.max_m=50"];
-    let (code, said, error) = run(here, &[&["judge", "logs/0001.csv"][..], &lax].concat());
+    let (code, said, error) = run(here, &[&["judge", "logs/0001.csv", "--page", "log.html"][..], &lax].concat());
     assert_eq!(code, 0, "{said}{error}");
+    // Its page: planned, simulated, flown. Runs are on the page's data as they are on a report's.
+    let page = page_data(&here.join("log.html"));
+    assert_eq!((&page["beside"], &page["ids"], &page["metrics"]), (&"simulated".into(), &json!(["0001"]), &json!([])));
+    let case = &page["cases"][0];
+    assert!(case["planned"]["t"].is_array() && case["flown"]["d"].is_array(), "{case}");
+    assert_eq!(case["runs"].as_array().unwrap().len(), 1, "the run of the campaign: {case}");
+    let text = fs::read_to_string(here.join("log.html")).unwrap();
+    for words in ["<h2>Log <span", "largest deviation, simulated", "its plan: ", "first judged moment", "<td>–</td>"]
+    {
+        assert!(text.contains(words), "{words}");
+    }
+    assert!(!text.contains("id=\"commands\""), "a log has no case to replay");
     for words in [
         "not aligned, in space or in time",
         "case: matched to case 0001 (mean ",
@@ -70,8 +107,14 @@ fn words_and_codes_of_logs() {
     }
     let scenario = fs::read_to_string(out.join("scenario.toml")).unwrap();
     let strict = ["judge", "logs", "--campaign", "out", "--set", "spec.deviation.max_m=0.001", "--junit", "logs.xml"];
-    let (code, said, _) = run(here, &strict);
+    let (code, said, _) = run(here, &[&strict[..], &["--page", "logs.html"]].concat());
     assert_eq!(code, 1, "{said}");
+    let page = page_data(&here.join("logs.html"));
+    assert_eq!(page["status"], json!(["fail", "fail"]));
+    let mut names: Vec<&str> = page["ids"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["0001.csv", "0002.csv"]);
+    assert!(page["metrics"][0]["random"].is_array(), "the same cases in simulation: {}", page["metrics"][0]);
     let junit = fs::read_to_string(here.join("logs.xml")).unwrap();
     assert!(junit.contains("tests=\"2\" failures=\"2\"") && junit.contains("FAIL 0001 (flown, 0001.csv"), "{junit}");
     assert!(said.lines().last().unwrap().starts_with("FAIL 2/2 (flown, logs, 2 logs): 2 in violation"), "{said}");
@@ -100,6 +143,7 @@ fn words_and_codes_of_logs() {
     // What is missing is asked for.
     refused(here, &["judge", "logs/0001.csv"], &["--campaign OUT", "--mission M"]);
     refused(here, &["judge", "out", "--campaign", "out"], &["a campaign's folder"]);
+    refused(here, &["judge", "out", "--page", "p.html"], &["hairpin report out"]);
     refused(here, &["judge", "logs/0001.csv", "--campaign", "out", "--case", "0017"], &["no such case"]);
     refused(here, &["judge", "logs/0001.csv", "--campaign", "out", "--set", "task.length=3"], &["only spec"]);
     refused(here, &["judge", "none.csv", "--campaign", "out"], &["none.csv"]);
@@ -143,6 +187,15 @@ fn two_cases_that_are_alike_are_asked_about() {
     // The one mission alone, by a robot's name.
     let arguments =
         ["judge", "log.csv", "--mission", "twice/a.csv", "--robot", "anafi", "--set", "spec.deviation.max_m=50"];
-    let (code, said, error) = run(here, &arguments);
+    let (code, said, error) = run(here, &[&arguments[..], &["--page", "a.html"]].concat());
     assert!(code == 0 && said.contains("PASS a (flown, log.csv") && error.contains("no --world"), "{said}{error}");
+    // Without a world it is planned and simulated in the open, and drawn where the log is.
+    let page = page_data(&here.join("a.html"));
+    let (case, begins) = (&page["cases"][0], |motion: &Value| ["x", "y", "z"].map(|axis| first(&motion[axis])));
+    assert_eq!((case["runs"].as_array().unwrap().len(), &page["obstacles"]), (1, &json!([])));
+    let start = begins(&case["flown"]);
+    for motion in [&case["planned"], &case["runs"][0]] {
+        let off: f64 = begins(motion).iter().zip(start).map(|(a, b)| (a - b).powi(2)).sum();
+        assert!(off.sqrt() < 0.05, "{:?} {start:?}", begins(motion));
+    }
 }

@@ -8,9 +8,9 @@ use hairpin::campaign::learn::NAME;
 use super::names::{ALL_RUNS, EXPORT};
 use super::parts::{EXECUTIONS, PROFILES, PROGRAMS, RERUN_FACTS, RERUNS, TRAJECTORIES};
 use super::{
-    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, EXECUTOR, FOLDERS, FolderError, GENERATION, INFLUENCE, LOG,
-    List, MISSIONS, MOVES, OPTIMUM, RESULTS, RUNS, SEARCHED, WAYPOINTS, earlier_exports, entries, exports,
-    exports_of_runs, stands_for,
+    ARCS, BEST_SO_FAR, BY_CHANCE, COVERAGE, CampaignFolder, EXECUTED, EXECUTOR, FOLDERS, FolderError, GENERATION,
+    INFLUENCE, LOG, List, MISSIONS, MOVES, OPTIMUM, RESULTS, RUNS, SEARCHED, WAYPOINTS, earlier_exports, entries,
+    exports, exports_of_runs, stands_for,
 };
 use crate::atomic::{self, WriteError};
 
@@ -58,6 +58,7 @@ impl CampaignFolder {
             WAYPOINTS,
             GENERATION,
             BEST_SO_FAR,
+            EXECUTED,
             "junit.xml",
             "report.html",
         ];
@@ -80,7 +81,7 @@ impl CampaignFolder {
         self.remove_one(SEARCHED)
     }
 
-    fn remove_one(&self, name: &str) -> Result<(), FolderError> {
+    pub(super) fn remove_one(&self, name: &str) -> Result<(), FolderError> {
         let ours = List::read(&self.path)?.unwrap_or_default();
         let path = self.file(name);
         match if ours.names(name) { fs::remove_file(&path) } else { Ok(()) } {

@@ -13,6 +13,7 @@
 //! | `executions/` | flights: poses, velocities, rotor speeds, the rows where they bend |
 //! | `runs/` | one row per flight: why it ended, when waypoints were reached, what was measured, drawn values |
 //! | `best-so-far.tsv` | of searches that execute: where the largest stress of a graph rose as executions went on |
+//! | `executed.tsv` | of a search that was stopped: what it executed, so that going on does not do it again |
 //! | `score-model.json` | the model of a learned score; of an adaptive campaign what it learned itself |
 //! | `searched.parquet` | beside missions made elsewhere: what a search found, likewise; not judged |
 //! | `missions.json` | of missions made elsewhere: file, frame, what their check said |
@@ -44,6 +45,7 @@ mod content;
 mod copy;
 mod division;
 mod error;
+mod executed;
 mod executor;
 mod forget;
 mod graph;
@@ -80,8 +82,8 @@ pub use names::{
     ARCS, BASELINE, BEST_SO_FAR, BY_CHANCE, GRAPH, MISSIONS, MOVES, OPTIMUM, PART, PLAN, REASONS, SEARCHED,
 };
 use names::{
-    COVERAGE, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports, exports,
-    exports_of_runs, stands_for,
+    COVERAGE, EXECUTED, EXECUTOR, EXPORT, GENERATION, INFLUENCE, LIST, LOG, RESULTS, RUNS, WAYPOINTS, earlier_exports,
+    exports, exports_of_runs, stands_for,
 };
 pub(crate) use names::{SCENARIO, is_of_a_motion, is_written_to};
 

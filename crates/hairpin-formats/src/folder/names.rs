@@ -34,6 +34,8 @@ pub const PLAN: &str = "plan.json";
 pub(super) const PARTS: &str = "parts";
 /// What one of them says of itself.
 pub const PART: &str = "part.json";
+/// What the executions of a search came to that was stopped.
+pub(super) const EXECUTED: &str = "executed.tsv";
 pub(super) const COVERAGE: [&str; 2] = ["coverage.json", "coverage.tsv"];
 
 /// What the program of the user's that executed says of itself.
@@ -62,6 +64,7 @@ pub(super) const OURS: &[&str] = &[
     MISSIONS,
     BEST_SO_FAR,
     PLAN,
+    EXECUTED,
     COVERAGE[0],
     COVERAGE[1],
     hairpin::campaign::learn::NAME,

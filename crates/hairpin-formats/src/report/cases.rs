@@ -23,9 +23,12 @@ pub(super) fn section(data: &ReportData) -> String {
         0 => "Each opens above.".to_owned(),
         _ => format!("{} of them open above; the command of the others makes a report with them.", data.shown.len()),
     };
+    let (what, row) = match data.logs.is_empty() {
+        true => ("Cases, the worst first", "Each row is a case's worst run."),
+        false => ("Logs, the worst first", "Each row is a log."),
+    };
     format!(
-        "<section class=\"panel\" id=\"cases\"><h2>Cases, the worst first</h2><p class=\"note\">Each row is a case's worst \
-         run. {open}{more}</p>\
+        "<section class=\"panel\" id=\"cases\"><h2>{what}</h2><p class=\"note\">{row} {open}{more}</p>\
          <p id=\"chosen\" hidden><span id=\"chosen-words\"></span> <button type=\"button\" id=\"all-cases\">all cases</button></p>\
          <div class=\"scroll\"><table class=\"cases\"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div></section>"
     )
@@ -33,7 +36,8 @@ pub(super) fn section(data: &ReportData) -> String {
 
 fn row(data: &ReportData, result: &CaseResult) -> String {
     let shown = data.shown.iter().find(|shown| shown.result.case == result.case);
-    let cells = cells_in(&data.length, result);
+    let mut cells = cells_in(&data.length, result);
+    cells[0] = data.name(result.case);
     let text: String = cells
         .iter()
         .enumerate()
@@ -50,5 +54,6 @@ fn row(data: &ReportData, result: &CaseResult) -> String {
     let finding = result.violations.first().map_or("–".into(), violation);
     let class = if shown.is_some() { " class=\"shown\"" } else { "" };
     let claim = data.claims.get(&result.case).map_or("–", String::as_str);
-    format!("<tr{class} data-case=\"{}\">{text}<td>{}</td><td>{}</td></tr>", cells[0], escape(&finding), escape(claim))
+    let id = escape(&cells[0]);
+    format!("<tr{class} data-case=\"{id}\">{text}<td>{}</td><td>{}</td></tr>", escape(&finding), escape(claim))
 }

@@ -36,17 +36,25 @@ pub(super) fn json(data: &ReportData) -> String {
         "obstacles": obstacles,
         "robot": data.drawing.figure.as_ref().map(robot),
         "beside": data.beside.runs,
+        "folder": data.folder,
         "unit": data.length.unit,
         "done": if data.drawing.relief.is_some() { "driven" } else { "flown" },
+        "digits": digits(data),
         "limit": data.deviation_limit.map(|limit| tidy(data.length.in_metre * limit)),
         "open": data.shown.iter().position(|shown| Some(shown.result.case) == data.opens).unwrap_or_default(),
-        "ids": data.results.iter().map(|result| result.case.to_string()).collect::<Vec<_>>(),
+        "ids": data.results.iter().map(|result| data.name(result.case)).collect::<Vec<_>>(),
         "status": data.results.iter().map(|result| result.status.word()).collect::<Vec<_>>(),
         "metrics": data.metrics.iter().map(metric).collect::<Vec<_>>(),
         "draws": draws(data),
-        "cases": data.shown.iter().map(|shown| case(shown, samples, &data.length, &mut others)).collect::<Vec<_>>(),
+        "cases": data.shown.iter().map(|shown| case(data, shown, samples, &mut others)).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
+}
+
+/// Decimals that deviations are told with: two, or as many as their limit was given with.
+fn digits(data: &ReportData) -> usize {
+    let limit = data.deviation_limit.map_or(0.0, |limit| tidy(data.length.in_metre * limit)).to_string();
+    limit.split_once('.').map_or(0, |(_, decimals)| decimals.len()).clamp(2, 5)
 }
 
 /// The ground; holes are nothing.
@@ -93,17 +101,22 @@ fn draws(data: &ReportData) -> Vec<Value> {
     columns.into_iter().map(|(name, values)| json!({ "name": name, "values": column(values) })).collect()
 }
 
-fn case(shown: &Shown, samples: usize, length: &Length, others: &mut usize) -> Value {
+fn case(data: &ReportData, shown: &Shown, samples: usize, others: &mut usize) -> Value {
+    let length = &data.length;
     // Balls and boxes: few triangles each, and those of the world do not count here.
     let mut left = TRIANGLES;
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 3), round(p.y, 3), round(p.z, 3)]).collect();
     let kept = thin(shown.planned.len(), samples / PLANNED, &[]);
-    let planned = motion(&shown.planned, &kept, turns(&shown.planned), &[]);
+    // What the figure is posed by: of arms the joints.
+    let joints = (1..=6).map(|axis| format!("q{axis}_rad")).filter(|name| shown.planned.channel(name).is_some());
+    let joints: Vec<String> = joints.collect();
+    let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+    let planned = motion(&shown.planned, &kept, turns(&shown.planned), &joints);
     let runs: Vec<&OtherRun> = shown.others.iter().take(*others).collect();
     *others -= runs.len();
     let moment = shown.moment.as_ref();
     json!({
-        "id": shown.result.case.to_string(),
+        "id": data.name(shown.result.case),
         "status": shown.result.status.word(),
         "fails": shown.result.status == Status::Fail,
         "run": shown.result.run,

@@ -61,7 +61,7 @@ fn page(card: &DayCard, index: usize, flight: &FlightCard) -> String {
         title = escape(&card.title),
         number = index + 1,
         of = card.flights.len(),
-        views = views(shown, drawing),
+        views = views(shown, &format!("case {}", shown.result.case), drawing),
         abort = list(&card.abort),
         told = list(&card.told),
     )

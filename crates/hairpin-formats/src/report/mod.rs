@@ -18,9 +18,11 @@ mod spread;
 mod svg;
 mod worst;
 
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
-use hairpin::campaign::report::{self, Pieces, ReportData, shown, worst_first};
+use hairpin::campaign::report::{self, Drawn, Pieces, ReportData, shown, worst_first};
+use hairpin::campaign::select::{By, Candidate, Choice};
 use hairpin::campaign::{Baseline, Case, CaseNumber, CaseResult, Run, Setup, Tally};
 use hairpin::judgement::{JudgementError, Verdict};
 use thiserror::Error;
@@ -31,9 +33,10 @@ use crate::header::Header;
 
 pub use day_card::{DayCard, FlightCard, day_card_html};
 pub use page::html;
+pub use worst::picture;
 
-/// Cases that open at most: the file stays below 8 MB. Of more than that the worst, and the others evenly over what is
-/// left, from bad to good.
+/// Cases that open at most: the file stays below 8 MB. Of more than that the worst, and of the others the most
+/// different.
 pub const SHOWN: usize = 200;
 /// Of more cases, so many of the worst.
 const WORST: usize = 150;
@@ -92,7 +95,7 @@ pub fn from_folder(
     // Older parts of the folder may have been deleted by hand: the tally only adds two numbers.
     let tally = folder.read_tally().unwrap_or_else(|_| Tally { solved: cases.len() as u64, ..Tally::default() });
     let mut in_full = Vec::new();
-    for result in chosen(worst_first(&results), asked) {
+    for result in chosen(worst_first(&results), &cases, asked) {
         let Some(case) = cases.iter().find(|case| case.number == result.case) else { continue };
         // What is followed is planned from its witness, as the judge does it.
         let mut case = case.clone();
@@ -104,14 +107,14 @@ pub fn from_folder(
             _ => motions.kept(case.number).map_err(ReportError::Run)?,
         };
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
-        in_full.push(shown(setup, &case, result, planned, run.as_ref(), &others).map_err(flight)?);
+        in_full.push(shown(setup, &case, result, planned, run.as_ref().map(Drawn::from), &others).map_err(flight)?);
     }
     let (baseline, scenario) = (folder.read_baseline()?, &setup.scenario);
     let pieces = Pieces {
         setup,
         cases: &cases,
         results: &results,
-        tally: &tally,
+        tally: Some(&tally),
         verdict,
         assumptions,
         shown: in_full,
@@ -127,20 +130,28 @@ pub fn from_folder(
     Ok(report::assemble(pieces))
 }
 
-/// The cases that open: all, or of too many the worst and the others from bad to good, with what was asked for.
-fn chosen<'a>(ordered: Vec<&'a CaseResult>, asked: &[CaseNumber]) -> Vec<&'a CaseResult> {
+/// The cases that open: all, or of too many what was asked for, the worst, and of the others those that are the most
+/// different from each other, as `select` measures it.
+fn chosen<'a>(ordered: Vec<&'a CaseResult>, cases: &[Case], asked: &[CaseNumber]) -> Vec<&'a CaseResult> {
     if ordered.len() <= SHOWN {
         return ordered;
     }
-    let is_asked = |result: &&CaseResult| asked.contains(&result.case);
-    let mut found: Vec<&CaseResult> = ordered.iter().copied().filter(is_asked).take(SHOWN).collect();
-    let worst = WORST.min(SHOWN - found.len());
-    found.extend(ordered[..worst].iter().copied().filter(|result| !is_asked(result)));
-    let rest = &ordered[worst..];
-    let places = SHOWN.saturating_sub(found.len());
-    // The last of them is the best case.
-    let evenly = (1..=places).filter_map(|i| rest.get((i * rest.len() / places).saturating_sub(1)).copied());
-    found.extend(evenly.filter(|result| !is_asked(result)));
+    let (mut found, mut others): (Vec<&CaseResult>, Vec<&CaseResult>) =
+        ordered.into_iter().partition(|result| asked.contains(&result.case));
+    found.truncate(SHOWN);
+    let rest = others.split_off(WORST.min(SHOWN - found.len()).min(others.len()));
+    found.extend(others);
+    let by_number: HashMap<CaseNumber, &Case> = cases.iter().map(|case| (case.number, case)).collect();
+    // All are as stressful as each other: how far they are apart decides alone.
+    let candidate = |result: &CaseResult| {
+        let mut candidate = Candidate::new(by_number.get(&result.case)?, Some(result), BTreeSet::new());
+        candidate.stress = 0.0;
+        Some(candidate)
+    };
+    let (rest, candidates): (Vec<&CaseResult>, Vec<Candidate>) =
+        rest.into_iter().filter_map(|result| Some((result, candidate(result)?))).unzip();
+    let places = Choice::new(&candidates).best(SHOWN - found.len(), By::Diverse);
+    found.extend(places.into_iter().map(|place| rest[place]));
     found
 }
 
@@ -150,4 +161,35 @@ fn chosen<'a>(ordered: Vec<&'a CaseResult>, asked: &[CaseNumber]) -> Vec<&'a Cas
 /// The file cannot be written.
 pub fn write(path: &Path, data: &ReportData) -> Result<(), WriteError> {
     atomic::write(path, html(data).as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use hairpin::campaign::Undone;
+    use nalgebra::Point3;
+
+    use super::*;
+
+    #[test]
+    fn of_many_cases_the_worst_open_what_is_asked_for_and_what_is_unlike_the_rest() {
+        // Near copies of one way, but for seven of the good ones.
+        let unlike = 230..237;
+        let way = |number: usize| {
+            let far = if unlike.contains(&number) { 10.0 * (number - 225) as f64 } else { 1e-6 * number as f64 };
+            vec![Point3::origin(), Point3::new(5.0, far, 0.0), Point3::new(10.0, 0.0, 0.0)]
+        };
+        let cases: Vec<Case> = (0..300).map(|n| Case::bare(CaseNumber(n), 0, way(n))).collect();
+        let results: Vec<CaseResult> =
+            (0..300).map(|n| CaseResult::undone(CaseNumber(n), Undone::NotExecuted)).collect();
+        let open = |asked: &[CaseNumber]| {
+            let found = chosen(worst_first(&results), &cases, asked);
+            found.iter().map(|result| result.case.0).collect::<Vec<usize>>()
+        };
+        let found = open(&[CaseNumber(299)]);
+        assert!(found[0] == 299 && found[1..=WORST].iter().copied().eq(0..WORST), "{found:?}");
+        assert!(unlike.clone().all(|n| found.contains(&n)), "{found:?}");
+        assert_eq!((found.len(), found.iter().collect::<BTreeSet<_>>().len()), (SHOWN, SHOWN));
+        let all: Vec<CaseNumber> = (0..250).map(CaseNumber).collect();
+        assert_eq!(open(&all).len(), SHOWN);
+    }
 }

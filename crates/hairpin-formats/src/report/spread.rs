@@ -49,12 +49,13 @@ pub(super) fn distributions(data: &ReportData) -> String {
     let across = choice(&names, &drawn, 1.min(names.len() - 1));
     let upward = choice(&names, &drawn, 0);
     format!(
-        "<section class=\"panel\" id=\"distributions\"><h2>Over all cases</h2>\
+        "<section class=\"panel\" id=\"distributions\"><h2>Over all {}</h2>\
          <div class=\"js\"><p class=\"note\">Share of cases over a limit of the deviation{random}.</p><div id=\"share\" class=\"plot\"></div>\
          <p class=\"note\">One value per case; a bar chooses its cases in the table.{beside}</p><div id=\"spread\"></div>\
          <p class=\"tools\"><label>across <select id=\"across\">{across}</select></label> <label>upward <select id=\"upward\">{upward}</select></label> \
          <span class=\"note\">a dot is a case (a square violates) and opens it</span></p><div id=\"scatter\" class=\"plot\"></div></div>\
-         <div class=\"scroll\"><table class=\"spread\"><thead>{head}</thead><tbody>{rows}</tbody></table></div></section>"
+         <div class=\"scroll\"><table class=\"spread\"><thead>{head}</thead><tbody>{rows}</tbody></table></div></section>",
+        if data.logs.is_empty() { "cases" } else { "logs" }
     )
 }
 

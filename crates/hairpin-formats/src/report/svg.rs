@@ -18,17 +18,13 @@ const GAP: f64 = 56.0;
 /// Points of a path that are drawn at most.
 const POINTS: usize = 250;
 
-/// Top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
-pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
-    let size = drawing.size;
-    let scale = SIDE / size.max();
+/// Of what is called `name`: top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
+pub(super) fn views(shown: &Shown, name: &str, drawing: &Drawing) -> String {
+    let Layout { scale, width, top, side, height, full, tall } = Layout::of(drawing);
     let low = drawing.low;
-    let (width, top, side) = (size.x * scale, size.y * scale, size.z * scale);
-    let height = top.max(side);
-    let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
     let mut svg = format!(
-        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of case {}\">",
-        shown.result.case
+        "<svg class=\"views\" viewBox=\"0 0 {full:.0} {tall:.0}\" role=\"img\" aria-label=\"Top and side view of {}\">",
+        name
     );
     let at = |x0: f64, across: usize, up: usize, span: f64| View {
         x0,
@@ -44,6 +40,65 @@ pub(super) fn views(shown: &Shown, drawing: &Drawing) -> String {
     view(&mut svg, shown, drawing, &at(MARGIN + width + GAP, 0, 2, side), "side");
     svg.push_str("</svg>");
     svg
+}
+
+/// Where the two views are, in the SVG's own units.
+struct Layout {
+    scale: f64,
+    width: f64,
+    top: f64,
+    side: f64,
+    height: f64,
+    full: f64,
+    tall: f64,
+}
+
+impl Layout {
+    fn of(drawing: &Drawing) -> Self {
+        let size = drawing.size;
+        let scale = SIDE / size.max();
+        let (width, top, side) = (size.x * scale, size.y * scale, size.z * scale);
+        let height = top.max(side);
+        let (full, tall) = (2.0 * width + 2.0 * MARGIN + GAP, height + 2.0 * MARGIN);
+        Self { scale, width, top, side, height, full, tall }
+    }
+}
+
+/// What the page's style says of the views, for a file of their own: ink on paper.
+const STYLE: &str = "text{font:12px system-ui,'DejaVu Sans',sans-serif;fill:#1b2733}.tick,.axis{fill:#5b6b7a;font-size:11px}\
+    .number{font-size:11px;font-weight:650}.title{font-size:14px;font-weight:650}.cage{fill:#fafbfc;stroke:#c3ced8}\
+    .obstacle{fill:#9aa7b3;fill-opacity:.5;stroke:#9aa7b3}.legs{fill:none;stroke:#9aa7b3;stroke-dasharray:2 4}\
+    .planned{fill:none;stroke:#0b6ea8;stroke-width:1.6;stroke-dasharray:7 4}\
+    .flown{fill:none;stroke:#b5400d;stroke-width:2;stroke-linejoin:round}.worst{fill:none;stroke:#1b2733;stroke-width:2}\
+    .waypoint{fill:#1b2733}";
+/// Room for the words above and below the views.
+const WORDS: f64 = 30.0;
+
+/// A file with both views of what is called `name`, and in words what is seen.
+pub(super) fn picture(shown: &Shown, name: &str, told: [&str; 2], drawing: &Drawing) -> String {
+    let Layout { full, tall, .. } = Layout::of(drawing);
+    let [title, done] = told;
+    let height = tall + 2.0 * WORDS;
+    let inner = views(shown, name, drawing).replacen(
+        "<svg ",
+        &format!("<svg x=\"0\" y=\"{WORDS}\" width=\"{full:.0}\" height=\"{tall:.0}\" "),
+        1,
+    );
+    let below = tall + WORDS + 8.0;
+    let (left, second, third) = (MARGIN, MARGIN + 110.0, MARGIN + 230.0);
+    let y = below - 4.0;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {full:.0} {height:.0}\" width=\"{full:.0}\" height=\"{height:.0}\">\
+         <title>{title}</title><style>{STYLE}</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{ground}\
+         <text class=\"title\" x=\"{left}\" y=\"24\">{title}</text>{inner}\
+         <path class=\"flown\" d=\"M{left} {y}h24\"/><text x=\"{a}\" y=\"{below}\">{done}</text>\
+         <path class=\"planned\" d=\"M{second} {y}h24\"/><text x=\"{b}\" y=\"{below}\">planned</text>\
+         <circle class=\"worst\" cx=\"{third}\" cy=\"{y}\" r=\"6\"/><text x=\"{c}\" y=\"{below}\">worst moment; not aligned</text></svg>\n",
+        a = left + 30.0,
+        b = second + 30.0,
+        c = third + 14.0,
+        ground = ground(drawing),
+    )
 }
 
 /// Side of the ground's picture, in its own units.

@@ -18,24 +18,32 @@ pub(super) fn section(data: &ReportData) -> String {
     let open = data.shown.iter().find(|shown| Some(shown.result.case) == data.opens).unwrap_or(worst);
     let about: String = data.shown.iter().enumerate().map(|(i, shown)| findings(data, shown, i)).collect();
     let views: String = data.shown.iter().take(DRAWN).map(|shown| figure(data, shown)).collect();
-    let id = open.result.case.to_string();
+    let id = escape(&data.name(open.result.case));
+    let is_of_logs = !data.logs.is_empty();
     let heights = if data.drawing.relief.is_some() { HEIGHTS } else { "<select id=\"high\" hidden></select>" };
     format!(
-        "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>Case <span id=\"case-id\">{id}</span> \
+        "<section class=\"panel\" id=\"flight\"><div class=\"head\"><h2>{what} <span id=\"case-id\">{id}</span> \
          <span id=\"case-status\" class=\"status {status}\">{status}</span></h2>\
-         <div class=\"pick js\"><button type=\"button\" id=\"before\" aria-label=\"one case less bad\">‹</button>\
+         <div class=\"pick js\"><button type=\"button\" id=\"before\" aria-label=\"previous case\">‹</button>\
          <label for=\"pick\">worst first</label><select id=\"pick\">{}</select>\
          <button type=\"button\" id=\"after\" aria-label=\"next case\">›</button></div></div>\
          <div class=\"js\"><p id=\"told\" class=\"told\"></p>{PICTURE}{legend}\
          <div class=\"tools\">{TOOLS}{heights}<button type=\"button\" id=\"png\">PNG</button></div>\
          <p class=\"note\" id=\"drawn-how\"></p>{KEYS}</div>{about}\
-         <div class=\"js\"><div class=\"tools\" id=\"commands\">{COMMANDS}</div><code id=\"command\"></code> \
+         <div class=\"js\">{commands}<code id=\"command\"></code> \
          <span id=\"copied\" class=\"note\" role=\"status\"></span>\
          <div id=\"series\" class=\"plot\"></div></div>\
-         <p class=\"notice\">Tracks are <b>not aligned</b>: planned and flown positions stand in one frame and on one clock, as they were.</p>\
+         <p class=\"notice\">Tracks are <b>not aligned</b>: {clock}.</p>\
          {ground}{views}</section>",
-        data.shown.iter().enumerate().map(|(i, shown)| option(shown, i)).collect::<String>(),
+        data.shown.iter().enumerate().map(|(i, shown)| option(data, shown, i)).collect::<String>(),
         status = open.result.status.word(),
+        what = if is_of_logs { "Log" } else { "Case" },
+        commands = if is_of_logs { "" } else { COMMANDS },
+        clock = if is_of_logs {
+            OF_LOGS
+        } else {
+            "planned and flown positions stand in one frame and on one clock, as they were"
+        },
         legend = legend(data),
         ground = svg::ground(&data.drawing),
     )
@@ -63,9 +71,13 @@ const KEYS: &str = "<details><summary>Mouse and keys</summary><p class=\"note\">
     of it, t from above, s from the side, space plays, comma and full stop step, w worst moment, n and p next and previous case, f follow, g the \
     plan’s ghost.</p></details>";
 
-const COMMANDS: &str = "<span>copy the command:</span><button type=\"button\" data-verb=\"replay\">replay</button>\
+/// What stands beside a log has a clock of its own.
+const OF_LOGS: &str = "all stand in one frame, as they were; plan and simulation have clocks of their own, and are drawn from the first \
+    judged moment of the log on";
+
+const COMMANDS: &str = "<div class=\"tools\" id=\"commands\"><span>copy the command:</span><button type=\"button\" data-verb=\"replay\">replay</button>\
     <button type=\"button\" data-verb=\"shrink\">shrink</button><button type=\"button\" data-verb=\"export\">export</button>\
-    <button type=\"button\" data-verb=\"report\">report of this case</button>";
+    <button type=\"button\" data-verb=\"report\">report of this case</button></div>";
 
 /// Under the picture, never over a curve.
 fn legend(data: &ReportData) -> String {
@@ -85,10 +97,14 @@ fn done(data: &ReportData) -> &'static str {
     if data.drawing.relief.is_some() { "driven" } else { "flown" }
 }
 
-fn option(shown: &Shown, index: usize) -> String {
+fn option(data: &ReportData, shown: &Shown, index: usize) -> String {
     let mark = shown.moment.as_ref().map_or(shown.result.ended.as_str(), |moment| moment.mark.as_str());
     let status = shown.result.status.word();
-    format!("<option value=\"{index}\">{} · {} · {status}</option>", shown.result.case, escape(mark))
+    format!(
+        "<option value=\"{index}\">{} · {} · {status}</option>",
+        escape(&data.name(shown.result.case)),
+        escape(mark)
+    )
 }
 
 /// What is known of a case in words and numbers. Those that are not drawn without the script wait for it.
@@ -106,16 +122,23 @@ fn findings(data: &ReportData, shown: &Shown, index: usize) -> String {
     let drawn: Vec<String> =
         shown.result.drawn.iter().map(|(key, value)| format!("{key} = {}", short(value))).collect();
     let drawn = if drawn.is_empty() { "nominal values".to_owned() } else { drawn.join(", ") };
+    let of = if data.logs.is_empty() {
+        format!(
+            "run {} ({}), {}, score {}",
+            shown.result.run,
+            escape(&drawn),
+            escape(&shown.claim),
+            number(Some(shown.score))
+        )
+    } else {
+        format!("its plan: {}", escape(&shown.claim))
+    };
     let list: String = findings.iter().map(|finding| format!("<li>{}</li>", escape(finding))).collect();
     format!(
         "<div class=\"findings\" data-case=\"{}\"{}><ul>{list}</ul>\
-         <p class=\"note\">run {} ({}), {}, score {}</p>{}</div>",
-        shown.result.case,
+         <p class=\"note\">{of}</p>{}</div>",
+        escape(&data.name(shown.result.case)),
         if index < DRAWN { "" } else { " hidden" },
-        shown.result.run,
-        escape(&drawn),
-        escape(&shown.claim),
-        number(Some(shown.score)),
         statistics(shown.statistics.as_ref(), &data.length)
     )
 }
@@ -129,14 +152,23 @@ fn short(value: &Value) -> String {
     }
 }
 
+/// A file of its own with top and side view of the case that the page opens with; nothing where no case is shown.
+pub fn picture(data: &ReportData) -> Option<String> {
+    let shown = data.shown.iter().find(|shown| Some(shown.result.case) == data.opens)?;
+    let told = shown.moment.as_ref().map_or("", |moment| moment.told.as_str());
+    let name = format!("case {}", data.name(shown.result.case));
+    let title = escape(&format!("{}, {name}: {told}", data.title));
+    Some(svg::picture(shown, &escape(&name), [&title, done(data)], &data.drawing))
+}
+
 fn figure(data: &ReportData, shown: &Shown) -> String {
+    let (what, id) = (if data.logs.is_empty() { "case" } else { "log" }, escape(&data.name(shown.result.case)));
     format!(
         "<figure class=\"case\" data-case=\"{id}\">{}\
-         <figcaption>case {id}: <span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
+         <figcaption>{what} {id}: <span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
          <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
-        svg::views(shown, &data.drawing),
+        svg::views(shown, &format!("{what} {id}"), &data.drawing),
         done(data),
-        id = shown.result.case,
     )
 }
 

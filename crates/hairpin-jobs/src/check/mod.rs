@@ -11,6 +11,7 @@ use hairpin_formats::missions::{Frame, Mission};
 use crate::{Problem, Watch};
 
 pub use settings::CheckSettings;
+pub(crate) use world::open_around;
 pub(crate) use world::read_anywhere;
 
 /// What came of it.

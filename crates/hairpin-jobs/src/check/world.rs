@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Setup, vary};
+use hairpin::campaign::{Mistake, Setup, vary};
 use hairpin_formats::library;
 use hairpin_formats::missions::{self, Mission};
 use hairpin_formats::scenario::{is_scenario, setup_for, shadowed};
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::settings::CheckSettings;
@@ -65,29 +65,25 @@ fn brings_a_world(robot: &str) -> bool {
 /// As of [`missions::read`].
 pub(crate) fn read_anywhere(file: &Path) -> Result<Mission, Problem> {
     let anybody = setup_for(ANYBODY, &[])?;
-    let somewhere = open(&anybody, file, &Vector3::repeat(2.0 * ROOM_M))?;
+    let (somewhere, _) = open_around(&anybody, &[Point3::origin()]).map_err(|why| not_open(&anybody, file, why))?;
     missions::read(file, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)
 }
 
-/// `setup` with `size` (m) of nothing around its robot.
-fn open(setup: &Setup, mission: &Path, size: &Vector3<f64>) -> Result<Setup, Problem> {
-    setup
-        .in_the_open(size)
-        .map_err(|mistake| Problem::of_file(mission, mistake))?
-        .ok_or_else(|| Problem::input(format!("missions of {} are not checked", setup.robot_name())))
+/// Why `mission` cannot be read for the robot of `setup` in the open.
+fn not_open(setup: &Setup, mission: &Path, mistake: Option<Mistake>) -> Problem {
+    match mistake {
+        Some(mistake) => Problem::of_file(mission, mistake),
+        None => Problem::input(format!("missions of {} are not checked", setup.robot_name())),
+    }
 }
 
 /// A robot alone: nothing is around it, and where the mission begins does not matter.
 fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup, Mission, String), Problem> {
     let setup = &with_its_own_limits(setup, sets)?;
-    let somewhere = open(setup, mission, &Vector3::repeat(2.0 * ROOM_M))?;
+    let refuse = |mistake| not_open(setup, mission, mistake);
+    let (somewhere, _) = open_around(setup, &[Point3::origin()]).map_err(refuse)?;
     let mut read = missions::read(mission, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)?;
-    let (mut low, mut high) = (read.waypoints[0].coords, read.waypoints[0].coords);
-    for point in &read.waypoints {
-        (low, high) = (low.inf(&point.coords), high.sup(&point.coords));
-    }
-    let there = open(setup, mission, &(high - low + Vector3::repeat(2.0 * ROOM_M)))?;
-    let shift = Vector3::repeat(ROOM_M) - low;
+    let (there, shift) = open_around(setup, &read.waypoints).map_err(refuse)?;
     for point in &mut read.waypoints {
         *point += shift;
     }
@@ -95,6 +91,19 @@ fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup
         fence.outline.shift(&shift.xy());
     }
     Ok((there, read, "no world given: no walls, no obstacles, level ground, the robot's own limits".into()))
+}
+
+/// The robot of `setup` in an open world with room around `places`, and how far they lie from where they are in it.
+///
+/// # Errors
+/// A size that no world has; nothing, where such a robot has no open world.
+pub(crate) fn open_around(setup: &Setup, places: &[Point3<f64>]) -> Result<(Setup, Vector3<f64>), Option<Mistake>> {
+    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    for place in places {
+        (low, high) = (low.inf(&place.coords), high.sup(&place.coords));
+    }
+    let open = setup.in_the_open(&(high - low + Vector3::repeat(2.0 * ROOM_M))).map_err(Some)?.ok_or(None)?;
+    Ok((open, Vector3::repeat(ROOM_M) - low))
 }
 
 /// The limits of the example that a robot is put into are none of its own; what was set stays.

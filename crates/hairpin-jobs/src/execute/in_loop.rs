@@ -1,17 +1,39 @@
 //! Who executes what a search asks for: our own simulator, or the user's program.
 
-use hairpin::campaign::{Executor, OwnSimulator, Setup};
+use hairpin::campaign::{Case, Executor, Mission, OwnSimulator, Setup};
+use hairpin::judgement::Measures;
+use hairpin::trajectory::Flight;
 use hairpin_formats::executor::{InLoop, Told};
 use rayon::ThreadPoolBuilder;
 
 use super::fly::{command_of, processes, while_wanted};
-use crate::{Problem, Watch};
+use crate::{Problem, Seen, Watch};
 
 /// Who executes, and whether the search is to stop.
 pub(crate) struct Asked<'a> {
     pub(crate) executor: &'a dyn Executor,
     /// Asked often: the caller wants it to, or nothing more can be executed.
     pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Who executes, with each run told to whoever watches.
+struct Seeing<'a> {
+    executor: &'a dyn Executor,
+    watch: &'a dyn Watch,
+}
+
+impl Executor for Seeing<'_> {
+    fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String> {
+        self.executor.fly(nominal, case, mission)
+    }
+
+    fn measured(&self, measures: &Measures, violates: bool) {
+        self.watch.seen(Seen { deviation: Some(measures.max_deviation), violates });
+    }
+
+    fn is_ours(&self) -> bool {
+        self.executor.is_ours()
+    }
 }
 
 /// Does `search` with whoever executes for `setup`. Gives what it found, and what went wrong with the user's program
@@ -34,13 +56,15 @@ pub(crate) fn in_the_loop<T: Send>(
         let trouble = || steers.and_then(|(_, code)| code.trouble());
         let stop = || stopped() || trouble().is_some();
         // The limit of a search's time is none of who steers: what was found is executed after it.
-        let found = while_wanted(setup, watch, || search(Asked { executor: &OwnSimulator, stop: &stop }));
+        let executor = &Seeing { executor: &OwnSimulator, watch };
+        let found = while_wanted(setup, watch, || search(Asked { executor, stop: &stop }));
         return Ok((found, trouble().map(Problem::Executor)));
     };
     let processes = processes(setup);
     let program = InLoop::new(&command, limits, processes, stopped);
     let stop = || stopped() || program.trouble().is_some();
-    let asked = Asked { executor: &program, stop: &stop };
+    let executor = &Seeing { executor: &program, watch };
+    let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
         let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;
         threads.install(|| search(asked))

@@ -4,7 +4,7 @@ use hairpin::campaign::{Case, Mission, Mistake, Run, Setup, execute_again, execu
 
 /// Whether a run can be had again to the bit: one of our own simulator is a function of its scenario, seed and number,
 /// unless code of the user's steers.
-pub(super) fn comes_again(setup: &Setup) -> bool {
+pub(crate) fn comes_again(setup: &Setup) -> bool {
     let ours = setup.scenario.executor().command.is_none() && setup.steering_code().is_none();
     ours && setup.recordings().is_none()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::digits::number;
-use hairpin::campaign::report::{leg, shown, violation};
+use hairpin::campaign::report::{Drawn, leg, shown, violation};
 use hairpin::campaign::select::{By, Candidate, Choice};
 use hairpin::campaign::{Case, CaseResult, Environment};
 use hairpin::judgement::{Limits, Measures};
@@ -72,7 +72,7 @@ pub(super) fn write(
         let run = run_with_motion(work, case, result.run)?;
         let planned = work.folder.read_planned(case.number)?;
         let refuse = |cause| Problem::input(format!("case {}: {cause}", case.id()));
-        let shown = shown(&work.setup, case, result, planned, run.as_ref(), &[]).map_err(refuse)?;
+        let shown = shown(&work.setup, case, result, planned, run.as_ref().map(Drawn::from), &[]).map_err(refuse)?;
         let rows = rows(work, case, (result, measures, cleared), order)?;
         flights.push(FlightCard { drawing: work.setup.drawing(&case.waypoints), shown, rows });
     }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness, vary};
 use hairpin::judgement::Swiftness;
-use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
 use hairpin_formats::waypoints;
@@ -25,7 +24,7 @@ pub(super) struct Ready {
     /// Results of the same cases in simulation.
     pub(super) simulated: Vec<CaseResult>,
     /// Where the cases' plans are.
-    of: Of,
+    pub(super) of: Of,
     pub(super) place: Option<Placement>,
     /// Whether the world that it was flown in is known.
     pub(super) in_world: bool,
@@ -37,8 +36,9 @@ pub(super) struct Ready {
 }
 
 /// Where cases are from.
-enum Of {
-    Campaign(CampaignFolder),
+pub(super) enum Of {
+    /// As it was run, whatever the limits are now.
+    Campaign(Box<Work>),
     /// What the only one is called.
     Mission(String),
 }
@@ -76,7 +76,8 @@ impl Ready {
         let origin = before.setup.scenario.origin();
         let world = settings.world.as_deref().map(|name| world(name, origin.as_ref())).transpose()?;
         let sets: Vec<Set> = world.iter().map(|world| world.set.clone()).chain(settings.sets.iter().cloned()).collect();
-        let Work { folder, setup } = open_to_read_as(folder, &sets)?;
+        let setup = open_to_read_as(folder, &sets)?.setup;
+        let folder = &before.folder;
         let mut cases = folder.read_cases_without_profiles()?;
         if let Some(id) = &settings.case {
             cases.retain(|case| case.id() == *id);
@@ -92,7 +93,7 @@ impl Ready {
                 .to_owned()
         });
         let simulated = folder.read_results()?;
-        Self::with(setup, cases, simulated, Of::Campaign(folder), (true, notes.into_iter().collect()))
+        Self::with(setup, cases, simulated, Of::Campaign(Box::new(before)), (true, notes.into_iter().collect()))
     }
 
     fn of_mission(file: &Path, robot: Option<&str>, settings: &LogSettings) -> Result<Self, Problem> {
@@ -160,7 +161,8 @@ impl Ready {
     /// The folder's files are broken.
     pub(super) fn whole(&self, case: &Case) -> Result<Case, Problem> {
         let mut whole = case.clone();
-        if let Of::Campaign(folder) = &self.of {
+        if let Of::Campaign(work) = &self.of {
+            let folder = &work.folder;
             folder.read_witness(&mut whole)?;
             let legs = whole.witness.as_ref().and_then(Witness::legs);
             if legs.is_some_and(|legs| legs + 1 != whole.waypoints.len()) {

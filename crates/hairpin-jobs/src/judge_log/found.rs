@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use hairpin::campaign::Flown;
+use hairpin::campaign::{Flown, Status};
 use hairpin::judgement::Verdict;
 
 use super::arm::FoundProgram;
@@ -10,6 +10,7 @@ use super::cut::Cut;
 use super::frame::FrameTold;
 use super::legs::LegsBy;
 use super::matching::Matched;
+use super::sheet::Sheet;
 use super::source::SourceTold;
 
 /// What a log is told to have come to.
@@ -28,6 +29,16 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// The status of a case that came to the same.
+    pub(super) fn status(self) -> Status {
+        match self {
+            Self::Pass => Status::Pass,
+            Self::Fail => Status::Fail,
+            Self::Inconclusive | Self::Invalid => Status::Inconclusive,
+            Self::Unjudged => Status::Unjudged,
+        }
+    }
+
     /// The word in JSON.
     pub fn word(self) -> &'static str {
         match self {
@@ -53,6 +64,8 @@ pub struct JudgedLog {
     pub found: Option<Found>,
     /// The same of an arm's.
     pub program: Option<FoundProgram>,
+    /// What its page has of it, where one was asked for.
+    pub sheet: Option<Box<Sheet>>,
 }
 
 /// What a log was found to be.

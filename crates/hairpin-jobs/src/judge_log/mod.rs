@@ -10,14 +10,18 @@
 
 mod against;
 mod arm;
+mod aside;
 mod cut;
 mod found;
 mod frame;
 mod legs;
 mod matching;
 mod one;
+mod over;
+mod page;
 mod remedy;
 mod settings;
+mod sheet;
 mod source;
 mod told;
 
@@ -40,6 +44,7 @@ pub(crate) use legs::course;
 pub use matching::Matched;
 pub(crate) use matching::matched;
 pub use settings::{Against, LogSettings};
+pub use sheet::Sheet;
 pub use source::SourceTold;
 pub(crate) use source::clock_words;
 
@@ -48,7 +53,7 @@ pub(crate) use source::clock_words;
 /// # Errors
 /// A campaign, mission, world or robot that cannot be read; keys of other tables than `spec`; a mission nothing is
 /// asked of; a single log that cannot be read, fits no case, or does not lie where its mission begins; a folder without
-/// a file.
+/// a file; a page that cannot be written.
 pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs, Problem> {
     if settings.path.join("scenario.toml").is_file() {
         return Err(Problem::of_file(
@@ -64,11 +69,24 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
         Some(programs) => programs.judge_file(file, &against, settings),
         None => one::judge_file(file, &against, settings),
     };
-    if !settings.path.is_dir() {
-        return Ok(JudgedLogs { logs: vec![judge(&settings.path)?], count: None });
+    let judged = if settings.path.is_dir() {
+        judge_folder(&settings.path, &judge, watch)?
+    } else {
+        JudgedLogs { logs: vec![judge(&settings.path)?], count: None }
+    };
+    if let Some(file) = &settings.page {
+        page::write(file, &judged, &against)?;
     }
+    Ok(judged)
+}
+
+fn judge_folder(
+    folder: &Path,
+    judge: &dyn Fn(&Path) -> Result<JudgedLog, Problem>,
+    watch: &dyn Watch,
+) -> Result<JudgedLogs, Problem> {
     let mut logs = Vec::new();
-    for file in files_in(&settings.path)? {
+    for file in files_in(folder)? {
         if watch.stopped() {
             return Err(Problem::Interrupted(format!("stopped after {} logs", logs.len())));
         }
@@ -77,7 +95,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
             Err(problem) => told::unreadable(&file, &problem),
         });
     }
-    let count = told::count(&settings.path, &logs);
+    let count = told::count(folder, &logs);
     Ok(JudgedLogs { logs, count: Some(count) })
 }
 

@@ -14,7 +14,7 @@ use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
 use super::settings::LogSettings;
-use super::{matching, source, told};
+use super::{matching, over, source, told};
 use crate::Problem;
 
 /// Judges the log in `file`.
@@ -84,12 +84,17 @@ pub(super) fn judge(
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
         notes,
     };
-    if left.samples.len() >= 2 {
-        let (log, whole) = (judged.to_judge(&left)?, against.whole(case)?);
+    let whole = against.whole(case)?;
+    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left)?) } else { None };
+    if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
-        found.flown = Some(judge_flown(&against.setup, &whole, &log).map_err(Problem::input)?);
+        found.flown = Some(judge_flown(&against.setup, &whole, log).map_err(Problem::input)?);
     }
-    Ok(told::judged(file, found, &against.setup))
+    let judged = told::judged(file, found, &against.setup);
+    match settings.page {
+        Some(_) => over::of_flight(judged, &whole, log, against),
+        None => Ok(judged),
+    }
 }
 
 struct Judging<'a> {

@@ -40,4 +40,6 @@ pub struct LogSettings {
     pub from_s: Option<f64>,
     /// Until when, s.
     pub to_s: Option<f64>,
+    /// Where a page goes with what was planned, simulated and flown.
+    pub page: Option<PathBuf>,
 }

@@ -70,6 +70,7 @@ fn settings(here: &Path, sets: &[(&str, &str)]) -> LogSettings {
         source: None,
         from_s: None,
         to_s: None,
+        page: None,
     }
 }
 

@@ -20,14 +20,14 @@ pub(super) fn judged(file: &Path, found: Found, setup: &Setup) -> JudgedLog {
     let source = found.source.in_sentence();
     let how = ["flown", name.as_str(), source.as_str()];
     let (outcome, verdict) = verdict(&found, &how, setup.scenario.asked());
-    JudgedLog { file: file.into(), verdict, outcome, found: Some(found), program: None }
+    JudgedLog { file: file.into(), verdict, outcome, found: Some(found), program: None, sheet: None }
 }
 
 /// A log of a folder that cannot be judged.
 pub(super) fn unreadable(file: &Path, problem: &Problem) -> JudgedLog {
     let why = problem.to_string();
     let verdict = invalid("log", &["flown", &file_name(file)], &format!("not judged: {}", shortened(&why)));
-    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None, program: None }
+    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None, program: None, sheet: None }
 }
 
 /// The line with counts.

@@ -2,6 +2,7 @@
 
 use super::kind::Order;
 use super::{Case, Mission, Setup};
+use crate::judgement::Measures;
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
 
@@ -15,6 +16,12 @@ pub trait Executor: Sync {
     /// # Errors
     /// Why there is none, in a sentence.
     fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String>;
+
+    /// Told of each run that a search asked for, once it is measured: what it came to, and whether it violates what the
+    /// scenario limits.
+    fn measured(&self, measures: &Measures, violates: bool) {
+        let _ = (measures, violates);
+    }
 
     /// Whether it is our own simulator, which can be left in the middle of a run and gone on with.
     fn is_ours(&self) -> bool {

@@ -102,9 +102,14 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
 
 /// What one run measured; `None` where it was not carried out or cannot be judged.
 pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
+    measured(setup, case, run).map(|(measures, _)| measures)
+}
+
+/// [`measures_of`], and whether they violate what the scenario limits.
+pub(super) fn measured(setup: &Setup, case: &Case, run: &Run) -> Option<(Measures, bool)> {
     let flight = run.outcome.as_ref().ok()?;
     let judged = judge_run(setup, case, &Planned::default(), run, flight).ok()?.ok()?;
-    Some(judged.measures)
+    Some((judged.measures, !judged.violations.is_empty()))
 }
 
 struct JudgedRun {

@@ -1,6 +1,7 @@
 //! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no
 //! arguments.
 
+pub mod answers;
 pub mod arm;
 pub mod assumptions;
 pub mod attachments;
@@ -60,6 +61,7 @@ pub mod vary;
 pub mod verdict;
 pub mod verify;
 
+pub use answers::Answers;
 pub use assumptions::assumptions;
 pub use attachments::{Attached, Attachments, Resolved};
 pub use callers_code::CallersCode;

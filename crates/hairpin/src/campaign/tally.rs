@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::answers::Answers;
 use super::curve::Curve;
 use super::learn::ScoreModel;
 use super::scenario::{SearchMethod, SearchSection};
@@ -43,6 +44,9 @@ pub struct Tally {
     /// What an adaptive campaign learned from all its executions; a file of its own in a campaign's folder.
     #[serde(skip)]
     pub model: Option<Box<ScoreModel>>,
+    /// Of one pool of executions that was stopped: what they came to; a file of its own in a campaign's folder.
+    #[serde(skip)]
+    pub answers: Option<Box<Answers>>,
     /// Why it learned nothing, in a sentence's part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unlearned: Option<String>,

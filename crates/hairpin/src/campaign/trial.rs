@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::execute::run_of;
 use super::graph::{Plan, fingerprint};
-use super::judge::measures_of;
+use super::judge::{measured, measures_of};
 use super::kind::Order;
 use super::learn::LegSample;
 use super::mission::run_seed;
@@ -207,7 +207,7 @@ impl Trials<'_> {
     fn executed_as(&self, plan: &Plan, run: usize) -> Option<Executed> {
         let case = self.case(plan);
         let run = run_of(self.setup, self.executor, &case, run, mission(self.setup, &case, run));
-        let measures = measures_of(self.setup, &case, &run)?;
+        let measures = self.measures(&case, &run)?;
         Some(Executed { case, run, measures })
     }
 
@@ -215,8 +215,15 @@ impl Trials<'_> {
     fn again(&self, case: &Case, run: usize, number: u64) -> Option<Executed> {
         let mission = mission_again(self.setup, case, run, CONFIRMING + number as usize);
         let run = run_of(self.setup, self.executor, case, run, mission);
-        let measures = measures_of(self.setup, case, &run)?;
+        let measures = self.measures(case, &run)?;
         Some(Executed { case: case.clone(), run, measures })
+    }
+
+    /// Of a run; whoever carried it out is told.
+    fn measures(&self, case: &Case, run: &Run) -> Option<Measures> {
+        let (measures, violates) = measured(self.setup, case, run)?;
+        self.executor.measured(&measures, violates);
+        Some(measures)
     }
 
     /// What `plan` is carried out as: a case whose number is not known yet.

@@ -10,7 +10,7 @@ use super::house::House;
 /// each other.
 pub(crate) const ROOMS: &[&[&str]] = &[
     // What was typed, and values that know nothing else.
-    &["digits", "testing", "stop", "curve", "case_number", "bounds"],
+    &["digits", "testing", "stop", "curve", "case_number", "bounds", "answers"],
     &["scenario"],
     &["boat::keys"],
     // All keys are one sum: the table of the kinds.

@@ -1,7 +1,7 @@
 //! A campaign in words: the verdict, a table of the worst cases, the worst one's course, and what to do next.
 
 use hairpin::campaign::digits::number;
-use hairpin::campaign::report::{COLUMNS, cells, worst_first};
+use hairpin::campaign::report::{cells_in, columns_in, length, worst_first};
 use hairpin_jobs::next::next_commands;
 use hairpin_jobs::report::worst_in_full;
 
@@ -43,7 +43,8 @@ impl Answer<'_> {
             console::say("");
         }
         if let Some(worst) = worst_in_full(self.work, self.cases, &self.judgement.results) {
-            let lines = course(&worst, self.work.setup.scenario.deviation_limit());
+            let length = length(&self.work.setup);
+            let lines = course(&worst, self.work.setup.scenario.deviation_limit(), &length);
             lines.iter().for_each(|line| console::say(line));
         }
         let header = self.header();
@@ -84,9 +85,11 @@ impl Answer<'_> {
     }
 
     fn table(&self) -> String {
-        let header = COLUMNS.iter().chain(&["evidence"]).map(|name| (*name).to_owned()).collect();
+        // In the unit that the verdict has: of arms mm.
+        let length = length(&self.work.setup);
+        let header = columns_in(&length).into_iter().chain(["evidence".to_owned()]).collect();
         let worst = worst_first(&self.judgement.results).into_iter().take(WORST);
-        let rows = worst.map(|result| cells(result).into_iter().chain(self.claim(result)).collect());
+        let rows = worst.map(|result| cells_in(&length, result).into_iter().chain(self.claim(result)).collect());
         console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
     }
 }

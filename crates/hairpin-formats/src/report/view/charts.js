@@ -23,7 +23,7 @@ function svg(tag, attributes, parent, text) {
   return String(Number(value.toFixed(Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(size)))))));
 }
 /** With the digits that verdicts have. @param {number} value */
-const fixed = (value) => (Number.isNaN(value) ? "–" : value.toFixed(value !== 0 && Math.abs(value) < 0.00995 ? 5 : 2));
+const fixed = (value) => (Number.isNaN(value) ? "–" : value.toFixed(value !== 0 && Math.abs(value) < 0.00995 ? 5 : data.digits));
 /** A limit as it was given. @param {number} value */
 const given = (value) => (/\.\d{2}/.test(String(value)) ? String(value) : value.toFixed(2));
 

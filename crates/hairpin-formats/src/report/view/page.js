@@ -113,7 +113,7 @@ function build() {
     built.targets.push({ name: o.name, xyz, t });
     built.glass.push({ mesh: s.mesh(xyz, t), at: HERE, colour: colour("solid", 0.5), dark: colour("dark"), lit: true, hatch: false });
   }
-  for (const run of c.runs) line(run.p, [rgba(theme.soft, 0.45)], 1.5);
+  for (const run of c.runs) line(run.p, [rgba(theme.soft, c.runs.length > 2 ? 0.45 : 0.9)], c.runs.length > 2 ? 1.5 : 3);
   line(c.planned.p, [rgba(theme.plan)], 3, s.reach / 60);
   if (f) {
     const top = deepest(f);
@@ -135,7 +135,7 @@ function build() {
 /** The robot in the pose that it has at `t`; of a plan a ghost. @param {Motion} m @param {number} t @param {boolean} ghost @returns {{ solids: Solid[], lines: Line[], size: number }} */
 function figure(m, t, ghost) {
   const robot = data.robot, s = /** @type {Scene} */ (scene), solids = /** @type {Solid[]} */ ([]), lines = /** @type {Line[]} */ ([]), at = stamp(m.t, t);
-  if (!robot || (ghost && robot.fixed)) return { solids, lines, size: 1 };
+  if (!robot || (ghost && robot.fixed && !m.channels.q1_rad)) return { solids, lines, size: 1 };
   let p = lifted(placeAt(m, t)), q = attitudeAt(m, t), size = 1;
   if (robot.fixed) [p, q] = [[0, 0, 0], [1, 0, 0, 0]];
   else size = Math.max(1, 64 / (2 * Math.max(robot.radius, 1e-3) * s.scaleAt(p)));
@@ -229,7 +229,7 @@ function tell() {
 function fit(azimuth, elevation) {
   if (!scene) return;
   const c = caseOf(state.index), points = [...c.data.waypoints, ...c.planned.p, ...(c.flown ? c.flown.p : [])].map(lifted), n = points.length || 1;
-  if (data.robot && data.robot.fixed && c.flown) for (const { at } of figure(c.flown, state.t, false).solids) points.push([at[12], at[13], at[14]]);
+  if (data.robot && data.robot.fixed && c.flown) for (const { at } of figure(c.flown, state.t, false).solids) points.push([at[12], at[13], at[14]], [at[12], at[13], 1.25 * at[14]]);
   const mean = times(points.reduce(add, [0, 0, 0]), 1 / n);
   const sum = (/** @type {number} */ a, /** @type {number} */ b) => points.reduce((s, p) => s + (p[a] - mean[a]) * (p[b] - mean[b]), 0);
   const side = 0.5 * Math.atan2(2 * sum(0, 1), sum(0, 0) - sum(1, 1)) - Math.PI / 2 + 0.35;
@@ -293,7 +293,7 @@ function drawChosen() {
 const show = () => byId("flight").scrollIntoView({ behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
 
 /** The command that does `verb` to a case, typed where this page's folder is known. @param {string} verb @param {string} id */ function command(verb, id) {
-  const place = location.protocol === "file:" ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, "") || "/" : "OUT";
+  const place = data.folder || (location.protocol === "file:" ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, "") || "/" : "OUT");
   const out = /^[\w./~@%+=:,-]+$/.test(place) ? place : "'" + place.replaceAll("'", "'\\''") + "'";
   return `hairpin ${verb} ${out} ${verb === "export" ? "--to csv,mcap " : ""}--case ${id}`;
 }

@@ -24,6 +24,7 @@ use rayon::prelude::*;
 
 use super::against::Ready;
 use super::found::JudgedLog;
+use super::over;
 use super::settings::LogSettings;
 use crate::Problem;
 
@@ -99,6 +100,10 @@ impl<'a> Programs<'a> {
             simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
             notes: read.notes,
         };
-        Ok(told::judged(file, found, &against.setup))
+        let judged = told::judged(file, found, &against.setup);
+        match settings.page {
+            Some(_) => over::of_program(judged, case, &run, against),
+            None => Ok(judged),
+        }
     }
 }

@@ -16,7 +16,7 @@ pub(super) fn judged(file: &Path, found: FoundProgram, setup: &Setup) -> JudgedL
     let name = file_name(file);
     let how = ["hardware", setup.robot_name(), name.as_str()];
     let (outcome, verdict) = verdict(&found, &how, setup);
-    JudgedLog { file: file.into(), verdict, outcome, found: None, program: Some(found) }
+    JudgedLog { file: file.into(), verdict, outcome, found: None, program: Some(found), sheet: None }
 }
 
 fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdict) {

@@ -20,6 +20,7 @@ use std::collections::HashSet;
 use rayon::prelude::*;
 
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
+use super::answers::Answers;
 use super::graph::{Outcome, Wanted, fingerprint, met};
 use super::scenario::SearchMethod;
 use super::trial::executed_case;
@@ -41,7 +42,9 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
     if one && !varies(scenario) || scenario.head().one_search {
         // What a round chooses depends on all before it, and one search is one: there is no place to go on from.
         let done = !known.tally.stopped && known.tally.units > 0;
-        return if done { known } else { Known::default() };
+        // What was executed need not be executed again.
+        let begun = || Tally { answers: known.tally.answers.clone(), ..Tally::default() };
+        return if done { known } else { Known { cases: Vec::new(), tally: begun() } };
     }
     let varied = varies(scenario);
     let units = known.tally.units;
@@ -166,7 +169,7 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
     let search = setup.scenario.search();
     if search.method == SearchMethod::Worst {
         let executions = setup.scenario.searched_executions() / search.cases;
-        let pool = worst::pool(&graphs, 1, [executions, case * GRAPHS_OF_A_CASE], stop);
+        let pool = worst::pool(&graphs, 1, [executions, case * GRAPHS_OF_A_CASE], &Answers::default(), stop);
         let plans = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
         let (graphs, expansions) = (pool.drawn, pool.curve.executions);
         return Outcome {

@@ -1,11 +1,14 @@
 //! The search `worst`: one pool of executions for all cases, over whatever kind of robot.
 
+use std::sync::{Mutex, PoisonError};
+
 use nalgebra::Point3;
 use rayon::prelude::*;
 
 use super::graphs::Graphs;
 use super::known::Known;
 use super::targets::{Margins, targets};
+use crate::campaign::answers::Answers;
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::{Sought, executed_case};
@@ -35,6 +38,10 @@ struct Plans<'a> {
     sought: Vec<Sought>,
     /// The run that each is executed as.
     run: usize,
+    /// What was executed before the search was stopped.
+    known: &'a Answers,
+    /// The same with what is executed now.
+    all: Mutex<Answers>,
 }
 
 impl Field for Plans<'_> {
@@ -85,7 +92,16 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
+        let fingerprint = self.fingerprint(drawn);
+        if let Some(known) = self.known.of(&fingerprint) {
+            return known.clone();
+        }
+        let ran = self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least);
+        // Who was stopped has failed at nothing.
+        if ran.is_some() || !(self.stop.cancelled)() {
+            self.all.lock().unwrap_or_else(PoisonError::into_inner).take(fingerprint, ran.clone());
+        }
+        ran
     }
 }
 
@@ -139,17 +155,21 @@ pub(super) struct Pool {
     pub(super) run: usize,
     pub(super) apart: f64,
     pub(super) nothing: Option<String>,
+    /// What was executed, for a search that goes on.
+    pub(super) answers: Answers,
 }
 
-/// The worst `cases` of `graphs` in so many executions, drawn from graph number `first` on.
-pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2], stop: &Stop) -> Pool {
+/// The worst `cases` of `graphs` in so many executions, drawn from graph number `first` on; what is `known` is not
+/// executed again.
+pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2], known: &Answers, stop: &Stop) -> Pool {
     let search = graphs.setup.scenario.search();
     let seed = named_seed(graphs.setup.scenario.seed(), "worst", first);
     let targets = targets(graphs.setup);
     let begun = (stop.clock)();
     let late = || search.seconds.is_some_and(|seconds| (stop.clock)() - begun >= seconds);
     let told = |made: u64| (stop.progress)(made as usize, executions as usize);
-    let mut plans = Plans { graphs, stop, first, sought: targets.iter().map(|target| target.sought).collect(), run: 0 };
+    let sought = targets.iter().map(|target| target.sought).collect();
+    let mut plans = Plans { graphs, stop, first, sought, run: 0, known, all: Mutex::new(known.clone()) };
     let tried = plans.choose_run(executions);
     let per_trial = 1 + search.confirm;
     let sized_for = executions.saturating_sub(tried);
@@ -168,13 +188,14 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
     let margins = Margins::of(&targets, &stresses[..stresses.len().min(drawn_first as usize)]);
     stresses.iter().for_each(|stresses| curve.push(stresses.as_ref().and_then(|stresses| margins.most(stresses))));
     let run = plans.run;
+    let answers = plans.all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let plans = found.into_iter().map(|found| {
         let Drawn { graph, plan } = found.plan;
         let score = margins.told(found.target, found.trial.stress);
         let plan = graphs.solver.finished(Plan { score, bound: None, ..plan });
         Drawn { graph, plan }
     });
-    Pool { plans: plans.collect(), curve, drawn, run, apart, nothing }
+    Pool { plans: plans.collect(), curve, drawn, run, apart, nothing, answers }
 }
 
 /// The cases that a scenario asks for, from one pool of executions; those of `known`, if it has all of them.
@@ -185,8 +206,10 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     }
     let setup: &Setup = graphs.setup;
     let search = setup.scenario.search();
-    let Pool { plans, curve, drawn, run, apart, nothing } =
-        pool(graphs, search.cases as usize, [setup.scenario.searched_executions(), 0], stop);
+    let before = known.tally.answers.as_deref().cloned().unwrap_or_default();
+    let executions = [setup.scenario.searched_executions(), 0];
+    let Pool { plans, curve, drawn, run, apart, nothing, answers } =
+        pool(graphs, search.cases as usize, executions, &before, stop);
     let mut tally = Tally {
         units: 1,
         graphs: drawn,
@@ -202,6 +225,9 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
         ..Tally::default()
     };
     tally.complete &= !tally.stopped;
+    if tally.stopped {
+        tally.answers = Some(Box::new(answers));
+    }
     tally.curves.push(curve);
     let case =
         |(number, Drawn { graph, plan }): (usize, Drawn)| executed_case(setup, graphs.executor, plan, (graph, number));

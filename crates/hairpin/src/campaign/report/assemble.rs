@@ -1,5 +1,7 @@
 //! From the pieces of a judged campaign to its report.
 
+use std::collections::BTreeMap;
+
 use super::data::{Beside, Metric, Pieces, ReportData, Shown, worst_first};
 use super::facts::{facts, key_numbers, metrics};
 use super::length::length;
@@ -24,6 +26,8 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         drawing: pieces.setup.kind().drawing(&shown.iter().flat_map(Shown::places).collect::<Vec<_>>()),
         length: length(pieces.setup),
         beside: Beside::default(),
+        logs: BTreeMap::new(),
+        folder: None,
         opens: named.filter(is_shown).or_else(|| Some(shown.first()?.result.case)),
         deviation_limit: pieces.setup.scenario.deviation_limit(),
         results: worst_first(pieces.results).into_iter().cloned().collect(),
@@ -36,8 +40,8 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         regression: None,
         coverage: pieces.coverage,
         stress: pieces.setup.scenario.search().sought(),
-        curves: pieces.tally.curves.clone(),
-        rounds: pieces.tally.rounds.clone(),
+        curves: pieces.tally.map_or_else(Vec::new, |tally| tally.curves.clone()),
+        rounds: pieces.tally.map_or_else(Vec::new, |tally| tally.rounds.clone()),
     }
 }
 

@@ -104,6 +104,21 @@ pub struct Shown {
     pub others: Vec<OtherRun>,
 }
 
+/// A run to be shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Drawn<'a> {
+    /// The run.
+    pub run: &'a Run,
+    /// Of a log: samples before which something was cut out.
+    pub breaks: &'a [usize],
+}
+
+impl<'a> From<&'a Run> for Drawn<'a> {
+    fn from(run: &'a Run) -> Self {
+        Self { run, breaks: &[] }
+    }
+}
+
 /// Another run of a case that is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherRun {
@@ -117,7 +132,7 @@ pub struct OtherRun {
 
 impl Shown {
     /// Where it was, and where it was planned to be.
-    pub(super) fn places(&self) -> impl Iterator<Item = Point3<f64>> {
+    pub fn places(&self) -> impl Iterator<Item = Point3<f64>> {
         let of = |track: &'_ Track| (0..track.len()).map(|i| track.position(i)).collect::<Vec<_>>();
         self.waypoints.clone().into_iter().chain(of(&self.planned)).chain(self.flown.as_ref().map_or(Vec::new(), of))
     }
@@ -144,6 +159,10 @@ pub struct ReportData {
     pub opens: Option<CaseNumber>,
     /// What stands beside them.
     pub beside: Beside,
+    /// What logs are called, where they are what is shown and not the cases of a campaign; by the number of a result.
+    pub logs: BTreeMap<CaseNumber, String>,
+    /// The campaign's folder, where that is not the one that the page lies in.
+    pub folder: Option<String>,
     /// All results, the worst first.
     pub results: Vec<CaseResult>,
     /// Every measure's values.
@@ -170,6 +189,13 @@ pub struct ReportData {
     pub rounds: Vec<RoundTally>,
 }
 
+impl ReportData {
+    /// What a result is called: by its case's number, or by its log's name.
+    pub fn name(&self, case: CaseNumber) -> String {
+        self.logs.get(&case).cloned().unwrap_or_else(|| case.to_string())
+    }
+}
+
 /// What [`super::assemble`] is given.
 #[derive(Debug, Clone)]
 pub struct Pieces<'a> {
@@ -179,8 +205,8 @@ pub struct Pieces<'a> {
     pub cases: &'a [Case],
     /// Their results, in any order.
     pub results: &'a [CaseResult],
-    /// What the search did.
-    pub tally: &'a Tally,
+    /// What the search did, where cases are a search's.
+    pub tally: Option<&'a Tally>,
     /// The verdict.
     pub verdict: Verdict,
     /// Assumptions and limits of this run.
@@ -237,10 +263,11 @@ pub fn shown(
     case: &Case,
     result: &CaseResult,
     planned: Track,
-    run: Option<&Run>,
+    run: Option<Drawn>,
     others: &[Run],
 ) -> Result<Shown, JudgementError> {
-    let flown = run.and_then(|run| run.outcome.as_ref().ok()).map(|flight| flight.track.clone());
+    let breaks = run.map_or(&[][..], |drawn| drawn.breaks);
+    let flown = run.and_then(|drawn| drawn.run.outcome.as_ref().ok()).map(|flight| flight.track.clone());
     let flown = flown.filter(|track| !track.is_empty());
     // What was judged was judged by the run's own limits. Keys of an edited folder that fit nowhere are the judge's to
     // tell.
@@ -261,18 +288,19 @@ pub fn shown(
     let (mut distances, mut judged) = (Vec::new(), Vec::new());
     let settings = Settings { reference: compared, corner, ..Settings::default() };
     let everywhere = Settings { corner: 0.0, ..settings };
-    let along = |track: &Track| -> Result<Vec<f64>, JudgementError> {
-        let all = deviation_of_samples(track, &case.waypoints, &everywhere)?;
+    let along = |track: &Track, breaks: &[usize]| -> Result<Vec<f64>, JudgementError> {
+        let all = deviation_of_samples(track, &case.waypoints, &Settings { breaks, ..everywhere })?;
         Ok(all.into_iter().map(Option::unwrap_or_default).collect())
     };
     if let Some(track) = &flown {
-        distances = along(track)?;
+        distances = along(track, breaks)?;
+        let settings = Settings { breaks, ..settings };
         judged = deviation_of_samples(track, &case.waypoints, &settings)?.iter().map(Option::is_some).collect();
     }
     // A run that is no track is told by the judge; beside the worst one it is left out.
     let other = |run: &Run| {
         let flown = run.outcome.as_ref().ok()?.track.clone();
-        let distances = (!flown.is_empty()).then(|| along(&flown).ok()).flatten()?;
+        let distances = (!flown.is_empty()).then(|| along(&flown, &[]).ok()).flatten()?;
         Some(OtherRun { run: run.run, flown, distances })
     };
     let others = others.iter().filter(|run| run.run != result.run).filter_map(other).collect();

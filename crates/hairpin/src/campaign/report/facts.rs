@@ -3,11 +3,11 @@
 use super::data::{Metric, Pieces, worst_first};
 use super::length::length;
 use super::text::leg;
-use crate::campaign::digits::{self, number};
+use crate::campaign::digits::{self, grouped, number};
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::{Asked, SearchMethod};
 use crate::campaign::verdict::{Named, named};
-use crate::campaign::{CaseResult, Status};
+use crate::campaign::{CaseResult, Setup, Status, Tally};
 use crate::judgement::{Chosen, Measures, Stress};
 
 /// Largest deviation and its case, the violations among judged cases, with their share's interval at the scenario's
@@ -55,8 +55,9 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         };
         numbers.push(of(&what, random.told(setup, random.mean), note));
     }
+    // What was not searched for has no search to be counted.
+    let Some(tally) = pieces.tally else { return numbers };
     let confidence = pieces.setup.scenario.confidence().unwrap_or(0.95);
-    let tally = pieces.tally;
     let chosen = tally.chosen(&pieces.setup.scenario.search());
     let share = match (chosen.share(failed, judged, confidence), chosen) {
         _ if pieces.setup.scenario.asked() != Asked::Limits => "crashes alone: spec = \"none\"".into(),
@@ -68,14 +69,26 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
         (None, _) => "of these cases: no estimate of how often others do".into(),
     };
     numbers.push(of("violations", format!("{failed} of {judged}"), share));
-    let asked = pieces.setup.scenario.search().cases;
-    let origin = if tally.missions.is_empty() {
-        format!("{asked} asked for; {} of {} graphs had one", tally.solved, tally.graphs)
-    } else {
-        "missions made elsewhere".into()
-    };
-    numbers.push(of("cases", pieces.cases.len().to_string(), origin));
+    numbers.push(of("cases", pieces.cases.len().to_string(), origin(pieces.setup, tally)));
     numbers
+}
+
+/// How the cases were come by.
+fn origin(setup: &Setup, tally: &Tally) -> String {
+    let search = setup.scenario.search();
+    let (asked, graphs) = (search.cases, grouped(tally.graphs));
+    match search.method {
+        _ if !tally.missions.is_empty() => "missions made elsewhere".into(),
+        _ if tally.selected => "selected from those of another campaign".into(),
+        SearchMethod::Worst => {
+            let executed: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+            let of = format!("{asked} asked for: the worst of {} that were executed", grouped(executed));
+            format!("{of}; {} of these were drawn at random, the others made from bad ones", grouped(tally.drawn))
+        }
+        _ => {
+            format!("{asked} asked for; {} of {graphs} sampled graphs had a feasible trajectory", grouped(tally.solved))
+        }
+    }
 }
 
 /// Of equals the case of the smallest number.

@@ -1,0 +1,93 @@
+//! Two judged campaigns, paired by case and seed.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use hairpin::campaign::{self, Case, CaseResult, Comparison};
+
+use crate::Problem;
+use crate::differences::differences;
+use crate::names::listed;
+use crate::work::{Work, open_to_read};
+
+/// Two campaigns beside each other.
+#[derive(Debug)]
+pub struct Compared {
+    /// Their cases.
+    pub comparison: Comparison,
+    /// Keys in which their scenarios differ.
+    pub differences: Vec<String>,
+}
+
+/// Compares the judged campaigns in the folders `a` and `b` over the same cases. Deviations that differ by no more than
+/// `tolerance_m` are unchanged.
+///
+/// # Errors
+/// Folders that are no judged campaigns, of different kinds of robots, or without a case in common.
+pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
+    let (before, after) = (open_to_read(a)?, open_to_read(b)?);
+    let scenarios = [&before.setup.scenario, &after.setup.scenario];
+    let differences = differences(scenarios[0], scenarios[1]);
+    if std::mem::discriminant(scenarios[0]) != std::mem::discriminant(scenarios[1]) {
+        return Err(Problem::input(format!(
+            "{} and {} are of different kinds of robots ({} and {}): there is nothing to pair",
+            a.display(),
+            b.display(),
+            before.setup.robot_name(),
+            after.setup.robot_name()
+        )));
+    }
+    let comparison = campaign::compare(&judged(&before, a)?, &judged(&after, b)?, tolerance_m);
+    if comparison.pairs == 0 {
+        return Err(Problem::input(format!(
+            "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
+             both under one --seed, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
+            unpaired(&comparison),
+            a = a.display(),
+            b = b.display(),
+        )));
+    }
+    Ok(Compared { comparison, differences })
+}
+
+/// The pairs of two campaigns, A first, in the order of B's cases.
+pub(super) fn pairs(
+    (before, a): (&Work, &Path),
+    (after, b): (&Work, &Path),
+) -> Result<Vec<[(Case, CaseResult); 2]>, Problem> {
+    let mut old: HashMap<_, _> = judged(before, a)?.into_iter().map(|pair| (pair.0.number, pair)).collect();
+    let mut found = Vec::new();
+    for new in judged(after, b)? {
+        let case = &new.0;
+        let same = |(was, _): &(Case, CaseResult)| {
+            was.seed == case.seed && was.waypoints == case.waypoints && was.environment == case.environment
+        };
+        if let Some(was) = old.remove(&case.number).filter(same) {
+            found.push([was, new]);
+        }
+    }
+    Ok(found)
+}
+
+/// Every case with its result.
+fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> {
+    let cases = work.folder.read_cases_without_profiles()?;
+    let results = work.folder.read_results()?;
+    if results.len() < cases.len() || cases.is_empty() {
+        return Err(Problem::input(format!("not judged yet: hairpin judge {}", path.display())));
+    }
+    let mut results: HashMap<_, _> = results.into_iter().map(|result| (result.case, result)).collect();
+    let pair = |case: Case| results.remove(&case.number).map(|result| (case, result));
+    Ok(cases.into_iter().filter_map(pair).collect())
+}
+
+/// The cases without a partner, by why: `0003, 0007 (only in A); 0009 (other waypoints)`.
+pub fn unpaired(compared: &Comparison) -> String {
+    let whys = ["only in A", "only in B", "another seed", "other waypoints", "another environment"];
+    let group = |why: &&str| {
+        let names: Vec<String> =
+            compared.unpaired.iter().filter(|one| one.why == *why).map(|one| one.case.clone()).collect();
+        (!names.is_empty()).then(|| format!("{} ({why})", listed(&names)))
+    };
+    whys.iter().filter_map(group).collect::<Vec<_>>().join("; ")
+}
