@@ -128,7 +128,7 @@ fn searched(
 ) -> Result<(u64, Vec<Case>, usize), Problem> {
     let share = plan.flown_by(part);
     let cases = if part == 0 {
-        find_cases(own, Deadline::after(None), watch)?.0
+        find_cases(own, Deadline::after(None), Deadline::after(None), watch)?.0
     } else {
         Part::whole(work, plan, 0).map_or_else(|| Ok(Vec::new()), |(_, folder)| folder.read_cases())?
     };
