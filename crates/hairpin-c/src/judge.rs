@@ -181,7 +181,7 @@ pub unsafe extern "C" fn hairpin_judge(
 /// # Safety
 /// As many numbers lie there, where it is not NULL.
 unsafe fn places(numbers: *const f64, count: usize, name: &str) -> Result<Vec<Point3<f64>>, Refused> {
-    let all = count.checked_mul(3).unwrap_or(usize::MAX);
+    let all = count.saturating_mul(3);
     // SAFETY: handed on.
     let numbers = unsafe { many(numbers, all, name)? };
     Ok(numbers.as_chunks().0.iter().map(|[x, y, z]| Point3::new(*x, *y, *z)).collect())

@@ -58,7 +58,7 @@ pub unsafe extern "C" fn hairpin_map_new(
                 _ => return Err(Refused::new(HAIRPIN_INVALID, format_args!("`holes` = {holes}: must be 0, 1 or 2"))),
             };
             let Grid { columns, rows, first_center_m: first_center, cell_m: cell } = *grid;
-            let cells = columns.checked_mul(rows).unwrap_or(usize::MAX);
+            let cells = columns.saturating_mul(rows);
             let heights = many(heights_m, cells, "heights_m")?;
             let map = ElevationMap::new(Cells { columns, rows, first_center, cell }, heights, rule);
             handle(place, MapHandle { map: Arc::new(map.map_err(Refused::invalid)?) })

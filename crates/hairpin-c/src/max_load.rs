@@ -130,7 +130,7 @@ pub unsafe extern "C" fn hairpin_max_load(
     // SAFETY: all are NULL or what their types say, with as many values or room for them, as the header has it.
     unsafe {
         enter(error, || {
-            let cells = points.checked_mul(points).unwrap_or(usize::MAX);
+            let cells = points.saturating_mul(points);
             let costs = many(costs, cells, "costs")?;
             let usual = hairpin_max_load_defaults();
             let settings = if settings.is_null() { usual } else { *given(settings, "settings")? };
