@@ -196,7 +196,7 @@ impl Session<'_> {
                 step.mistake(format!("the same mission for the time number {}: {}", all.len() + 1, failed.in_full()));
                 break;
             }
-            all.push(speed::timed(mission, &greeting, &self.wire.take()));
+            all.push(speed::timed(mission, greeting, &self.wire.take()));
         }
         let found = (!all.is_empty()).then(|| Speed::of(flight, elapsed, &all));
         if let Some(found) = found {

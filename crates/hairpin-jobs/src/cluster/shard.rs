@@ -56,7 +56,7 @@ pub fn shard_from_env(asked: Option<u64>, variable: &dyn Fn(&str) -> Option<Stri
         found.map(Some).ok_or_else(|| Problem::input(format!("--shard from-env: {name} = {text:?} is no whole number")))
     };
     let counted = || -> Result<Option<u64>, Problem> { Ok(asked.or(number("HAIRPIN_SHARDS")?)) };
-    let [slurm, kubernetes, aws] = INDICES.map(|name| number(name));
+    let [slurm, kubernetes, aws] = INDICES.map(number);
     let (slurm, kubernetes, aws) = (slurm?, kubernetes?, aws?);
     let (from_zero, of, index_name, count_name) = match (slurm, kubernetes, aws) {
         (Some(id), None, None) => {

@@ -50,7 +50,7 @@ impl Kind {
             return Self::Mission;
         }
         let text = String::from_utf8_lossy(first);
-        let is_program = text.lines().any(|line| starts_module(line));
+        let is_program = text.lines().any(starts_module);
         let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
         let columns = Columns::of(header);
         match ending {
