@@ -39,7 +39,7 @@ pub(crate) fn arm_of(setup: &Setup) -> Option<&ArmSetup> {
 /// # Errors
 /// It is no recording of this arm, or of no program of the campaign.
 pub(crate) fn ran<'a>(file: &Path, arm: &ArmSetup, cases: &'a [Case]) -> Result<(&'a Case, Track), Problem> {
-    let read = read::recording(file, arm, &LogSettings::default())?;
+    let read = read::recording(file, arm, (None, [None; 2]))?;
     let (case, _) = matching::matched(arm, cases, &read.log).map_err(|why| Problem::of_file(file, why))?;
     Ok((case, read.log.track))
 }
@@ -79,7 +79,7 @@ impl<'a> Programs<'a> {
         settings: &LogSettings,
     ) -> Result<JudgedLog, Problem> {
         let refuse = |why: String| Problem::of_file(file, why);
-        let read = read::recording(file, self.arm, settings)?;
+        let read = read::recording(file, self.arm, (settings.source.as_deref(), [settings.from_s, settings.to_s]))?;
         let (case, matched) = matching::matched(self.arm, &self.cases, &read.log).map_err(refuse)?;
         let recorded = self.arm.recorded(case, read.log.track, read.log.orientation_known);
         let (flight, short) = recorded.map_err(|error| refuse(error.to_string()))?;

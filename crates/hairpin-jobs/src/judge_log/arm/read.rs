@@ -9,7 +9,6 @@ use hairpin_formats::controller_log::{self, ControllerLog};
 use hairpin_formats::logs::{self, Clock, Logged};
 use hairpin_formats::quote::shortened;
 
-use super::super::settings::LogSettings;
 use super::super::source::{SourceTold, clock_words};
 use super::found::JointsTold;
 use super::names::axes;
@@ -28,11 +27,16 @@ pub(super) struct Read {
     pub(super) notes: Vec<String>,
 }
 
-/// The recording in `file`: a bag's joints, or a table as controllers write it.
+/// The recording in `file`: a bag's joints, of the topic `source` where one is asked for, or a table as controllers
+/// write it; what lies between two moments of the log, s.
 ///
 /// # Errors
 /// What of it is broken; joints that are not the arm's; times of which nothing is left.
-pub(super) fn recording(file: &Path, arm: &ArmSetup, settings: &LogSettings) -> Result<Read, Problem> {
+pub(super) fn recording(
+    file: &Path,
+    arm: &ArmSetup,
+    (source, [from_s, to_s]): (Option<&str>, [Option<f64>; 2]),
+) -> Result<Read, Problem> {
     let refuse = |why: String| Problem::of_file(file, why);
     let station = &arm.station;
     let (log, name, format, clock, joints, notes) = if logs::is_text(file).map_err(Problem::input)? {
@@ -41,7 +45,7 @@ pub(super) fn recording(file: &Path, arm: &ArmSetup, settings: &LogSettings) -> 
         (log, name, "CSV", Clock::File, None, Vec::new())
     } else {
         let logged = logs::read(file).map_err(Problem::input)?;
-        let (joints, place, told) = chosen(&logged, &station.arm, settings.source.as_deref()).map_err(refuse)?;
+        let (joints, place, told) = chosen(&logged, &station.arm, source).map_err(refuse)?;
         let rows: Vec<Joints> = joints.positions_rad.iter().map(|row| place.map(|index| row[index])).collect();
         let log = controller_log::of_joints(file, joints.times_s.clone(), &rows, (&station.arm, &station.tool.tcp));
         let name = joints.name.clone();
@@ -51,8 +55,8 @@ pub(super) fn recording(file: &Path, arm: &ArmSetup, settings: &LogSettings) -> 
     let times = log.track.times();
     // A controller's log begins with its program; a recorder runs before it and has another clock.
     let first = if clock == Clock::File { 0.0 } else { times[0] };
-    let begins_s = settings.from_s.unwrap_or(first);
-    let (from, to) = (settings.from_s.unwrap_or(times[0]), settings.to_s.unwrap_or(f64::INFINITY));
+    let begins_s = from_s.unwrap_or(first);
+    let (from, to) = (from_s.unwrap_or(times[0]), to_s.unwrap_or(f64::INFINITY));
     let which: Vec<usize> = (0..times.len()).filter(|i| (from..=to).contains(&times[*i])).collect();
     if which.len() < 2 {
         let (first, last) = (times[0], times[times.len() - 1]);
