@@ -8,9 +8,9 @@ use super::keys::Keys;
 use super::numbers::small_share;
 use super::resources::{Kernels, Threads};
 
-/// Estimates a robot's numbers (of flights thrust to weight, drag, rotor lag, latency and the controller's bandwidth, of
-/// drives latency, lags, scales and slips, of arms the servos' lags and delay) from logs of what a
-/// controller of ours flew or that is taken for one, by output error with profile likelihood; what the logs do not show
+/// Estimates a robot's numbers (of flights thrust to weight, drag, rotor lag, latency and the controller's bandwidth;
+/// of drives latency, lags, scales and slips; of arms the servos' lags and delay) from logs of what a controller of
+/// ours did or one that is taken for it, by output error with profile likelihood; what the logs do not show
 /// is told as `not identifiable`. Writes a robot file. Exit code 0; 5 where nothing is told, or the fit is no better on
 /// logs that it has not seen.
 #[derive(Debug, Args)]

@@ -1,4 +1,5 @@
-//! Which legs of a log were gone backwards: a deviation is of places, which the gear does not change, and so it is told.
+//! Which legs of a log were gone backwards: a deviation is of places, which the gear does not change, and so this is
+//! told beside it.
 
 use std::collections::BTreeMap;
 

@@ -124,8 +124,8 @@ pub(in crate::campaign) trait Say {
     /// What executors are handed.
     fn handed(&self) -> Handed;
 
-    /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words; `None` where none was,
-    /// and of what has no back.
+    /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words; `None` where none
+    /// was, and of what has no back.
     fn backwards(&self, _case: &Case, _track: &Track) -> Option<String> {
         None
     }

@@ -4,8 +4,8 @@ use super::error::{RoverError, within};
 
 /// How the wheels follow their commands, and the vehicle its wheels.
 ///
-/// A commanded κ waits for the latency, then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle; a
-/// commanded speed likewise, T v̇ = v_commanded − v. Over the ground the vehicle goes by `speed_scale` of the wheels'
+/// A commanded κ waits for the latency, then steers: τ δ̇ = δ_commanded − δ with |δ̇| bounded, κ = tan(δ)/steered_axle;
+/// a commanded speed likewise, T v̇ = v_commanded − v. Over the ground the vehicle goes by `speed_scale` of the wheels'
 /// way, on a curvature of `turn_scale` of theirs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {

@@ -52,8 +52,8 @@ const STILL: f64 = 1e-9;
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
 /// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and
 /// the rate ω of turns in place follow their commands with a lag and the bounded acceleration, and v with no more than
-/// the wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground. A steady force at the centre of
-/// mass is a tilt of gravity to slip, torque and tip-over margin.
+/// the wheels' torque leaves of it; z, φ, θ and the joints by the suspension on the ground. A steady force at the
+/// centre of mass is a tilt of gravity to slip, torque and tip-over margin.
 #[derive(Debug, Clone)]
 pub(super) struct Plant<'a> {
     /// The true one: its slip, lags and bounds act.

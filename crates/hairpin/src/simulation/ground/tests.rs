@@ -67,8 +67,8 @@ fn steering_lags_by_its_time_constant_and_rate() {
     assert!((plant.curvature() - vehicle.limits.curvature).abs() < 1e-9);
 }
 
-/// x = s v (t − T (1 − e^(−t/T))) of a speed that lags by T on a scale s; a circle of the scaled curvature; and a wheel that
-/// is told to stand comes to stand.
+/// x = s v (t − T (1 − e^(−t/T))) of a speed that lags by T on a scale s; a circle of the scaled curvature; and a wheel
+/// that is told to stand comes to stand.
 #[test]
 fn speeds_lag_and_the_ground_makes_less_of_the_wheels() {
     let level = plane(0.0, 0.0);

@@ -33,8 +33,9 @@ pub(super) fn drawn(number: &Adjustable, share: f64) -> f64 {
     }
 }
 
-/// `count` logs of the arm `truth`, each of a program of its own, 100 samples a second. Fine points take up to 1 ms more
-/// at each, one axis has 0.02° of backlash, encoders are off by 0.01° from sample to sample, and stamps by up to 1 ms.
+/// `count` logs of the arm `truth`, each of a program of its own, 100 samples a second. Stops at fine points last up to
+/// 1 ms longer, one axis has 0.02° of backlash, encoders are off by 0.01° from sample to sample, and stamps by up to
+/// 1 ms.
 pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Vec<Flown> {
     let disturbed = [
         ("execute.noise_mm", json!(0.02)),
