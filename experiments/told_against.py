@@ -50,7 +50,7 @@ def command_of(program, out):
 
 def hairpin(program, out, *words, sets=()):
     """Runs a verb into `out`, unless it is there; a violation (1) is as good as none."""
-    if not (out / "results.parquet").exists():
+    if not (out / "told.json").exists():
         words = [program, *map(str, words), "--out", str(out), "--force", "--threads", "1", "--json"]
         done = subprocess.run(words + [word for one in sets for word in ("--set", one)], capture_output=True, text=True)
         if done.returncode not in (0, 1):
