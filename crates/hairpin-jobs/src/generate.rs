@@ -264,26 +264,6 @@ mod tests {
     }
 
     #[test]
-    fn what_an_arm_has_no_time_to_prove_it_does_not_claim() {
-        let place = tempfile::tempdir().unwrap();
-        let set = |key: &str, value: &str| (key.to_owned(), value.to_owned());
-        let settings = CampaignSettings {
-            scenario: "irb120".into(),
-            out: Some(place.path().join("out")),
-            sets: vec![set("task.points.count", "4"), set("generate.search.programs", "1")],
-            ..CampaignSettings::default()
-        };
-        let work = plan(&settings, &Unwatched).unwrap().begin().unwrap();
-        let (never, now) = (Deadline::after(None), Deadline::after(Some(0.0)));
-        let (cases, tally) = find_cases(&work, never, now, &Unwatched).unwrap();
-        assert_eq!((cases[0].gap(), tally.complete, tally.cut.as_deref()), (None, false, Some(UNPROVEN)));
-        // Gone on with, it is the same program, and proven.
-        let (proven, tally) = find_cases(&work, never, never, &Unwatched).unwrap();
-        assert_eq!((proven[0].gap(), tally.complete, tally.cut), (Some(0.0), true, None));
-        assert_eq!(proven[0].waypoints, cases[0].waypoints);
-    }
-
-    #[test]
     fn who_stops_it_is_told_and_may_go_on() {
         struct Stopped;
         impl Watch for Stopped {
