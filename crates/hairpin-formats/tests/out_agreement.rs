@@ -58,7 +58,7 @@ fn page(setup: &Setup, violation: Option<Violation>) -> (String, String) {
     let full = |(case, result): (&Case, &CaseResult)| {
         let flight = Flight { track: track(), ended: Ended::Done, left_world: None, reached: vec![Some(0.0); 3] };
         let run = Run { case: case.number, run: 0, drawn: vec![], outcome: Ok(flight), full_rate: None };
-        shown(setup, case, result, track(), Some(&run), &[]).unwrap()
+        shown(setup, case, result, track(), Some((&run).into()), &[]).unwrap()
     };
     let data = report::assemble(Pieces {
         setup,
