@@ -8,8 +8,8 @@ const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█']
 /// Bars of a row.
 const WIDTH: usize = 48;
 
-/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to `limit` (m), in
-/// the unit that the verdict has.
+/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to `limit` (m),
+/// in the unit that the verdict has.
 pub(super) fn course(shown: &Shown, limit: Option<f64>, length: &Length) -> Vec<String> {
     let mut lines = Vec::new();
     let Length { unit, in_metre } = *length;

@@ -18,7 +18,8 @@ const GAP: f64 = 56.0;
 /// Points of a path that are drawn at most.
 const POINTS: usize = 250;
 
-/// Of what is called `name`: top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight and its worst moment.
+/// Of what is called `name`: top view (x, y) and side view (x, z) on one scale, with obstacles, waypoints, plan, flight
+/// and its worst moment.
 pub(super) fn views(shown: &Shown, name: &str, drawing: &Drawing) -> String {
     let Layout { scale, width, top, side, height, full, tall } = Layout::of(drawing);
     let low = drawing.low;
