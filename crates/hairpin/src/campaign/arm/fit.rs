@@ -39,6 +39,7 @@ pub(super) fn fittable(setup: &ArmSetup) -> Result<Fittable, String> {
         bounds: [0.0, 0.5],
         step: 0.003,
         other: lags[axis] + 0.03,
+        doubt: None,
     };
     let late = setup.scenario.execute.faults.start_delay_s;
     let delay = Adjustable {
@@ -50,6 +51,7 @@ pub(super) fn fittable(setup: &ArmSetup) -> Result<Fittable, String> {
         bounds: [0.0, 2.0],
         step: 0.003,
         other: late + 0.03,
+        doubt: Some("late stamps and longer stops look like it, and its intervals did not hold on drawn arms"),
     };
     let calm =
         [("execute.noise_mm", json!(0.0)), ("execute.logs", Value::Null), ("execute.log_clock", json!("as-recorded"))];

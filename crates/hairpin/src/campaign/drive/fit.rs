@@ -11,6 +11,10 @@ use crate::simulation::Acceptance;
 const OUTPUTS: [(Output, usize); 4] =
     [(Output::Position(0), 0), (Output::Position(1), 0), (Output::Axis(0, 0), 1), (Output::Axis(0, 1), 1)];
 
+/// A controller that swings crashes in simulation beside an estimate, which then says nothing of that number and bends
+/// the others.
+const DOUBT: &str = "intervals of drives did not hold on drawn vehicles";
+
 /// Slips by slope are of rovers alone.
 pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
     let execute = &setup.scenario.execute;
@@ -27,6 +31,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         bounds,
         step,
         other,
+        doubt: Some(DOUBT),
     };
     let lag = |name, field, value: f64| number(name, field, "s", value, [0.0, 3.0], 0.03, value + 0.2);
     let scale = |name, field, value: f64| number(name, field, "", value, [0.3, 3.0], 0.02, 0.9 * value);

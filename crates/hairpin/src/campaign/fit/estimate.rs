@@ -40,6 +40,8 @@ pub enum Reading {
     Open,
     /// Not identifiable: the interval is wider than a quarter on either side.
     Wide,
+    /// Not identifiable: such intervals are not believed, for the reason that the number has.
+    Doubted,
 }
 
 /// A number after a fit.
@@ -196,6 +198,9 @@ impl Found {
             let rise = t * t * spread.covariance[(k, k)] / spread.white[(k, k)];
             let ends = profile(&objective, &best, &free, &spread, (k, rise));
             readings[own] = reading(best.theta[own], ends);
+            if readings[own].0 == Reading::Told && loops.numbers[own].doubt.is_some() {
+                readings[own].0 = Reading::Doubted;
+            }
         }
         if stopped() {
             return Err(FitError::Stopped);

@@ -52,6 +52,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         bounds: [0.0, 20.0 * like],
         step: 0.05 * like,
         other: 1.5 * like,
+        doubt: None,
     };
     let mut numbers = vec![Adjustable {
         name: "thrust to weight",
@@ -62,6 +63,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         bounds: [1.05, (4.0 * ratio).min(50.0)],
         step: 0.02 * ratio,
         other: 1.0 + 0.7 * (ratio - 1.0),
+        doubt: None,
     }];
     if linear > 0.0 || quadratic == 0.0 {
         let like = if linear > 0.0 { linear } else { typical };
@@ -79,6 +81,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         bounds,
         step,
         other,
+        doubt: None,
     };
     numbers.extend([
         number(

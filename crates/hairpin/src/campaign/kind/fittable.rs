@@ -23,6 +23,8 @@ pub struct Adjustable {
     pub step: f64,
     /// Another value to begin a search at.
     pub other: f64,
+    /// Why its interval is not believed, where on drawn robots it did not hold: what is found is shown, and not told.
+    pub doubt: Option<&'static str>,
 }
 
 /// An output of a motion, which a simulation and a log have.
