@@ -26,7 +26,8 @@ pub(crate) struct Plan {
     /// Program that flies the missions (sets execute.command); see examples/executors
     #[arg(long, value_name = "COMMAND")]
     pub(crate) executor: Option<String>,
-    /// Parts that the work is divided into; 64, or as many as there are graphs or cases. More shards than parts have nothing to do
+    /// Parts that the work is divided into; 64, or as many as there are graphs or cases. More shards than parts have
+    /// nothing to do
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) parts: Option<u64>,
     #[command(flatten)]
@@ -46,8 +47,8 @@ pub(crate) struct Plan {
     pub(crate) commands: Commands,
 }
 
-/// Makes the parts of one shard: every N-th of the plan, those that are there and whole left out. A part appears whole or
-/// not at all, so that a shard that was killed is simply run again.
+/// Makes the parts of one shard: every N-th of the plan, those that are there and whole left out. A part appears whole
+/// or not at all, so that a shard that was killed is simply run again.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "hairpin run-shard [OPTIONS] <I/N> <DIR>\n       hairpin run-shard [OPTIONS] --shard from-env <DIR>"

@@ -1,5 +1,5 @@
-//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; the log of a clocking module;
-//! or the log of a robot or a mission, and what would be judged of it.
+//! `hairpin import`: a program from elsewhere, line by line, and what an arm can do of it; the log of a clocking
+//! module; or the log of a robot or a mission, and what would be judged of it.
 
 mod elsewhere;
 

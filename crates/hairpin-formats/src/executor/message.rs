@@ -5,6 +5,7 @@ use hairpin::campaign::kind::Handed;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::acceptance;
 use super::greeting::Greeting;
 
 /// Bytes of a message, and of a row of its timed motion: most need no more.
@@ -125,7 +126,7 @@ pub fn mission_message(mission: &Mission, to: &Greeting) -> ToExecutor {
         [sample.t, p.x, p.y, p.z, v.x, v.y, v.z]
     });
     let Handed { robot, world, external_force, limits, .. } = mission.setup.handed();
-    let (radius_m, height_m) = (mission.accept, acceptance_height(mission));
+    let (radius_m, height_m) = (mission.accept, acceptance::height(mission));
     let more = || MoreOfMission { yaw_rad: mission.yaws.clone(), limits, accept: AcceptMessage { radius_m, height_m } };
     ToExecutor::Mission(Box::new(MissionMessage {
         case: mission.case.clone(),
@@ -140,11 +141,6 @@ pub fn mission_message(mission: &Mission, to: &Greeting) -> ToExecutor {
         time_limit_s: mission.time_limit,
         timed: timed.collect(),
     }))
-}
-
-/// How far above or below a waypoint counts as reached, m.
-pub(super) fn acceptance_height(mission: &Mission) -> f64 {
-    mission.accept
 }
 
 /// What tells one mission from another: BLAKE3 of its message, whatever its case is called.

@@ -27,13 +27,15 @@
 //! [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). `done` may be claimed anywhere: the judge sees what was flown, and a
 //! `done` without the last waypoint is an unfinished mission.
 //!
-//! `"timed":false` in the first `ready` asks for missions without the planned motion, which is nearly all of their length.
+//! `"timed":false` in the first `ready` asks for missions without the planned motion, which is nearly all of their
+//! length.
 //!
 //! Missions of drives under a steady force say it in `external_force_n` (east, north, up, N).
 //!
 //! Whatever the program does wrong fails the mission it was flying and no other: the process is ended with all its
 //! children, the end of its stderr is kept, and a new one is started for the next mission.
 
+mod acceptance;
 mod answer;
 mod command;
 mod envelope;

@@ -8,9 +8,9 @@ use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
+use super::acceptance;
 use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
-use super::message::acceptance_height;
 
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
@@ -81,7 +81,7 @@ impl<'a> Recording<'a> {
     pub fn new(mission: &'a Mission, protocol: u64) -> Self {
         Self {
             mission,
-            height: (protocol > 1).then(|| acceptance_height(mission)),
+            height: (protocol > 1).then(|| acceptance::height(mission)),
             times: Vec::new(),
             poses: Vec::new(),
             velocities: Some(Vec::new()),

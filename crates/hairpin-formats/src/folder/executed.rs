@@ -6,9 +6,7 @@
 use std::io;
 use std::str::FromStr;
 
-use hairpin::campaign::Answers;
-use hairpin::search::in_loop::Trial;
-use hairpin::search::worst::Ran;
+use hairpin::campaign::answers::{Answers, Executed};
 
 use super::names::EXECUTED;
 use super::{CampaignFolder, FolderError};
@@ -24,7 +22,7 @@ impl CampaignFolder {
     /// The file cannot be written.
     pub fn write_executed(&self, answers: Option<&Answers>) -> Result<(), FolderError> {
         let Some(answers) = answers else { return self.remove_one(EXECUTED) };
-        let text: String = answers.iter().map(|(fingerprint, ran)| row(fingerprint, ran)).collect();
+        let text: String = answers.rows().map(|(fingerprint, ran)| row(&fingerprint, ran.as_ref())).collect();
         Ok(atomic::write(&self.file(EXECUTED), text.as_bytes())?)
     }
 
@@ -39,39 +37,38 @@ impl CampaignFolder {
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(None),
             text => text.map_err(refuse)?,
         };
-        let mut answers = Answers::default();
+        let mut rows = Vec::new();
         for (number, line) in text.lines().enumerate() {
-            let Some((fingerprint, ran)) = read(line) else {
+            let no_execution = || {
                 let what = format!("line {} is no execution", number + 1);
-                return Err(refuse(io::Error::new(io::ErrorKind::InvalidData, what)));
+                refuse(io::Error::new(io::ErrorKind::InvalidData, what))
             };
-            answers.take(fingerprint, ran);
+            rows.push(read(line).ok_or_else(no_execution)?);
         }
-        Ok(Some(answers))
+        Ok(Some(Answers::of_rows(rows)))
     }
 }
 
-fn row(fingerprint: &[u8; 16], ran: Option<&Ran>) -> String {
+fn row(fingerprint: &[u8; 16], ran: Option<&Executed>) -> String {
     let name = u128::from_be_bytes(*fingerprint);
-    let Some(Ran { trials, behaviour }) = ran else { return format!("{name:032x}\n") };
-    let trial = |trial: &Trial| format!("{}:{}:{}", trial.stress, trial.worst_leg, trial.executions);
+    let Some(Executed { trials, behaviour }) = ran else { return format!("{name:032x}\n") };
+    let trial = |(stress, leg, executions): &(f64, usize, u64)| format!("{stress}:{leg}:{executions}");
     let trials: Vec<String> = trials.iter().map(trial).collect();
     let behaviour: Vec<String> = behaviour.iter().map(f64::to_string).collect();
     format!("{name:032x}\t{}\t{}\n", trials.join(" "), behaviour.join(" "))
 }
 
-fn read(line: &str) -> Option<([u8; 16], Option<Ran>)> {
+fn read(line: &str) -> Option<([u8; 16], Option<Executed>)> {
     let mut parts = line.split('\t');
     let fingerprint = u128::from_str_radix(parts.next()?, 16).ok()?.to_be_bytes();
     let (Some(trials), Some(behaviour)) = (parts.next(), parts.next()) else { return Some((fingerprint, None)) };
     let trial = |text: &str| {
         let mut of = text.split(':');
-        let (stress, worst_leg, executions) = (number(of.next()?)?, number(of.next()?)?, number(of.next()?)?);
-        Some(Trial { stress, worst_leg, executions })
+        Some((number(of.next()?)?, number(of.next()?)?, number(of.next()?)?))
     };
-    let trials: Option<Vec<Trial>> = trials.split_whitespace().map(trial).collect();
+    let trials: Option<Vec<(f64, usize, u64)>> = trials.split_whitespace().map(trial).collect();
     let behaviour: Option<Vec<f64>> = behaviour.split_whitespace().map(number).collect();
-    Some((fingerprint, Some(Ran { trials: trials?, behaviour: behaviour? })))
+    Some((fingerprint, Some(Executed { trials: trials?, behaviour: behaviour? })))
 }
 
 fn number<T: FromStr>(text: &str) -> Option<T> {
@@ -84,14 +81,14 @@ mod tests {
 
     #[test]
     fn a_row_comes_back_to_the_bit() {
-        let trial = |stress| Trial { stress, worst_leg: 3, executions: 2 };
-        let ran = Ran { trials: vec![trial(0.1 + 0.2), trial(-1e-300)], behaviour: vec![1.0 / 3.0, 0.0] };
+        let trial = |stress| (stress, 3, 2);
+        let ran = Executed { trials: vec![trial(0.1 + 0.2), trial(-1e-300)], behaviour: vec![1.0 / 3.0, 0.0] };
         let fingerprint = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 255];
         assert_eq!(read(row(&fingerprint, Some(&ran)).trim_end()), Some((fingerprint, Some(ran))));
         assert_eq!(read(row(&fingerprint, None).trim_end()), Some((fingerprint, None)));
-        let unmeasured = Ran { trials: vec![trial(f64::NAN)], behaviour: Vec::new() };
+        let unmeasured = Executed { trials: vec![trial(f64::NAN)], behaviour: Vec::new() };
         let (_, back) = read(row(&fingerprint, Some(&unmeasured)).trim_end_matches('\n')).unwrap();
-        assert!(back.unwrap().trials[0].stress.is_nan());
+        assert!(back.unwrap().trials[0].0.is_nan());
         for wrong in ["", "xyz", "00\t1:2\t", "00\t1:2:x\t"] {
             assert_eq!(read(wrong), None, "{wrong:?}");
         }

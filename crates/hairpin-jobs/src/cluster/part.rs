@@ -30,7 +30,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// What part number `part` says; `None` where it is not there or is of another plan. What it holds is not looked at.
+    /// What part number `part` says; `None` where it is not there or is of another plan. What it holds is not looked
+    /// at.
     pub(super) fn told(work: &Work, plan: &Plan, part: u64) -> Option<Self> {
         let place = work.folder.part_folder(part);
         // A link could lead anywhere.

@@ -12,8 +12,8 @@ use crate::Problem;
 use crate::next::replay_command;
 use crate::work::open_to_read;
 
-/// A test for each pair of two campaigns that were [`super::compare`]d: newly failing is a failure, with both runs and the
-/// command that flies B's again; what failed before is skipped, for nothing about it is new. Where nothing could be
+/// A test for each pair of two campaigns that were [`super::compare`]d: newly failing is a failure, with both runs and
+/// the command that flies B's again; what failed before is skipped, for nothing about it is new. Where nothing could be
 /// compared each pair is an error. With `regression` a metric that got worse is a failure of its own.
 ///
 /// # Errors

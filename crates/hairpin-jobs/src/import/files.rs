@@ -39,7 +39,7 @@ impl Loaded {
     }
 }
 
-pub(super) fn ending(path: &Path) -> String {
+fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 

@@ -38,29 +38,31 @@ impl Kind {
         if !is_text(file)? {
             return Ok(Self::Log);
         }
-        Ok(Self::of_text(&first, &super::files::ending(file)))
+        Ok(Self::of_text(&first, &file.to_string_lossy().to_ascii_lowercase()))
     }
 
-    fn of_text(first: &[u8], ending: &str) -> Self {
+    fn of_text(first: &[u8], name: &str) -> Self {
         if rapid::is_log(first) {
             return Self::ArcClock;
         }
         let start = first.trim_ascii_start();
-        if ["plan", "waypoints"].contains(&ending) || start.starts_with(b"QGC WPL") || start.starts_with(b"{") {
+        if [".plan", ".waypoints"].iter().any(|ending| name.ends_with(ending))
+            || start.starts_with(b"QGC WPL")
+            || start.starts_with(b"{")
+        {
             return Self::Mission;
         }
         let text = String::from_utf8_lossy(first);
         let is_program = text.lines().any(starts_module);
         let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
         let columns = Columns::of(header);
-        match ending {
-            "tum" => Self::Log,
-            _ if is_program => Self::Program,
-            _ if columns.time => Self::Log,
-            _ if columns.place => Self::Mission,
-            "csv" => Self::Log,
-            _ if is_tum(&text) => Self::Log,
-            _ => Self::Program,
+        match () {
+            () if name.ends_with(".tum") => Self::Log,
+            () if is_program => Self::Program,
+            () if columns.time => Self::Log,
+            () if columns.place => Self::Mission,
+            () if name.ends_with(".csv") || is_tum(&text) => Self::Log,
+            () => Self::Program,
         }
     }
 }
@@ -105,20 +107,20 @@ mod tests {
 
     #[test]
     fn texts_are_told_apart_by_what_they_hold() {
-        for (text, ending, kind) in [
-            ("x_m,y_m,z_m\n1,2,3\n", "csv", Kind::Mission),
-            ("lat_deg,lon_deg,alt_amsl_m\n1,2,3\n", "csv", Kind::Mission),
-            ("t_s,x_m,y_m,z_m\n1,2,3,4\n", "csv", Kind::Log),
-            ("#timestamp [ns], p_RS_R_x [m]\n1,2\n", "csv", Kind::Log),
-            ("a,b\n1,2\n", "csv", Kind::Log),
-            ("# t x y z\n0.0 1 2 3 0 0 0 1\n", "txt", Kind::Log),
-            ("QGC WPL 110\n", "txt", Kind::Mission),
-            ("  {\"fileType\": \"Plan\"}", "json", Kind::Mission),
-            ("%%%\n  VERSION:1\n%%%\nMODULE m(SYSMODULE)\nENDMODULE\n", "txt", Kind::Program),
-            ("hello\n", "txt", Kind::Program),
-            ("", "csv", Kind::Log),
+        for (text, name, kind) in [
+            ("x_m,y_m,z_m\n1,2,3\n", "a.csv", Kind::Mission),
+            ("lat_deg,lon_deg,alt_amsl_m\n1,2,3\n", "a.csv", Kind::Mission),
+            ("t_s,x_m,y_m,z_m\n1,2,3,4\n", "a.csv", Kind::Log),
+            ("#timestamp [ns], p_RS_R_x [m]\n1,2\n", "a.csv", Kind::Log),
+            ("a,b\n1,2\n", "a.csv", Kind::Log),
+            ("# t x y z\n0.0 1 2 3 0 0 0 1\n", "a.txt", Kind::Log),
+            ("QGC WPL 110\n", "a.txt", Kind::Mission),
+            ("  {\"fileType\": \"Plan\"}", "a.json", Kind::Mission),
+            ("%%%\n  VERSION:1\n%%%\nMODULE m(SYSMODULE)\nENDMODULE\n", "a.txt", Kind::Program),
+            ("hello\n", "a.txt", Kind::Program),
+            ("", "a.csv", Kind::Log),
         ] {
-            assert_eq!(Kind::of_text(text.as_bytes(), ending), kind, "{text:?}");
+            assert_eq!(Kind::of_text(text.as_bytes(), name), kind, "{text:?}");
         }
     }
 }

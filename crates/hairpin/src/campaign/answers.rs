@@ -3,25 +3,48 @@
 
 use std::collections::BTreeMap;
 
+use crate::search::in_loop::Trial;
 use crate::search::worst::Ran;
 
 /// Executions by the fingerprints of what was executed; of what failed there is nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Answers(BTreeMap<[u8; 16], Option<Ran>>);
 
+/// An execution in plain numbers, as files have it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Executed {
+    /// By each target the stress (NaN where it was not measured), the leg that it is owed to, and how many executions it
+    /// took.
+    pub trials: Vec<(f64, usize, u64)>,
+    /// Measures that tell it from others.
+    pub behaviour: Vec<f64>,
+}
+
 impl Answers {
+    /// Those of `rows`.
+    pub fn of_rows(rows: impl IntoIterator<Item = ([u8; 16], Option<Executed>)>) -> Self {
+        let trial = |(stress, worst_leg, executions)| Trial { stress, worst_leg, executions };
+        let ran = |Executed { trials, behaviour }| Ran { trials: trials.into_iter().map(trial).collect(), behaviour };
+        Self(rows.into_iter().map(|(fingerprint, row)| (fingerprint, row.map(ran))).collect())
+    }
+
+    /// All of them, in the order of their fingerprints.
+    pub fn rows(&self) -> impl Iterator<Item = ([u8; 16], Option<Executed>)> {
+        let trial = |trial: &Trial| (trial.stress, trial.worst_leg, trial.executions);
+        let row = move |ran: &Ran| Executed {
+            trials: ran.trials.iter().map(trial).collect(),
+            behaviour: ran.behaviour.clone(),
+        };
+        self.0.iter().map(move |(fingerprint, ran)| (*fingerprint, ran.as_ref().map(row)))
+    }
+
     /// What the execution of the plan with this fingerprint came to, if it was executed.
-    pub fn of(&self, fingerprint: &[u8; 16]) -> Option<&Option<Ran>> {
+    pub(super) fn of(&self, fingerprint: &[u8; 16]) -> Option<&Option<Ran>> {
         self.0.get(fingerprint)
     }
 
     /// Takes in what one came to.
-    pub fn take(&mut self, fingerprint: [u8; 16], ran: Option<Ran>) {
+    pub(super) fn take(&mut self, fingerprint: [u8; 16], ran: Option<Ran>) {
         self.0.insert(fingerprint, ran);
-    }
-
-    /// All of them, in the order of their fingerprints.
-    pub fn iter(&self) -> impl Iterator<Item = (&[u8; 16], Option<&Ran>)> {
-        self.0.iter().map(|(fingerprint, ran)| (fingerprint, ran.as_ref()))
     }
 }

@@ -61,8 +61,8 @@ pub fn generate_units(
 }
 
 /// What was found in units that follow one another, part by part, as one machine would have it that took them over in
-/// their order: cases that repeat are dropped, and those that stay are numbered. With them go, part by part, the numbers
-/// that stayed as they were.
+/// their order: cases that repeat are dropped, and those that stay are numbered. With them go, part by part, the
+/// numbers that stayed as they were.
 pub fn joined(scenario: &Scenario, parts: impl IntoIterator<Item = Known>) -> (Known, Vec<Vec<CaseNumber>>) {
     let (wanted, root, varied) = (scenario.search().cases, scenario.seed(), varies(scenario));
     let (mut all, mut same) = (Known::default(), Vec::new());
