@@ -228,5 +228,5 @@ fn names_that_mean_two_things_and_folders_are_told() {
     fs::create_dir(folder.path().join("empty")).unwrap();
     refused(folder.path(), &["stress", "empty"], &["`empty` is a folder", "no scenario.toml"]);
     fs::write(folder.path().join("x.ulg"), b"ULog\x01\x12\x35\x01").unwrap();
-    refused(folder.path(), &["import", "x.ulg"], &["x.ulg", "import reads RAPID modules"]);
+    refused(folder.path(), &["import", "x.ulg"], &["x.ulg, byte 8", "ends within its header"]);
 }

@@ -61,7 +61,6 @@ pub mod vary;
 pub mod verdict;
 pub mod verify;
 
-pub use answers::Answers;
 pub use assumptions::assumptions;
 pub use attachments::{Attached, Attachments, Resolved};
 pub use callers_code::CallersCode;
