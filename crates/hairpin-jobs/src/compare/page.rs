@@ -14,8 +14,8 @@ use crate::work::{Work, open_to_read};
 /// Cases of a comparison that are drawn at most.
 const DRAWN: usize = 200;
 
-/// Writes the page of two campaigns that were [`compare`]d into `file`: the runs of B over those of A, newly failing
-/// first, then what got worse the most.
+/// Writes the page of two campaigns that were [`super::compare`]d into `file`: the runs of B over those of A, newly
+/// failing first, then what got worse the most.
 ///
 /// # Errors
 /// Runs that are not to be had any more; a file that cannot be read or written.
