@@ -13,8 +13,8 @@ pub struct Answers(BTreeMap<[u8; 16], Option<Ran>>);
 /// An execution in plain numbers, as files have it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Executed {
-    /// By each target the stress (NaN where it was not measured), the leg that it is owed to, and how many executions it
-    /// took.
+    /// By each target the stress (NaN where it was not measured), the leg that it is owed to, and how many executions
+    /// it took.
     pub trials: Vec<(f64, usize, u64)>,
     /// Measures that tell it from others.
     pub behaviour: Vec<f64>,
