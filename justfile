@@ -21,7 +21,7 @@ quick:
 
 # A hundred thousand spoiled inputs for each reader; HAIRPIN_FUZZ_SEED makes them others.
 fuzz:
-    HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test fuzz -p hairpin-jobs --test fuzz_certificates
+    HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test formats -p hairpin-jobs --test fuzz_certificates fuzz
 
 demo:
     cargo run --release -p hairpin-cli -- demo

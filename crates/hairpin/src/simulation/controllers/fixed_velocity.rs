@@ -10,7 +10,7 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::command::{FlightCommand, FlightState};
 use crate::simulation::controller::{Controller, Fault, Reference};
 
-/// Fixed by `tests/step_responses.rs`.
+/// Fixed by `tests/library/step_responses.rs`.
 const GAINS: Gains = Gains {
     position: Vector3::new(0.9, 0.9, 0.9),
     velocity_p: Vector3::new(2.5, 2.5, 3.0),

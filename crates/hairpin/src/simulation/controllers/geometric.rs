@@ -16,7 +16,7 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::command::{Demand, FlightCommand, FlightState, attitude_of, level_heading};
 use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 
-/// Acceleration per position error, 1/s², and per velocity error, 1/s. Fixed by `tests/step_responses.rs`.
+/// Acceleration per position error, 1/s², and per velocity error, 1/s. Fixed by `tests/library/step_responses.rs`.
 const POSITION: f64 = 6.0;
 const VELOCITY: f64 = 4.0;
 /// Largest correction of the acceleration, in g: a tracker far from its reference must not throw itself over.

@@ -9,7 +9,7 @@ use crate::simulation::command::{FlightCommand, FlightState};
 use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 use crate::trajectory::Profile;
 
-/// Fixed by `tests/step_responses.rs`.
+/// Fixed by `tests/library/step_responses.rs`.
 const GAINS: Gains = Gains {
     position: Vector3::new(1.0, 1.0, 1.0),
     velocity_p: Vector3::new(3.0, 3.0, 3.5),

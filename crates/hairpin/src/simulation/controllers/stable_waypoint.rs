@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::cascade::{Cascade, Gains};
 use crate::robot::quadrotor::Quadrotor;
 
-/// Fixed by `tests/step_responses.rs`.
+/// Fixed by `tests/library/step_responses.rs`.
 const GAINS: Gains = Gains {
     position: Vector3::new(0.9, 0.9, 0.9),
     velocity_p: Vector3::new(2.5, 2.5, 3.0),

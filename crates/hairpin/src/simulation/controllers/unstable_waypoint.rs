@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::cascade::{Cascade, Gains};
 use crate::robot::quadrotor::Quadrotor;
 
-/// Fixed by `tests/step_responses.rs`.
+/// Fixed by `tests/library/step_responses.rs`.
 const GAINS: Gains = Gains {
     position: Vector3::new(3.0, 3.0, 1.5),
     velocity_p: Vector3::new(1.5, 1.5, 1.5),

@@ -1,0 +1,16 @@
+//! What goes in and out of files: read back by what wrote it and by equations of the tests' own, spoiled, cut and killed.
+
+mod fuzz;
+mod mars_yard;
+mod out_agreement;
+mod out_atomic;
+mod out_broken;
+mod out_campaign;
+mod out_folder;
+mod out_report;
+mod out_texts;
+mod rasters;
+mod readers;
+mod scenario_mistakes;
+mod scenario_round_trip;
+mod scenario_shipped;
