@@ -1,4 +1,7 @@
 //! Two campaigns over the same cases: what got better, what got worse, and what fails that did not fail before.
+//!
+//! Pairs share number, seed and waypoints, so that differences are those of the robot, the controller or the noise;
+//! tests are of paired differences and assume no distribution.
 
 use std::collections::BTreeMap;
 
@@ -13,6 +16,9 @@ pub const CONFIDENCE: f64 = 0.95;
 pub const SIGNIFICANCE: f64 = 0.05;
 
 /// Two campaigns, A and B, case by case.
+///
+/// Counts: `better` + `worse` + `unchanged` are the compared pairs; undecided ones are in `pairs` and in none of the
+/// three.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Comparison {
     /// Cases that both have: the same number, seed and waypoints.
@@ -45,6 +51,8 @@ pub struct Unpaired {
 }
 
 /// How one metric changed over all compared pairs in which both sides have it.
+///
+/// Medians in the metric's own unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MetricChange {
     /// Its column in `results.parquet`, with the unit.
@@ -60,6 +68,7 @@ pub struct MetricChange {
     /// The interval that covers it at [`CONFIDENCE`], whatever the distribution; fewer than six pairs have none.
     pub interval: Option<[f64; 2]>,
     /// Matched-pairs rank biserial correlation of B − A, −1 … 1.
+    /// (R⁺ − R⁻)/(R⁺ + R⁻) over the ranks of |B − A|, zeros left out: 1 where every pair rose.
     pub rank_biserial: f64,
     /// Wilcoxon's signed-rank test, two-sided.
     pub p: f64,
@@ -73,6 +82,8 @@ pub struct MetricChange {
 
 impl Comparison {
     /// Whether a metric got worse beyond chance.
+    ///
+    /// By [`MetricChange::change`], corrected for all metrics.
     pub fn regresses(&self) -> bool {
         self.metrics.iter().any(|metric| metric.change == "worse")
     }
@@ -115,6 +126,8 @@ impl Comparison {
 /// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and
 /// the same environment. Two runs that both pass or both fail are told apart by whether they crashed, then by their
 /// largest deviation, of which `tolerance` (m) is no difference.
+///
+/// Symmetric but for its words: B against A is the mirror of A against B.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
     let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<CaseNumber, usize> {
         side.iter().enumerate().map(|(index, (case, _))| (case.number, index)).collect()

@@ -118,13 +118,6 @@ impl<F: Fn(&LegView<'_>) -> f64> Objective for F {
 ///
 /// Associative, so that a dynamic program may add from either end; floating-point sums are taken in one order all the
 /// same.
-///
-/// ```
-/// use hairpin::search::Aggregate;
-///
-/// let total = |aggregate: Aggregate| [2.0, 5.0, 1.0].iter().fold(aggregate.neutral(), |t, leg| aggregate.add(t, *leg));
-/// assert_eq!((total(Aggregate::Sum), total(Aggregate::Max)), (8.0, 5.0));
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Aggregate {
@@ -149,6 +142,14 @@ impl Aggregate {
     /// The score after one more leg (or after more legs that score `leg` together).
     ///
     /// −∞ + ∞ counts as −∞: a worthless leg makes a worthless trajectory, never a NaN that compares with nothing.
+    ///
+    /// ```
+    /// use hairpin::search::Aggregate;
+    ///
+    /// let legs = [2.0, 5.0, 1.0];
+    /// let total = |by: Aggregate| legs.iter().fold(by.neutral(), |total, leg| by.add(total, *leg));
+    /// assert_eq!((total(Aggregate::Sum), total(Aggregate::Max)), (8.0, 5.0));
+    /// ```
     pub fn add(self, total: f64, leg: f64) -> f64 {
         match self {
             Aggregate::Sum => {

@@ -18,8 +18,9 @@ use crate::math::random::hashed_unit;
 /// With Λ_T = 1 − |α − T|/T: 1 at the turn T, 0 straight on, and at T = 90° also 0 for a leg straight back. α in [0,
 /// π]; on a first leg 0.
 ///
-/// On a leg straight on the part of the turn is 0: products vanish there, sums keep their speed. Speeds in m/s, v_max the top speed by which they are divided, ε =
-/// asin(climb/length) the elevation of a leg, so that sin ε is used as it is and no angle is formed.
+/// On a leg straight on the part of the turn is 0: products vanish there, sums keep their speed. Speeds in m/s, v_max
+/// the top speed by which they are divided, ε = asin(climb/length) the elevation of a leg, so that sin ε is used as
+/// it is and no angle is formed.
 ///
 /// ```
 /// use hairpin::feasibility::reach::LegFeatures;
@@ -122,7 +123,8 @@ pub enum ScoreMistake {
 
 impl Score {
     /// All names.
-    /// As they are typed in a scenario. [`Score::Ground`] is none of them: it is chosen by what the reach set is.
+    /// As they are typed in a scenario. [`Score::Ground`] is none of them: drives and boats come
+    /// to it by names of their own.
     pub const NAMES: [&'static str; 11] = [
         "random",
         "high-velocity",

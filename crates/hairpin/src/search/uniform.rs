@@ -165,8 +165,8 @@ fn below(rng: &mut Stream, bound: u128) -> u128 {
 /// assert_eq!(drawn.walks, Count::Exact(6)); // no way back over a leg is left among them
 /// ```
 ///
-/// Draw k depends on `seed`, the graph, the length and `revisits` alone: asking for more gives the same first ones. Scores are added up for
-/// what is returned, not for what is rejected.
+/// Draw k depends on `seed`, the graph, the length and `revisits` alone: asking for more gives the same first ones.
+/// Scores are added up for what is returned, not for what is rejected.
 pub fn uniform<N, O>(graph: &LegGraph<'_, N>, objective: &O, seed: u64, settings: &UniformSettings) -> UniformOutcome<N>
 where
     N: Copy,

@@ -140,8 +140,8 @@ impl Scale {
 
     /// The distance that so many of the pairs of `sample` (0 … 1) are nearer than; 0 without pairs.
     ///
-    /// The order statistic number ⌊q m⌋, from 0, of the m = n (n − 1)/2 distances, without interpolation; the largest for q =
-    /// 1. O(n² log n) time and O(n²) memory: for samples, not for populations.
+    /// The order statistic number ⌊q m⌋, from 0, of the m = n (n − 1)/2 distances, without interpolation; the largest
+    /// for q = 1. O(n² log n) time and O(n²) memory: for samples, not for populations.
     pub fn quantile(&self, sample: &[Trace], quantile: f64) -> f64 {
         let placed: Vec<Placed> = sample.iter().map(|trace| self.place(trace)).collect();
         let rows = placed.iter().enumerate();
