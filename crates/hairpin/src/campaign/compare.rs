@@ -21,7 +21,7 @@ pub const SIGNIFICANCE: f64 = 0.05;
 /// three.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Comparison {
-    /// Cases that both have: the same number, seed and waypoints.
+    /// Cases that both have: the same number, seed, waypoints and environment.
     pub pairs: usize,
     /// Of these, pairs whose run came to a better end in B or deviates less, both passing, both failing or not judged.
     pub better: usize,
@@ -46,7 +46,7 @@ pub struct Comparison {
 pub struct Unpaired {
     /// Its name.
     pub case: String,
-    /// `only in A`, `only in B`, `another seed`, `other waypoints`.
+    /// `only in A`, `only in B`, `another seed`, `other waypoints`, `another environment`.
     pub why: &'static str,
 }
 
@@ -126,8 +126,6 @@ impl Comparison {
 /// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and
 /// the same environment. Two runs that both pass or both fail are told apart by whether they crashed, then by their
 /// largest deviation, of which `tolerance` (m) is no difference.
-///
-/// Symmetric but for its words: B against A is the mirror of A against B.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
     let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<CaseNumber, usize> {
         side.iter().enumerate().map(|(index, (case, _))| (case.number, index)).collect()

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! DriveScenario ─▶ check ─▶ DriveSetup (vehicle, planner's vehicle, map, keep-outs)
-//!   Claim:  solve ─▶ roadmap of headed waypoints (witness) or stepwise ─▶ Plan   beside: passes, replan, alter, draw
-//!   Act:    execute ─▶ simulation::ground ─▶ Flight   beside: surround, place: what is beside the plan
+//!   Claim:  solve ─▶ roadmap of headed waypoints (witness) or stepwise ─▶ Plan; passes, replan, alter, draw
+//!   Act:    execute ─▶ simulation::ground ─▶ Flight; surround, place: what is searched beside the plan
 //!   proof:  verify, site ─▶ verification, as plain numbers
 //!   Say:    say, assumptions, drawing, figure, losses, knobs
 //! ```

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! FlightScenario ─▶ check ─▶ FlightSetup (robot, world, controller)
-//!   Claim:  solve ─▶ stepwise (none, sphere, hull, published) or witness ─▶ Plan   beside: passes, replan, certificates
-//!   Act:    fly ─▶ simulation::fly ─▶ Flight   beside: surround, place: what is beside the plan
+//!   Claim:  solve ─▶ stepwise (none, sphere, hull, published) or witness ─▶ Plan; beside it passes, replan
+//!   Act:    fly ─▶ simulation::fly ─▶ Flight; surround, place: what is searched beside the plan
 //!   proof:  verify ─▶ verification, as plain numbers
 //!   Say:    say, assumptions, figure, losses, knobs
 //! ```

@@ -6,7 +6,7 @@
 //!
 //! | pass | what | by |
 //! | --- | --- | --- |
-//! | waypoints | windows that end behind the violated leg, then any | doubling, [`ddmin`](crate::search::ddmin) |
+//! | waypoints | windows that end behind the violated leg, then any | doubling, [`ddmin`](fn@crate::search::ddmin) |
 //! | conditions | drawn values, wind, gusts, force, noise; obstacles, keep-outs | one by one; ddmin |
 //! | lengths | legs, coordinates that can be read | bisection, rounding |
 
