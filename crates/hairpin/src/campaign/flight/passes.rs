@@ -3,7 +3,7 @@
 //!
 //! | found | certainty |
 //! | --- | --- |
-//! | a place outside of the free space, an obstacle on the straight line, a speed or a turn beyond the limits | proven |
+//! | a place outside of the free space, an obstacle on the straight line, speeds or turns beyond limits | proven |
 //! | no profile between two stops, though all leg times and velocities were tried | not found |
 //!
 //! Sections from rest to rest are independent: each is flown or refused by itself, so that all that breaks is told at
