@@ -18,7 +18,7 @@
 //! | `compare`, `explain`, `shrink`, `select`, `influence`, `coverage`, `calibrate` | jobs over what is there |
 //! | `verdict`, `report`, `assumptions` | what is told of it |
 //!
-//! Every job is a function of plain data: a [`Setup`](setup::Setup), cases, runs; a [`Stop`](stop::Stop) brings
+//! Every job is a function of plain data: a [`Setup`], cases, runs; a [`Stop`] brings
 //! clock, progress and interruption from outside. Results depend on the scenario and its seed alone, on any number of
 //! threads, unless a time ends a job.
 

@@ -1,6 +1,6 @@
 //! From results to the one sentence.
 //!
-//! Gathers what [`judgement::verdict`] says, which knows no scenario: counts, worst, claims, intervals, budget. The
+//! Gathers what [`fn@judgement::verdict`] says, which knows no scenario: counts, worst, claims, intervals, budget. The
 //! sentence and the exit code are made there.
 
 use super::case::{Undone, gap_word};
