@@ -1,5 +1,8 @@
 //! What the executions of a search came to that was stopped: with them it comes to where it was without executing
 //! anything twice, and goes on from there.
+//!
+//! Kept beside the tally of an interrupted search `worst`. Fingerprints cover everything that decides an execution,
+//! so that an answer is used for the same plan alone.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +10,14 @@ use crate::search::in_loop::Trial;
 use crate::search::worst::Ran;
 
 /// Executions by the fingerprints of what was executed; of what failed there is nothing.
+///
+/// In the order of fingerprints, so that files have one form.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Answers(BTreeMap<[u8; 16], Option<Ran>>);
 
 /// An execution in plain numbers, as files have it.
+///
+/// A [`Ran`] without types of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Executed {
     /// By each target the stress (NaN where it was not measured), the leg that it is owed to, and how many executions
@@ -39,6 +46,8 @@ impl Answers {
     }
 
     /// What the execution of the plan with this fingerprint came to, if it was executed.
+    ///
+    /// `Some(None)`: executed, and failed.
     pub(super) fn of(&self, fingerprint: &[u8; 16]) -> Option<&Option<Ran>> {
         self.0.get(fingerprint)
     }

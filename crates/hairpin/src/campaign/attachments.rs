@@ -1,5 +1,8 @@
 //! What the files hold that a scenario names. It lies beside the keys, is read once, by the door, and is found by what
 //! a key says: a score that is drawn has the model that was read if it names its file, and none otherwise.
+//!
+//! A key that draws may change must not find a file that it does not name: each lookup takes the key's value and
+//! answers `None` where the file that was read is another.
 
 use std::fmt;
 use std::sync::Arc;
@@ -13,6 +16,9 @@ use super::user_target::RunMeter;
 use crate::world::terrain::ElevationMap;
 
 /// A file as it was read.
+///
+/// Shared by all clones of a setup; `bytes` are those that were read, so that a copy is exact even if the file
+/// changes.
 pub struct Attached<T: ?Sized> {
     /// What it says.
     pub read: Arc<T>,
@@ -39,6 +45,8 @@ impl<T: ?Sized> fmt::Debug for Attached<T> {
 }
 
 /// One point of a cloud as it was given.
+///
+/// In the units and conventions of the file (ABB's): mm, scalar first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloudPoint {
     /// x, y, z, mm, in the frame of the points.
@@ -50,6 +58,9 @@ pub struct CloudPoint {
 }
 
 /// A table of costs in whole units.
+///
+/// Whole numbers, so that sums and bounds of [`crate::search::heaviest`] are exact; a cost in the table's own unit is
+/// `costs` · `unit`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CostMatrix {
     /// N.
@@ -61,6 +72,8 @@ pub struct CostMatrix {
 }
 
 /// All that a scenario's files hold.
+///
+/// `None` wherever the scenario names no file.
 #[derive(Debug, Clone, Default)]
 pub struct Attachments {
     /// `world.terrain.file`, read as all of `world.terrain` says.
@@ -83,6 +96,8 @@ pub struct Attachments {
 
 impl Attachments {
     /// Names and contents of the files that a campaign keeps in its folder.
+    ///
+    /// Of code in the caller's process it is the file that it stands for.
     pub fn files(&self) -> Vec<(&str, &[u8])> {
         fn kept<T: ?Sized>(attached: Option<&Attached<T>>) -> Option<(&str, &[u8])> {
             attached.map(|attached| (attached.name.as_str(), &*attached.bytes))
@@ -147,6 +162,8 @@ impl Attachments {
 }
 
 /// A scenario that names nothing but files of a campaign's folder, with what these hold.
+///
+/// What [`Setup::build`](super::setup::Setup::build) takes.
 #[derive(Debug, Clone)]
 pub struct Resolved {
     /// Every key; the robot's table inline, meshes read, the base world merged.

@@ -1,5 +1,8 @@
 //! What runs did on the moves of their programs, as plain numbers: `moves.json`, and of earlier releases
 //! `baseline.json`.
+//!
+//! SI units; lists of one length, one entry a move. What is compared is the time from arrival to arrival and the
+//! largest distance from the path; clocks are brought together by one estimated offset a run.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -8,6 +11,8 @@ use super::CaseNumber;
 use crate::judgement::moves::Offset;
 
 /// Every run of a campaign, move by move.
+///
+/// Written by `judge` where motions are programs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Moves {
@@ -16,6 +21,8 @@ pub struct Moves {
 }
 
 /// The runs of one program.
+///
+/// Runs of the same program in two releases are compared by its digest, whatever its number is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseMoves {
@@ -30,6 +37,8 @@ pub struct CaseMoves {
 }
 
 /// One run; its lists have one value a move.
+///
+/// s and m.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunMoves {
@@ -72,6 +81,8 @@ pub struct RunUnseen {
 }
 
 /// What earlier releases did, oldest first; the last is what new runs are held against.
+///
+/// Spreads come from the runs of one release: two at least.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
@@ -90,6 +101,8 @@ pub struct ReleaseMoves {
 }
 
 /// Why numbers are no baseline.
+///
+/// Told with the file's name by the door.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("release `{release}`, case {case}: {what}")]
 pub struct BaselineError {
@@ -111,6 +124,8 @@ impl Baseline {
     ///
     /// # Errors
     /// As [`Self::checked`].
+    ///
+    /// The oldest are dropped beyond 50.
     pub fn of(earlier: Option<Self>, name: &str, moves: Moves) -> Result<Self, BaselineError> {
         let mut releases = earlier.map_or_else(Vec::new, |baseline| baseline.releases);
         releases.push(ReleaseMoves { name: name.into(), cases: moves.cases });

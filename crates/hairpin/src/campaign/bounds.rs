@@ -1,5 +1,8 @@
 //! Bounds that both what is written and what is read is held to. Each stands here once: what one command writes, every
 //! other one reads.
+//!
+//! Bounds of what makes sense, not of what a robot can: beyond lies another unit, a slip, or a size that takes days.
+//! SI units, unless the name says otherwise.
 
 use crate::robot::rover::MOST_SPEED;
 

@@ -1,4 +1,7 @@
 //! Limits that follow from what is ordinary: of many random feasible cases a given share breaks them.
+//!
+//! A quantile of random feasible cases, with its distribution-free interval: the limit that a stated share of
+//! ordinary missions breaks. Nothing is assumed of the distribution.
 
 use serde_json::{Map, Value};
 
@@ -11,9 +14,12 @@ use crate::judgement::{Limits, Measures, Quantile, exceeded_by, violations};
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 /// Fewer cases give no limit.
+/// An interval of a small share needs them.
 pub const LEAST: usize = 200;
 
 /// One key of `[spec]` that a limit stands in.
+///
+/// Several keys limit the same measure, one for each kind of robots; which ones apply is the scenario's.
 struct Key {
     key: &'static str,
     /// The limit that stands there.
@@ -50,6 +56,8 @@ const KEYS: &[Key] = &[
 ];
 
 /// What the runs of a case came to.
+///
+/// Turned so that larger is worse, in the key's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// Of every key that limits are proposed for, its worst value over all runs, larger being worse; infinite where a
@@ -62,6 +70,9 @@ pub struct Outcome {
 }
 
 /// A limit that the wanted share of cases breaks.
+///
+/// `value` is `None` with a `reason`: too few cases, a share that the interval does not reach, a measure that no run
+/// has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
     /// The key.
@@ -85,6 +96,8 @@ fn keys(setup: &Setup) -> Vec<&'static Key> {
 }
 
 /// What the runs of `case` came to; `None` where one was not flown or cannot be judged.
+///
+/// One run that cannot be judged leaves the whole case out: its worst is not known.
 pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
     let keys = keys(setup);
     let mut found = Outcome { worst: vec![None; keys.len()], ended_badly: false, left_world: false };
@@ -112,6 +125,9 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
 ///
 /// A case breaks a limit that one of its runs breaks, and any limit where one crashes or does not finish: how far off
 /// it would have been nobody knows. Fewer than 200 cases, and fewer than the interval takes, give no number.
+///
+/// `broken` in 0 … 1. The value is an order statistic of the cases' worst values; its interval is that of a binomial
+/// count at 95 %.
 pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal> {
     let badly = outcomes.iter().filter(|outcome| outcome.ended_badly).count();
     let propose = |(place, key): (usize, &&'static Key)| {
@@ -151,6 +167,8 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
 }
 
 /// The scenario's `[spec]` with the proposed limits in it, to three digits: the value of each of its keys.
+///
+/// Rounded to the nearest, so that the share that breaks a limit may differ by what lies within half a digit.
 pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     let mut spec = match setup.scenario.section("spec") {
         Some(Value::Object(spec)) => spec,

@@ -1,4 +1,6 @@
 //! Code in the caller's own process that answers in place of the files that a scenario names.
+//!
+//! The scenario names the file all the same; a campaign that is resumed elsewhere, without the process, reads that.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,6 +12,7 @@ use super::user_score::LegScorer;
 use super::user_target::RunMeter;
 
 /// Makes what steers of the time between two of its turns, s.
+/// Called once, when the code takes the place of the file.
 pub type MakeSteering = dyn Fn(f64) -> Arc<dyn UserSteering> + Send + Sync;
 
 /// What answers in place of files; a scenario that names none is not changed by it. Files stay what a campaign keeps
@@ -43,6 +46,8 @@ impl Setup {
     ///
     /// # Errors
     /// As of [`Self::changed`].
+    ///
+    /// Code for a key that the scenario does not have is left aside.
     pub fn answered_by(mut self, code: &CallersCode) -> Result<Self, Mistake> {
         if code.is_empty() {
             return Ok(self);

@@ -1,4 +1,12 @@
 //! What a campaign is made of: cases (planned), runs (executed), results (judged).
+//!
+//! | type | made by | file |
+//! | --- | --- | --- |
+//! | [`Case`] | generate, or imported | `trajectories/`, `profiles/` or `programs/` |
+//! | [`Run`] | execute, or an executor | `executions/`, `runs.parquet` |
+//! | [`CaseResult`] | judge | `results.parquet` |
+//!
+//! Plain data: each can be written, read back and handed to the next job without anything else but the scenario.
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,6 +19,8 @@ use crate::trajectory::program::Program;
 use crate::trajectory::{Flight, Profile};
 
 /// What stands behind a case: the evidence words of files, JSON and reports.
+///
+/// Each word has one meaning everywhere. None of them says anything of a controller or of a real robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
     /// Nothing was claimed (`none`, `sphere`, missions made elsewhere).
@@ -27,6 +37,7 @@ pub enum Evidence {
 
 impl Evidence {
     /// Every kind, the strongest first.
+    /// So that what rests on several cases is told by the strongest first.
     pub const ALL: [Evidence; 5] = [
         Evidence::ClearAllLinks,
         Evidence::ClearToolSphere,
@@ -47,12 +58,16 @@ impl Evidence {
     }
 
     /// The evidence whose word in files is `word`.
+    ///
+    /// The inverse of [`Self::word`]; `None` of any other word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|e| e.word() == word)
     }
 }
 
 /// What a search saw of a leg: what scores are made of, and what stress is learned from.
+///
+/// Kept with the case so that a model can be learned from executions without planning anew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeenLeg {
     /// Speeds, turn, length, climb, slope_in, ground.
@@ -73,12 +88,17 @@ impl SeenLeg {
     }
 
     /// From a row of a file.
+    ///
+    /// The inverse of [`Self::numbers`].
     pub fn of([v_in, v_out, turn, length, climb, slope_in, ground, duration]: [f64; 8]) -> Self {
         Self { features: LegFeatures { v_in, v_out, turn, length, climb, slope_in, ground }, duration }
     }
 }
 
 /// The commands behind a case, by what carries them out.
+///
+/// What `verify` integrates and what executors may fly: written to files as it is, in coefficients and segments, not
+/// in samples.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Witness {
     /// The flat outputs of a flight as polynomials of time, leg by leg.
@@ -117,6 +137,8 @@ impl Witness {
     }
 
     /// Legs between waypoints; `None` for a program, whose moves may be fewer or more.
+    ///
+    /// One fewer than waypoints where it fits its case.
     pub fn legs(&self) -> Option<usize> {
         match self {
             Self::Profile(profile) => Some(profile.legs.len()),
@@ -142,23 +164,32 @@ impl Witness {
 }
 
 /// A generated trajectory: case `number`, counted from 0.
+///
+/// Everything about it follows from the scenario, its graph and its number; nothing from execution but `score` and
+/// `environment` of searches that execute.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// 0, 1, 2 …; in files `0000`, `0001`, ….
     pub number: CaseNumber,
     /// The case's seed: [`crate::math::random::case_seed`].
+    /// Runs, draws and noise have named seeds under it. Of cases that an executor of the user's carried out while
+    /// they were searched for, it follows from the waypoints instead, so that they are carried out again alike.
     pub seed: u64,
     /// Number of the sampled graph it was found in.
     pub graph: u64,
     /// Waypoints, both ends included, m, world frame.
     pub waypoints: Vec<Point3<f64>>,
     /// Planned duration of each leg, s.
+    /// One fewer than waypoints; empty where nothing is timed.
     pub leg_times: Vec<f64>,
     /// What the search saw of each leg; empty for missions made elsewhere and for arms.
     pub seen: Vec<SeenLeg>,
     /// Score under the scenario's objective; of `in-loop` the stress that was executed.
+    /// No unit for scores by hand; the unit of the stress where it was executed. 0 of missions made elsewhere, of
+    /// which it says nothing.
     pub score: f64,
     /// Proven upper bound of the score in its graph, where the search has one.
+    /// In the unit of the score; equal to it where the optimum is proven.
     pub bound: Option<f64>,
     /// What stands behind it.
     pub evidence: Evidence,
@@ -172,6 +203,8 @@ pub struct Case {
 
 impl Case {
     /// A case of which nothing is known but its waypoints.
+    ///
+    /// Evidence [`Evidence::Unchecked`], no times, no witness.
     pub fn bare(number: CaseNumber, seed: u64, waypoints: Vec<Point3<f64>>) -> Self {
         Self {
             number,
@@ -205,18 +238,24 @@ impl Case {
     }
 
     /// The name in files.
+    ///
+    /// `0117`.
     pub fn id(&self) -> String {
         self.number.to_string()
     }
 
     /// How far below the proven bound the score lies, as a share of the score's size: 0 for the best there is. `None`
     /// without a bound.
+    ///
+    /// (bound − score) / |score|, at least 0.
     pub fn gap(&self) -> Option<f64> {
         let short = (self.bound? - self.score).max(0.0);
         Some(if short == 0.0 { 0.0 } else { short / self.score.abs() })
     }
 
     /// The evidence word, and where the search proved a bound `optimal` or `gap 3.1 %`.
+    ///
+    /// `witnessed`, `hull-feasible, gap 3.1 %`, `clear: all links, optimal`.
     pub fn claim(&self) -> String {
         match self.gap() {
             None => self.evidence.word().into(),
@@ -231,6 +270,8 @@ pub(super) fn gap_word(share: f64, gap: &str) -> String {
 }
 
 /// One sample of the planned motion.
+///
+/// World frame. Given to controllers and executors that track a plan in time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timed {
     /// Stamp, s.
@@ -242,6 +283,8 @@ pub struct Timed {
 }
 
 /// One execution of a case: run 0 is the nominal one.
+///
+/// A pure function of the scenario, the case and `run` where our own simulator carried it out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// Number of the case.
@@ -251,12 +294,15 @@ pub struct Run {
     /// Values drawn for `[vary]`, by key.
     pub drawn: Vec<(String, serde_json::Value)>,
     /// What happened, or why the executor failed.
+    /// A sentence of the executor's, or ours of what it did not answer.
     pub outcome: Result<Flight, String>,
     /// What was measured of it before rows were left out; `None` while all of its rows are there.
     pub full_rate: Option<Box<FullRate>>,
 }
 
 /// The verdict on a case or run.
+///
+/// Of a case over all of its runs, in this precedence: fail, executor failed, inconclusive, then pass or unjudged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// Within spec.
@@ -284,6 +330,8 @@ impl Status {
     }
 
     /// The status whose word in files is `word`.
+    ///
+    /// The inverse of [`Self::word`].
     pub fn from_word(word: &str) -> Option<Self> {
         [Status::Pass, Status::Fail, Status::Unjudged, Status::ExecutorFailed, Status::Inconclusive]
             .into_iter()
@@ -292,6 +340,8 @@ impl Status {
 }
 
 /// A violation that was run again with other noise.
+///
+/// Other noise, the same draws: whether the violation is the mission's or the noise's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reruns {
     /// Runs that violate.
@@ -302,6 +352,8 @@ pub struct Reruns {
 
 impl Reruns {
     /// The share that violates, with its Clopper-Pearson interval.
+    ///
+    /// `confidence` in 0 … 1; `None` where no run was judged.
     pub fn share(&self, confidence: f64) -> Option<Share> {
         share(self.violated, self.of, confidence)
     }
@@ -309,6 +361,8 @@ impl Reruns {
 
 /// The runs of a case whose values `[vary]` drew: at random and each by itself, so that their share of violations is an
 /// estimate, of this case.
+///
+/// An estimate for this case's mission under `[vary]`, never for cases, which a search chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Draws {
     /// Runs that violate.
@@ -325,6 +379,9 @@ impl Draws {
 }
 
 /// A judged case: one row of `results.parquet`, its worst run.
+///
+/// The worst run is the gravest: a violation before none, a crash before other violations, then the larger deviation;
+/// the first of equals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseResult {
     /// Number of the case.
@@ -338,8 +395,10 @@ pub struct CaseResult {
     /// How the worst run ended (`done`, `time`, …, `executor-failed`).
     pub ended: String,
     /// First time outside the world in the worst run, s.
+    /// A violation of its own, whatever is limited.
     pub left_world: Option<f64>,
     /// All limits that the worst run violates, the gravest first.
+    /// Empty of a pass, and of what was not asked for.
     pub violations: Vec<Violation>,
     /// Values drawn for the worst run.
     pub drawn: Vec<(String, serde_json::Value)>,
@@ -352,6 +411,8 @@ pub struct CaseResult {
 }
 
 /// What of a case was not done because the time for the whole campaign was over.
+///
+/// The verdict then says what the budget cut off; such a case passes and fails nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Undone {
     /// No run of it was executed.

@@ -20,6 +20,8 @@ pub(super) fn stamps(duration: f64, rate: f64) -> Vec<f64> {
 ///
 /// 0 ≤ τ ≤ the leg's duration; a stamp at a waypoint belongs to the leg that begins there, beyond the end to the last
 /// one.
+///
+/// Durations are positive; `t` below 0 belongs to the first leg.
 pub(super) fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
     let mut start = 0.0;
     for (leg, duration) in leg_times.iter().enumerate() {

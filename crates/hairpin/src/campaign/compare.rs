@@ -1,4 +1,7 @@
 //! Two campaigns over the same cases: what got better, what got worse, and what fails that did not fail before.
+//!
+//! Pairs share number, seed and waypoints, so that differences are those of the robot, the controller or the noise;
+//! tests are of paired differences and assume no distribution.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +16,12 @@ pub const CONFIDENCE: f64 = 0.95;
 pub const SIGNIFICANCE: f64 = 0.05;
 
 /// Two campaigns, A and B, case by case.
+///
+/// Counts: `better` + `worse` + `unchanged` are the compared pairs; undecided ones are in `pairs` and in none of the
+/// three.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Comparison {
-    /// Cases that both have: the same number, seed and waypoints.
+    /// Cases that both have: the same number, seed, waypoints and environment.
     pub pairs: usize,
     /// Of these, pairs whose run came to a better end in B or deviates less, both passing, both failing or not judged.
     pub better: usize,
@@ -40,11 +46,13 @@ pub struct Comparison {
 pub struct Unpaired {
     /// Its name.
     pub case: String,
-    /// `only in A`, `only in B`, `another seed`, `other waypoints`.
+    /// `only in A`, `only in B`, `another seed`, `other waypoints`, `another environment`.
     pub why: &'static str,
 }
 
 /// How one metric changed over all compared pairs in which both sides have it.
+///
+/// Medians in the metric's own unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MetricChange {
     /// Its column in `results.parquet`, with the unit.
@@ -60,6 +68,7 @@ pub struct MetricChange {
     /// The interval that covers it at [`CONFIDENCE`], whatever the distribution; fewer than six pairs have none.
     pub interval: Option<[f64; 2]>,
     /// Matched-pairs rank biserial correlation of B − A, −1 … 1.
+    /// (R⁺ − R⁻)/(R⁺ + R⁻) over the ranks of |B − A|, zeros left out: 1 where every pair rose.
     pub rank_biserial: f64,
     /// Wilcoxon's signed-rank test, two-sided.
     pub p: f64,
@@ -73,6 +82,8 @@ pub struct MetricChange {
 
 impl Comparison {
     /// Whether a metric got worse beyond chance.
+    ///
+    /// By [`MetricChange::change`], corrected for all metrics.
     pub fn regresses(&self) -> bool {
         self.metrics.iter().any(|metric| metric.change == "worse")
     }

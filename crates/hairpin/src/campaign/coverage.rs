@@ -13,6 +13,8 @@ use super::kind::Axis;
 use super::setup::Setup;
 
 /// The grid of a robot's motion.
+///
+/// Cells are numbered in the order of the axes, the last one fastest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// Its axes.
@@ -20,6 +22,9 @@ pub struct Grid {
 }
 
 /// What all cases of a campaign met.
+///
+/// hit / cells is what the report tells; cells that the robot cannot come to count as well, so that 100 % is not the
+/// aim.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Coverage {
     /// The grid.
@@ -34,6 +39,8 @@ pub struct Coverage {
 
 impl Coverage {
     /// Whether its parts fit together, as those of a file that was edited may not.
+    ///
+    /// Counts agree, and no cell is beyond the grid.
     pub fn fits(&self) -> bool {
         let sound = |axis: &Axis| {
             let rising = axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
@@ -64,6 +71,8 @@ impl Grid {
     }
 
     /// The cell number of each axis.
+    ///
+    /// The inverse of the numbering: one index an axis.
     pub fn places(&self, cell: usize) -> Vec<usize> {
         let mut rest = cell;
         let mut places: Vec<usize> = (self.axes.iter().rev())
@@ -78,6 +87,8 @@ impl Grid {
     }
 
     /// The cells that a run of a case over `waypoints` met; none where the executor failed.
+    ///
+    /// Where rows of the run were left out, what was noted at its full rate.
     pub fn met(&self, setup: &Setup, waypoints: &[Point3<f64>], run: &Run) -> BTreeSet<usize> {
         let Ok(flight) = &run.outcome else { return BTreeSet::new() };
         if let Some(known) = &run.full_rate {

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// The largest stress executed so far, of one graph.
+///
+/// A step function, kept by its steps: a hundred thousand executions have a few dozen.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Number of the graph.
@@ -10,6 +12,7 @@ pub struct Curve {
     /// Executions in it.
     pub executions: u64,
     /// Where it rose: number of the execution, counted from 1, and the stress that it came to.
+    /// Both rise strictly.
     pub rises: Vec<(u64, f64)>,
 }
 
@@ -25,6 +28,8 @@ impl Curve {
     }
 
     /// Adds an execution; `None` for one that failed.
+    ///
+    /// What is not finite counts as a failed one. Every call counts one execution.
     pub fn push(&mut self, stress: Option<f64>) {
         self.executions += 1;
         let Some(stress) = stress.filter(|stress| stress.is_finite()) else { return };

@@ -1,4 +1,6 @@
 //! Numbers as people read them: the one place that rounds, so that table, report, JUnit and verdict agree.
+//!
+//! Rounding is for people only: files and JSON have all digits.
 
 use crate::judgement::decimals_of;
 

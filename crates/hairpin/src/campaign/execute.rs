@@ -8,6 +8,9 @@ use super::{Case, CaseNumber, Executor, Mission, Mistake, OwnSimulator, Run, Set
 ///
 /// `sink` gets each run when it is done, in no particular order and from any thread. Runs are pure functions of the
 /// scenario, the case's seed and the run's number.
+///
+/// Runs are asked for in the order of cases, then of runs, and land in any. `stop.cancelled` is looked at before each
+/// run: what was begun is finished. `stop.progress` counts runs, those that are not wanted as done.
 pub fn execute(
     setup: &Setup,
     cases: &[Case],
@@ -34,11 +37,15 @@ pub fn execute(
 }
 
 /// Run number `run` of `case` in our own simulator.
+///
+/// An error of the mission (a draw that no robot has) is a run whose outcome says so, as a failed execution is.
 pub fn execute_run(setup: &Setup, case: &Case, run: usize) -> Run {
     run_of(setup, &OwnSimulator, case, run, mission(setup, case, run))
 }
 
 /// The same with other noise, for the time number `again`: [`mission_again`].
+///
+/// `again` counts from 0; draws for `[vary]` stay those of `run`.
 pub fn execute_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Run {
     run_of(setup, &OwnSimulator, case, run, mission_again(setup, case, run, again))
 }

@@ -10,15 +10,25 @@ use crate::trajectory::Flight;
 ///
 /// A search that executes asks from many threads, and takes what it is told to be what the same mission comes to in a
 /// judgement. Whoever can no longer carry anything out has the search's [`Stop`](super::Stop) say so.
+///
+/// The seam for simulators and hardware of the caller's: `hairpin-formats` puts a process behind it, Rust callers
+/// whatever they have.
+///
+/// What it says is believed for the mission that it was asked for, and for no other. It is not verified: whatever
+/// flies elsewhere is `flown`, never `witnessed`.
 pub trait Executor: Sync {
     /// The flight of `mission`, a run of `case`, whose plan was made with `nominal`.
     ///
     /// # Errors
     /// Why there is none, in a sentence.
+    ///
+    /// Blocks until the run has ended. May be called for several missions at once.
     fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String>;
 
     /// Told of each run that a search asked for, once it is measured: what it came to, and whether it violates what the
     /// scenario limits.
+    ///
+    /// Called from the thread that asked. Does nothing by default.
     fn measured(&self, measures: &Measures, violates: bool) {
         let _ = (measures, violates);
     }
@@ -30,6 +40,8 @@ pub trait Executor: Sync {
 }
 
 /// Our own simulator.
+///
+/// Deterministic; needs no process and no clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct OwnSimulator;
 

@@ -1,5 +1,8 @@
 //! A log of the real robot against the waypoints of a case: what its samples break, what may hide between them, and
 //! what its own accuracy leaves open.
+//!
+//! A simulator's samples are dense and exact; a log's are neither. So each limit of distance has three answers:
+//! violated for certain, kept for certain, open.
 
 use std::borrow::Cow;
 
@@ -17,19 +20,25 @@ use crate::math::segment::nearest_point;
 use crate::trajectory::Flight;
 
 /// What of a log is judged.
+///
+/// SI units, world frame: the door has turned frames and stamps, and says what it cut out.
 #[derive(Debug, Clone)]
 pub struct Log {
     /// What was flown, world frame, with the channel `leg`; [`judge_flown`] looks for the moment it left the world.
     pub flight: Flight,
     /// Samples before which something was cut out.
+    /// Rising indices of samples; nothing is concluded over a break.
     pub breaks: Vec<usize>,
     /// Horizontal and vertical standard deviation of every sample's position, m; empty where nothing is said of any.
+    /// As the estimator claims (`eph`, `epv`); `None` where it claims nothing, which counts as exact.
     pub accuracy: Vec<Option<[f64; 2]>>,
     /// Whether the world is known that it moved in: where it is not, neither obstacles nor bounds are judged.
     pub in_world: bool,
 }
 
 /// Why a limit that the samples keep, or break, is open.
+///
+/// The verdict names it, with what would decide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Why {
     /// Between two samples it may have been broken.
@@ -58,6 +67,8 @@ pub struct Doubt {
 }
 
 /// What a log came to.
+///
+/// Within spec where both `violations` and `doubts` are empty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flown {
     /// Of its samples.
@@ -71,6 +82,7 @@ pub struct Flown {
     /// What is open.
     pub doubts: Vec<Doubt>,
     /// The largest deviation that may hide between samples, m; infinite where nothing bounds it.
+    /// By speed and acceleration of [`Self::swiftness`], over each interval without a break.
     pub most_between: f64,
     /// What bounds it.
     pub swiftness: Swiftness,
@@ -134,6 +146,8 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
 }
 
 /// What bounds the robot, without a speed that the log itself shows it to exceed.
+///
+/// A log that shows a larger speed than the model has says that the model does not bound this robot.
 fn refuted(swiftness: Swiftness, flight: &Flight) -> Swiftness {
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| flight.track.channel(name));
     let fastest = match columns {
@@ -144,6 +158,8 @@ fn refuted(swiftness: Swiftness, flight: &Flight) -> Swiftness {
 }
 
 /// When it was first outside its world for certain: with all that lies within its accuracy, s.
+///
+/// Nearly: the place itself and its six neighbours at one standard deviation along the axes lie outside.
 fn left_world(setup: &Setup, log: &Log) -> Option<f64> {
     let track = &log.flight.track;
     let outside = |i: usize| {
@@ -191,6 +207,9 @@ impl Looked<'_> {
     }
 
     /// Samples a second with which `margin` m are not exceeded between them.
+    ///
+    /// f = min(√(a / 8m), v / 2m): between samples a motion bulges by a Δt²/8 under acceleration a, and by v Δt/2 at
+    /// speed v.
     fn rate(&self, margin: f64) -> Option<f64> {
         let by_acceleration = self.swiftness.acceleration.map(|a| (a / (8.0 * margin)).sqrt());
         let by_speed = self.swiftness.speed.map(|v| v / (2.0 * margin));

@@ -6,6 +6,8 @@ use super::scenario::{DeviationFrom, Terms};
 use crate::judgement::Measures;
 
 /// What was measured of a run at its full rate, and by what reference.
+///
+/// As good as all rows for the terms that it was measured by; for others it is not used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FullRate {
     /// The reference of the deviation.

@@ -1,4 +1,7 @@
 //! "Which parameter did it": how the varied keys and the deviation rise and fall together.
+//!
+//! Association, not cause: draws are independent of each other by construction, so that a rank correlation of one key
+//! is not due to another one.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -10,6 +13,8 @@ use crate::judgement::moves::Measured;
 use crate::judgement::rank_correlation;
 
 /// What one run came to under the values drawn for it.
+///
+/// Of every run that could be measured, whether it violates or not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunDeviation {
     /// Number of the case.
@@ -25,6 +30,8 @@ pub struct RunDeviation {
 }
 
 /// A varied number and its rank correlation with the deviation.
+///
+/// With n runs chance alone comes to |ρ| ≈ 2/√n in one of twenty keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Influence {
     /// The key; of an array one element: `world.wind_m_s[1]`.
@@ -38,6 +45,8 @@ pub struct Influence {
 /// Of every number under the scenario's `[vary]`, the largest |ρ| first. What was not drawn (for run 0, for the plan of
 /// case 0) counts with its nominal value where the scenario has one. Keys that choose between words, or that did not
 /// vary, have no rank; nor have those of `spec`, which judge a flight and do not move it.
+///
+/// Ties have mid-ranks. Equal |ρ| in the order of keys.
 pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> {
     let mut nominal = vary::Tree::new(scenario);
     let mut found = Vec::new();

@@ -1,4 +1,15 @@
 //! From runs to a case's result: measures, violations, and the worst run.
+//!
+//! Data flow: run → the setup as it was drawn for it → reference of deviations (leg, nearest leg, or path) → measures
+//! → violations of the limits → the gravest run → [`CaseResult`].
+//!
+//! | runs | status |
+//! | --- | --- |
+//! | one violates | fail |
+//! | else one was not carried out | executor failed |
+//! | else one decides nothing | inconclusive |
+//! | else, limits asked for | pass |
+//! | else | unjudged |
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -15,6 +26,8 @@ use crate::trajectory::{Flight, PlannedPath, Track};
 ///
 /// # Errors
 /// Values drawn for a run that the scenario's keys do not take, as happens with a folder that was edited.
+///
+/// Runs may come in any order; the first of equals in this order is the worst. No run at all is inconclusive.
 pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mistake> {
     judge_runs(setup, case, runs).map(|(result, _)| result)
 }
@@ -23,6 +36,9 @@ pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mis
 ///
 /// # Errors
 /// As [`judge`].
+///
+/// Deviations are in the order of `runs`, without those that could not be measured. Only runs with drawn values that
+/// decide something count in [`CaseResult::draws`].
 pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResult, Vec<RunDeviation>), Mistake> {
     let mut worst: Option<(JudgedRun, &Run)> = None;
     let mut deviations = Vec::with_capacity(runs.len());
@@ -101,6 +117,8 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
 }
 
 /// What one run measured; `None` where it was not carried out or cannot be judged.
+///
+/// By the limits' own reference and corner; of programs also move by move.
 pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
     measured(setup, case, run).map(|(measures, _)| measures)
 }
@@ -134,6 +152,8 @@ impl JudgedRun {
 }
 
 /// How bad a run was: the order in which the worst is looked for.
+///
+/// Compared in the order of its fields.
 #[derive(PartialEq)]
 pub(super) struct Gravity {
     pub(super) violates: bool,
@@ -247,6 +267,8 @@ pub fn is_at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Result<bool, Mi
 }
 
 /// How a run is measured by `terms`, from the `path` where they ask for it.
+///
+/// No breaks: recordings of ours have none.
 pub(super) fn settings<'a>(
     terms: &Terms,
     path: Option<&'a Track>,
@@ -261,6 +283,8 @@ pub(super) fn settings<'a>(
 }
 
 /// The motion that deviations from the path are measured from.
+///
+/// `None` where the case has no motion: the judge then says that nothing can be measured from a path.
 pub(super) fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
     match setup.kind().programs() {
         Some(programs) => programs.reference(case, programmed),

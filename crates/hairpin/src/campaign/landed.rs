@@ -1,4 +1,8 @@
 //! A run that has landed, measured while all of its rows are there, and the rows of it that must stay.
+//!
+//! Recording every row of every run takes most of a folder. What is measured is measured before rows are left out,
+//! and is written beside the run; rows around what the measures rest on are kept, so that figures and re-judging by
+//! other limits see them.
 
 use std::collections::BTreeSet;
 
@@ -15,6 +19,9 @@ use crate::trajectory::Track;
 /// Measures `run` as the judge would, and marks the rows that matter to it: the worst moments, and both sides of every
 /// crossing of a limit (of an overshoot the largest alone). `None` where it was not flown or cannot be judged, and of
 /// programs, which are measured move by move: of those all rows are needed.
+///
+/// Indices of rows count from 0. Measures are those of the scenario's present terms; a judgement by others measures
+/// the rows that stand ([`super::judge::is_at_full_rate`]).
 pub fn at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Option<(FullRate, BTreeSet<usize>)> {
     let flight = run.outcome.as_ref().ok()?;
     if setup.has_programs() {

@@ -1,4 +1,8 @@
 //! What is flown or driven: one run of a case, with the values of `[vary]` that were drawn for it.
+//!
+//! Data flow: case and run number → draws of `[vary]` (one stream a parameter, case and run) → the setup with these
+//! values → waypoints, times and limits as an executor gets them. Draws change the robot that carries the mission
+//! out, never the plan.
 
 use nalgebra::Point3;
 
@@ -17,13 +21,17 @@ pub fn planned(setup: &Setup, case: &Case) -> Result<Track, PlanError> {
 }
 
 /// One run of a case, as it is flown: by our simulator or by an executor of the user's.
+///
+/// What the executor protocol sends, and all that our simulator is told. SI units, world frame.
 #[derive(Debug, Clone)]
 pub struct Mission {
     /// The case's name in files.
+    /// `0117`.
     pub case: String,
     /// 0: nominal.
     pub run: usize,
     /// The run's seed.
+    /// named_seed(case's seed, "run", run).
     pub seed: u64,
     /// Scenario of this run: the drawn values of `[vary]` are in it.
     pub setup: Setup,
@@ -36,8 +44,11 @@ pub struct Mission {
     /// A waypoint counts as reached inside this radius, m.
     pub accept: f64,
     /// Time limit, s.
+    /// From the number of waypoints and the plan's duration, by the scenario's patience; a run that comes to it ends
+    /// as `time`.
     pub time_limit: f64,
     /// The planned motion, for those who track it.
+    /// Empty where nothing is planned in time.
     pub timed: Vec<Timed>,
 }
 
@@ -57,6 +68,8 @@ pub fn mission_again(setup: &Setup, case: &Case, run: usize, again: usize) -> Re
 ///
 /// # Errors
 /// A drawn value that is out of its key's bounds in combination with the others.
+///
+/// Run 0 is nominal: nothing is drawn for it.
 pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistake> {
     let around = setup.around(case)?;
     let setup = around.as_ref();

@@ -1,5 +1,26 @@
 //! Floor 7: the pipeline. A scenario in; cases generated, executed and judged; one file per job. No files, no
 //! arguments.
+//!
+//! ```text
+//! scenario ─▶ Setup ─▶ generate ─▶ Case ─▶ execute ─▶ Run ─▶ judge ─▶ CaseResult ─▶ verdict, report
+//!             │                    └─▶ verify ─▶ Verified, by the verification room
+//!             └─ Kind: flight, drive, arm or boat; all of these ask it, and never which one it is
+//! ```
+//!
+//! | room or file | job |
+//! | --- | --- |
+//! | `scenario`, `setup`, `attachments` | keys, their bounds, and what they describe |
+//! | `kind`; `flight`, `drive`, `arm`, `boat` | the seam between jobs and robots, and what answers behind it |
+//! | `generate`, `graph`, `learn` | cases from searches, with and without executions |
+//! | `execute`, `executor`, `mission`, `trial` | runs of cases, here or wherever a caller carries them out |
+//! | `judge`, `landed`, `flown`, `fit` | what runs and logs come to |
+//! | `verify`, `passage` | witnesses, written or asked for, held to the proof |
+//! | `compare`, `explain`, `shrink`, `select`, `influence`, `coverage`, `calibrate` | jobs over what is there |
+//! | `verdict`, `report`, `assumptions` | what is told of it |
+//!
+//! Every job is a function of plain data: a [`Setup`], cases, runs; a [`Stop`] brings
+//! clock, progress and interruption from outside. Results depend on the scenario and its seed alone, on any number of
+//! threads, unless a time ends a job.
 
 pub mod answers;
 pub mod arm;

@@ -1,10 +1,15 @@
 //! Waypoints that somebody else chose: what is asked of the legs between them, and what a claim says of each.
+//!
+//! The answer is about the claim alone: that a robot can fly, drive or sail what is asked, not that a controller
+//! will.
 
 use nalgebra::Point3;
 
 use super::case::Witness;
 
 /// What is asked.
+///
+/// `speeds` has one entry for each leg, that is one fewer than waypoints.
 #[derive(Debug, Clone, Copy)]
 pub struct Demands<'a> {
     /// Both ends included, m.
@@ -27,6 +32,8 @@ impl Demands<'_> {
     }
 
     /// First and last waypoints of what lies between rests, in order.
+    ///
+    /// The first begins at 0, the last ends at the last waypoint; each ends where the next begins.
     pub fn sections(&self) -> Vec<[usize; 2]> {
         let last = self.waypoints.len().saturating_sub(1);
         let ends: Vec<usize> = (0..=last).filter(|number| self.rests(*number)).collect();
@@ -35,6 +42,8 @@ impl Demands<'_> {
 }
 
 /// How sure it is that a limit breaks.
+///
+/// Only the first may be told as impossible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Certainty {
     /// Nothing that the model allows does what is asked.
@@ -44,6 +53,8 @@ pub enum Certainty {
 }
 
 /// A limit that breaks.
+///
+/// At most one a leg is told, what is proven before what was not found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Broken {
     /// The waypoint that is not come to as asked.
@@ -63,6 +74,8 @@ pub struct Broken {
 }
 
 /// What is known of one leg.
+///
+/// Numbers of the leg alone (`fastest`, `nearest`) are there also where the mission as a whole has no witness.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PassedLeg {
     /// Straight length, m.
@@ -80,6 +93,8 @@ pub struct PassedLeg {
 }
 
 /// What a claim says of what is asked.
+///
+/// Whole where `witness` is there; then nothing is broken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
     /// Leg by leg.

@@ -6,6 +6,8 @@ use super::chance::Baseline;
 use crate::judgement::{Measures, Stress};
 
 /// A stress among others.
+///
+/// Turned where less is worse, so that `below` are always the less stressful ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rank {
     /// The others.
@@ -29,6 +31,8 @@ impl Rank {
     }
 
     /// The share of the others that are less stressful, %.
+    ///
+    /// 100 below / cases; 0 … 100.
     pub fn percentile(&self) -> f64 {
         100.0 * self.below as f64 / self.of.cases as f64
     }

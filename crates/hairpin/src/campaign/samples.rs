@@ -1,4 +1,7 @@
 //! From the executed cases of a campaign to a model.
+//!
+//! Samples pair what a search saw of a leg before any execution with the stress that a run put on it; only what a
+//! search can know goes in.
 
 use super::judge::measures_of;
 use super::learn::{LegSample, MoveFeatures, MoveSample, ScoreModel};
@@ -9,6 +12,8 @@ use crate::math::ridge::NoFit;
 
 /// The legs of `case` with the stress that each of `runs` put on them. Legs that a run did not come to, and cases whose
 /// legs no search saw (missions made elsewhere), give none.
+///
+/// A leg's stress is in the unit of `stress`. One sample a leg and run, in the order of runs, then of legs.
 pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> Vec<LegSample> {
     let mut samples = Vec::new();
     for run in runs {

@@ -1,5 +1,12 @@
 //! From a scenario's numbers to the things they describe: a scenario is checked by building it. Kinds of robots are
 //! chosen by the one `match` here.
+//!
+//! ```text
+//! Resolved (keys, files) ─▶ every bound ─▶ robot and world ─▶ `[vary]` at its ends, each built once ─▶ Setup
+//! ```
+//!
+//! Draws go the short way: their keys were checked at the ends of what they are drawn from, so that only the robot
+//! and its world are built, and what no drawn key describes is shared.
 
 use std::any::Any;
 use std::borrow::Cow;
@@ -26,13 +33,17 @@ use crate::trajectory::Track;
 mod steered;
 
 /// A resolved scenario and what it describes. What draws leave as it is they share.
+///
+/// Cheap to clone: all that is large lies behind `Arc`. Every job takes one, and none changes it.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Every key, the robot's table inline.
+    /// What stands in the folder's scenario.toml: enough to build the same again.
     pub scenario: Scenario,
     /// What its files hold.
     pub attachments: Arc<Attachments>,
     /// Version of the kernels that generate and execute.
+    /// One level for all of a campaign; results of levels differ in no bit, and folders say which one it was.
     pub simd: Simd,
     kind: Arc<dyn Kind>,
     own_controller: Option<AnyController>,
@@ -88,6 +99,8 @@ impl Setup {
     ///
     /// # Errors
     /// Every key whose value is out of bounds, in the order of the file.
+    ///
+    /// Costs as many constructions as `[vary]` has ends beside one.
     pub fn build(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
         let Resolved { scenario, attachments } = resolved;
         let attachments = attachments.into();
@@ -116,11 +129,16 @@ impl Setup {
     ///
     /// # Errors
     /// A key that the scenario has not, a value that is out of its key's bounds in combination with the others.
+    ///
+    /// `draws` are dotted keys with the values of one run. Kernels and controller stay; large parts that no drawn key
+    /// describes are shared.
     pub fn drawn(&self, draws: &[(String, Value)]) -> Result<Self, Mistake> {
         self.of_draw(vary::apply(&self.scenario, draws)?)
     }
 
     /// The same at another version of the kernels.
+    ///
+    /// No number changes by it: kernels give the same bits at every level.
     pub fn with_simd(self, simd: Simd) -> Self {
         let kind = self.kind.with(simd, self.own_controller.as_ref()).unwrap_or_else(|| self.kind.clone());
         Self { simd, kind, ..self }
@@ -157,6 +175,9 @@ impl Setup {
     ///
     /// # Errors
     /// An environment of a folder that was edited, with the key of `[world]` that it breaks.
+    ///
+    /// Obstacles, wind and force of [`Case::environment`] are put into the scenario's own keys, so that nothing else
+    /// knows of them.
     pub fn around(&self, case: &Case) -> Result<Cow<'_, Self>, Mistake> {
         match &case.environment {
             Some(environment) => self.of_draw(self.surrounded_by(environment)).map(Cow::Owned),
@@ -227,6 +248,8 @@ impl Setup {
     /// The setup of its kind, if that is `T`: [`FlightSetup`](super::flight::FlightSetup),
     /// [`DriveSetup`](super::drive::DriveSetup), [`ArmSetup`](super::arm::ArmSetup). For what one kind of robot
     /// alone has.
+    ///
+    /// `None` where the scenario is of another kind.
     pub fn own<T: Any>(&self) -> Option<&T> {
         self.kind().own()
     }
@@ -262,6 +285,8 @@ impl Setup {
 
     /// Distance of its robot, about a place (m, world frame), from what it must not meet, m; infinite where there is
     /// nothing.
+    ///
+    /// Negative inside of an obstacle.
     pub fn clearance_at(&self, place: &Point3<f64>) -> f64 {
         self.kind.clearance().map_or(f64::INFINITY, |clearance| clearance(place))
     }

@@ -1,4 +1,7 @@
 //! What a generation did, in numbers.
+//!
+//! Counts of units that were taken over, in their order, hence the same on any number of threads; written beside the
+//! cases after every unit, so that a killed campaign goes on from it.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +12,9 @@ use super::scenario::{SearchMethod, SearchSection};
 use crate::judgement::Chosen;
 
 /// What a generation did, in numbers; the report's and the verdict's.
+///
+/// Numbers of one generation from its beginning, interruptions included. The default is that of a generation that has
+/// not begun.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Tally {
@@ -19,10 +25,13 @@ pub struct Tally {
     /// Of these, graphs that gave at least one trajectory.
     pub solved: u64,
     /// Of these, graphs proven to have none.
+    /// With as many as [`Self::graphs`], that nothing is feasible in them is a proof.
     pub proven_empty: u64,
     /// Nodes expanded.
+    /// Draws of the method `uniform`, executions of searches that execute.
     pub expansions: u64,
     /// Partial trajectories dropped because the frontier was full.
+    /// Above 0, a graph without a trajectory is none that is proven to have none.
     pub dropped: u64,
     /// Trajectories found again and not counted twice.
     pub duplicates: u64,
@@ -36,6 +45,7 @@ pub struct Tally {
     /// Where nothing was found: why, in a sentence's part.
     pub nothing: Option<String>,
     /// Where trajectories were executed in the loop: the largest stress so far in every graph, as executions went on.
+    /// In the order of graphs; one for a pool.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub curves: Vec<Curve>,
     /// Rounds of an adaptive campaign.
@@ -54,6 +64,7 @@ pub struct Tally {
     #[serde(skip_serializing_if = "is_zero")]
     pub drawn: u64,
     /// Of one pool of executions: the number of the run that each was.
+    /// 0 is nominal.
     #[serde(skip_serializing_if = "is_zero")]
     pub run: u64,
     /// How they were drawn, in a sentence's part.
@@ -73,6 +84,9 @@ pub struct Tally {
 
 impl Tally {
     /// How the cases were come by, that `search` was to find.
+    ///
+    /// Which decides whether a share of violations is an estimate with an interval (drawn at random) or only a count
+    /// (searched or selected).
     pub fn chosen(&self, search: &SearchSection) -> Chosen {
         match search.method {
             _ if self.selected => Chosen::Selected,
@@ -94,6 +108,8 @@ fn is_zero(count: &u64) -> bool {
 }
 
 /// A round of an adaptive campaign.
+///
+/// Stresses are in the unit of the search's stress; means of nothing are `None`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RoundTally {
@@ -116,8 +132,10 @@ pub struct RoundTally {
     /// Mean over the graphs of the largest stress in each, up to its end.
     pub mean_largest: Option<f64>,
     /// How well the model that it chose by told trajectories that it had not seen: R² over legs.
+    /// At most 1; below 0 it is worse than their mean.
     pub r2: Option<f64>,
     /// The same: Spearman's ρ of the largest stress of a trajectory.
+    /// −1 … 1. It is what a search makes use of: only ranks matter.
     pub rank_correlation: Option<f64>,
     /// Why there was no model, in a sentence's part; never of the first round.
     pub unlearned: Option<String>,

@@ -1,4 +1,8 @@
 //! Executions that a search asks for: one nominal run of a plan, or of a part of one, wherever it is carried out.
+//!
+//! A trial is a run in every respect: the same mission, executor, judge and measures as the case will meet later, so
+//! that the stress that was searched for is the one that is reported. Confirmations under noise have numbers far
+//! above those of runs.
 
 use nalgebra::Point3;
 
@@ -46,6 +50,8 @@ pub(super) enum Sought {
 }
 
 /// Executions of plans of one graph.
+///
+/// Cheap to make; holds nothing of what was executed. Shared by threads.
 #[derive(Clone, Copy)]
 pub(super) struct Trials<'a> {
     pub(super) setup: &'a Setup,
@@ -66,6 +72,8 @@ struct Executed {
 impl Trials<'_> {
     /// Executes `plan`; `None` where the executor or the judge refuses. What comes to the stress `least` is executed
     /// `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
+    ///
+    /// 1 or 1 + `confirm` executions. `least` is the stress from which on a trial would be kept.
     pub(super) fn execute(&self, plan: &Plan, least: f64) -> Option<Trial> {
         let setup = self.setup;
         let executed = self.executed(plan)?;
@@ -83,6 +91,9 @@ impl Trials<'_> {
     /// Executes `plan` as run number `run` and measures it by each of `sought`, NaN where one was not measured; with
     /// what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
     /// as runs 1, 2, … of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
+    ///
+    /// One execution serves all of `sought`. Repeats are made where any of them comes to its `least`, and count for
+    /// all.
     pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), sought: &[Sought], least: &[f64]) -> Option<Ran> {
         let executed = self.executed_as(plan, run)?;
         let trial = |sought: &Sought| Trial {
@@ -120,6 +131,8 @@ impl Trials<'_> {
     }
 
     /// The same once, with what there is to learn from it as trajectory number `trajectory`.
+    ///
+    /// `trajectory` keeps legs of one trajectory together when folds and resamples are made.
     pub(super) fn execute_and_learn(&self, plan: &Plan, trajectory: usize) -> Option<(Trial, Vec<LegSample>)> {
         let Executed { case, measures, .. } = self.executed(plan)?;
         let mut samples = samples_of(&case, &measures, self.setup.scenario.search().stress);
@@ -235,6 +248,8 @@ impl Trials<'_> {
 }
 
 /// The leg to change first. A function says nothing of legs: where the robot strayed most.
+///
+/// From 0; the leg of which [`Stress::worst_leg`] says that it has the measure.
 fn worst_leg(sought: Sought, measures: &Measures) -> usize {
     let stress = match sought {
         Sought::Measured(stress) => stress,

@@ -12,5 +12,6 @@ pub trait UserCode: Send + Sync {
     fn try_out(&self) -> Result<(), String>;
 
     /// Waits for no answer any more: what is being asked, and what is asked from now on, gets NaN.
+    /// For good: nothing starts it again.
     fn stop(&self);
 }

@@ -32,6 +32,7 @@ impl fmt::Debug for UserController {
 /// Steers runs, each by itself, from any thread. Numbers are in SI; their names are those that the user's code knows.
 pub trait UserSteering: UserCode {
     /// Time between two turns, s.
+    /// > 0; the same in all runs.
     fn period(&self) -> f64;
 
     /// Begins a run; `mission` says where it is to go, and with what.

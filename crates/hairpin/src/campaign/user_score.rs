@@ -12,6 +12,8 @@ use crate::search::LegView;
 pub const NAME: &str = "score.py";
 
 /// A leg as a score of the user's sees it; the names are those that the user's function knows.
+///
+/// World frame; SI: m, m/s, s, rad.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LegFacts {
     /// Speed at its first waypoint.
@@ -66,6 +68,8 @@ impl LegFacts {
 pub trait LegScorer: UserCode {
     /// Of every leg what it scores whatever was flown before it, and what it adds to the score of the leg after it; NaN
     /// where there is [trouble](UserCode::trouble).
+    ///
+    /// One pair a leg, in their order: what is asked for at once is a batch, whose size means nothing.
     fn own_and_left(&self, legs: &[LegFacts]) -> Vec<[f64; 2]>;
 }
 

@@ -13,6 +13,8 @@ use crate::trajectory::Flight;
 pub const NAME: &str = "target.py";
 
 /// A run as a target of the user's sees it; the names are those that the user's function knows. One entry a stamp.
+///
+/// World frame; SI. `reached_s` has one entry a waypoint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RunFacts<'a> {
     /// Stamps.

@@ -1,4 +1,7 @@
 //! From results to the one sentence.
+//!
+//! Gathers what [`fn@judgement::verdict`] says, which knows no scenario: counts, worst, claims, intervals, budget. The
+//! sentence and the exit code are made there.
 
 use super::case::{Undone, gap_word};
 use super::chance::Baseline;
@@ -13,6 +16,9 @@ const CONFIDENCE: f64 = 0.95;
 
 /// The verdict on a campaign: on its results, beside the cases by chance that were run alike if there are any; or that
 /// nothing was feasible.
+///
+/// `results` belong to `cases`, and may be fewer. Without cases the verdict is `NOTHING FEASIBLE` (3), or
+/// `INCONCLUSIVE` (5) where a time ended the search.
 pub fn verdict(
     setup: &Setup,
     cases: &[Case],
@@ -124,6 +130,8 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
 }
 
 /// `simulated, anafi stand-in, minimum-snap`, or `executor my simulator`; of logs `hardware, irb120, nightly/*.csv`.
+///
+/// Two or three words: how, what robot, who steered.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
     if let Some(logs) = setup.recordings() {
         // What was recorded was no stand-in, only what it is held against is computed with one.
@@ -155,6 +163,8 @@ pub(super) struct Named {
 }
 
 /// The worst result, and what is said of it.
+///
+/// By [`Gravity`]. `None` where nothing was measured, or nothing is limited and nothing violated.
 pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     let mut worst: Option<(&CaseResult, &Measures)> = None;
     let gravity = |result: &CaseResult, measures: &Measures| {
@@ -197,6 +207,8 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
 
 /// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change
 /// that helps where that was looked for.
+///
+/// "proof" where every graph was proven empty.
 pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str>) -> Verdict {
     let rests_on = match tally.proven_empty {
         proven if proven > 0 && proven == tally.graphs => "proof".into(),

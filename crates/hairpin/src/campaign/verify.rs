@@ -1,10 +1,14 @@
 //! Hands the written witnesses to the verification room.
+//!
+//! Verification shares no code with what made the claim; this file only says with which scenario a case was searched.
 
 use super::kind::Verified;
 use super::{Case, Setup, vary};
 
 /// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of
 /// drives.
+///
+/// Deterministic, and independent of any execution. A case without a witness gives no proof; that is no failure.
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
     let drawn = case.environment.as_ref().and_then(|_| {
         // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's,

@@ -8,6 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 /// Limits that a task adds to those of the robot and the world.
 ///
 /// Tighter than the robot's own where they are given; the rotors' limits hold anyway.
+///
+/// Default: no cap of the speed, and tilts that only keep the singularity away.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest speed, m/s; infinite: no cap.

@@ -10,6 +10,8 @@ use crate::math::segment::{nearest_point, point_distance};
 use crate::trajectory::Track;
 
 /// How fast a robot can be, and become, whichever way it moves; `None`: not known.
+///
+/// Bounds of the model. The default knows neither, and nothing is bounded then.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Swiftness {
     /// Largest ‖v‖, m/s.
@@ -24,6 +26,8 @@ impl Swiftness {
     /// With ‖dv/dt‖ ≤ a: a h²/8. With ‖v‖ ≤ v it was within the ellipse around both samples whose points are no longer
     /// a way than v h, so ½ √((v h)² − c²). +∞ where nothing bounds it, and where the two samples are further apart
     /// than the speed explains, so that it was faster than it can be.
+    ///
+    /// The lesser of both bounds.
     pub fn bulge(&self, span: f64, chord: f64) -> f64 {
         let by_acceleration = self.acceleration.map_or(f64::INFINITY, |a| a * span * span / 8.0);
         by_acceleration.min(self.by_speed(span, chord))
@@ -36,6 +40,8 @@ impl Swiftness {
 }
 
 /// A sample, and the motion from it to the next one.
+///
+/// `off` points from the reference to the robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Close {
     /// The leg that it is on.
@@ -70,6 +76,9 @@ pub struct Close {
 ///
 /// # Errors
 /// [`JudgementError`], as of [`super::measure()`].
+///
+/// One entry a sample. Cost: four closed forms an interval; the last, with 1-Lipschitz halving, only where these
+/// exceed `enough`.
 pub fn look_closely(
     track: &Track,
     waypoints: &[Point3<f64>],
@@ -102,6 +111,9 @@ pub fn look_closely(
 
 /// The largest value of a function that changes by no more than the way (it is 1-Lipschitz) along the straight line
 /// between two samples, and `bulge` m around it. It is halved until no part can exceed `enough`, or one is known to.
+///
+/// An upper bound, at most ten halvings from the least; exact enough that what is decided by `enough` is decided
+/// rightly, and what is not is told as a doubt.
 pub fn most_between(
     value: &dyn Fn(&Point3<f64>) -> f64,
     ends: [(Point3<f64>, f64); 2],

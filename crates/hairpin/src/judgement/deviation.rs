@@ -2,6 +2,12 @@
 //!
 //! "Deviation" is from a reference that was asked for: the leg's segment by default, since what a controller makes of a
 //! corner is a matter of overshoot, not of distance from a line nobody commanded.
+//!
+//! | reference | distance of a sample on leg l | near waypoints |
+//! | --- | --- | --- |
+//! | leg | to the segment from w_l to w_{l+1} | none within `corner` |
+//! | nearest leg | the lesser of that and the segment before | the same |
+//! | path | to the place that it is assigned to, in order | judged everywhere |
 
 use nalgebra::Point3;
 
@@ -12,6 +18,12 @@ use crate::math::segment::{nearest_point, point_distance};
 use crate::trajectory::Track;
 
 /// The leg of every sample.
+///
+/// The channel `leg` where there is one: whole numbers from 0 to the number of legs, the last of which ("all
+/// reached") counts as the last leg. Else samples are assigned in order along the polyline, weighted by their time.
+///
+/// # Errors
+/// [`JudgementError::Leg`]: a number that is no leg.
 pub(super) fn legs_flown(
     track: &Track,
     waypoints: &[Point3<f64>],
@@ -43,6 +55,11 @@ pub(super) struct Off {
 }
 
 /// How far every sample is from the reference.
+///
+/// One entry a sample, in order.
+///
+/// # Errors
+/// [`JudgementError::Path`]: a path of less than two places.
 pub(super) fn deviations(
     positions: &[Point3<f64>],
     weights: &[f64],
@@ -75,9 +92,13 @@ pub(super) fn deviations(
 }
 
 /// Segments of a path that one piece of its assignment may stand for: so many pieces at most.
+/// Assigning costs samples × pieces.
 const PATH_PIECES: usize = 1024;
 
 /// The place on the path that every sample belongs to by monotone assignment, and the segment that it lies on.
+///
+/// `weights` in s. Where one piece stands for several segments, the place is the nearest on these and on as many
+/// before and after.
 fn path_places(
     positions: &[Point3<f64>],
     weights: &[f64],

@@ -96,6 +96,8 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
 ///
 /// # Errors
 /// [`JudgementError`].
+///
+/// For figures and for kept rows: one entry a sample, `None` also of nothing that a path leaves out.
 pub fn deviation_of_samples(
     track: &Track,
     waypoints: &[Point3<f64>],
@@ -112,6 +114,8 @@ pub fn deviation_of_samples(
 ///
 /// # Errors
 /// [`JudgementError`].
+///
+/// From 0; as many as samples.
 pub fn legs_of_samples(
     track: &Track,
     waypoints: &[Point3<f64>],
@@ -249,6 +253,8 @@ fn measure_acceleration(
     }
 }
 
+/// Least distance (m) of each leg and of all; a distance that is not finite is none. Nothing is measured without a
+/// closure.
 fn measure_clearance(
     measures: &mut Measures,
     times: &[f64],
@@ -270,6 +276,7 @@ fn measure_clearance(
     }
 }
 
+/// Least value (°) of each leg and of all, with its time.
 fn measure_tip_over(measures: &mut Measures, times: &[f64], margins: &[f64], legs: &[usize]) {
     for (i, (&margin, &leg)) in margins.iter().zip(legs).enumerate() {
         let least = &mut measures.legs[leg].min_tip_over_margin;

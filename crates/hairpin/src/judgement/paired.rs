@@ -106,6 +106,13 @@ pub struct Median {
 /// The median of `values` with the interval of order statistics that covers it with at least `confidence` (0 < c < 1):
 /// from the k-th smallest to the k-th largest value, k the largest with 2 P(B(n, ½) < k) ≤ 1 − c. `None` without
 /// values, or with one that is not finite. Thompson: On confidence ranges for the median, 1936.
+///
+/// ```
+/// use hairpin::judgement::median;
+///
+/// let middle = median(&[3.0, 1.0, 2.0, 6.0, 5.0, 4.0], 0.95).expect("six values");
+/// assert_eq!((middle.value, middle.interval), (3.5, Some([1.0, 6.0]))); // six are the fewest that have one
+/// ```
 pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
     if values.is_empty() || !values.iter().all(|value| value.is_finite()) {
         return None;
@@ -126,11 +133,17 @@ pub fn median(values: &[f64], confidence: f64) -> Option<Median> {
 }
 
 /// `p` made larger for as many tests as there are, so that none of them is called significant by their number alone:
-/// the k-th smallest times what is left of them, never smaller than the one before. Holm: A simple sequentially
-/// rejective multiple test procedure, 1979.
+/// the k-th smallest times what is left of them, never smaller than the one before, at most 1. Holm: A simple
+/// sequentially rejective multiple test procedure, 1979.
 ///
 /// The chance of any false finding among all tests stays below the level that one is held to, whatever their
 /// dependence.
+///
+/// ```
+/// use hairpin::judgement::holm;
+///
+/// assert_eq!(holm(&[1.0 / 64.0, 0.25, 0.125]), [3.0 / 64.0, 0.25, 0.25]);
+/// ```
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));

@@ -1,4 +1,7 @@
 //! Stress: the one scalar of an execution that a search or a model is about, of a whole run and of each of its legs.
+//!
+//! One number a run, larger being worse for the robot: what searches that execute look for, and what random cases are
+//! compared by. What is worst when it is least (clearance, tip-over margin) is turned.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -2,6 +2,9 @@
 //!
 //! Zeller, Hildebrandt: Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28,
 //! 2002.
+//!
+//! Deterministic, and lazy: `fails` is asked in one order, part after part, so that a caller may remember answers and
+//! go on after an interruption.
 
 /// A part of `items`, in their order, that `fails` and from which no single item can be taken any more; `items`
 /// themselves are known to fail and are not asked about. `fails` gives `None` to stop early: the shortest part so far

@@ -2,17 +2,25 @@
 //!
 //! What a sum over legs cannot say: that the second leg undoes the first, that a controller is still swinging. Such a
 //! score is of a whole partial trajectory, may be dear, and may have to be refused.
+//!
+//! The beam calls [`Growth::start`] once, then for each expansion [`Growth::meet`] and as many times
+//! [`Growth::extend`], and after each iteration [`Growth::goes_on`].
 
 use super::objective::{Aggregate, LegView, Objective};
 
 /// A partial trajectory to be extended.
+///
+/// Borrowed from the beam's tree for the time of one expansion.
 #[derive(Debug)]
 pub struct Parent<'a, M> {
     /// Its score.
+    /// As [`Growth::extend`] gave it when it was made.
     pub score: f64,
     /// Its memory.
+    /// Of the partial trajectory as a whole, not of its last leg.
     pub memory: &'a M,
     /// Number of its waypoints.
+    /// Both its start and its last counted: 1 for the start alone, whose next leg is number 0.
     pub length: usize,
 }
 
@@ -38,6 +46,9 @@ pub trait Growth<N> {
     fn start(&mut self, node: &N) -> (f64, Self::Memory);
 
     /// Takes note of all legs that may extend `parent`; they are then scored in this order.
+    ///
+    /// `legs` are those that remain after revisits and dead ends were left out, in the order in which
+    /// [`Growth::extend`] will be called. Does nothing by default.
     fn meet<'l>(&mut self, parent: &Parent<Self::Memory>, legs: impl Iterator<Item = LegView<'l>>) {
         let _ = (parent, legs);
     }
@@ -47,12 +58,16 @@ pub trait Growth<N> {
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)>;
 
     /// Whether a graph is searched on, of which `found` trajectories are complete and `wanted` were asked for.
+    ///
+    /// `wanted` is at least 1. `false` ends the graph as complete where `found` ≥ `wanted`, else as capped.
     fn goes_on(&self, found: usize, wanted: usize) -> bool {
         found < wanted
     }
 }
 
 /// The scores of legs, added up.
+///
+/// What [`super::beam()`] uses. It keeps every leg and never ends by itself.
 #[derive(Debug)]
 pub struct ByLegs<'a, O> {
     /// The score of a leg.

@@ -1,6 +1,13 @@
 //! What a search asks of a score, leg by leg, and how legs add up to a trajectory.
 //!
 //! A search only ever adds a leg to something it has: that is all the interface. Larger is more stressful throughout.
+//!
+//! | trait | score of a leg depends on | searches |
+//! | --- | --- | --- |
+//! | [`Objective`] | all that was flown before it, as its memory has it | beam, uniform |
+//! | [`Additive`] | itself and the leg before | exact too, with proof |
+//!
+//! Scores have no unit of their own: only their order counts, and under [`Aggregate::Sum`] their ratio.
 
 use nalgebra::Point3;
 use schemars::JsonSchema;
@@ -11,6 +18,8 @@ use crate::feasibility::reach::LegFeatures;
 /// A leg as a score sees it: the joint of waypoint `from` and waypoint `to`.
 ///
 /// Units as in [`LegFeatures`]. The first leg of a trajectory is that with `from` = 0.
+///
+/// A view is made for each question and never kept; an objective that needs the leg before takes it from its memory.
 #[derive(Debug, Clone, Copy)]
 pub struct LegView<'a> {
     /// The graph, m: 0 the start, the last the end.
@@ -20,6 +29,8 @@ pub struct LegView<'a> {
     /// Index of its second waypoint.
     pub to: u32,
     /// Planned duration, s.
+    /// As the reach set says: the step of step-wise sets, the leg's own time of a witness. 0 to the sink of a free
+    /// end.
     pub duration: f64,
     /// Speeds, turn, length, climb.
     pub features: LegFeatures,
@@ -32,6 +43,9 @@ pub struct LegView<'a> {
 ///
 /// A pure function of memory and leg: the same partial trajectory has one score however it was come to. Scores that are
 /// executed are a [`super::Growth`] instead.
+///
+/// Called about legs · length times by a dynamic program and once a child by the beam, so that a score costs
+/// nanoseconds or is asked for many legs at once ([`Additive::own_and_left`]).
 pub trait Objective {
     /// What is carried along a partial trajectory.
     type Memory: Clone;
@@ -71,6 +85,9 @@ pub trait Additive: Objective {
     ///
     /// One pair \[own, left\] a leg, in their order; to be overridden by scores that are quicker about many, as those
     /// of another program are.
+    ///
+    /// As many entries as `legs`, bit for bit those of the single calls: a graph is scored by rows, and what is asked
+    /// in which row is not promised.
     fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
     }
@@ -113,6 +130,8 @@ pub enum Aggregate {
 
 impl Aggregate {
     /// The score of a trajectory without legs: neutral to [`Aggregate::add`].
+    ///
+    /// 0 of a sum, −∞ of a maximum.
     pub fn neutral(self) -> f64 {
         match self {
             Aggregate::Sum => 0.0,
@@ -123,6 +142,14 @@ impl Aggregate {
     /// The score after one more leg (or after more legs that score `leg` together).
     ///
     /// −∞ + ∞ counts as −∞: a worthless leg makes a worthless trajectory, never a NaN that compares with nothing.
+    ///
+    /// ```
+    /// use hairpin::search::Aggregate;
+    ///
+    /// let legs = [2.0, 5.0, 1.0];
+    /// let total = |by: Aggregate| legs.iter().fold(by.neutral(), |total, leg| by.add(total, *leg));
+    /// assert_eq!((total(Aggregate::Sum), total(Aggregate::Max)), (8.0, 5.0));
+    /// ```
     pub fn add(self, total: f64, leg: f64) -> f64 {
         match self {
             Aggregate::Sum => {

@@ -13,6 +13,9 @@ use crate::feasibility::reach::{Leg, LegFeatures, Reach};
 /// A node of a task without an end.
 ///
 /// `Over` keeps the node that it was entered from apart, since trajectories that end elsewhere are other trajectories.
+///
+/// `Eq` and `Ord` of the node that it wraps, so that a set's own order decides among the nodes at the graph's own
+/// waypoints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OpenNode<N> {
     /// The reach set's own.
@@ -29,6 +32,22 @@ pub enum OpenNode<N> {
 /// ```
 ///
 /// A wrapper, so that no search has a second way to end: beam, exact, uniform and loop see one more candidate.
+///
+/// ```
+/// use hairpin::feasibility::reach::{Sphere, StepNode, StepReach, StepSettings};
+/// use hairpin::search::{Aggregate, BeamSettings, LegView, OpenEnd, beam};
+/// use nalgebra::Point3;
+///
+/// // Legs of at most 5 m; of two legs from the first point on the longest pair ends where it likes.
+/// let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 5.0], [0.0, 3.0]].map(|[x, y]| Point3::new(x, y, 1.0));
+/// let open = OpenEnd::new(StepReach::new(&Sphere { radius: 5.0 }, &points, StepSettings::default()), &points);
+/// let long = |leg: &LegView<'_>| leg.features.length;
+/// let score = open.score(&long, Aggregate::Sum);
+/// let settings = BeamSettings { length: 3 + 1, per_graph: 9, ..BeamSettings::default() };
+/// let task = open.task(StepNode { previous: 0, current: 0 });
+/// let found = beam(&task, &score, |node, steps| OpenEnd::<Sphere>::may_arrive(node, steps), &settings).found;
+/// assert_eq!(open.closed(found[0].clone()).waypoints, [0, 1, 2]); // 4 + 5 m
+/// ```
 #[derive(Debug, Clone)]
 pub struct OpenEnd<R> {
     inner: R,
@@ -38,6 +57,9 @@ pub struct OpenEnd<R> {
 
 impl<R> OpenEnd<R> {
     /// `inner` over the graph `points`, index 0 the start; all others are ordinary waypoints.
+    ///
+    /// A copy of `points`; the sink has the place of the first one, which no score or test looks at. Without points
+    /// there is no sink either, and no trajectory.
     pub fn new(inner: R, points: &[Point3<f64>]) -> Self {
         let mut candidates = points.to_vec();
         // Where the sink lies is nobody's business.
@@ -51,6 +73,8 @@ impl<R> OpenEnd<R> {
     }
 
     /// The waypoints with the sink behind them: what the search is given.
+    ///
+    /// One more than the graph's points, m; the last one's place means nothing.
     pub fn candidates(&self) -> &[Point3<f64>] {
         &self.candidates
     }
@@ -68,6 +92,9 @@ impl<R> OpenEnd<R> {
     }
 
     /// The test that the beam asks: every node is one leg from the sink, and the sink leads nowhere.
+    ///
+    /// `steps` legs from `node` to the sink: from the sink 0, from any other node 1 or more. Necessary, and
+    /// sufficient for 1.
     pub fn may_arrive<N>(node: &OpenNode<N>, steps: usize) -> bool {
         matches!(node, OpenNode::At(_)) == (steps > 0)
     }
@@ -112,6 +139,8 @@ impl<N: Copy, R: Reach<N>> Reach<OpenNode<N>> for OpenEnd<R> {
 }
 
 /// A score that leaves the leg to the sink out.
+///
+/// Made by [`OpenEnd::score`]. The score beneath never sees the sink: its views have the graph's own candidates.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenScore<'a, O> {
     objective: &'a O,

@@ -17,6 +17,21 @@ use crate::math::random::hashed_unit;
 ///
 /// With Λ_T = 1 − |α − T|/T: 1 at the turn T, 0 straight on, and at T = 90° also 0 for a leg straight back. α in [0,
 /// π]; on a first leg 0.
+///
+/// On a leg straight on the part of the turn is 0: products vanish there, sums keep their speed. Speeds in m/s, v_max
+/// the top speed by which they are divided, ε = asin(climb/length) the elevation of a leg, so that sin ε is used as
+/// it is and no angle is formed.
+///
+/// ```
+/// use hairpin::feasibility::reach::LegFeatures;
+/// use hairpin::search::{Additive, LegView, Score};
+///
+/// // A right angle, left at half of the top speed: ½ + 1.
+/// let features = LegFeatures { v_out: 10.0, turn: std::f64::consts::FRAC_PI_2, ..LegFeatures::default() };
+/// let leg = LegView { candidates: &[], from: 1, to: 2, duration: 1.0, features };
+/// assert_eq!(Score::named("high-velocity-90", 0, 20.0)?.own(&leg), 1.5);
+/// # Ok::<(), hairpin::search::ScoreMistake>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Score {
     /// A uniform number in [0, 1) per pair of waypoints, a pure function of `seed` and the two indices.
@@ -88,6 +103,8 @@ const FAST: f64 = 0.3;
 const OUT: f64 = 1.4;
 
 /// Why there is no such score.
+///
+/// The `Display` form names the value and what is allowed, for the command line and for TOML alike.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ScoreMistake {
     /// No score has this name.
@@ -106,6 +123,8 @@ pub enum ScoreMistake {
 
 impl Score {
     /// All names.
+    /// As they are typed in a scenario. [`Score::Ground`] is none of them: drives and boats come
+    /// to it by names of their own.
     pub const NAMES: [&'static str; 11] = [
         "random",
         "high-velocity",
@@ -131,6 +150,10 @@ impl Score {
     ///
     /// # Errors
     /// An unknown name; a top speed that is no positive number.
+    ///
+    /// `random` takes any `v_max`, as it does not use it; the others take any `seed`.
+    ///
+    /// [`ScoreMistake::Unknown`] comes before [`ScoreMistake::TopSpeed`].
     pub fn named(name: &str, seed: u64, v_max: f64) -> Result<Self, ScoreMistake> {
         let score = match name {
             "random" => return Ok(Score::Random { seed }),

@@ -7,6 +7,8 @@
 use crate::math::random::{Stream, unit};
 
 /// Why there is no walk.
+///
+/// The first is a proof, the second a budget.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoWalk {
     /// There is none at all of this length.
@@ -33,6 +35,9 @@ pub enum NoWalk {
 /// assert!(walk.len() == 4 && walk[0] == 0 && !walk.windows(2).any(|pair| pair == [2, 3]));
 /// # Ok::<(), NoWalk>(())
 /// ```
+///
+/// `length` of 0 or 1 gives the start alone. Of `random` one number is taken for each question. Nodes that `next`
+/// does not give are not asked; `step` may be asked about the same pair again, after different beginnings.
 pub fn stroll<N>(
     start: N,
     length: usize,

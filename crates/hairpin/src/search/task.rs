@@ -28,10 +28,13 @@ use crate::feasibility::reach::Reach;
 #[derive(Debug)]
 pub struct Task<'a, N, R: ?Sized> {
     /// The node at rest at the start: waypoint 0.
+    /// Its waypoint is index 0 of `candidates`, whatever the node itself holds.
     pub start: N,
     /// Waypoints, m: index 0 the start, the last the end.
+    /// In the world's frame. At least two for a trajectory to exist.
     pub candidates: &'a [Point3<f64>],
     /// Which legs there are.
+    /// Asked node by node: a search sees as much of the graph as it asks for.
     pub reach: &'a R,
 }
 
@@ -39,6 +42,8 @@ impl<N, R: Reach<N> + ?Sized> Task<'_, N, R> {
     /// Index of the end.
     ///
     /// The last candidate; 0 for a task without candidates.
+    ///
+    /// Every trajectory of the task ends there; for a free end see [`super::OpenEnd`].
     pub fn end(&self) -> u32 {
         self.candidates.len().saturating_sub(1) as u32
     }
@@ -47,6 +52,9 @@ impl<N, R: Reach<N> + ?Sized> Task<'_, N, R> {
 /// A trajectory that a search returns.
 ///
 /// `leg_times` has one entry fewer than `waypoints`; index k belongs to the leg from waypoint k to k + 1.
+///
+/// Everything that a campaign needs to plan it: nodes carry what the reach set knows of a waypoint (velocity,
+/// heading, posture). Under `no revisits` all `waypoints` differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found<N> {
     /// Indices into the graph, both ends included.
@@ -54,8 +62,10 @@ pub struct Found<N> {
     /// The reach set's node at every waypoint.
     pub nodes: Vec<N>,
     /// Planned duration of every leg, s.
+    /// All above 0, but that to the sink of a free end.
     pub leg_times: Vec<f64>,
     /// Aggregated score.
+    /// By the search's [`super::Aggregate`]; the stress where trajectories were executed.
     pub score: f64,
 }
 

@@ -39,6 +39,9 @@ impl Default for UniformSettings {
 }
 
 /// The sample.
+///
+/// With `found.len()` of `draws` accepted, walks · found/draws estimates how many trajectories without revisits there
+/// are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformOutcome<N> {
     /// Trajectories in the order drawn: with replacement, so the same may be there twice.
@@ -48,12 +51,15 @@ pub struct UniformOutcome<N> {
     /// Draws made, those rejected for a revisit included.
     pub draws: u64,
     /// What was drawn from: with revisits all trajectories, without them all but those that fly straight back.
+    /// Zero: nothing was drawn, since there is nothing.
     pub walks: Count,
 }
 
 /// Draws walks of one length from the start to the end, each equally likely.
 ///
 /// Built once in O(legs · length), drawn from in O(length · legs of a node).
+///
+/// Memory: length · nodes counts of 16 bytes (8 where they are doubles).
 #[derive(Debug)]
 pub struct Sampler<'g, 'a, N> {
     graph: &'g LegGraph<'a, N>,
@@ -158,6 +164,9 @@ fn below(rng: &mut Stream, bound: u128) -> u128 {
 /// assert_eq!((drawn.found.len(), drawn.distinct), (200, 6));
 /// assert_eq!(drawn.walks, Count::Exact(6)); // no way back over a leg is left among them
 /// ```
+///
+/// Draw k depends on `seed`, the graph, the length and `revisits` alone: asking for more gives the same first ones.
+/// Scores are added up for what is returned, not for what is rejected.
 pub fn uniform<N, O>(graph: &LegGraph<'_, N>, objective: &O, seed: u64, settings: &UniformSettings) -> UniformOutcome<N>
 where
     N: Copy,

@@ -6,6 +6,14 @@ use nalgebra::Point3;
 const PLACES: usize = 24;
 
 /// 24 places along a way of waypoints, evenly by its length, m.
+///
+/// ```
+/// use hairpin::trajectory::Route;
+/// use nalgebra::Point3;
+///
+/// let along = |y: f64| Route::along(&[Point3::new(0.0, y, 0.0), Point3::new(3.0, y, 0.0)]);
+/// assert!((along(0.0).apart(&along(2.0)) - 2.0).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route([Point3<f64>; PLACES]);
 

@@ -4,12 +4,20 @@
 //! Shares nothing with the search: trees by Prim's algorithm on the whole table, arborescences by contraction of one
 //! circle at a time, sums in 128 bits; what follows from choices is found by going over all rules again and again.
 //! Where there is no tree of steps, the heaviest path is searched again, backwards over subsets.
+//!
+//! | what a claim has | how it is checked | cost |
+//! | --- | --- | --- |
+//! | a path and its cost | arc by arc, in 128 bits | n |
+//! | a tree of steps | every bound, every decision, every branch recomputed | n² to n³ a bound |
+//! | no tree | the heaviest path searched again, backwards over subsets | 2ⁿ n² |
 
 use super::heaviest_bound::Prices;
 use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
 use super::heaviest_claim::{HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 
 /// Something about a claim that does not hold.
+///
+/// In the order of checking; the first of a tree ends its check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathFinding {
     /// The step, if it is about one.
@@ -25,6 +33,8 @@ pub const MOST_SEARCHED_AGAIN: usize = 22;
 ///
 /// With a tree n² to n³ a step and probe; without one 2ⁿ n², up to [`MOST_SEARCHED_AGAIN`] points. Costs are whole, so
 /// that "no heavier" is a bound below cost + 1.
+///
+/// Nothing panics on what a file may hold. Deterministic; exact integers throughout.
 pub fn verify_heaviest(claim: &HeaviestClaim) -> Vec<PathFinding> {
     let mut findings = Vec::new();
     let mut find = |step: Option<usize>, what: String| findings.push(PathFinding { step, what });
@@ -50,6 +60,9 @@ pub fn verify_heaviest(claim: &HeaviestClaim) -> Vec<PathFinding> {
 }
 
 /// Whether `path` leads from end to end, where they are fixed, over points less than `n`, to none of them twice.
+///
+/// # Errors
+/// What is wrong with it, in words.
 pub(super) fn loop_free(n: usize, [start, end]: [Option<usize>; 2], path: &[usize]) -> Result<(), String> {
     let (Some(first), Some(last)) = (path.first(), path.last()) else {
         return Err("the path has no point".into());
@@ -84,6 +97,8 @@ fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
 }
 
 /// f(S, j): the heaviest way on from j when S has been met, from the full set downwards.
+///
+/// 2ⁿ n numbers: at most [`MOST_SEARCHED_AGAIN`] points. `None` where no path meets the ends.
 fn search_again(claim: &HeaviestClaim) -> Option<i64> {
     let n = claim.points;
     let full = (1usize << n) - 1;
@@ -105,6 +120,9 @@ type Finding = (Option<usize>, String);
 /// or branches on one choice, out and in. Closed means: its bound is below cost + 1, in the tree's scale, or its
 /// choices contradict each other. With costs · scale below 2⁶⁰ and multipliers up to 2⁶⁰ no sum in 128 bits is rounded
 /// or wraps.
+///
+/// Steps must lead forwards and be met exactly once each, so that leaves cover the tree and nothing is proven by
+/// itself.
 fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
     let n = claim.points;
     let arc = |from: usize, to: usize| claim.costs[from * n + to].filter(|_| from != to);
@@ -155,6 +173,8 @@ fn check_tree(claim: &HeaviestClaim, tree: &TreeClaim) -> Result<(), Finding> {
 }
 
 /// What a step leaves of a problem; `None` if nothing.
+///
+/// What a step claims to be decided must follow from the bound with the opposite choice.
 fn check_step(layout: &Layout<'_>, cost: i64, step: &StepClaim, chosen: Chosen) -> Result<Option<Chosen>, String> {
     let prices = Prices::of(layout, step)?;
     let threshold = (i128::from(cost) + 1) * i128::from(layout.scale);

@@ -9,6 +9,8 @@ use super::heaviest_choices::{Chosen, IN, Layout, OUT};
 use super::heaviest_claim::{CutClaim, StepClaim};
 
 /// What a step prices: degrees, and cuts.
+///
+/// Only of undirected trees there are cuts; `taken` is then as long as there are choices.
 pub(super) struct Prices<'a> {
     multipliers: &'a [i64],
     /// What cuts take from each choice, by number; nothing where there are none.
@@ -19,6 +21,11 @@ pub(super) struct Prices<'a> {
 
 impl<'a> Prices<'a> {
     /// In words what is wrong with them.
+    ///
+    /// n + 1 multipliers of at most 2⁶⁰; cuts of rising points with a price from 0 to 2⁶⁰.
+    ///
+    /// # Errors
+    /// What is wrong with them, in words.
     pub(super) fn of(layout: &Layout<'_>, step: &'a StepClaim) -> Result<Self, String> {
         let (n, multipliers) = (layout.points, &step.multipliers[..]);
         if multipliers.len() != n + 1 || multipliers.iter().any(|m| m.unsigned_abs() > 1 << 60) {
@@ -49,6 +56,7 @@ impl<'a> Prices<'a> {
         Ok(Self { multipliers, taken, room })
     }
 
+    /// 0 of what no cut counts.
     fn taken(&self, choice: usize) -> i128 {
         self.taken.get(choice).copied().unwrap_or(0)
     }
@@ -121,6 +129,8 @@ fn tree(layout: &Layout<'_>, prices: &Prices<'_>, state: &dyn Fn(usize) -> u8) -
 }
 
 /// An arc between contracted points.
+///
+/// `weight` is what is left of it after the contractions so far.
 #[derive(Clone, Copy)]
 struct Way {
     from: usize,
@@ -131,6 +141,9 @@ struct Way {
 /// The heaviest arborescence from the dummy with all that is in.
 ///
 /// Edmonds, one circle at a time, O(n³). What is in is kept by leaving out whatever else enters the same point.
+///
+/// A step in which a chosen arc and a better one enter the same point is no contradiction here: what the choices
+/// exclude is out already ([`Chosen::closed`]), so that only a probe has to be kept in.
 fn arborescence(
     layout: &Layout<'_>,
     multipliers: &[i64],
@@ -197,6 +210,8 @@ fn arborescence(
 }
 
 /// Points of a circle among the best ways in; the outer `None` if a point cannot be entered.
+///
+/// In the order of points, so that the sum has one order too. O(n).
 fn first_circle(best: &[Option<Way>], alive: &[bool], root: usize) -> Option<Option<Vec<usize>>> {
     let mut seen = vec![usize::MAX; best.len()];
     for begin in (0..best.len()).filter(|at| alive[*at] && *at != root) {

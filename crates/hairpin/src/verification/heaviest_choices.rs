@@ -3,6 +3,7 @@
 //! Fixpoint of all rules, looked at one after the other until none changes anything: what the search propagates by
 //! queues.
 
+/// May be in or out.
 pub(super) const OPEN: u8 = 0;
 /// No path of what is left has it.
 pub(super) const OUT: u8 = 1;
@@ -62,6 +63,9 @@ pub(super) struct Chosen {
 
 impl Chosen {
     /// What the table and the ends say.
+    ///
+    /// Missing arcs, the diagonal and, of undirected tables, the second number of each arc are out, and so are ends
+    /// that are not the fixed ones.
     pub(super) fn new(layout: &Layout<'_>, start: Option<usize>, end: Option<usize>) -> Self {
         let n = layout.points;
         let mut state = vec![OPEN; layout.len()];
@@ -175,6 +179,8 @@ impl Chosen {
     }
 
     /// Chosen arcs are chains; what would close one is out.
+    ///
+    /// Union by renaming, O(n²) an arc: no structure that could share a mistake with the search's.
     fn no_circle(&mut self, layout: &Layout<'_>) -> Option<()> {
         let n = layout.points;
         let mut chain: Vec<usize> = (0..n).collect();

@@ -1,5 +1,7 @@
 //! The replay on the ground as it was before it had strides, against which they are held: a fixed number of steps, the
 //! body looked at twice in each.
+//!
+//! Second order in the step, and dear: 2000 steps of two looks. It stays because nothing of the strides is in it.
 
 use super::course::{Angles, Course};
 use super::drive::DrivePiece;
@@ -10,6 +12,11 @@ use crate::world::terrain::Terrain;
 
 /// Where `piece`, all of a drive, leads without latency by the midpoint rule in `steps`, and the largest tilt on the
 /// way.
+///
+/// The end is (x, y, ψ) in m and rad, the tilt in rad.
+///
+/// # Errors
+/// [`NoRest`]: where the body finds none on the way.
 pub(super) fn by_midpoints<T: Terrain>(
     piece: &DrivePiece,
     vehicle: &GroundVehicle,

@@ -12,6 +12,8 @@
 pub(super) struct Heading(pub(super) [f64; 7]);
 
 /// What a stretch of the path comes to.
+///
+/// The error bound is proven but for rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Travelled {
     /// ∫ (cos θ, sin θ) ds, m; no number where [`MOST_PANELS`] do not do.
@@ -95,11 +97,15 @@ const SHORTEST: f64 = 1e-15;
 
 impl Heading {
     /// θ(s).
+    ///
+    /// rad at `s` m.
     pub(super) fn at(&self, s: f64) -> f64 {
         self.0.iter().rev().fold(0.0, |sum, c| sum * s + c)
     }
 
     /// wᵏ θ⁽ᵏ⁾(m)/k! for k = 0 … 6: the heading over a panel around `middle` as a polynomial of t in [−1, 1].
+    ///
+    /// `half` is w.
     fn around(&self, middle: f64, half: f64) -> [f64; 7] {
         let mut c = self.0;
         // Horner's scheme, once for each derivative.
@@ -151,6 +157,8 @@ impl Heading {
 }
 
 /// Whether ln(8 M ρ⁻³¹/(ρ − 1)) ≤ `allowed` on one of the ellipses; ln M ≤ Σ |dₖ| max |Im tᵏ|.
+///
+/// A smaller ellipse has a smaller M but a worse rate: each is tried.
 fn within(around: &[f64; 7], allowed: f64) -> bool {
     ELLIPSES.iter().any(|(bounds, rest)| {
         let grown: f64 = around[1..].iter().zip(bounds).map(|(d, bound)| d.abs() * bound).sum();

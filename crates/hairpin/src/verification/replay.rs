@@ -1,4 +1,9 @@
 //! Flying a leg under the rotor speeds that it demands, step by halved step until the answer stands.
+//!
+//! ```text
+//! leg (coefficients) ─ demand(τ) ─▶ squared rotor speeds at Gauss nodes ─▶ 18 states integrated ─▶ end, path
+//! steps halved until |coarse − fine| ≤ 64 accuracy in every component
+//! ```
 
 use super::body::{Body, Mixer, State};
 use super::claim::Leg;
@@ -19,6 +24,8 @@ pub(super) struct Flyer<'a> {
 }
 
 /// A leg as flown.
+///
+/// `end` is what the leg is held to; `chained` tells how errors add up over the flight.
 pub(super) struct Replay {
     /// From the leg's own start.
     pub(super) end: State,
@@ -31,6 +38,8 @@ pub(super) struct Replay {
 }
 
 /// Why a leg could not be flown.
+///
+/// Both make a finding, never a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Trouble {
     /// The demand is undefined at this time of the leg.
@@ -45,6 +54,7 @@ const FIRST_STEP: f64 = 0.2;
 /// and aerodynamic moment have a bend where speed or rates vanish, so less is assumed.
 const GAIN: f64 = 64.0;
 /// Steps per leg at most.
+/// From 0.2 s on a leg of 800 s still has one halving.
 const MOST_STEPS: usize = 8192;
 /// Places of a leg between which its speed is taken to have one minimum at most.
 const PLACES: usize = 64;
@@ -89,6 +99,8 @@ impl Flyer<'_> {
     }
 
     /// Squared rotor speeds at every stage of the steps between `times`.
+    ///
+    /// Once for each grid of steps; both starts fly under the same.
     fn commands(&self, leg: &Leg, times: &[f64]) -> Result<Vec<[[f64; 4]; STAGES]>, Trouble> {
         let of_step = |step: &[f64]| {
             let mut stages = [[0.0; 4]; STAGES];
@@ -152,6 +164,8 @@ impl Flyer<'_> {
     }
 
     /// Squared rotor speeds that `leg` demands at τ.
+    ///
+    /// rad²/s²; negative where no speed gives what is demanded.
     pub(super) fn squares(&self, leg: &Leg, tau: f64) -> Result<[f64; 4], Trouble> {
         let found = demand(self.body, &self.mixer, leg, tau).map_err(|singular| Trouble::Singular(tau, singular))?;
         Ok(found.squares)
@@ -160,6 +174,8 @@ impl Flyer<'_> {
 
 /// Where `leg` stands still between its ends: a leg along a line that sets out backwards does. Drag turns round there
 /// at once, and with it, by a jump, the torque that the demand asks for, which no step may straddle.
+///
+/// Times on the leg, s, rising; where ½ d|v|²/dt changes from falling to rising and the speed there is nothing.
 fn standstills(leg: &Leg) -> Vec<f64> {
     let part = |tau: f64| {
         let taylor = leg.taylor(tau);

@@ -11,6 +11,8 @@ use super::twist::{Place, carry};
 use crate::world::terrain::Terrain;
 
 /// A piece, and the ground that it leads over.
+///
+/// One piece of commands, in one gear or turned in place.
 pub(super) struct Stretch<'a, T> {
     pub(super) course: &'a Course<'a>,
     pub(super) terrain: &'a T,
@@ -26,6 +28,8 @@ pub(super) struct Stretch<'a, T> {
 pub(super) type Pose = [f64; 3];
 
 /// The body at rest, looked at.
+///
+/// `s` in metres (or radians of a turn) since the piece began.
 #[derive(Clone)]
 pub(super) struct Look {
     pub(super) s: f64,
@@ -33,6 +37,8 @@ pub(super) struct Look {
 }
 
 /// Where a stride begins.
+///
+/// `rates` are dx/ds, dy/ds, dψ/ds there.
 pub(super) struct Station {
     pub(super) s: f64,
     pub(super) pose: Pose,
@@ -41,6 +47,8 @@ pub(super) struct Station {
 }
 
 /// A stride before it is taken.
+///
+/// Taken where `off` is little enough for the metres left; else the stride is halved.
 pub(super) struct Tried {
     pub(super) middle: Pose,
     pub(super) end: Pose,
@@ -61,9 +69,11 @@ pub(super) struct Taken {
 }
 
 /// Heights and angles farther from what was foreseen are those of another rest, m and rad.
+/// So much more than extrapolation is off by in a stride that is short enough.
 pub(super) const FELL: f64 = 0.02;
 
 impl<T: Terrain> Stretch<'_, T> {
+    /// Its rates are computed once and serve every stride that is tried from it.
     pub(super) fn station(&self, s: f64, pose: Pose, rest: Rest) -> Station {
         let rates = self.course.rates(&rest, pose[2], s);
         Station { s, pose, rest, rates }
@@ -71,6 +81,9 @@ impl<T: Terrain> Stretch<'_, T> {
 
     /// The body at rest at `pose`, looked for from what the last `looks` lead to there; if that leads nowhere, from the
     /// last of them.
+    ///
+    /// # Errors
+    /// [`NoRest`]: no rest is found there from either.
     pub(super) fn look(&self, looks: &[Look], s: f64, pose: Pose) -> Result<Look, NoRest> {
         let stand = &self.course.vehicle.stand;
         let mut rest = foreseen(looks, s);
@@ -82,6 +95,9 @@ impl<T: Terrain> Stretch<'_, T> {
     }
 
     /// A stride of `h` behind the last of `looks`, to be taken if it is near enough.
+    ///
+    /// # Errors
+    /// As [`Self::look`].
     pub(super) fn attempt(&self, from: &Station, h: f64, looks: &[Look]) -> Result<Tried, NoRest> {
         if self.course.vehicle.exact { self.carried(from, h) } else { self.by_midpoints(from, h, looks) }
     }
@@ -114,6 +130,8 @@ impl<T: Terrain> Stretch<'_, T> {
     }
 
     /// From rest to rest by the twist between them, whole and in halves.
+    ///
+    /// Kinematics `exact`: the body is carried as a rigid one by its twist.
     fn carried(&self, from: &Station, h: f64) -> Result<Tried, NoRest> {
         let (course, stand) = (self.course, &self.course.vehicle.stand);
         let step = |rest: &mut Rest, pose: Pose, s: f64, h: f64| {

@@ -5,6 +5,15 @@ use nalgebra::{Point3, Vector3};
 /// The box min ≤ p ≤ max, m.
 ///
 /// Closed, min ≤ max in each axis; a single point is a box.
+///
+/// ```
+/// use hairpin::world::Bounds;
+/// use nalgebra::Point3;
+///
+/// let bounds = Bounds::around(&[Point3::new(0.0, 2.0, 0.0), Point3::new(1.0, 0.0, 1.0)]).expect("two points");
+/// assert_eq!((bounds.min, bounds.max), (Point3::origin(), Point3::new(1.0, 2.0, 1.0)));
+/// assert_eq!(bounds.distance(&Point3::new(4.0, 6.0, 0.5)), 5.0);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Smallest corner.

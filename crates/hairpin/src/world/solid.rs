@@ -4,6 +4,9 @@
 //! mesh's inside is told by the nearest feature's pseudo-normal (Bærentzen and Aanæs, "Signed distance computation
 //! using the angle weighted pseudonormal", IEEE TVCG 11(3), 2005, as parry has it); distances go through a tree of
 //! boxes.
+//!
+//! Both kinds are checked where they are built: closed, wound alike, with a volume; so that inside and outside are
+//! defined for every point.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,6 +25,8 @@ use crate::math::segment::segment_distance;
 ///
 /// Copies share the surface. Built by [`super::Shape::hull`] and [`super::Shape::mesh`] alone, so that an open or flat
 /// one does not exist.
+///
+/// Memory: the triangles, and a tree of boxes over them.
 #[derive(Clone)]
 pub struct Solid {
     surface: Arc<TriMesh>,
@@ -38,6 +43,8 @@ impl std::fmt::Debug for Solid {
 }
 
 /// The plane of a hull's face: normal·p ≤ offset inside.
+///
+/// Unit normal, outwards; offset in m.
 #[derive(Clone, Copy)]
 struct Face {
     normal: Vector3<f64>,
@@ -45,16 +52,22 @@ struct Face {
 }
 
 impl Face {
+    /// m; above 0 outside of this face.
     fn height(&self, p: &Point3<f64>) -> f64 {
         self.normal.dot(&p.coords) - self.offset
     }
 }
 
 /// What is wrong with points or triangles: the offending value and what it must be.
+/// Worded for the message that names the key.
 pub(super) type Refusal = (String, String);
 
 impl Solid {
     /// The convex hull of `points` (m).
+    ///
+    /// # Errors
+    /// Points without a volume, or so placed that a point lies outside of the hull found by more than 10⁻⁷ of its
+    /// size.
     pub(super) fn hull(points: &[Point3<f64>]) -> Result<Self, Refusal> {
         let flat = || (format!("{} points", points.len()), "at least 4 points that do not lie in one plane".to_owned());
         if points.len() < 4 {
@@ -83,6 +96,10 @@ impl Solid {
     ///
     /// Vertices with equal coordinates are one vertex, triangles that thereby lose their area vanish, and a surface
     /// wound inside out is turned. Self-intersections are not looked for.
+    ///
+    /// # Errors
+    /// Indices that do not exist, edges that are not between two triangles wound alike, triangles without area, no
+    /// volume.
     pub(super) fn mesh(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<Self, Refusal> {
         if let Some((index, triangle)) =
             triangles.iter().enumerate().find(|(_, t)| t.iter().any(|&v| v as usize >= vertices.len()))
@@ -114,6 +131,8 @@ impl Solid {
     }
 
     /// The smallest box around the solid.
+    ///
+    /// m.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
@@ -129,6 +148,8 @@ impl Solid {
     }
 
     /// Distance of `p` to the surface, m; negative inside.
+    ///
+    /// O(faces) inside of hulls; else a descent of the tree.
     pub fn signed_distance(&self, p: &Point3<f64>) -> f64 {
         let point = to_parry(p);
         if let Some(faces) = &self.faces {
@@ -200,6 +221,8 @@ fn volume(vertices: &[ParryVector], triangles: &[[u32; 3]]) -> f64 {
 }
 
 /// Outward planes of the hull's faces; faces too thin to have a direction are left out.
+///
+/// Coplanar triangles each have one: only their maximum is asked for.
 fn faces(vertices: &[ParryVector], triangles: &[[u32; 3]], scale: f64) -> Vec<Face> {
     triangles
         .iter()
@@ -215,6 +238,8 @@ fn faces(vertices: &[ParryVector], triangles: &[[u32; 3]], scale: f64) -> Vec<Fa
 }
 
 /// One vertex per distinct coordinates, and no triangle that uses one twice.
+///
+/// Equal to the bit, but for the sign of zero.
 fn merge(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> (Vec<ParryVector>, Vec<[u32; 3]>) {
     let mut numbers = BTreeMap::new();
     let mut distinct = Vec::new();
@@ -253,6 +278,7 @@ fn closed(triangles: &[[u32; 3]]) -> Result<(), Refusal> {
     }
 }
 
+/// Twice its area at most 10⁻¹² of the square of its longest edge.
 fn sliver(vertices: &[ParryVector], triangle: &[u32; 3]) -> bool {
     let [a, b, c] = triangle.map(|index| from_parry(&vertices[index as usize]));
     let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());

@@ -6,6 +6,8 @@ use crate::campaign::scenario::MoveName;
 use crate::trajectory::program::{JointTarget, PoseTarget, Speed, Tool, WorkObject};
 
 /// A graph's moves as a controller drives them.
+///
+/// Poses are in [`Self::work_object`], m; `home` in rad.
 #[derive(Debug, Clone)]
 pub struct ArcClock {
     /// Of all moves.
@@ -29,6 +31,10 @@ impl ArmSetup {
     ///
     /// # Errors
     /// Moves that are not straight; no point that home can be left for and reached from, in a sentence's part.
+    ///
+    /// `points` are all of the cloud, met or not: the rows of `arcs` and [`ArcClock::start`] count in it. The start
+    /// is, of the rows that home can be left for and reached from, the one that most moves leave, the first of
+    /// equals.
     pub fn arc_clock(&self, graph: &ArmGraph) -> Result<ArcClock, String> {
         let n = graph.points();
         if self.scenario.generate.moves.kind == MoveName::Joint {

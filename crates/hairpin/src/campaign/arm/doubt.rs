@@ -1,4 +1,7 @@
 //! What of a search rests on bodies of which neither is known.
+//!
+//! A body is not known where the arm's or the tool's file does not give its shape and a stand-in of usual size is
+//! taken. A graph that has no way because two stand-ins meet says little of the real arm.
 
 use std::sync::Arc;
 
@@ -29,6 +32,8 @@ impl ArmSetup {
 
     /// Where the arm's graph has no way: whether it had one if shapes that are not known did not meet each other, and
     /// which key says that they do not, in a sentence's part.
+    ///
+    /// `None` too where the graph has a way as it is, or has none either way. Costs another graph.
     pub fn open_for_estimates(&self) -> Option<String> {
         if graph_of(self).is_ok() {
             return None;

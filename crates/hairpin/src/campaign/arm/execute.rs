@@ -1,4 +1,6 @@
 //! Runs a program on the virtual controller.
+//!
+//! The run's random stream is that of its order, so that run k of a case is the same whichever thread runs it.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
@@ -38,6 +40,8 @@ impl ArmSetup {
     }
 
     /// Of the servos, s: the arm's own, or the scenario's for all axes.
+    ///
+    /// The first-order time constant τ of q̇ = (u − q)/τ, one per axis.
     pub(super) fn lags(&self) -> Joints {
         self.station.arm.lags.unwrap_or([self.scenario.execute.servo_lag_s; AXES])
     }
@@ -107,7 +111,8 @@ pub(super) fn program_of(case: &Case) -> Result<&Program, SimulationError> {
     case.program().ok_or_else(|| SimulationError::new("program", "none".into(), "the program of the case"))
 }
 
-/// The recording with the leg that is being driven, the velocity, and the joints in degrees.
+/// `recording` as flights are kept: the channel `move` called `leg`, and with the velocities of
+/// [`Track::with_velocities`]. All other channels stay.
 pub(super) fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
     let renamed = recording.channels().iter().map(|channel| match channel.name.as_str() {
         "move" => Channel { name: "leg".into(), values: channel.values.clone() },

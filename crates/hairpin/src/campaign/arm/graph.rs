@@ -1,5 +1,13 @@
 //! The reachability graph of a scenario: which moves are possible, in which posture each point is met, and what moves
 //! cost.
+//!
+//! ```text
+//! mode = cartesian   sphere of the tool, grown by clearance and spec, along straight lines        no postures
+//! mode = joint       all links and the tool, along moves whose joint angles are followed          one posture a point
+//! costs w(i, j)      distance, time, … of the move, a user's table, or a learned model's word    whole units
+//! ```
+//!
+//! n points: n(n − 1) moves are looked at, and with arcs n(n − 1)(n − 2) triples. Nothing is random.
 
 use nalgebra::{Isometry3, Point3};
 
@@ -15,6 +23,8 @@ use crate::feasibility::reachability::{
 use crate::robot::arm::{Branch, Configuration, Joints};
 
 /// The graph of a scenario, ready to be searched.
+///
+/// Rows are those of the station's cloud.
 #[derive(Debug, Clone)]
 pub struct ArmGraph {
     /// Which moves are possible, and why the others are not.
@@ -22,6 +32,7 @@ pub struct ArmGraph {
     /// Joint angles at every point, rad, or why it has none; in Cartesian mode nobody asked.
     pub postures: Option<Vec<Result<Joints, Refusal>>>,
     /// Costs in whole units, row = from.
+    /// `None` where the move is not possible; n × n, its diagonal `None`.
     pub costs: Vec<Option<i64>>,
     /// Whether the move from home to each point is possible.
     pub from_home: Vec<bool>,
@@ -30,6 +41,7 @@ pub struct ArmGraph {
     /// Arcs from point to point through a third, with costs in whole units, where the scenario takes them.
     pub arcs: Option<ArcGraph>,
     /// What one unit is, in `unit_name`.
+    /// A cost of c is c · `unit` in it.
     pub unit: f64,
     /// The unit that users are told: `m`, `s`, `steps`, `rad²/s³`, that of their table.
     pub unit_name: String,
@@ -59,6 +71,12 @@ impl ArmGraph {
     /// Whether the corner at the `k`-th of `rows` may be cut by a zone of `zone` m: the triangle that a blend stays in
     /// is proven clear of the cell, grown by the tool and by what the spec allows. Joint moves stop everywhere: their
     /// blends lie in no such triangle.
+    ///
+    /// `k` is a place within `rows` that has one before and one after it: 1 … len − 2. The zone is cut to half of
+    /// either segment.
+    ///
+    /// # Panics
+    /// Where `k` is the first or the last place.
     pub(super) fn blends(&self, setup: &ArmSetup, rows: &[usize], k: usize, zone: f64) -> bool {
         let (station, scenario) = (&setup.station, &setup.scenario);
         if scenario.generate.moves.kind == MoveName::Joint {
@@ -123,6 +141,7 @@ pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
 
 impl ArmSetup {
     /// What the scenario's table of costs says of a move, where costs come from one.
+    /// The outer `None`: they come from elsewhere; the inner one: the table has no such move.
     pub(super) fn measured_cost(&self, from: usize, to: usize) -> Option<Option<i64>> {
         let CostSection::Table(table) = &self.scenario.generate.cost else { return None };
         let matrix = self.attachments.costs(table)?;
@@ -207,6 +226,7 @@ fn with_learned(setup: &ArmSetup, graph: JointGraph) -> JointGraph {
     JointGraph { graph: reachability, joints, ..graph }
 }
 
+/// The singularity margin goes in as sin of `singularity_margin_deg`; the clearance grown by what the spec allows.
 pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> JointSettings {
     let moves = &scenario.generate.moves;
     JointSettings {
@@ -224,11 +244,15 @@ pub(super) fn joint_settings(station: &Station, scenario: &ArmScenario) -> Joint
 }
 
 /// Radius of the tool's sphere with all that it is grown by, m.
+///
+/// r = r_tool + clearance + what the spec allows.
 fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
     station.tool.radius + scenario.generate.moves.clearance_mm * 1e-3 + allowed(scenario)
 }
 
 /// Whether the arm can stand with its tool at `pose`, as far as the scenario's mode looks.
+///
+/// In joint mode this is a graph of one point, moves from home and back included: as dear as that.
 pub(super) fn stands(station: &Station, scenario: &ArmScenario, pose: &Isometry3<f64>) -> bool {
     match scenario.generate.mode {
         ArmMode::Cartesian => {

@@ -19,6 +19,9 @@ const ACCELERATIONS: &str = "joints.acceleration_deg_s2";
 
 impl ArmSetup {
     /// What the log of a run does not show.
+    ///
+    /// `None` where the oracle cannot tell, as for a recording of one sample. With `Clock::OffsetRemoved` the offset
+    /// that was taken off is added to the lateness that the spec allows.
     pub(super) fn unseen(
         &self,
         programmed: &PlannedPath,
@@ -50,6 +53,8 @@ impl ArmSetup {
 }
 
 /// How far the path is from another one at most, m.
+///
+/// max over the path's samples of the distance to the other's polyline; O(n m). 0 where either has no segment.
 fn farthest(path: &Track, other: &Track) -> f64 {
     let nearest = |i: usize| {
         let point = path.position(i);
@@ -90,6 +95,8 @@ impl<'a> Log<'a> {
     }
 
     /// What each joint may have turned aside, rad.
+    ///
+    /// min(α h²/8, ω h/2), one per joint.
     fn aside(&self, seconds: f64) -> Joints {
         let limits = &self.arm.limits;
         std::array::from_fn(|k| (limits[k].acceleration * seconds * seconds / 8.0).min(limits[k].speed * seconds / 2.0))
@@ -112,6 +119,8 @@ fn recorded(recording: &Track) -> Option<Vec<Joints>> {
 }
 
 /// The angles that put the tool where the log has it, each nearest to those before.
+///
+/// `None` where one pose has no inverse within the bounds. The first is the nearest to home, by Σ|Δq|.
 fn along_a_branch(arm: &Arm, tcp: &Isometry3<f64>, home: &Joints, recording: &Track) -> Option<Vec<Joints>> {
     let distance = |a: &Joints, b: &Joints| (0..AXES).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
     let (flange_from_tcp, mut before, mut all) = (tcp.inverse(), *home, Vec::with_capacity(recording.len()));

@@ -1,4 +1,7 @@
 //! What an arm's recordings are measured against, and how limits are told in the units of arms' users.
+//!
+//! The path a program is judged by is its own with the zones cut (`spec.path.from = "blended"`), or the polyline of
+//! its targets (`"sharp"`). Alignment weighs orientation in only where the recording has it.
 
 use super::execute::program_of;
 use super::{ArmSetup, obstructions};

@@ -17,6 +17,8 @@ pub(super) fn knobs(setup: &ArmSetup) -> Knobs {
     }
 }
 
+/// In the order they are tried in: first what was asked for beside the program (a least cost), then what moves must
+/// keep (clearance, singularity margin, spec), then what is in the way, and last the count of points.
 fn turned(scenario: &ArmScenario) -> Vec<Knob> {
     let (moves, search) = (&scenario.generate.moves, &scenario.generate.search);
     let drawn = match &scenario.task.points {

@@ -6,6 +6,9 @@ use crate::campaign::graph::{Counter, Losses, Stage};
 use crate::feasibility::reachability::Refusal;
 
 /// Counts the moves between all ordered pairs of points, and the arcs through a third, by what became of them.
+///
+/// n(n − 1) moves, the arcs where they are asked for, and 2n ways from and to home. Builds the graph again; where
+/// that fails nothing is counted.
 pub(super) fn losses(setup: &ArmSetup) -> Losses {
     let mut counter = Counter::default();
     if let Ok(graph) = whole_graph(setup) {
@@ -41,6 +44,7 @@ pub(super) fn losses(setup: &ArmSetup) -> Losses {
     })
 }
 
+/// The limit is named as users name it: a part of the cell, an axis (from 1), a kind of singularity.
 pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
     let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
     match *refusal {

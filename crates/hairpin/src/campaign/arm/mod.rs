@@ -1,4 +1,18 @@
 //! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
+//!
+//! ```text
+//! ArmScenario ─▶ build, check ─▶ ArmSetup (Station: arm, tool, work object, cell, points)
+//!   Claim:  graph (feasibility::reachability) ─▶ question ─▶ search::heaviest ─▶ solve ─▶ program ─▶ Plan
+//!           drawn and bred instead: ways ─▶ draw, alter ─▶ program
+//!   Act:    execute ─▶ simulation::arm, or recorded: a log of the real arm
+//!   judge:  plan (path with its zones) ─▶ judgement::moves; hidden: what a log does not show; regression: two releases
+//!   proof:  verify, retrace ─▶ verification, as plain numbers (written)
+//!   Say:    say, assumptions, figure, losses, obstructions, doubt, knobs
+//! ```
+//!
+//! Base frame: that of the arm's chain. Everything inside is in m, rad, s; mm, deg and ms are those of the scenario's
+//! keys and of what is told. A *row* is a point's place in the cloud, from 0. Programs begin and end at home, which
+//! is no point of the cloud.
 
 mod alter;
 mod assumptions;

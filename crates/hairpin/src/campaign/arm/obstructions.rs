@@ -86,6 +86,9 @@ impl ArmSetup {
 }
 
 /// All that is in the way.
+///
+/// In sentences: what meets what at home, points that the arm cannot stand at, where neither tells anything the ways
+/// from home and back, then the moves; the most frequent reason of each first. Builds the graph again.
 pub(super) fn in_the_way(setup: &ArmSetup) -> Vec<String> {
     let mut said: Vec<String> = setup.home_meets().into_iter().map(|meets| format!("at home {meets}")).collect();
     match whole_graph(setup) {

@@ -85,6 +85,9 @@ fn frame_of_points(
 }
 
 /// `count` of the poses that points are drawn from, whether or not the arm can stand there.
+///
+/// From a stream of their own, `places`: what they tell does not depend on how many points were drawn. Empty where
+/// the points have no frame.
 pub(super) fn places(
     scenario: &ArmScenario,
     work_object: &WorkObject,
@@ -105,6 +108,9 @@ fn at(place: Vector3<f64>, turn: UnitQuaternion<f64>) -> Isometry3<f64> {
 }
 
 /// Uniform in the ball, those that fit; none where none of so many draws fits.
+///
+/// Given up after [`DRAWS`] further places of which none fits: an error where there are some points, an empty list,
+/// which the graph then explains, where there is none.
 fn draw(
     seed: u64,
     drawn: &DrawnPoints,
@@ -140,6 +146,8 @@ fn draw(
 }
 
 /// Uniform in the unit ball: r³ and cos θ are uniform.
+///
+/// r = ∛u₁, cos θ = 2u₂ − 1, φ = 2πu₃.
 fn in_ball(random: &mut Stream) -> Vector3<f64> {
     let radius = libm::cbrt(unit(random));
     let height = 2.0 * unit(random) - 1.0;

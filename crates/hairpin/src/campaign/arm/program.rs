@@ -51,6 +51,8 @@ impl ArmSetup {
     }
 
     /// The point of row `row` in the work object.
+    ///
+    /// p_object = `object_from_base` · p_base.
     pub(super) fn target(
         &self,
         object_from_base: &Isometry3<f64>,
@@ -64,6 +66,7 @@ impl ArmSetup {
     }
 
     /// Speeds and zones of the moves to so many points, drawn from the scenario's lists.
+    /// Each pair alike, with repetition.
     pub(super) fn drawn_moves(&self, count: usize, random: &mut Stream) -> Vec<(Speed, Zone)> {
         let moves = &self.scenario.generate.moves;
         let mut pick = |names: &[String]| names[(unit(random) * names.len() as f64) as usize].clone();
@@ -76,6 +79,9 @@ impl ArmSetup {
 
     /// The program along `way`: home, joints to the first point, on through the others, home. `blends(k)` says whether
     /// the corner at the way's k-th point may be cut by a zone (m).
+    ///
+    /// The first move is joint to the first point, the last joint back home, both slow; every other one as
+    /// `generate.moves.kind`. A zone that `blends` refuses becomes fine.
     pub(super) fn program(&self, way: &[Met], number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
         let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();

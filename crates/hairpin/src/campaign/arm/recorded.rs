@@ -68,6 +68,7 @@ impl ArmSetup {
     ///
     /// # Errors
     /// A case whose program cannot be planned; a recording that the oracle cannot align.
+    /// What tells which of several programs a recording is of: the case of the least.
     pub fn distance(
         &self,
         case: &Case,

@@ -34,6 +34,7 @@ const DIFFERENT: usize = 3;
 
 impl ArmSetup {
     /// What all runs did, from what judging them gave.
+    /// Cases none of whose runs was measured are left out.
     pub fn moves(&self, cases: &[Case], runs: &[RunDeviation]) -> Moves {
         let of = |case: &Case| {
             let own: Vec<&RunDeviation> = runs.iter().filter(|run| run.case == case.number).collect();
@@ -46,6 +47,8 @@ impl ArmSetup {
     ///
     /// # Errors
     /// Programs that only one of the two has, or that differ, by name; too few runs.
+    ///
+    /// `None` too where the spec names no baseline. A trend is told from three releases of the same program on.
     pub fn regression(&self, moves: &Moves, name: &str) -> Result<Option<Regression>, RegressionError> {
         let Some(limit) = &self.scenario.spec.regression else { return Ok(None) };
         let Some(baseline) = self.attachments.baseline(limit) else { return Ok(None) };

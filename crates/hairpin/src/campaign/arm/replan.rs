@@ -9,6 +9,9 @@ use crate::campaign::kind::{Replanner, Same};
 use crate::trajectory::program::{Motion, Program, Zone};
 
 /// A program, and the graph that it is a way through.
+///
+/// A subset of the waypoints is a program again where every move between neighbours of the subset is one of the
+/// graph's: no search, O(points) a trial. Speeds stay, so what is shortened is the same program with points left out.
 pub(super) struct Shortened {
     graph: ArmGraph,
     case: Case,

@@ -1,4 +1,7 @@
 //! Hands an arm, its cell and a program to the verification room, as plain numbers.
+//!
+//! Poses in the base frame, m; angles in rad. Nothing of `feasibility` is called: frames, inverse kinematics and
+//! distances are those of [`crate::verification`].
 
 use nalgebra::{Isometry3, Point3};
 
@@ -57,6 +60,9 @@ impl ArmSetup {
 
     /// Follows every move that `graph` has, between points, from home and back, by code of its own; what does not hold,
     /// in words. In Cartesian mode, which knows no joints, there is nothing to follow.
+    ///
+    /// The n(n − 1) + 2n moves at most that the graph says are possible, 32 a thread. Moves that are refused
+    /// are not looked at: a graph that lost one is still right of all that it has.
     pub fn graph_again(&self, graph: &ArmGraph) -> GraphAgain {
         let Some(postures) = &graph.postures else { return GraphAgain::default() };
         let (n, home) = (graph.points(), self.station.home);

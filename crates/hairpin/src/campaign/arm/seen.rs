@@ -11,6 +11,8 @@ use crate::trajectory::program::Speed;
 impl ArmSetup {
     /// The features of move number `index` of a program; `None` of those from and to home, on arcs, and between points
     /// of unknown posture.
+    ///
+    /// Number 0 leads from home to the first point.
     pub(super) fn seen_of(&self, orders: &[Order], index: usize) -> Option<MoveFeatures> {
         let (before, order) = (orders.get(index.checked_sub(1)?)?, &orders[index]);
         let ((start, from), (end, to)) = (self.stand(before)?, self.stand(order)?);
@@ -42,6 +44,8 @@ impl ArmSetup {
     /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit: the
     /// mean over the scenario's speeds, of which one is drawn later; at least 0. Not what it expects at their mean, a
     /// speed that nothing was executed at.
+    ///
+    /// round(min(10⁶ · mean over speeds v of f(x(v)), 10¹⁵)), f the model and x the move's features.
     pub(super) fn expected(&self, model: &ScoreModel, [from, to]: [usize; 2], angles: [&Joints; 2]) -> i64 {
         let place = |row: usize| &self.station.points[row].pose;
         let speeds = &self.scenario.generate.moves.speeds;

@@ -1,4 +1,8 @@
 //! The search: the heaviest paths through the reachability graph, made into programs.
+//!
+//! The graph's costs w (whole units, row = from) go to [`crate::search::heaviest`]: the path p₁ … pₘ that maximises Σ
+//! w(pₖ, pₖ₊₁), each point at most once, or at most `visits` times with every move at most once. The moves from and
+//! to home weigh nothing. Exact where the search ends within its time; a bound where it does not.
 
 use super::ArmSetup;
 use super::graph::ArmGraph;
@@ -30,6 +34,8 @@ pub struct Question {
 
 impl ArmSetup {
     /// The programs along the paths that were found, as cases of a campaign.
+    ///
+    /// Numbered in the order of the paths, from 0; graph 0.
     pub fn cases(&self, graph: &ArmGraph, found: &Heaviest) -> Vec<Case> {
         let paths = found.paths.iter().enumerate();
         let plans = paths.map(|(number, (cost, rows))| (number, self.plan(graph, rows, *cost, found, number)));
@@ -38,6 +44,9 @@ impl ArmSetup {
 
     /// What is searched: the graph's costs, and where not every point can be a first and a last one, home as two points
     /// more: one with free arcs to where programs may begin, one with free arcs from where they may end.
+    ///
+    /// Home's two points are row n (out) and row n + 1 (back). Where every point can begin and end a program the
+    /// question has the cloud's n points alone.
     fn question(&self, graph: &ArmGraph) -> Question {
         let search = &self.scenario.generate.search;
         let n = graph.points();
@@ -62,6 +71,10 @@ impl ArmSetup {
     ///
     /// # Errors
     /// Costs that no search takes, in a sentence's part.
+    ///
+    /// `generate.search.programs` of them at most, by falling cost. An empty list has an outcome other than `Found`;
+    /// a path of one point, which no move of the graph is on, counts as none. `stop` and
+    /// `generate.search.time_limit_s` end the search with what was found by then.
     pub fn heaviest(&self, graph: &ArmGraph, stop: &Stop) -> Result<Heaviest, String> {
         self.heaviest_of(graph, self.scenario.generate.search.programs as usize, None, stop)
     }
@@ -94,6 +107,8 @@ impl ArmSetup {
     ///
     /// # Errors
     /// As [`Self::heaviest`].
+    ///
+    /// Of the question's own rows: where home is in it, rows n and n + 1 are the first and the last of the path.
     pub fn optimum(
         &self,
         graph: &ArmGraph,
@@ -106,6 +121,9 @@ impl ArmSetup {
         Ok(proven.then_some((question, found, walk)))
     }
 
+    /// The clock is asked against `time_limit_s` from where this begins; `min_cost`, in the graph's unit, is rounded
+    /// up to whole ones. `method` is for paths whose points come once; with more visits it cuts the search off after
+    /// [`MOST_NODES`] nodes instead.
     fn search(
         &self,
         graph: &ArmGraph,
@@ -161,6 +179,7 @@ impl ArmSetup {
         }
     }
 
+    /// Speeds and zones come from the stream `moves` of the scenario's seed and `number`: the same for every run.
     pub(super) fn plan(&self, graph: &ArmGraph, rows: &[usize], cost: i64, found: &Heaviest, number: usize) -> Plan {
         let passed = found.passed.get(number).map_or(&[][..], Vec::as_slice);
         let mut random = stream(named_seed(self.scenario.seed, "moves", number as u64));

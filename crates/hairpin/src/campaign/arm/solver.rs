@@ -1,4 +1,7 @@
 //! The search for an arm's programs: the heaviest, and for searches that execute what can be drawn and changed.
+//!
+//! The graph, the ways and the heaviest program are made when they are first asked for and kept, so that the rounds
+//! of a search do not pay for them again.
 
 use std::sync::{Arc, OnceLock};
 
@@ -65,6 +68,8 @@ impl<'a> ArmSolver<'a> {
     }
 
     /// Points of programs that are drawn.
+    ///
+    /// `generate.search.points`, or where that is not given as many as the heaviest path has.
     fn length(&self) -> Result<usize, String> {
         if let Some(points) = self.setup.scenario.generate.search.points {
             return Ok(points as usize);
@@ -119,6 +124,8 @@ impl Solver for ArmSolver<'_> {
         outcome
     }
 
+    /// Program `number` of the stream `drawn program`: the same whoever asks, and in whatever order. Up to [`DRAWS`]
+    /// walks.
     fn draw(&self, number: u64) -> Result<Plan, String> {
         let ways = self.ways()?;
         let length = self.length()?;

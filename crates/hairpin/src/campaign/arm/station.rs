@@ -24,8 +24,10 @@ pub struct Station {
     /// What programs are given in.
     pub work_object: WorkObject,
     /// What is in the way, base frame.
+    /// Its parts' numbers are those that refusals tell.
     pub cell: Cell,
     /// The cloud.
+    /// Programs' rows count in it, from 0.
     pub points: Vec<CellPoint>,
     /// Where programs start and end, rad.
     pub home: Joints,
@@ -48,6 +50,8 @@ pub struct ArmSetup {
 
 impl ArmSetup {
     /// How many points the scenario asks for: where none of those to be drawn fits there are fewer.
+    ///
+    /// 0 where they are in a file that was not read.
     pub fn asked_points(&self) -> u64 {
         count(&self.scenario.task, &self.attachments)
     }

@@ -1,4 +1,7 @@
 //! An arm as code of the user's that steers it knows it.
+//!
+//! Told: the joints' bounds (rad) and top speeds (rad/s); at every step the angles (rad) and rates (rad/s), and what
+//! the plan has for them. Answered: rates, rad/s, one a joint.
 
 use serde::Deserialize;
 use serde_json::{Value, json};

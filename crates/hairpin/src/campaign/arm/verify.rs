@@ -1,4 +1,7 @@
 //! The programs that were written, followed once more by code that shares nothing with what found and runs them.
+//!
+//! The end of each move against its waypoint: ‖p − p̂‖ ≤ [`MET`]. What is refused is told as a finding on the leg it
+//! is of; the worst miss is the proof's `position`.
 
 use super::ArmSetup;
 use crate::campaign::Case;

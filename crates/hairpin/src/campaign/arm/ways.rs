@@ -57,6 +57,9 @@ pub(super) struct Ways<'a> {
 
 impl<'a> Ways<'a> {
     /// Looks which postures the points of `graph` have.
+    ///
+    /// Asks the inverse kinematics once per point in joint mode with an arm of closed inverse; nothing is followed
+    /// yet.
     pub(super) fn new(setup: &'a ArmSetup, graph: Arc<ArmGraph>) -> Self {
         let station = &setup.station;
         let settings = joint_settings(station, &setup.scenario);
@@ -93,6 +96,7 @@ impl<'a> Ways<'a> {
     }
 
     /// Every posture that the point of row `row` can be met in.
+    /// In order of their numbers: the graph's own is 0 where it has one.
     pub(super) fn standings(&self, row: usize) -> impl Iterator<Item = Standing> + use<> {
         (0..self.postures[row].len()).map(move |posture| Standing { row, posture })
     }
@@ -119,6 +123,8 @@ impl<'a> Ways<'a> {
     }
 
     /// Whether the move from one place to another is possible: by the graph, or followed by the same code.
+    ///
+    /// An answer that must be followed for is remembered.
     pub(super) fn leads(&self, from: Place, to: Place) -> bool {
         self.of_graph(from, to).unwrap_or_else(|| self.is_followed(from, to))
     }

@@ -28,6 +28,9 @@ pub(super) fn build_of(arm: &Arm) -> ArmBuild {
 
 /// The moves of a program whose tools and work objects are all there. `told` says what is claimed of the joint angles
 /// with the tool at a pose in a configuration, if anything is.
+///
+/// Poses are in the frame of the move's work object, m; zones in m, a fine point being 0. A configuration that the
+/// program does not demand is left out.
 pub(super) fn moves_of(
     program: &Program,
     told: impl Fn(&Isometry3<f64>, &Configuration) -> Option<Joints>,

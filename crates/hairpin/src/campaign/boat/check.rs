@@ -15,6 +15,9 @@ use crate::world::terrain::KeepOuts;
 
 /// Nodes of the roadmap, waypoints × velocities: legs are pairs of them, judged once and kept; and of the dynamic
 /// programs, which judge every leg before they start.
+///
+/// The second is that of methods that judge all pairs, ~ nodes² of them; `generate.search.waypoints` may be that many
+/// divided by `generate.velocities`.
 const MOST_NODES: u64 = 50_000;
 const MOST_NODES_IN_PAIRS: u64 = 16_000;
 
@@ -45,6 +48,8 @@ impl Build for BoatSetup {
     }
 }
 
+/// Sides within (0, [`LARGEST_WATERS_M`]] m; the margin less than half the smaller side; each part of the current
+/// within ±100 m/s.
 fn check_world(world: &WatersSection, found: &mut Findings) {
     for (axis, size) in world.size_m.into_iter().enumerate() {
         found.above(&format!("world.size_m[{axis}]"), size, 0.0, LARGEST_WATERS_M, " m");
@@ -61,6 +66,9 @@ fn check_world(world: &WatersSection, found: &mut Findings) {
 }
 
 /// It must be possible to lie at both ends.
+///
+/// Ends lie within the margins, and their distance from every keep-out is at least the hull's radius. A boat or
+/// keep-outs that are wrong themselves are told by their own keys.
 fn check_task(keys: &BoatScenario, boat: Option<&Boat>, keep_out: Option<&KeepOuts>, found: &mut Findings) {
     let (task, world) = (&keys.task, &keys.world);
     found.count("task.length", task.length, 2, MOST_WAYPOINTS as u64);
@@ -78,6 +86,7 @@ fn check_task(keys: &BoatScenario, boat: Option<&Boat>, keep_out: Option<&KeepOu
     }
 }
 
+/// 0 < shortest < longest leg time; 1 … 64 velocities a waypoint; `thrust_share` in (0, 1].
 fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
     let [shortest, longest] = generate.leg_time_s;
     found.above("generate.leg_time_s[0]", shortest, 0.0, LONGEST_PASSAGE_S, " s");
@@ -104,6 +113,7 @@ fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
     }
 }
 
+/// A file's score is read as one of the caller's; `executed` scores have bounds of their own.
 fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
     let (generate, key) = (&keys.generate, "generate.score");
     let (search, score) = (&generate.search, generate.score.as_str());

@@ -1,4 +1,7 @@
 //! What of trips is claimed, and by whom.
+//!
+//! The solver, what is lost, plans after others, the planned track, the proof and missions made elsewhere: each by
+//! its file.
 
 use nalgebra::{Point3, Vector3};
 use serde_json::{Value, json};

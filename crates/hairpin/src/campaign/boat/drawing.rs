@@ -55,6 +55,9 @@ fn figure(radius: f64) -> RobotFigure {
 }
 
 /// A keep-out as a flat shape; a fan, exact for convex ones.
+///
+/// Discs as polygons of [`AROUND`] corners; triangles all share the first corner, O(corners). A polygon that is not
+/// convex is drawn with too much.
 fn keep_out(place: &KeepOut) -> Surface {
     let vertices: Vec<Point3<f64>> = match &place.shape {
         KeepOutShape::Circle { center_m: [x, y], radius_m } => (0..AROUND)

@@ -11,6 +11,8 @@ use crate::simulation::boat::{
 use crate::trajectory::{Flight, Track};
 
 impl Act for BoatSetup {
+    /// Plans know `nominal`'s boat; this setup's is the one that sails. The current acts on both; force and noise on
+    /// this run alone.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let nominal: &Self = nominal.setup();
         let execute = &self.scenario.execute;

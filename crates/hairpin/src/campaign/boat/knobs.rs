@@ -29,6 +29,8 @@ pub(super) fn knobs(setup: &BoatSetup) -> Knobs {
     }
 }
 
+/// In the order they are tried in: the task's length, limits, the longest leg time, the waters, and last what makes
+/// the search larger.
 fn turned(scenario: &BoatScenario) -> Vec<Knob> {
     let (generate, world) = (&scenario.generate, &scenario.world);
     let (limits, search) = (&generate.limits, &generate.search);
@@ -50,6 +52,7 @@ fn turned(scenario: &BoatScenario) -> Vec<Knob> {
     .collect()
 }
 
+/// Each is what takes it away from the scenario.
 fn conditions(scenario: &BoatScenario) -> Vec<Condition> {
     let execute = &scenario.execute;
     let force = execute.external_force_n.is_some_and(|force| force != [0.0; 2]);

@@ -7,6 +7,8 @@ use crate::feasibility::boat::{BoatInfeasible, BoatLimit, BoatRoadmap};
 use crate::feasibility::reach::WitnessNode;
 
 /// Counts the candidates of the first `graphs` graphs, a few at most.
+///
+/// At most [`GRAPHS`] of them; a graph without enough free water counts nothing.
 pub(super) fn losses(setup: &BoatSetup, graphs: u64) -> Losses {
     let mut counter = Counter::default();
     if let Ok(solver) = BoatSolver::new(setup) {
@@ -29,6 +31,7 @@ fn count(roadmap: &BoatRoadmap, length: usize, end: usize, counter: &mut Counter
     Counted { start, length, candidates: &candidates, arrives: &arrives, told: &told }.count(counter);
 }
 
+/// Forces of thrusters are what the boat can reach; speeds and times are limits that were asked for.
 fn told(why: Option<BoatInfeasible>) -> (Stage, String) {
     let Some(why) = why else { return (Stage::Limits, "top speed times the longest leg time".into()) };
     let (stage, limit) = match why.limit() {

@@ -1,4 +1,16 @@
 //! What sails: boats in a stretch of water with a current.
+//!
+//! ```text
+//! BoatScenario ─▶ check ─▶ BoatSetup (boat, waters: size, current, keep-outs)
+//!   Claim:  solve ─▶ feasibility::boat (BoatJudge, BoatRoadmap) ─▶ search ─▶ Plan; beside it through, passes
+//!   Act:    execute ─▶ simulation::sail ─▶ Flight
+//!   proof:  verify ─▶ verification, as plain numbers
+//!   Say:    say, assumptions, drawing, losses, knobs
+//! ```
+//!
+//! World frame: the map, x east, y north, z = 0 throughout; m, m/s, rad (heading from x, anticlockwise), N, N·m.
+//! Plans are witnesses: polynomials of (x, y, heading) over time whose forces lie within the thrusters' bounds in the
+//! known current, the bow into the motion at every waypoint.
 
 mod assumptions;
 mod check;

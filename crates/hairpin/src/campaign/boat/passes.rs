@@ -1,5 +1,11 @@
 //! Missions made elsewhere, by the claim of boats: legs from state to state through their waypoints, each passed
 //! between its legs with a speed of a few, or the limits that break.
+//!
+//! Dynamic programming along the mission: at waypoint k a state is a velocity along the bisector of its two legs
+//! (zero where it rests), and J(k, s′) = min over s of J(k − 1, s) + T(s, s′), T the shortest leg time of the ladder
+//! that the judge finds feasible. Where a speed is demanded of a leg its time is fixed: length over speed, times 1, 2
+//! or 35/16 for no, one or both ends at rest. A leg that breaks begins the chain anew, so that all that breaks is
+//! told.
 
 use nalgebra::{Point3, Vector2};
 
@@ -29,6 +35,9 @@ struct Reached {
 }
 
 /// What the claim says of `asked`.
+///
+/// What no boat can do is told as proven; what was not found under these states and times as not found, which says
+/// nothing of others. O(legs · states² · times) judgements at most.
 pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
     let judge = setup.judge();
     let points = asked.waypoints;
@@ -102,6 +111,8 @@ pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
 }
 
 /// The states that waypoint `number` may be passed in.
+///
+/// One where it rests or a speed is demanded (the smaller of both legs'), else [`SHARES`] of the top speed.
 fn states(judge: &BoatJudge, asked: &Demands, number: usize) -> Vec<Reached> {
     let points = asked.waypoints;
     let reached = |velocity: [f64; 2]| Reached { end: judge.end(&points[number], velocity), cost: 0.0, from: None };
@@ -134,6 +145,8 @@ fn joined(mut table: Vec<Vec<Reached>>) -> Profile {
 }
 
 /// What no boat can do on leg `leg`, or at the waypoint that it leads to.
+///
+/// `None` where nothing is: waypoints outside, too near to a keep-out, or a speed beyond what limits and boat allow.
 fn proven(setup: &BoatSetup, judge: &BoatJudge, asked: &Demands, leg: usize) -> Option<Broken> {
     let broken = |waypoint, leg, limit, unit, excess, words| {
         Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
@@ -166,6 +179,8 @@ fn proven(setup: &BoatSetup, judge: &BoatJudge, asked: &Demands, leg: usize) -> 
 }
 
 /// A leg that none was found for.
+///
+/// By the last judgement that failed: other states break other limits.
 fn refused(leg: usize, why: &BoatInfeasible) -> Broken {
     let (limit, unit) = match why.limit() {
         BoatLimit::Speed => ("speed", "m/s"),

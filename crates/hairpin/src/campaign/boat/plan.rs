@@ -13,6 +13,8 @@ const RATE: f64 = 5.0;
 const REFERENCE_RATE: f64 = 2.0;
 
 /// Place, heading and velocity at a moment.
+///
+/// World frame; m, rad, m/s.
 struct Sample {
     leg: usize,
     position: Point3<f64>,
@@ -55,6 +57,8 @@ pub(super) fn headings(case: &Case) -> Vec<f64> {
 ///
 /// # Errors
 /// A case whose numbers are no track.
+///
+/// At [`RATE`] Hz, both ends included.
 pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError> {
     let case = &*paced(case, setup.boat.default_speed, 1.0 / RATE);
     let times = stamps(case.leg_times.iter().sum(), RATE);
@@ -77,6 +81,7 @@ pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError>
     Track::new(times, poses, channels)
 }
 
+/// `t` beyond the ends is that of the ends.
 fn sample(case: &Case, t: f64) -> Sample {
     let (leg, tau) = locate(&case.leg_times, t);
     if let Some(piece) = case.profile().and_then(|profile| profile.legs.get(leg)) {

@@ -64,6 +64,8 @@ impl BoatSetup {
     }
 
     /// The judge of legs under the scenario's limits.
+    ///
+    /// Without a cap on speed ∞, without a share of thrust all of it.
     pub(super) fn judge(&self) -> BoatJudge {
         let given = &self.scenario.generate.limits;
         let limits = BoatLimits {
@@ -80,6 +82,7 @@ impl BoatSetup {
     }
 
     /// Longest planned duration of a trajectory, s.
+    /// ∞ where none is given.
     pub(super) fn longest(&self) -> f64 {
         self.scenario.generate.limits.max_time_s.unwrap_or(f64::INFINITY)
     }

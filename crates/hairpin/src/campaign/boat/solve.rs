@@ -19,6 +19,8 @@ use crate::math::random::{Stream, named_seed, stream, unit};
 const TRIES: u64 = 1000;
 
 /// The part of a search that is the same for every graph.
+///
+/// Graph k depends on the scenario's seed and k alone: waypoints from the stream `graph`, velocities from `roadmap`.
 pub(super) struct BoatSolver<'a> {
     setup: &'a BoatSetup,
     judge: BoatJudge,
@@ -44,6 +46,8 @@ impl<'a> BoatSolver<'a> {
     ///
     /// # Errors
     /// Too little free water.
+    ///
+    /// Uniform over the waters, those taken where the hull's disc is free; [`TRIES`] draws per waypoint on the whole.
     pub(super) fn sample(&self, graph: u64) -> Result<Vec<Point3<f64>>, String> {
         let (task, world) = (&self.setup.scenario.task, &self.setup.scenario.world);
         let wanted = self.setup.scenario.generate.search.waypoints;
@@ -85,6 +89,8 @@ impl<'a> BoatSolver<'a> {
     }
 
     /// The same; where velocities are in the way, other ones are chosen at what changed, and then beside it.
+    ///
+    /// At most `generate.limits.max_time_s` long.
     fn mended(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
         let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;

@@ -1,4 +1,7 @@
 //! What sails, as code of the user's that steers it knows it.
+//!
+//! Told: place and velocity over ground (map frame, m, m/s), heading (rad), rate of turn (rad/s), and the plan's at
+//! that time. Answered: surge and sway force in the boat's frame, N, and the yaw moment, N·m.
 
 use serde::Deserialize;
 use serde_json::{Value, json};

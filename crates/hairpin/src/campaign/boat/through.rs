@@ -10,6 +10,8 @@ use crate::trajectory::Profile;
 
 /// The witness over `points`, of which the k-th comes in the place of waypoint number `indices[k]` of `profile`: at
 /// rest at both ends, the shortest leg times of `rungs`. `None` where there is none.
+///
+/// `judge.judge` is asked rung by rung, the shortest first: at most rungs × legs judgements.
 pub(super) fn through(
     judge: &BoatJudge,
     rungs: &[f64],
@@ -57,6 +59,8 @@ pub(super) fn replan(setup: &BoatSetup, case: &Case, indices: &[usize], points: 
 }
 
 /// Whether the hull's disc may lie at `place`.
+///
+/// At least the margin within every edge, and the hull's radius from every keep-out; touching is free.
 pub(super) fn is_free(setup: &BoatSetup, place: &Point3<f64>) -> bool {
     let world = &setup.scenario.world;
     let margin = world.keep_in_margin_m;

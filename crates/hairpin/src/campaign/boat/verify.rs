@@ -21,6 +21,8 @@ pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<E
     (proof, with_lag.flatten())
 }
 
+/// Beside what the verification room finds: the case's leg times are the witness's to 10⁻⁹ of each, and all waypoints
+/// lie in z = 0.
 fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let (generate, world) = (&setup.scenario.generate, &setup.scenario.world);

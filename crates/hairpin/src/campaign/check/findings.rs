@@ -17,6 +17,8 @@ pub(in crate::campaign) struct Findings(pub(in crate::campaign) Vec<Mistake>);
 
 impl Findings {
     /// The first keys of every scenario.
+    ///
+    /// `hairpin` = 1; seed 0 … 2⁶³ − 1.
     pub(in crate::campaign) fn head(&mut self, format: u32, seed: u64) {
         self.require(format == 1, "hairpin", format, "1, the only scenario format there is");
         // TOML's whole numbers end here: a campaign's scenario file must hold its seed.
@@ -69,6 +71,8 @@ impl Findings {
     }
 
     /// Who executes: a controller or `execute.command`, not both; and how often one of the user's is asked.
+    ///
+    /// Rates lie in 1 … 1000 Hz and are given with a controller of the user's alone.
     pub(in crate::campaign) fn who<K>(
         &mut self,
         controller: Option<&Steering<K>>,
@@ -93,6 +97,8 @@ impl Findings {
     }
 
     /// How many processes of a command run side by side, by either name.
+    ///
+    /// 1 … 1024.
     pub(in crate::campaign) fn processes(&mut self, processes: Option<u64>, workers: Option<u64>) {
         for (key, count) in [("execute.processes", processes), ("execute.workers", workers)] {
             if let Some(count) = count {

@@ -73,6 +73,8 @@ fn check_unconfirmed(search: &SearchSection, what: &str, found: &mut Findings) {
 }
 
 /// Executions: at least what every round needs, at most 100 000.
+///
+/// The least is rounds × the larger of graphs and [`LEAST_PER_ROUND`], by the search's own count of both.
 fn check_adaptive(search: &SearchSection, found: &mut Findings) {
     // Told already.
     if search.rounds.is_some_and(|rounds| rounds > MOST_ROUNDS) {

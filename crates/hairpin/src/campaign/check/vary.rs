@@ -43,6 +43,8 @@ const LEAST_SHARE: f64 = 0.01;
 /// drawn.
 ///
 /// Each key is tried alone, the others nominal: two that are fine by themselves may make a scenario that is not.
+///
+/// Costs two builds a key, or as many as it has choices.
 pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
     let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();

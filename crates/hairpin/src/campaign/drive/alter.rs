@@ -1,4 +1,8 @@
 //! Drives made of others: one waypoint passed in another way, or the beginning of one and the rest of another.
+//!
+//! Changes are made on a draft ([`DriveDraft`]): a leg is solved again only where one of its ends is passed
+//! otherwise, so that each change costs two boundary-value drives at most. Speeds are settled anew over the whole
+//! drive.
 
 use std::f64::consts::PI;
 
@@ -10,9 +14,12 @@ use crate::trajectory::Passing;
 use crate::trajectory::drive::Planar;
 
 /// By how much a heading is turned at most: one of these.
+/// rad: a little, a sixth of a turn, any.
 const TURNS: [f64; 3] = [PI / 12.0, PI / 3.0, PI];
 
 /// What is changed at a waypoint.
+///
+/// Only what the scenario leaves open is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Change {
     Heading,
@@ -27,6 +34,9 @@ impl DriveSolver<'_> {
     /// starts stays. Two legs are solved at most.
     ///
     /// `None` where what was drawn is not feasible, and for what has no commands.
+    ///
+    /// `leg` counts from 0. Headings change by a uniform angle within ± one of three bounds; directions and speeds
+    /// are drawn uniformly from what is allowed.
     pub(super) fn passed_otherwise(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let drive = plan.witness.as_ref()?.commands()?;
         let (site, settings) = (self.site(), &self.settings);

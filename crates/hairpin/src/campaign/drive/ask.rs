@@ -12,6 +12,8 @@ use crate::math::random::named_seed;
 use crate::search::{Found, OpenEnd};
 
 /// One graph, and how it is searched.
+///
+/// Points have the ground's heights, m.
 #[derive(Clone, Copy)]
 pub(super) struct Graph<'a> {
     pub(super) search: &'a SearchSection,
@@ -91,6 +93,8 @@ where
 }
 
 /// A round's other models.
+///
+/// Scores that a round asks beside its first model, each for an optimum of its own.
 pub(super) fn beside<'a>(looped: &Looped<'a>) -> Vec<AnyScore<'a>> {
     looped.models().iter().skip(1).map(AnyScore::Learned).collect()
 }

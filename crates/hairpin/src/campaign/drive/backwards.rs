@@ -15,6 +15,8 @@ const LEAST: f64 = 0.1;
 
 /// In words, plan and log beside each other; `None` where headings are not known or say nothing of the gear, as of what
 /// goes sideways, and where no leg was gone backwards.
+///
+/// Signed way of each leg: Σ Δp · x̂, x̂ the body's forward axis; below −0.1 m it was gone backwards.
 pub(super) fn backwards(setup: &DriveSetup, case: &Case, track: &Track) -> Option<String> {
     if track.channel(ATTITUDE_UNKNOWN).is_some() || setup.directions() != [0.0; 2] {
         return None;

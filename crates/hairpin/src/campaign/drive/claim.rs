@@ -14,6 +14,7 @@ use crate::trajectory::Track;
 use crate::verification::{EndError, Proof};
 
 /// Cells along a side of level ground without end, and the least of them, m.
+/// Enough for any scale of mission, and few enough to be made at once.
 const OPEN_CELLS: f64 = 400.0;
 const LEAST_CELL_M: f64 = 0.1;
 /// Rate of the timed reference that executors get, Hz: drives are slow.

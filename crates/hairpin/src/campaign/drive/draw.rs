@@ -11,6 +11,7 @@ use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::search::{NoWalk, stroll};
 
 /// Sets of waypoints that are tried for one drive.
+/// Drive k asks for sets 6k … 6k + 5, so that no two drives share waypoints.
 const SETS: u64 = 6;
 /// Stream of the waypoints of a drive.
 const WAYPOINTS: &str = "drawn waypoints";
@@ -51,6 +52,8 @@ impl DriveSolver<'_> {
     }
 
     /// A waypoint of those that drive number `number` was drawn from, all free ones alike.
+    ///
+    /// m, on the ground. `None` where there is none.
     pub(super) fn place_of(&self, number: u64, random: &mut Stream) -> Option<Point3<f64>> {
         let seed = named_seed(self.setup.scenario.seed, WAYPOINTS, number.wrapping_mul(SETS));
         let points = self.sample(seed).ok()?;
@@ -60,6 +63,9 @@ impl DriveSolver<'_> {
     }
 
     /// A walk over the headed waypoints at `points`; of its legs only those that it asks for are solved.
+    ///
+    /// Nodes are waypoints with headings; each leg that the walk asks for is a boundary-value drive on the map, and
+    /// refusals are counted by reason.
     fn driven(
         &self,
         seed: u64,

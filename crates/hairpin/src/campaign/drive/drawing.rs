@@ -20,6 +20,8 @@ const AROUND: usize = 32;
 ///
 /// 3 m around them, within the map; the whole map for none. Heights in m by rows from south to north, in steps of a
 /// 160th of the longer side and no finer than the map's cells.
+///
+/// Cells beyond the map or without data are NaN.
 pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
     let (map_low, map_high) = setup.map.extent();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);

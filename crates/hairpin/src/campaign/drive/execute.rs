@@ -68,6 +68,9 @@ impl Act for DriveSetup {
 /// goes; `None` where there are none.
 ///
 /// Curvatures at both ends are clamped to the plan's bounds: an executed drive may have strayed beyond them.
+///
+/// What the predictive controller asks at each cycle: the same flat solver and ground as the plan's, for the nominal
+/// vehicle.
 fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };

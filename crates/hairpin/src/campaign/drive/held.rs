@@ -12,6 +12,8 @@ const JUMP: f64 = 1e-6;
 /// The bounds of curvature with what the steering of `rover` leaves of them at `speed`, m/s.
 ///
 /// |δ̇| ≤ |dδ/dκ| |κ′| v, and dδ/dκ of the steered axle is at most its distance.
+///
+/// `bounds.most` in 1/m, `bounds.most_rate` in 1/m². A vehicle without a steering rate keeps what it is given.
 pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
     let most = bounds.most.min(rover.steerable_curvature());
     let by_axle = rover.response.steering_rate / (rover.response.steered_axle * speed);
@@ -20,6 +22,8 @@ pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
 }
 
 /// The first limit that a replayed drive breaks, by its name in answers, and by how much.
+///
+/// The excess is in the unit that the name ends with. NaN breaks, with a NaN excess. `None`: all are kept.
 pub fn broken(replay: &DriveReplay, bounds: &Curvatures, precision: &Precision) -> Option<(&'static str, Option<f64>)> {
     let [x, y, yaw] = replay.error;
     let found = [

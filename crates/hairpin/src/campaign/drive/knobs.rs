@@ -9,6 +9,9 @@ use crate::campaign::scenario::{DriveScenario, Manoeuvre};
 use crate::judgement::Stress;
 
 /// Keys that are not given have no knob where the robot's bound holds in their place.
+///
+/// In the order in which they are tried: the task, limits, the world, what makes the search larger, and last limits
+/// beside which the robot's own hold.
 pub(super) fn knobs(setup: &DriveSetup) -> Knobs {
     let scenario = &setup.scenario;
     Knobs {

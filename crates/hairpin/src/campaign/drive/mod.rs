@@ -1,4 +1,15 @@
 //! What drives: rovers on elevation maps, cars and differential drives.
+//!
+//! ```text
+//! DriveScenario ─▶ check ─▶ DriveSetup (vehicle, planner's vehicle, map, keep-outs)
+//!   Claim:  solve ─▶ roadmap of headed waypoints (witness) or stepwise ─▶ Plan; passes, replan, alter, draw
+//!   Act:    execute ─▶ simulation::ground ─▶ Flight; surround, place: what is searched beside the plan
+//!   proof:  verify, site ─▶ verification, as plain numbers
+//!   Say:    say, assumptions, drawing, figure, losses, knobs
+//! ```
+//!
+//! Frame: the map's, x east, y north, z up, m; headings in rad from x towards y; curvatures in 1/m, positive to the
+//! left. θ > 0 is nose down, φ > 0 is left side up.
 
 mod alter;
 mod ask;

@@ -1,5 +1,8 @@
 //! Missions made elsewhere, by the claim of drives: boundary-value drives through their waypoints, or the limits that
 //! break.
+//!
+//! Legs are solved among their neighbours, as headings at waypoints are free and join them. What refuses a leg is one
+//! reason of [`LegRefusal`]; what it would take is found by letting that limit out step by step.
 
 use nalgebra::Point3;
 
@@ -11,6 +14,7 @@ use crate::robot::rover::Suspension;
 use crate::world::terrain::Terrain;
 
 /// Factors by which a limit is let out to see how much of it a leg would need.
+/// The least that helps is told as the excess, so that it is too large by a step at most.
 const LET_OUT: [f64; 8] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0, 16.0];
 /// A speed within this share of the limit keeps it.
 const ROUNDING: f64 = 1e-9;
@@ -19,6 +23,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// As of a search.
+///
+/// Heights of `asked` are not looked at. Speeds above the limit are proven to break; the rest is not found, never
+/// proven.
 pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, String> {
     let looked = Looked { setup, asked, settings: DriveSettings { leg_m: [0.0, f64::INFINITY], ..settings(setup)? } };
     let places: Vec<[f64; 2]> = asked.waypoints.iter().map(|p| [p.x, p.y]).collect();
@@ -95,6 +102,8 @@ struct Looked<'a> {
 
 impl Looked<'_> {
     /// Settings of leg `leg`, at the speed that is demanded of it; turns in place go on as they do.
+    ///
+    /// m/s, at most the scenario's and the robot's limit.
     fn settings_of(&self, leg: usize) -> DriveSettings {
         let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.most_speed()));
         DriveSettings { speed, ..self.settings.clone() }
@@ -115,6 +124,8 @@ impl Looked<'_> {
     }
 
     /// What nothing can do on leg `leg`, or at the place that it leads to.
+    ///
+    /// The first of: off the map, no data, keep-out, speed.
     fn proven(&self, leg: usize) -> Option<Broken> {
         let broken = |waypoint, leg, limit, unit, excess, words| {
             Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
@@ -146,6 +157,8 @@ impl Looked<'_> {
     }
 
     /// A leg that no drive was found for, with how much of the limit one would need.
+    ///
+    /// Only curvature and slope are let out; of the others no excess is told.
     fn refused(&self, leg: usize, why: LegRefusal, places: &[[f64; 2]]) -> Broken {
         let (limit, unit) = named(why);
         let own = self.settings_of(leg);
@@ -176,6 +189,8 @@ impl Looked<'_> {
     }
 
     /// Whether the leg is one among its neighbours under `more`.
+    ///
+    /// One leg before it and one after, so that its headings are as free as in the mission.
     fn beside(&self, leg: usize, more: &DriveSettings, places: &[[f64; 2]]) -> bool {
         let (first, last) = (leg.saturating_sub(1), (leg + 3).min(places.len()));
         let solver = DriveSolver::new(self.setup);

@@ -20,6 +20,8 @@ const CHORDS: usize = 600;
 const GAPS: [f64; 2] = [0.002, 0.05];
 
 /// What keep-outs have to be clear of.
+///
+/// Claims know the plan alone: that an executed drive comes there is what the keep-out shows.
 enum Claimed<'a> {
     /// The predicted motion of a drive.
     Drive(ClearanceSamples),

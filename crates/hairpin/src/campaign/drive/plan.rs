@@ -13,6 +13,9 @@ use crate::trajectory::{Drive, DriveLeg, Track};
 ///
 /// # Errors
 /// A drive that the ground does not carry, as a folder that was edited may hold.
+///
+/// Poses are the settled body's, step by step of the motion prediction; velocities are differences of places over
+/// time.
 pub(super) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
     let drive = drive_of(setup, case);
     Ok(planned_track(&setup.planner, &setup.map, &drive)?.with_velocities())

@@ -21,6 +21,8 @@ use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 use super::Site;
 
 /// A resolved scenario of drives and what it describes.
+///
+/// What [`Setup::own`](crate::campaign::setup::Setup::own) gives for rovers, cars and differential drives.
 #[derive(Debug, Clone)]
 pub struct DriveSetup {
     /// Every key, the robot's table inline.
@@ -28,12 +30,15 @@ pub struct DriveSetup {
     /// What its files hold.
     pub attachments: Arc<Attachments>,
     /// The vehicle.
+    /// As it is driven: with latency, lags and scales.
     pub rover: Arc<Rover>,
     /// The vehicle as plans have it ([`Response::as_planned`](crate::robot::rover::Response::as_planned)).
+    /// Without latency, and as if its wheels answered as commanded, so that legs follow each other.
     pub planner: Arc<Rover>,
     /// The ground.
     pub map: Arc<ElevationMap>,
     /// Where nothing may drive.
+    /// Of the scenario and of a case's environment.
     pub keep_out: Arc<KeepOuts>,
     /// A controller of the caller's own in the place of the scenario's.
     pub controller: Option<OwnController<Rover>>,
@@ -59,6 +64,8 @@ impl DriveSetup {
     /// How speeds follow each other along a drive.
     ///
     /// Trapezoids where the acceleration is bounded and nothing else is asked for; else constant.
+    ///
+    /// Accelerations in m/s²; speeds through waypoints in m/s, [`Self::speed`] where no range is given.
     pub fn pace(&self) -> Pace {
         let given = &self.scenario.generate.speed;
         let acceleration = given.acceleration_m_s2.unwrap_or(self.rover.limits.acceleration);
@@ -78,6 +85,8 @@ impl DriveSetup {
     }
 
     /// Bounds of the commands' curvature: the scenario's or the robot's, whichever is smaller.
+    ///
+    /// 1/m and 1/m²; infinite where neither bounds.
     pub fn bounds(&self) -> Curvatures {
         let (given, own) = (&self.scenario.generate.limits, &self.rover.limits);
         Curvatures {
@@ -94,6 +103,8 @@ impl DriveSetup {
     }
 
     /// Radius of the circle about its origin that holds the vehicle, m.
+    ///
+    /// Keep-outs are grown by it.
     pub fn radius(&self) -> f64 {
         DriveSite::new(&self.planner, &self.map, &self.keep_out).radius
     }
@@ -115,6 +126,8 @@ impl DriveSetup {
     }
 
     /// The vehicle on its ground at the commanded speed, travelling in `direction` of its body.
+    ///
+    /// With the planner's vehicle.
     pub fn site(&self, direction: Direction) -> Site<'_> {
         Site { rover: &self.planner, map: &self.map, speed: self.speed().into(), direction }
     }

@@ -1,4 +1,8 @@
 //! Boundary-value drives of rovers on elevation maps: solved, and replayed from what would be written.
+//!
+//! The room's bridge from numbers to the leg solver on one side and to the replay on the other. Nothing is shared
+//! between the two: the replay gets segments as they are written ([`DrivePiece`]) and the vehicle as plain numbers
+//! ([`GroundVehicle`]).
 
 use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
@@ -13,11 +17,14 @@ use crate::verification::{
 use crate::world::terrain::{ElevationMap, Rationed};
 
 /// A rover on a map, and how it travels.
+///
+/// Borrowed parts, cheap to make: one for each speed and direction that is asked about.
 #[derive(Debug, Clone, Copy)]
 pub struct Site<'a> {
     /// The vehicle.
     pub rover: &'a Rover,
     /// What it drives on.
+    /// In its own frame, m, heights at cell centres, bicubic between.
     pub map: &'a ElevationMap,
     /// Speed along what is driven.
     pub speed: SpeedProfile,
@@ -26,10 +33,13 @@ pub struct Site<'a> {
 }
 
 /// The flat answers that a search on the ground is made of are exact to this, m, rad, 1/m.
+/// Finer than any precision that is asked for on the ground, so that Broyden's method sees no noise.
 const FLAT: f64 = 1e-5;
 
 impl<'a> Site<'a> {
     /// `rover` on `map`, straight ahead at its default speed.
+    ///
+    /// Its default speed is in m/s, constant.
     pub fn straight(rover: &'a Rover, map: &'a ElevationMap) -> Self {
         Self { rover, map, speed: rover.default_speed.into(), direction: 0.0.into() }
     }
@@ -64,6 +74,9 @@ impl Site<'_> {
     ///
     /// Sought is the flat goal g whose commands S(g) are predicted to end at `goal`, E(S(g)) = goal, by Broyden's
     /// method from g = goal, until that holds within the settings' precision or the iterations end: [`Answer::status`].
+    ///
+    /// Beginning and end are those of the wheels' commands; latency's waiting stretch is put before them.
+    /// Deterministic. Cost: two or three predictions of the ground for most questions.
     pub fn solve(
         &self,
         start: &Planar,
@@ -86,6 +99,9 @@ impl Site<'_> {
     }
 
     /// What [`Self::solve`] finds until `over` says that the time is.
+    ///
+    /// `over` is asked between looks at the ground; what is found until then is the answer, with its error and
+    /// status.
     pub fn solve_until(
         &self,
         start: &Planar,
@@ -108,6 +124,8 @@ impl Site<'_> {
 
     /// What [`Self::solve`] finds with `looks` looks at the ground, at most, and how many of them are left: without any
     /// it stopped, and the answer is the best so far.
+    ///
+    /// A look is one question of height and slope: a budget that is the same on every machine.
     pub fn solve_within(
         &self,
         start: &Planar,
@@ -127,6 +145,8 @@ impl Site<'_> {
 
     /// The places, with the metres driven to them, that `segments` lead to from `start` for as long as the body finds
     /// rest, looked at in `steps`: the middles of those.
+    ///
+    /// Empty where the vehicle finds no rest at the start.
     pub fn way(&self, start: &Planar, segments: &[Segment], steps: Steps) -> Vec<(f64, Planar)> {
         let mut way = Vec::new();
         let commands = self.after_waiting(start, &self.driven(segments));
@@ -145,6 +165,8 @@ impl Site<'_> {
     }
 
     /// Commands that drive from `start` to `goal` and stay clear of places to keep out of.
+    ///
+    /// Around `around` by detours; as [`Self::solve`] where the direct way is clear.
     pub fn solve_clear(
         &self,
         start: &Planar,
@@ -203,6 +225,8 @@ impl Site<'_> {
     ///
     /// # Errors
     /// Where the ground ends or the body finds no rest.
+    ///
+    /// Errors of the answer are at the end, in the map's frame: m, rad, 1/m; at least 2000 steps.
     pub fn replay(&self, start: &Planar, goal: &Planar, segments: &[Segment]) -> Result<GroundReplay, Stopped> {
         let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
         let driven = self.driven(segments);
@@ -258,6 +282,8 @@ fn haul(rover: &Rover) -> Option<Haul> {
 }
 
 /// What a drive for a flat `query` is held to, of a vehicle that travels at `direction` to its body.
+///
+/// In the query's frame: from the origin, heading 0.
 pub fn flat_claim(query: &Query, direction: f64) -> DriveClaim {
     let goal = &query.goal;
     DriveClaim {
@@ -270,6 +296,8 @@ pub fn flat_claim(query: &Query, direction: f64) -> DriveClaim {
 }
 
 /// `segments` as they would be written, replayed against `claim` in the plane; nothing is taken from the heap.
+///
+/// At most [`MOST_SEGMENTS`] segments, as a list holds no more.
 pub fn replay_pieces(segments: &SegmentList, claim: &DriveClaim) -> DriveReplay {
     let mut pieces = [DrivePiece::Turn { angle_rad: 0.0 }; MOST_SEGMENTS];
     pieces.iter_mut().zip(segments.iter()).for_each(|(piece, segment)| *piece = drive_piece(segment));

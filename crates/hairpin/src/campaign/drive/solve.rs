@@ -1,4 +1,8 @@
 //! One graph of ground waypoints, from its number to its plans.
+//!
+//! A node is a waypoint with a heading, passed with straight wheels; a leg a boundary-value drive between two, solved
+//! when a search first asks and then kept. The four reach sets differ in what a leg is: a drive (`witness`), or a
+//! straight line (`none`, `sphere`, `hull`).
 
 use std::f64::consts::PI;
 
@@ -29,11 +33,14 @@ use crate::world::terrain::Terrain;
 
 /// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from
 /// it.
+/// With fewer, chains break off; with more, legs are solved that no trajectory takes.
 const NEIGHBOURS: f64 = 12.0;
 /// The ground's part in what learned scores see.
 const LEARNED_FROM: &str = "slope+slip";
 
 /// The part of a search that is the same for every graph.
+///
+/// One for all graphs. Holds no legs but those that rounds of an adaptive search come back to.
 pub(super) struct DriveSolver<'a> {
     pub(super) setup: &'a DriveSetup,
     pub(super) settings: DriveSettings,
@@ -59,6 +66,8 @@ impl<'a> DriveSolver<'a> {
 
     /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's, and only legs with a
     /// moved end are solved again. `None` where they are not feasible.
+    ///
+    /// Passings (heading, direction, speed) go along with their waypoints.
     fn moved(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, self.setup.map.patch(p.x, p.y).ok()?.height));
         let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
@@ -77,6 +86,8 @@ impl<'a> DriveSolver<'a> {
     }
 
     /// The drive over waypoints passed as `passings` say, in order, solved as one of graph number `graph` is.
+    ///
+    /// Seeds of the graph decide what headings and directions are tried, so that a case is planned again as it was.
     pub(super) fn through(&self, graph: u64, passings: &[Passing]) -> Option<Drive> {
         let settings = self.settings_of(named_seed(self.setup.scenario.seed, "roadmap", graph));
         DriveDraft::new(passings, &settings).driven(&self.site(), &settings)

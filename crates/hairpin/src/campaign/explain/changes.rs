@@ -16,6 +16,8 @@ const HALVINGS: usize = 16;
 const STEPS: u64 = 6;
 
 /// A single change with which something is feasible.
+///
+/// `to` is what was searched with: typed into the scenario it gives a trajectory in the same graphs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Change {
     /// The scenario's key.
@@ -45,6 +47,8 @@ pub(super) fn smallest(setup: &Setup, stop: &Stop) -> Vec<Change> {
 }
 
 /// One key being turned.
+///
+/// One search is up to as many graphs as were asked for, and ends with the first trajectory.
 struct Trial<'a> {
     setup: &'a Setup,
     stop: &'a Stop<'a>,
@@ -213,6 +217,8 @@ fn name(key: &str) -> String {
 /// What a search of `setup` finds: all of its graphs, or until the first trajectory.
 ///
 /// The progress is told to nobody.
+///
+/// Carried out by our own simulator, should the method execute.
 pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
     let found = std::sync::atomic::AtomicBool::new(false);
     let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));

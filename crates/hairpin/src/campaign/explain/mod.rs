@@ -1,4 +1,6 @@
 //! Why nothing, or little, is feasible: where candidates for legs are lost, and the smallest single change that helps.
+//!
+//! Losses say where to look; only a change that was searched with, over the same graphs, is told to help.
 
 mod changes;
 
@@ -12,6 +14,8 @@ use crate::judgement::Verdict;
 pub use changes::Change;
 
 /// What is known of a scenario's feasibility.
+///
+/// `solved` above 0 means that something is feasible; then there are losses but no changes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
     /// Graphs that were sampled and searched; of arms the one that there is.
@@ -44,6 +48,9 @@ pub struct Explanation {
 ///
 /// # Errors
 /// A scenario that no search can be begun with.
+///
+/// `graphs` bounds each search; every change asks the same numbers of graphs. Searches that execute are replaced by
+/// uniform draws, since feasibility does not depend on executions; `[vary]` is left out.
 pub fn explain(
     setup: &Setup,
     graphs: u64,

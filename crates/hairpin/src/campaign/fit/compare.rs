@@ -24,6 +24,8 @@ pub struct Flown {
 }
 
 /// How motions are compared.
+///
+/// Of a kind of robots: `Fittable` says it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rule {
     /// What of them.
@@ -31,6 +33,7 @@ pub(super) struct Rule {
     /// How long and how often.
     pub(super) sampling: Sampling,
     /// World axes in which distances are.
+    /// 3 of what flies, 2 in the plane.
     pub(super) axes: usize,
     /// Where a waypoint counts as reached.
     pub(super) acceptance: Acceptance,
@@ -86,6 +89,13 @@ impl Compared {
     /// The legs of a log that are compared.
     ///
     /// From waypoint to waypoint the first leg is left out: from poses nobody knows when it was ordered.
+    ///
+    /// Samples lie in the middles of periods, from each leg's begin to the next one's; the last leg has [`AFTER`] s
+    /// after the last waypoint, or by the clock all that is left.
+    ///
+    /// # Errors
+    /// `Short` and `Sparse` of what the sampling needs at least, `Outputs` where the log has none, `Start` where it
+    /// begins farther from waypoint 0 than is understood, `Missed` for a waypoint that it does not pass.
     pub(super) fn of(flown: &Flown, rule: &Rule) -> Result<Self, FitError> {
         let Flown { log, mission, case, track } = flown;
         let times = track.times();
@@ -137,6 +147,7 @@ impl Compared {
     }
 
     /// What `flown` says in the place of the log, sample by sample; `None` where it passes not all waypoints.
+    /// As many rows as [`Self::samples`], as many numbers in each as [`Self::outputs`].
     pub(super) fn simulated(&self, flown: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Option<Vec<Vec<f64>>> {
         let begun = begins_of_legs(flown, waypoints, rule).ok()?;
         Some(self.outputs_of(flown, &begun, &self.which, rule))
@@ -180,6 +191,10 @@ fn begins_of_legs(track: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Resu
 
 /// The outputs at `t`, each by a line through the samples within half a period of it, or between the two around it
 /// where these are few; as at its end where the track is over.
+///
+/// Times within half a period and four samples at least: a moving least-squares line, which takes out noise that is
+/// faster than the period. Positions in m, velocities in m/s, axes as unit vectors' parts, thrust as the mean of the
+/// rotors' squared speeds in (rad/s)², joints in rad.
 fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> {
     let times = track.times();
     let t = t.clamp(times[0], times[times.len() - 1]);
@@ -211,6 +226,8 @@ fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> 
 }
 
 /// Weights of samples whose least-squares line is asked for at one time.
+///
+/// wᵢ = 1/n + (t − t̄)(tᵢ − t̄)/Σ(tⱼ − t̄)².
 struct Line(Vec<f64>);
 
 impl Line {

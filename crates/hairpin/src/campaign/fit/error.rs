@@ -3,6 +3,9 @@
 use thiserror::Error;
 
 /// See the file's first line.
+///
+/// In the order in which they are looked for: what is fitted and whether there are logs, then each log by itself,
+/// then what the robot as given does, then all logs together.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FitError {
     /// The kind of robots, or who steers it.

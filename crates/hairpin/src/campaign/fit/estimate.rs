@@ -1,4 +1,13 @@
 //! Fits: estimates, intervals, and which numbers cannot be told.
+//!
+//! ```text
+//! descend from given (and from elsewhere)  ─▶ θ₀ ─▶ colour: filters of the residuals at θ₀
+//! descend on filtered residuals            ─▶ θ̂;  acting: numbers without effect on Q are left out
+//! spread by stretches                      ─▶ covariance;  profile of each number ─▶ 95 % interval ─▶ Reading
+//! descend in the numbers that are told     ─▶ what is written, the others as given
+//! ```
+//!
+//! See [`crate::math::output_error`] for Q, its descent and its profiles.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde_json::Value;
@@ -16,6 +25,8 @@ use crate::math::output_error::{Descent, Parameter, Side, Spread, acting, descen
 use crate::math::power::square;
 
 /// What is fitted on.
+///
+/// One log is always fitted to, whatever number is held out.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FitSettings {
     /// So many logs, the last ones, are not fitted to: the fit is tried on them. 0: each is, by a fit to all others.
@@ -27,6 +38,7 @@ const LEAST_FREEDOM: usize = 8;
 /// Widest interval of a number that is told, as a share of it on either side.
 const WIDEST: f64 = 0.25;
 /// A number whose value a quarter more or less moves Q by less than this acts on nothing that was flown.
+/// Q is a −2 log-likelihood up to a constant.
 const NO_EFFECT: f64 = 0.5;
 
 /// What the logs say of a number.
@@ -85,10 +97,12 @@ pub struct Fit {
     /// Log by log.
     pub gaps: Vec<Gap>,
     /// Root of the mean square of the residuals of the logs that were fitted to, m.
+    /// Each log counts alike, however long.
     pub residual_m: f64,
     /// How much more a residual's sum scatters than if samples were independent: n over the effective number.
     pub inflation: f64,
     /// Stretches, samples.
+    /// The unit that independence is claimed of.
     pub stretches: usize,
     /// Compared samples.
     pub samples: usize,
@@ -108,6 +122,9 @@ pub struct Fit {
 ///
 /// # Errors
 /// See [`FitError`].
+///
+/// `setup` is that of the robot as given; `flown` are its logs with their missions. With nothing held out each log's
+/// `unseen` comes from a fit to all the others, of the told numbers alone: one more descent a log.
 pub fn fit(
     setup: &Setup,
     flown: &[Flown],
@@ -275,6 +292,9 @@ impl Found {
     }
 
     /// The direction of the largest relative spread, where a number that acts is not told.
+    ///
+    /// The eigenvector of the largest eigenvalue of the relative covariance C_ab/(s_a s_b), s the larger of a
+    /// number's size and its step; parts below 0.2 are left out.
     fn confounded(&self, loops: &Loops, estimates: &[Estimate]) -> Option<Confounded> {
         let vague = self.free.iter().any(|own| !estimates[*own].is_told());
         if !vague || self.free.len() < 2 {
@@ -295,6 +315,8 @@ impl Found {
 }
 
 /// What an interval says of an estimate.
+///
+/// Closed on both sides: told if neither end is farther from the best than [`WIDEST`] of it.
 fn reading(best: f64, ends: [Side; 2]) -> (Reading, Option<[f64; 2]>) {
     let interval = ends.map(|end| match end {
         Side::Closed(at) | Side::Open(at) => at,

@@ -3,6 +3,8 @@
 use super::simulate::Loops;
 
 /// How far a simulation is from a log: distance of positions, leg by leg from where each began.
+///
+/// Over the compared samples: not the log's own, and without its first leg where that is not compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Root of the mean square, m.

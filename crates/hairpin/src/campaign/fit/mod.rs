@@ -4,6 +4,16 @@
 //! What is measured of a log is its motion leg by leg: who flies from waypoint to waypoint begins each leg when it has
 //! reached the last one, so both motions are counted from there. A gust that made the vehicle late on one leg is then
 //! not an error on all that follow.
+//!
+//! ```text
+//! missions, logs ─▶ Compared: legs, samples (k + ½) · period, outputs y by a line through the samples around
+//! Loops: setup with θ in its keys, no chance ─▶ simulate ─▶ f(θ), sampled alike
+//! stretches, whiten: r = y − f(θ), filtered leg by leg ─▶ math::output_error ─▶ θ̂, profile intervals
+//! gap: distances log by log, given, fitted, and fitted to the others
+//! ```
+//!
+//! θ are the kind's adjustable numbers, each within its bounds, in its own unit. Deterministic: nothing of a fit is
+//! drawn. Cost: simulations of all missions, two a number for the derivatives of a turn, shared out over threads.
 
 mod compare;
 mod error;

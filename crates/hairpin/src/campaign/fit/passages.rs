@@ -10,6 +10,8 @@ use crate::trajectory::Track;
 const AROUND: f64 = 0.2;
 
 /// A waypoint that was not passed, and how near it was come to, in radii.
+///
+/// The waypoint's number counts from 0; a radius is the acceptance's, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Missed {
     pub(super) waypoint: usize,
@@ -18,6 +20,12 @@ pub(super) struct Missed {
 
 /// Time of the passage of each waypoint, in order, the first at the track's begin: where the distance in radii, linear
 /// in time through the samples around, falls to one.
+///
+/// The distance is ‖p − w‖/r in a sphere, max(‖(p − w)ₓᵧ‖/r, |(p − w)_z|/h) in a cylinder. Times do not fall: a
+/// waypoint inside the last one's ball is passed at once. O(samples + waypoints · a few).
+///
+/// # Errors
+/// The first waypoint whose distance never falls to one after the waypoint before it.
 pub(super) fn passages(
     track: &Track,
     waypoints: &[Point3<f64>],
@@ -50,6 +58,8 @@ pub(super) fn passages(
 }
 
 /// The zero of a line through points by least squares, within the time around; 0 where they do not fall.
+///
+/// Seconds from the first sample within the radius.
 fn crossing(points: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let (mut n, mut sum) = (0.0, [0.0; 4]);
     for (t, d) in points {

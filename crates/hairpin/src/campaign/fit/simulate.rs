@@ -43,6 +43,8 @@ impl<'a> Loops<'a> {
     }
 
     /// The keys of the scenario with `theta` in them.
+    ///
+    /// A number may stand in several keys, each times a factor of its own.
     pub(super) fn draws(&self, theta: &[f64]) -> Vec<(String, Value)> {
         let keys = self.numbers.iter().zip(theta);
         keys.flat_map(|(number, value)| number.keys.iter().map(move |(key, of)| (key.clone(), json!(value * of))))
@@ -54,6 +56,9 @@ impl<'a> Loops<'a> {
     }
 
     /// The motion of mission number `at` with these numbers.
+    ///
+    /// With the case's own seed, which a setup without chance does not use; the plan and the controller's knowledge
+    /// of the robot stay those of the robot as given.
     fn fly(&self, setup: &Setup, at: usize) -> Result<Track, String> {
         let case = &self.flown[at].case;
         let around = setup.around(case).map_err(|mistake| mistake.to_string())?;
@@ -90,6 +95,7 @@ impl<'a> Loops<'a> {
     }
 
     /// Why the first mission that is not simulated with `theta` is not.
+    /// `None` where all are.
     pub(super) fn refused(&self, theta: &[f64]) -> Option<FitError> {
         let told = |at: usize, why: String| FitError::Simulated { mission: self.flown[at].mission.clone(), why };
         let setup = match self.with(theta) {

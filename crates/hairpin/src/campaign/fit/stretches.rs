@@ -6,6 +6,9 @@ use super::whiten::{Filter, Leg, filters, whitened};
 use crate::math::output_error::{Objective, Parameter};
 
 /// The objective on the logs `which`, by the residuals' function.
+///
+/// A stretch has `stretch`/`period` samples at least; where stretches are of whole legs it ends at the next leg's
+/// begin. The last one of a log may be shorter. Residuals are numbered sample by sample, output by output.
 pub(super) fn objective<'a>(
     loops: &Loops,
     which: &[usize],
@@ -50,6 +53,7 @@ pub(super) fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: 
 }
 
 /// The filters that leave residuals of `theta` without memory.
+/// `None` where one is not simulated.
 pub(super) fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
     let logs = loops.residuals(theta, which)?;
     let mut found = vec![Filter::NONE; loops.rule.deviations()];

@@ -1,4 +1,7 @@
 //! Witnesses searched afterwards for what another reach set found.
+//!
+//! A hull's trajectory may or may not have a witness: yes with it, no with a proof, unknown else. Velocities at
+//! waypoints and leg times are chosen for the whole sequence ([`certify`]).
 
 use nalgebra::Point3;
 
@@ -10,8 +13,11 @@ use crate::feasibility::certify::{Certificate, certify};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 
 /// A certificate may take legs from this share of the step …
+/// Legs far shorter than the step that the hull assumed are flown quicker with thrust to spare, far longer ones
+/// always exist unless the flight time is limited.
 const QUICKEST: f64 = 0.25;
 /// … to this multiple of it.
+/// A ladder between the two: each leg takes the shortest time that has a witness.
 const SLOWEST: f64 = 10.0;
 
 /// The step of step-wise sets, s.
@@ -27,12 +33,16 @@ impl FlightSetup {
     ///
     /// # Errors
     /// A rotor layout without a flatness map, in a sentence's part.
+    ///
+    /// `waypoints` in m, both ends included. For comparing reach sets at equal times.
     pub fn certificate_in_step(&self, waypoints: &[Point3<f64>]) -> Result<Certificate, String> {
         Ok(Certifier::timed(self, LegTiming::Step(step(self)))?.answer(waypoints))
     }
 }
 
 /// Certifies plans under the scenario's limits.
+///
+/// Holds the judge of legs: made once for many plans.
 pub(super) struct Certifier {
     judge: LegJudge,
     timing: LegTiming,
@@ -41,7 +51,6 @@ pub(super) struct Certifier {
 }
 
 impl Certifier {
-    ///
     /// Legs may take from a quarter of the step to ten times it, each its own time.
     ///
     /// # Errors

@@ -15,6 +15,7 @@ use crate::trajectory::Track;
 use crate::verification::{EndError, Proof};
 
 /// Rate of the timed reference that executors get, Hz.
+/// Trackers interpolate; the polynomials themselves are in the folder.
 const REFERENCE_RATE: f64 = 50.0;
 
 impl Claim for FlightSetup {

@@ -1,4 +1,8 @@
 //! What logs of flights may tell: thrust, drag, rotor lag, and how fast and how late the controller is.
+//!
+//! θ and bounds: thrust to weight 1.05 … 50, drag 0 … 20 times the given, rotor lag and latency 0 … 0.5 s, bandwidth
+//! 0.2 … 5 (a factor of the controller's). Logs need 5 s at 8 Hz; outputs are sampled every 0.1 s, and stretches of 3
+//! s count as independent.
 
 use serde_json::Value;
 
@@ -21,6 +25,9 @@ const OUTPUTS: [(Output, usize); 9] = [
 ];
 
 /// Drag terms: as the robot has them; where it has none, the linear one, which rotors always have.
+///
+/// # Errors
+/// No controller of ours flies: there is no model of who does. A robot's description that was not resolved.
 pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> Result<Fittable, String> {
     let execute = &setup.scenario.execute;
     if setup.controller.is_some() || execute.controller_in_force().is_none() {

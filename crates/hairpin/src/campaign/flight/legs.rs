@@ -22,6 +22,8 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
 ///
 /// # Errors
 /// As [`judge`].
+///
+/// For missions of others, which are held to the robot's top speed too.
 pub(super) fn judge_up_to(setup: &FlightSetup, most: f64) -> Result<LegJudge, String> {
     let given = &setup.scenario.generate.limits;
     let limits = Limits {

@@ -1,4 +1,7 @@
 //! Where candidates for legs of flights are lost.
+//!
+//! Counted near the start of a few graphs, in the order of the tests: what explain begins with, not a statistic of
+//! the whole.
 
 use super::FlightSetup;
 use super::blocking::obstacle;
@@ -12,6 +15,8 @@ use crate::feasibility::{Infeasible, Limit};
 use crate::world::World;
 
 /// Counts the candidates of the first `graphs` graphs, a few at most.
+///
+/// Empty where the reach set cannot be made.
 pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
     let mut counter = Counter::default();
     let sampled = (0..graphs.min(GRAPHS)).filter_map(|number| Some((number, graph::sample(setup, number).ok()?)));
@@ -31,6 +36,7 @@ pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
     counter.losses("pairs of waypoints near the start")
 }
 
+/// A leg that is refused counts once, by the first limit that refused it.
 fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Counter) {
     let arrives = |next: &WitnessNode, left: usize| {
         if left == 0 { next.waypoint as usize == end } else { roadmap.may_arrive(next, left) }

@@ -1,5 +1,13 @@
 //! Missions made elsewhere, by the claim of flights: a witness through their waypoints at the speeds that they demand,
 //! or the limits that break.
+//!
+//! | found | certainty |
+//! | --- | --- |
+//! | a place outside of the free space, an obstacle on the straight line, speeds or turns beyond limits | proven |
+//! | no profile between two stops, though all leg times and velocities were tried | not found |
+//!
+//! Sections from rest to rest are independent: each is flown or refused by itself, so that all that breaks is told at
+//! once.
 
 use nalgebra::Point3;
 
@@ -16,6 +24,7 @@ use crate::trajectory::{Profile, ProfileLeg};
 /// The shortest leg time that is tried where no speed is demanded, s.
 const SHORTEST_LEG_S: f64 = 0.05;
 /// Instants of a leg at which its speed is looked at.
+/// For what is told, not for what is held: speeds are bounded by the judge between instants too.
 const INSTANTS: u32 = 64;
 /// A speed within this share of the limit keeps it.
 const ROUNDING: f64 = 1e-9;
@@ -24,6 +33,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// As [`judge_up_to`].
+///
+/// `asked` has waypoints in m, speeds in m/s where some are demanded, and stops. The witness is that of the whole
+/// mission; there is none if a single leg breaks.
 pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, String> {
     // What a mission asks for is held to the robot's top speed as well.
     let judge = judge_up_to(setup, setup.robot.max_speed)?;
@@ -86,6 +98,8 @@ struct Looked<'a> {
 
 impl Looked<'_> {
     /// A leg by itself.
+    ///
+    /// From rest to rest: its least time, and the limit that is nearest there.
     fn alone(&self, pair: &[Point3<f64>]) -> PassedLeg {
         let found = fastest(self.judge, &pair[0], &pair[1], LONGEST_LEG_S);
         let nearest = found.map(|(_, why)| {
@@ -101,6 +115,9 @@ impl Looked<'_> {
     }
 
     /// What no flight can do on leg `leg`, or at the waypoint that it leads to.
+    ///
+    /// The first of: place, straight line, speed, turn. The straight line is a necessary test only where legs are
+    /// straight; it is told as proven because missions are flown along it.
     fn proven(&self, leg: usize) -> Option<Broken> {
         let points = self.asked.waypoints;
         let broken = |waypoint, leg, limit, unit, excess, words| {
@@ -139,6 +156,9 @@ impl Looked<'_> {
     }
 
     /// The flight from rest at waypoint `first` to rest at `last`, or what is not known to be flown.
+    ///
+    /// Where speeds are demanded they are held ([`hold`]); else the quick way is tried first, then [`certify`], which
+    /// may also prove that there is none. Indices in answers are those of the mission.
     fn section(&self, first: usize, last: usize) -> Result<Profile, Vec<Broken>> {
         let (points, speeds) = (&self.asked.waypoints[first..=last], &self.asked.speeds[first..last]);
         let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
@@ -207,6 +227,8 @@ impl Looked<'_> {
 }
 
 /// What a limit is called here, the unit that it is told in, and the factor to that.
+///
+/// Units are those of what is told, SI but for degrees.
 fn named(limit: Limit) -> (&'static str, &'static str, f64) {
     match limit {
         Limit::Speed => ("speed", "m/s", 1.0),
@@ -219,6 +241,7 @@ fn named(limit: Limit) -> (&'static str, &'static str, f64) {
     }
 }
 
+/// In the limit's own unit; negative where it is broken.
 fn margin(why: &Infeasible) -> f64 {
     let (Infeasible::Violates { margin, .. } | Infeasible::Unproven { margin, .. }) = *why;
     margin

@@ -11,6 +11,7 @@ use crate::trajectory::Track;
 use crate::world::{Obstacle, Shape, World};
 
 /// Chords of a planned leg that is not straight.
+/// The larger gap covers what a chord cuts off.
 const CHORDS: usize = 12;
 /// What obstacles keep from the plan beyond the robot's radius, m: a little at first, more where chords hide what is
 /// nearer.
@@ -93,6 +94,8 @@ fn section(asked: &PlacedSection, number: usize, center: &Point3<f64>) -> Obstac
 }
 
 /// By the bounding box.
+///
+/// All of it within the walls.
 fn inside(world: &World, shape: &Shape) -> bool {
     let bounds = shape.bounds();
     (0..3).all(|axis| bounds.min[axis] >= 0.0 && bounds.max[axis] <= world.size()[axis])

@@ -9,6 +9,7 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, Hz.
+/// The rate of planned and of drawn tracks.
 const RATE: f64 = 100.0;
 
 /// Of a witness p(τ) and p′(τ) of its polynomial; else constant velocity along the straight leg.

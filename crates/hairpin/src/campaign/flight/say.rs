@@ -139,6 +139,8 @@ impl Say for FlightSetup {
 ///
 /// Speed is the leg's length over the time between both arrivals; turn in 0 … 180°, 0 for the first leg; climb in −90 …
 /// 90°. Legs of which an arrival is missing are left out.
+///
+/// Angles in °, speeds in m/s.
 fn legs_met(waypoints: &[Point3<f64>], flight: &Flight, meet: &mut dyn FnMut(&[f64])) {
     let mut before = Vector3::zeros();
     for (leg, pair) in waypoints.windows(2).enumerate() {
@@ -165,6 +167,8 @@ impl FlightSetup {
 }
 
 /// All numbers of a robot.
+///
+/// As its file would have them with nothing left out, so that an executor derives nothing.
 fn description(robot: &Quadrotor, battery: Option<BatteryDescription>) -> QuadrotorDescription {
     let rotor =
         |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };

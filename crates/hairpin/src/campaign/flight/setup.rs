@@ -16,6 +16,9 @@ use crate::simulation::{ControllerKind, OwnController};
 use crate::world::{Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
+///
+/// What [`Setup::own`](crate::campaign::setup::Setup::own) gives for quadrotors. Immutable; draws share what they
+/// leave as it is.
 #[derive(Debug, Clone)]
 pub struct FlightSetup {
     /// Every key, the robot's table inline.
@@ -23,17 +26,23 @@ pub struct FlightSetup {
     /// What its files hold.
     pub attachments: Arc<Attachments>,
     /// The robot of the claim.
+    /// With derived numbers filled in; which ones are is in its `estimated`.
     pub robot: Arc<Quadrotor>,
     /// The space.
+    /// Without its air: wind and gusts are keys of the scenario, as they are the plant's.
     pub world: Arc<World>,
     /// A controller of the caller's own in the place of the scenario's.
     pub controller: Option<OwnController<Quadrotor>>,
     /// Version of the kernels that generate and fly.
+    /// Results are the same at each.
     pub simd: Simd,
 }
 
 impl FlightSetup {
     /// The robot of `keys`: that of `known`, if it is described alike.
+    ///
+    /// # Errors
+    /// As [`robot_of`].
     pub(super) fn robot(keys: &FlightScenario, known: Option<&Self>) -> Result<Arc<Quadrotor>, Mistake> {
         match known {
             Some(known) if known.scenario.robot == keys.robot => Ok(known.robot.clone()),
@@ -42,6 +51,9 @@ impl FlightSetup {
     }
 
     /// Whether who flies, or who judges, reads the velocities and times of a plan, not its waypoints alone.
+    ///
+    /// Where it is not read, velocities and times of a witness change nothing in execution, and a search does not
+    /// vary them.
     pub(super) fn reads_the_plan(&self) -> bool {
         let ours = self.scenario.execute.controller_in_force();
         let reads = self.controller.is_some() || ours.is_none_or(|kind| kind == ControllerKind::Geometric);
@@ -49,6 +61,9 @@ impl FlightSetup {
     }
 
     /// The space of `keys`, likewise.
+    ///
+    /// # Errors
+    /// As [`world_of`].
     pub(super) fn world(keys: &FlightScenario, known: Option<&Self>) -> Result<Arc<World>, Mistake> {
         match known {
             Some(known) if same_space(&known.scenario.world, &keys.world) => Ok(known.world.clone()),

@@ -14,6 +14,8 @@ use crate::feasibility::certify::Certificate;
 use crate::math::random::Stream;
 
 /// The part of a search that is the same for every graph.
+///
+/// One for all graphs: a hull is sampled once, legs of witnesses are judged by one judge. Shared by threads.
 pub(super) struct FlightSolver<'a> {
     setup: &'a FlightSetup,
     set: Set<'a>,
@@ -50,6 +52,8 @@ impl<'a> FlightSolver<'a> {
     }
 
     /// `plan` with a certificate, if one is asked for and it has none yet.
+    ///
+    /// A yes raises the evidence to witnessed; no and unknown leave it.
     fn certified(&self, mut plan: Plan) -> Plan {
         if let Some(certifier) = self.certifier.as_ref().filter(|_| plan.certified.is_none()) {
             certifier.certify(&mut plan);
@@ -58,8 +62,7 @@ impl<'a> FlightSolver<'a> {
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; `None` where they are not feasible. Of a
-    /// witness
-    /// `rewitnessed` makes the new one.
+    /// witness `rewitnessed` makes the new one.
     ///
     /// Start and end stay where they are; what is in between keeps the margin from the walls and the robot's radius
     /// from obstacles. A bound that was proven is dropped, and so is a certificate.
@@ -90,6 +93,8 @@ impl<'a> FlightSolver<'a> {
     }
 
     /// The same, with all velocities chosen anew for the whole sequence.
+    ///
+    /// What the loop's shift asks: waypoints and all velocities with them. Dearer than [`Solver::over`], which mends.
     fn moved_whole(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         self.moved(plan, points, |set| {
             let Certificate::Yes(profile) = set.through(points) else { return None };

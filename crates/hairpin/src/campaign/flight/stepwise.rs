@@ -1,5 +1,8 @@
 //! Reach sets with one fixed step per leg: `none`, `sphere`, `hull`, `published`, and `hull` with a state carried over
 //! the waypoint.
+//!
+//! Legs are straight and take one step each; the state at a waypoint is what the scenario's estimate says. Obstacles
+//! are tested against the straight leg, grown by the robot's radius.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -23,6 +26,7 @@ use crate::math::random::named_seed;
 use crate::search::Found;
 
 /// Steps from the end within which the beam knows exactly whether the end can be reached: cheap where legs are.
+/// Hulls are translated, so that a leg costs half-space tests only.
 const LOOKAHEAD: usize = 3;
 
 /// One graph, and what a search in the loop asks.
@@ -49,6 +53,8 @@ fn set_near(set: &Sphere, points: &[Point3<f64>], node: &StepNode, steps: usize)
 }
 
 /// A step-wise reach set and what it assumes.
+///
+/// `settings` carry step, estimate and speed limit into the reach set.
 pub(super) struct Stepwise<'a> {
     setup: &'a FlightSetup,
     set: Set,
@@ -58,6 +64,8 @@ pub(super) struct Stepwise<'a> {
 impl<'a> Stepwise<'a> {
     /// # Errors
     /// Why there is no such set, in a sentence's part.
+    ///
+    /// A hull is sampled here: resolution⁴ runs.
     pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
@@ -98,6 +106,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Searches graph number `graph` over `points`.
+    ///
+    /// `points`: start first, end last, m.
     pub(super) fn solve(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let asked = Asked { graph, points, looped };
         match &self.set {
@@ -117,6 +127,8 @@ impl<'a> Stepwise<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
+    ///
+    /// Exactly uniform: by counting walks, as the method `uniform` does.
     pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
         let known = HashSet::new();
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
@@ -128,6 +140,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// The legs from each of `points` to the one after it, the first from rest; `None` where one is not feasible.
+    ///
+    /// World and obstacles are not asked here.
     pub(super) fn follows(&self, points: &[Point3<f64>]) -> Option<Vec<SeenLeg>> {
         let start = StepNode { previous: 0, current: 0 };
         match &self.set {
@@ -173,6 +187,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
+    /// By walls, speed, obstacle, reach and whether the end can still be reached.
     fn count_by<N: Copy + Eq + Hash, R: Reach<N>>(
         &self,
         reach: R,

@@ -13,6 +13,8 @@ pub(super) fn coordinates(asked: &EnvironmentSection) -> usize {
 /// Takes velocities beyond their bound back to it, along themselves.
 ///
 /// The time is no velocity and is left as it is.
+///
+/// ‖v‖ ≤ 1 in shares of the bound; |τ| ≤ 1 is the search's own.
 pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
     let velocities = usize::from(asked.wind_m_s.is_some()) + usize::from(asked.gust_m_s.is_some());
     for velocity in place.chunks_exact_mut(3).take(velocities) {
@@ -24,6 +26,8 @@ pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
 ///
 /// Wind and gust are their bounds (m/s) times the place; the gust's middle is at (1 + τ)/2 of the duration for its last
 /// coordinate τ, and it begins no earlier than the flight.
+///
+/// The environment of the plan is replaced, its obstacles kept.
 pub(super) fn put(asked: &EnvironmentSection, plan: &Plan, place: &[f64], duration: f64) -> Plan {
     let mut environment = plan.environment.clone().unwrap_or_default();
     let mut velocities = place.chunks_exact(3);

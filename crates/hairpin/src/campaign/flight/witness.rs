@@ -1,4 +1,8 @@
 //! The reach set `witness`: a roadmap of waypoint states per graph, and the profile of what is found.
+//!
+//! Nodes are waypoints with velocities, legs polynomials of degree 7 in each axis, judged once and remembered
+//! ([`Roadmap`]). What changes a plan beside the roadmap (over, crossed, altered) keeps every leg whose ends stay,
+//! and mends the rest.
 
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
@@ -17,9 +21,13 @@ use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 use crate::trajectory::Profile;
 
 /// Share of what is altered that is the time of a leg; the others are velocities at waypoints.
+/// Velocities decide more: they bend two legs.
 const OTHER_TIME: f64 = 0.3;
 
 /// What judges legs, and how long they may take.
+///
+/// `remembered` lets a later round of an adaptive search begin with the legs that an earlier one judged, within a
+/// bound of memory.
 pub(super) struct Witness<'a> {
     setup: &'a FlightSetup,
     judge: LegJudge,
@@ -54,6 +62,8 @@ impl<'a> Witness<'a> {
     }
 
     /// The states of graph number `graph` over `points`.
+    ///
+    /// Velocities are drawn from the graph's seed; the start and the end are at rest.
     pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Roadmap<'_> {
         let scenario = &self.setup.scenario;
         let settings = RoadmapSettings {
@@ -68,6 +78,8 @@ impl<'a> Witness<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
+    ///
+    /// Each leg is drawn among those that are witnessed and lead on; not uniform over trajectories.
     pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
         let scenario = &self.setup.scenario;
         let mut random = stream(named_seed(scenario.seed, "wander", graph));
@@ -84,6 +96,8 @@ impl<'a> Witness<'a> {
 
     /// `plan` over `points`: what did not change is kept, and where that is in the way what is beside it is chosen anew
     /// as well.
+    ///
+    /// `None` where the mended profile is too long or a leg has no witness.
     pub(super) fn over(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
         let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;
@@ -91,6 +105,8 @@ impl<'a> Witness<'a> {
     }
 
     /// `plan` up to the first waypoint of leg `leg`, and `other` after it.
+    ///
+    /// The leg that joins both is judged anew; where it is none, the velocities at its ends are chosen anew as well.
     pub(super) fn crossed(&self, plan: &Plan, other: &Plan, leg: usize) -> Option<Plan> {
         let [head, tail] = [plan, other].map(|plan| plan.witness.as_ref().and_then(CaseWitness::profile));
         let (head, tail) = (head?, tail?);
@@ -110,6 +126,10 @@ impl<'a> Witness<'a> {
     }
 
     /// `plan` with another velocity at a waypoint of leg `leg`, or another time of that leg.
+    ///
+    /// 3 of 10: another rung of the ladder for leg `leg`. Else the velocity at one end: a uniform share of the top
+    /// speed, along the old velocity or the chord of its neighbours, with a spread of 0.3. `None` where that is not
+    /// feasible.
     pub(super) fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
         let last = plan.waypoints.len() - 1;

@@ -5,6 +5,15 @@
 //! Thompson sampling); a share of its executions no model chooses: every second of them is an optimum of a score by
 //! hand, the others stay uniform, so that no model sees stressful legs alone. Whatever runs on several threads is taken
 //! over in order.
+//!
+//! ```text
+//! round 0:   uniform draws in every graph                     ─▶ executed
+//! round k:   legs of all rounds ─▶ models ─▶ optima of each graph, + by hand, + uniform ─▶ executed
+//! at last:   the most stressful of each graph are the cases; the model of all legs is kept
+//! ```
+//!
+//! Executions are dealt evenly over rounds and graphs; the last graph of a round is another one each time, so that
+//! none gets more in the end. With a limit of time each round has its share of it.
 
 use std::collections::HashSet;
 
@@ -32,6 +41,8 @@ const FINDING: f64 = 0.5;
 const AT_A_TIME: u64 = 8;
 
 /// One graph that trajectories are executed in.
+///
+/// `kept` has executed stresses as scores, and no bound: what was measured bounds nothing.
 struct Graph {
     number: u64,
     /// Fingerprints of what was executed.
@@ -52,6 +63,8 @@ struct Todo {
 }
 
 /// Where a trajectory comes from.
+///
+/// Told apart in the tally, so that the report shows what models were worth.
 #[derive(Clone, Copy, PartialEq)]
 enum Origin {
     Model,
@@ -76,6 +89,8 @@ struct Campaign<'a> {
 
 /// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the
 /// end. Of `known` all rounds or none are.
+///
+/// A round is not resumed: it depends on everything before.
 pub(super) fn generate(
     sampled: &Graphs<'_>,
     known: &Known,
@@ -288,6 +303,9 @@ impl Campaign<'_> {
 
     /// The models that round `number` chooses its `share` of executions by, the first of all trajectories; none where
     /// they teach nothing.
+    ///
+    /// At most 8: one of all trajectories and bootstrap resamples of them. `told` gets the held-out R² and rank
+    /// correlation, or why nothing was learned.
     fn models(&self, number: u64, share: u64, told: &mut RoundTally) -> Vec<ScoreModel> {
         let chosen = share.saturating_sub(self.unchosen(share));
         if chosen == 0 || self.graphs.is_empty() {

@@ -106,6 +106,8 @@ fn drawn_plan(setup: &Setup, (purpose, number): (Purpose, u64), stop: &Stop) -> 
 }
 
 /// One trajectory of graph number `graph`; or why there is none.
+///
+/// `Err(None)` where it was stopped.
 fn draw(graphs: &Graphs, graph: u64, stop: &Stop) -> Result<(u64, Plan), Option<String>> {
     if (stop.cancelled)() {
         return Err(None);

@@ -1,5 +1,8 @@
 //! A search in parts that know nothing of each other: units of work that one machine would take one after the other are
 //! searched anywhere, and what they gave is put together in their order.
+//!
+//! Only searches whose units know nothing of each other can be parted; the rest ([`sure_units`] is `None`) run on one
+//! machine. Putting together gives the bytes that one machine would have written.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -13,6 +16,9 @@ use crate::math::random::case_seed;
 
 /// Units of work that a search takes whatever comes of them: graphs or, where `[vary]` shapes the plan, cases. `None`
 /// of a search that is one, in which everything depends on all that was executed before.
+///
+/// A search may take more, where graphs give fewer cases than they may: what is taken for sure can be dealt out
+/// beforehand.
 pub fn sure_units(scenario: &Scenario) -> Option<u64> {
     let search = scenario.search();
     let varied = varies(scenario);
@@ -29,12 +35,17 @@ pub fn sure_units(scenario: &Scenario) -> Option<u64> {
 }
 
 /// How many cases the units before number `unit` give where each gives all that it may.
+///
+/// The number that the first case of `unit` would have; where repetitions are dropped it has a smaller one in the
+/// end.
 pub fn expected_before(scenario: &Scenario, unit: u64) -> u64 {
     if varies(scenario) { unit } else { unit * scenario.search().per_graph.max(1) }
 }
 
 /// Searches `units` alone. Their cases are numbered from `first` on (where `[vary]` shapes the plan, as their units
 /// are); none is dropped for being another unit's.
+///
+/// `units` are half open. The tally counts these units alone but for `units`, which is the number of the next one.
 pub fn generate_units(
     setup: &Setup,
     (units, first): (Range<u64>, u64),
@@ -63,6 +74,9 @@ pub fn generate_units(
 /// What was found in units that follow one another, part by part, as one machine would have it that took them over in
 /// their order: cases that repeat are dropped, and those that stay are numbered. With them go, part by part, the
 /// numbers that stayed as they were.
+///
+/// `parts` come in the order of their units. Only as many cases as are asked for are kept. Cases that kept their
+/// numbers kept their seeds, so that what was executed of them is still theirs.
 pub fn joined(scenario: &Scenario, parts: impl IntoIterator<Item = Known>) -> (Known, Vec<Vec<CaseNumber>>) {
     let (wanted, root, varied) = (scenario.search().cases, scenario.seed(), varies(scenario));
     let (mut all, mut same) = (Known::default(), Vec::new());
@@ -97,6 +111,8 @@ pub fn joined(scenario: &Scenario, parts: impl IntoIterator<Item = Known>) -> (K
 }
 
 /// `cases`, which follow one another, numbered from `first` on.
+///
+/// For cases that another campaign gave. Seeds follow from numbers, but those that were executed with.
 pub fn renumbered(scenario: &Scenario, cases: Vec<Case>, first: u64) -> Vec<Case> {
     let numbers = first as usize..;
     cases.into_iter().zip(numbers).map(|(case, number)| numbered(case, number, scenario.seed())).collect()

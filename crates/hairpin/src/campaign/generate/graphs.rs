@@ -11,6 +11,8 @@ use crate::simulation::Airborne;
 pub(super) const GRAPHS_PER_CASE: u64 = 20;
 
 /// The graphs of a setup, and what searches them.
+///
+/// Graph k has named seeds under the scenario's: it is the same whoever asks, and whatever was asked before.
 pub(super) struct Graphs<'a> {
     pub(super) setup: &'a Setup,
     pub(super) solver: Box<dyn Solver + 'a>,
@@ -23,6 +25,8 @@ pub(super) struct Graphs<'a> {
 impl<'a> Graphs<'a> {
     /// # Errors
     /// Why nothing can be searched, in a sentence's part.
+    ///
+    /// Makes the solver, which may be dear (an arm's graph, a hull).
     pub(super) fn of(setup: &'a Setup, executor: &'a dyn Executor) -> Result<Self, String> {
         Ok(Self { setup, solver: setup.kind().solver()?, executor, seed: None })
     }
@@ -38,6 +42,8 @@ impl<'a> Graphs<'a> {
     }
 
     /// Searches graph number `graph` for what is `wanted`; `stop` ends what has no bound in counts.
+    ///
+    /// Executions and scores that `stop` cancelled are refused to the search, which ends with what it has.
     pub(super) fn solve(&self, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
         let trials = self.trials(graph);
         let goes_on = || (!(stop.cancelled)()).then_some(());

@@ -3,6 +3,16 @@
 //! One graph is one unit of work with random streams of its own. Units run on any thread but are taken over in the
 //! order of their numbers, so that what is found depends on the seed alone. Where `[vary]` shapes the plan (keys under
 //! `task` and `generate`), a unit is a case: its values are drawn first, then graphs are tried for it.
+//!
+//! | search | file | unit of work |
+//! | --- | --- | --- |
+//! | beam, exact, uniform, in the loop, of arms | `mod` | a graph |
+//! | any of them where `[vary]` shapes the plan | `mod` | a case, with graphs of its own |
+//! | `adaptive` | `adaptive` | one: rounds depend on all before |
+//! | `worst` | `worst` | one pool for all cases |
+//!
+//! Beside it: `division` parts a search over machines, `by_chance` draws the baseline, `optima` solves several scores
+//! in the same graphs, `space` is the feasible set one trajectory at a time.
 
 mod adaptive;
 mod by_chance;
@@ -37,6 +47,9 @@ pub use targets::column;
 const GRAPHS_OF_A_CASE: u64 = 1 << 32;
 
 /// `known` without the cases that its tally does not count, as a kill between the writing of both may leave them.
+///
+/// Units that were taken over stay; of searches that are one, all or nothing, but for what was executed
+/// ([`Tally::answers`]).
 pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
     let one = matches!(scenario.search().method, SearchMethod::Adaptive | SearchMethod::Worst);
     if one && !varies(scenario) || scenario.head().one_search {
@@ -62,6 +75,12 @@ fn varies(scenario: &Scenario) -> bool {
 /// `sink` gets the new cases of each unit of work with the tally that includes it; what it was given is enough to go
 /// on from there ([`Known`]) as if nothing had happened. Cases of a repeated waypoint list are counted once. What is
 /// executed while it is searched for is carried out by `executor`.
+///
+/// `known` is the answer of an earlier call, or empty. `sink` is called on the caller's thread, in the order of
+/// units, and at the end with the final tally, also where nothing could be searched: [`Tally::nothing`] then says why.
+///
+/// Deterministic in scenario and `known` on any number of threads, unless a time or `stop` ends it. `stop` is asked
+/// before each unit: a unit that executes and was interrupted is not taken over, and is searched again.
 pub fn generate(
     setup: &Setup,
     known: &Known,
@@ -97,6 +116,8 @@ pub fn generate(
 }
 
 /// Where units of work end.
+///
+/// The first that is reached ends the search.
 struct Limits {
     /// Number of the first that is not taken any more.
     units: u64,
@@ -105,6 +126,9 @@ struct Limits {
 }
 
 /// Searches unit after unit, from where `collector` stands.
+///
+/// Two units for each thread at a time; of searches that execute no more than are needed for the cases that still
+/// lack.
 fn search_units(
     graphs: &Graphs,
     mut collector: Collector,
@@ -157,6 +181,9 @@ fn search_units(
 }
 
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.
+///
+/// Draws come from the case's own seed; up to 20 graphs are tried, the first that gives something is taken. Graph
+/// numbers of different cases never meet.
 fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
     let Graphs { setup, executor, .. } = *nominal;
     let seed = case_seed(setup.scenario.seed(), case);
@@ -194,6 +221,8 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
 }
 
 /// Takes outcomes over in order: numbers cases, drops repetitions, keeps the tally.
+///
+/// Runs on one thread, after each batch; its order is what makes the answer that of one thread.
 struct Collector<'a> {
     setup: &'a Setup,
     executor: &'a dyn Executor,
@@ -211,6 +240,8 @@ impl<'a> Collector<'a> {
         Self { setup, executor, tally, cases: known.cases.len(), seen, drops: true }
     }
 
+    /// `number` is the case's, where units are cases; else cases are numbered as they come. Repetitions are told by a
+    /// hash of what is met: waypoints, and of arms the program.
     fn take(&mut self, outcome: Outcome, number: Option<usize>, wanted: u64) -> Vec<Case> {
         let mut new = Vec::new();
         self.tally.units += 1;

@@ -8,6 +8,8 @@ use crate::campaign::{Case, OwnSimulator, Setup, Stop};
 use crate::search::{Aggregate, Score};
 
 /// What one score under one aggregate found.
+///
+/// Cases are numbered within each set, so that case k of every set is of the same graph.
 #[derive(Debug, Clone)]
 pub struct Optimum {
     /// Place of the score among the names asked for; 0 for the scenario's own.
@@ -24,6 +26,8 @@ pub struct Optimum {
 ///
 /// # Errors
 /// Why there is nothing to search, in a sentence's part.
+///
+/// The dearest part of a graph is its legs, which all scores share. Deterministic on any number of threads.
 pub fn optima(setup: &Setup, names: &[&str], stop: &Stop) -> Result<Vec<Optimum>, String> {
     for name in names {
         Score::named(name, 0, 1.0).map_err(|mistake| mistake.to_string())?;

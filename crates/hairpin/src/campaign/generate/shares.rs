@@ -1,6 +1,11 @@
 //! Executions dealt to rounds and graphs, as evenly as whole numbers allow.
+//!
+//! Sums are exact: places 0 … parts − 1 get `total` together, each ⌊total/parts⌋ or one more, and the ones are
+//! spread.
 
 /// What place `place` of `parts` gets of `total`.
+///
+/// ⌊total (place + 1) / parts⌋ − ⌊total place / parts⌋.
 pub(super) fn dealt(total: u64, parts: u64, place: u64) -> u64 {
     until(total, parts, place + 1) - until(total, parts, place)
 }

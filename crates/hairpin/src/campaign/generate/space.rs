@@ -1,4 +1,7 @@
 //! The feasible trajectories of a setup, one at a time: what comparisons of searches are made of.
+//!
+//! What experiments compare searches by: draws, and moves within the feasible set, with the same solver as
+//! `generate`.
 
 use nalgebra::Point3;
 
@@ -7,6 +10,8 @@ use crate::campaign::graph::Plan;
 use crate::campaign::{Case, OwnSimulator, Setup};
 
 /// The feasible trajectories of one setup.
+///
+/// Nothing is executed here. Holds the solver, so that legs solved once are kept.
 pub struct Space<'a> {
     graphs: Graphs<'a>,
 }
@@ -23,6 +28,8 @@ impl<'a> Space<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
+    ///
+    /// Number and graph are independent: the same trajectory may be several cases, with seeds of their own.
     pub fn draw(&self, graph: u64, number: usize) -> Result<Case, String> {
         Ok(self.graphs.solver.draw(graph)?.case(self.graphs.setup.scenario.seed(), graph, number))
     }

@@ -14,6 +14,9 @@ pub(super) struct Target {
 
 /// The target that the scenario names, or its stress where that is not the usual one; else all limits of its spec, and
 /// where there are none the deviation.
+///
+/// Limits that must not be fallen short of (clearance, tip-over margin) are turned, so that more is worse throughout.
+/// At least one.
 pub(super) fn targets(setup: &Setup) -> Vec<Target> {
     let search = setup.scenario.search();
     let one = |sought| vec![Target { sought, limit: None }];
@@ -42,6 +45,8 @@ pub(super) fn targets(setup: &Setup) -> Vec<Target> {
 
 /// The name of what the largest stress so far of a search is told in: `max_deviation_m`, or `margin_in_spreads` where
 /// several limits are searched at once, `target` where the user's own function says it.
+///
+/// One name for a whole campaign; its values are those of [`Tally::curves`](crate::campaign::tally::Tally).
 pub fn column(setup: &Setup) -> String {
     let search = setup.scenario.search();
     if search.method != SearchMethod::Worst {
@@ -56,6 +61,8 @@ pub fn column(setup: &Setup) -> String {
 
 /// How stresses are told: as they are where there is one, and as what they are beyond their limits, in spreads of what
 /// was drawn at random, where there are several.
+///
+/// (stress − limit) / spread: above 0 is a violation, and limits of different units can stand in one curve.
 pub(super) struct Margins<'a> {
     targets: &'a [Target],
     spreads: Vec<f64>,

@@ -1,4 +1,8 @@
 //! The search `worst`: one pool of executions for all cases, over whatever kind of robot.
+//!
+//! Puts a [`Field`] before [`crate::search::worst`]: plans are those of the kind's solver, executions those of
+//! [`Trials`], stresses those of [`targets`]. One pool serves all cases, or, where `[vary]` shapes the plan, one pool
+//! each.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -20,9 +24,12 @@ use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 const RUNS: usize = 4;
 const SAMPLE: u64 = 6;
 /// Number of the first of these: no search draws so many.
+/// So that what decides the run is no draw of the search.
 const OF_CHOICE: u64 = 1 << 30;
 
 /// A plan, and the graph that it or the first of its ancestors was drawn from.
+///
+/// The graph goes along with every change: its seeds and its waypoints are where elsewhere-moves come from.
 #[derive(Clone)]
 pub(super) struct Drawn {
     pub(super) graph: u64,
@@ -146,6 +153,8 @@ impl Plans<'_> {
 }
 
 /// What one pool of executions found.
+///
+/// `curve` counts every execution, those of the choice of the run included.
 pub(super) struct Pool {
     /// The most stressful first.
     pub(super) plans: Vec<Drawn>,
@@ -153,6 +162,7 @@ pub(super) struct Pool {
     pub(super) drawn: u64,
     /// The run that each was executed as.
     pub(super) run: usize,
+    /// On the search's own scale, 0 … about 1.
     pub(super) apart: f64,
     pub(super) nothing: Option<String>,
     /// What was executed, for a search that goes on.
@@ -161,6 +171,10 @@ pub(super) struct Pool {
 
 /// The worst `cases` of `graphs` in so many executions, drawn from graph number `first` on; what is `known` is not
 /// executed again.
+///
+/// `executions` bounds the counts; a time (`SearchSection::seconds`) takes its place where the scenario has one, and
+/// the rounds keep the size that `executions` give them. Scores of plans are their stresses, or margins in spreads
+/// where there are several targets.
 pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2], known: &Answers, stop: &Stop) -> Pool {
     let search = graphs.setup.scenario.search();
     let seed = named_seed(graphs.setup.scenario.seed(), "worst", first);
@@ -199,6 +213,9 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
 }
 
 /// The cases that a scenario asks for, from one pool of executions; those of `known`, if it has all of them.
+///
+/// Interrupted, its cases are its best so far, and the tally keeps what was executed, by fingerprints: going on
+/// executes nothing twice and comes to the same answer.
 pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
     if known.tally.units > 0 {
         sink(&[], &known.tally);

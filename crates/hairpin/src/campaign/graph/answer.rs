@@ -3,6 +3,8 @@
 use super::plan::Plan;
 
 /// What the search gave.
+///
+/// Counts go into the tally as they are.
 #[derive(Default)]
 pub(in crate::campaign) struct Answer {
     /// The best first, where a search ranks them.
@@ -13,7 +15,9 @@ pub(in crate::campaign) struct Answer {
     pub(in crate::campaign) proven_empty: bool,
     /// Nodes expanded, draws made, or executions, by the search's method.
     pub(in crate::campaign) expansions: u64,
+    /// Partial trajectories that a full frontier dropped.
     pub(in crate::campaign) dropped: u64,
+    /// Trajectories found again.
     pub(in crate::campaign) duplicates: u64,
     /// How many of the plans, from the first, a round's models chose.
     pub(in crate::campaign) chosen: usize,

@@ -1,4 +1,7 @@
 //! What searches that execute may do with a plan.
+//!
+//! How a search of one graph reaches a simulator or an executor: closures, made where the campaign knows who
+//! executes.
 
 use nalgebra::Point3;
 
@@ -7,6 +10,8 @@ use crate::search::in_loop::{Ran, Trial};
 use crate::simulation::Airborne;
 
 /// Executions, each of which counts; `None` where one fails.
+///
+/// `None` of a closure may also mean that the caller stopped; the search then ends by its own budget.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Executions<'a> {
     /// Of a plan: once, and as often again as the search asks for if it came to the stress that is given.

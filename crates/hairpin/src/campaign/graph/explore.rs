@@ -14,6 +14,8 @@ const NODES: usize = 32;
 pub(in crate::campaign) const GRAPHS: u64 = 4;
 
 /// A graph, and the searches' question to it.
+///
+/// For explaining, never for searching.
 pub(in crate::campaign) struct Explored<'a, N, R> {
     /// Its waypoints, the start first.
     pub(in crate::campaign) points: &'a [Point3<f64>],

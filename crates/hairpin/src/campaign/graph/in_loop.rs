@@ -1,5 +1,14 @@
 //! Simulation in the loop over one graph: the scores' optima and a few uniform draws are executed, evolved within the
 //! graph's legs and, where waypoints may be moved, shifted.
+//!
+//! ```text
+//! 0.4 of all executions    disturbances, where these are searched
+//! 0.2 of the others        evolve; all of them where waypoints do not move
+//! the rest                 shift, in three stages
+//! 2 a trajectory kept      obstacles, at last
+//! ```
+//!
+//! Shares are of counts, so that the answer is the same on any machine; what a stage leaves unused the next one gets.
 
 use std::hash::Hash;
 
@@ -115,6 +124,8 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
 }
 
 /// A trajectory whose waypoints may be moved, and how far it has come.
+///
+/// One trajectory in [`crate::search::in_loop::shift`], gone on with stage after stage.
 struct Climber {
     plan: Plan,
     trial: Trial,

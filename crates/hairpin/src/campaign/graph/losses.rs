@@ -1,10 +1,14 @@
 //! Candidates for legs by what became of them.
+//!
+//! Data for explaining: counts by stage and limit, each candidate counted once, by the first that refuses it.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
 /// At which step a candidate is lost, in the order in which they are asked.
+///
+/// `Ord` is the order of asking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -45,6 +49,8 @@ pub struct Lost {
 }
 
 /// What became of candidates for legs: pairs of a state that can be reached and a waypoint, or a state of it.
+///
+/// Counted on a few graphs near their starts: shares are what matters, not totals.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Losses {
     /// What a candidate is.
@@ -60,6 +66,8 @@ pub struct Losses {
 }
 
 /// Counts them.
+///
+/// Keyed by stage and limit, so that the order of counting does not show.
 #[derive(Debug, Default)]
 pub(in crate::campaign) struct Counter {
     left: u64,

@@ -1,4 +1,15 @@
 //! One sampled graph: what is asked of it, and what it gives.
+//!
+//! ```text
+//! Question (graph, reach set, score, method) ─ search ─▶ Answer ─▶ Outcome (plans by number of graph, counts, curves)
+//!    method:  beam · exact · uniform   search::{beam, exact, uniform}
+//!             in-loop                  in_loop: optima and draws ─▶ evolve ─▶ shift ─▶ climb
+//!             executed (partial)       partial: the beam, scored by executions
+//!             a round, several optima  rounds, optima
+//! ```
+//!
+//! Generic in the node of a reach set alone, since searches are compiled once for each; scores, reach sets and
+//! executions come in as trait objects.
 
 mod answer;
 mod executions;

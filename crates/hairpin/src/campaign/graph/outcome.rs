@@ -5,14 +5,21 @@ use super::plan::Plan;
 use crate::campaign::curve::Curve;
 
 /// What one unit of work gave.
+///
+/// Mergeable: a case that tries several graphs adds them up.
 #[derive(Debug, Clone, Default)]
 pub(in crate::campaign) struct Outcome {
     /// Number of the graph, plan.
     pub(in crate::campaign) plans: Vec<(u64, Plan)>,
+    /// Graphs searched.
     pub(in crate::campaign) graphs: u64,
+    /// Of these, proven to have no trajectory.
     pub(in crate::campaign) proven_empty: u64,
+    /// Nodes, draws or executions.
     pub(in crate::campaign) expansions: u64,
+    /// As in [`Answer`].
     pub(in crate::campaign) dropped: u64,
+    /// As in [`Answer`].
     pub(in crate::campaign) duplicates: u64,
     /// Of a round of an adaptive campaign: how many of the plans, from the first, models chose.
     pub(in crate::campaign) chosen: usize,

@@ -34,6 +34,8 @@ impl<N: Copy, O> Execute<N> for Carried<'_, '_, N, O> {
 }
 
 /// The frontier is at most 1000 partial trajectories.
+///
+/// Scores are stresses of what was flown so far; the plan's own score only settles which legs are flown first.
 pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &Question<N, O>,
     partials: &Partials,

@@ -10,6 +10,8 @@ use crate::trajectory::Profile;
 use crate::trajectory::program::{Motion, Program};
 
 /// A trajectory that a graph gave.
+///
+/// A case without number and seed: what searches hand around, and what changes of plans are made of.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct Plan {
     /// m, both ends included.
@@ -22,9 +24,11 @@ pub(in crate::campaign) struct Plan {
     pub(in crate::campaign) score: f64,
     /// No trajectory of the graph scores higher, where a search has proven it.
     pub(in crate::campaign) bound: Option<f64>,
+    /// By the reach set that has its legs.
     pub(in crate::campaign) evidence: Evidence,
     /// `yes`, `no` or `unknown`, where a witness was searched afterwards.
     pub(in crate::campaign) certified: Option<&'static str>,
+    /// The commands, where the reach set has these.
     pub(in crate::campaign) witness: Option<Witness>,
     /// What was found beside the waypoints.
     pub(in crate::campaign) environment: Option<Environment>,
@@ -63,6 +67,8 @@ impl Plan {
 
     /// Waypoints up to the first one of leg `leg`, and those of `other` after as many; `None` where one of both has
     /// none.
+    ///
+    /// Nothing is asked of feasibility: the joined list may have no plan.
     pub(in crate::campaign) fn spliced(&self, other: &Self, leg: usize) -> Option<Vec<Point3<f64>>> {
         Some([self.waypoints.get(..=leg)?, other.waypoints.get(leg + 1..)?].concat())
     }
@@ -97,6 +103,8 @@ impl Plan {
 }
 
 /// One of the free waypoints of a graph: neither its start nor its end.
+///
+/// Uniform; a graph has at least one free waypoint.
 pub(in crate::campaign) fn between(points: &[Point3<f64>], random: &mut Stream) -> Point3<f64> {
     points[random.random_range(1..points.len() - 1)]
 }

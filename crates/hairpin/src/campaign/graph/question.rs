@@ -16,14 +16,18 @@ use crate::search::beam::Ended;
 use crate::search::{Additive, BeamOutcome, BeamSettings, Found, LegGraph};
 
 /// One graph and what is asked of it.
+///
+/// `points[0]` is the start, the last the end or the sink; lengths count waypoints.
 pub(in crate::campaign) struct Question<'a, N, O> {
     pub(in crate::campaign) search: &'a SearchSection,
     /// Waypoints of a trajectory, both ends included.
     pub(in crate::campaign) length: usize,
     pub(in crate::campaign) points: &'a [Point3<f64>],
     /// Not a type of its own each: it is asked once an expansion, and the searches are compiled once a kind of node.
+    /// Which legs there are.
     pub(in crate::campaign) reach: &'a dyn Reach<N>,
     pub(in crate::campaign) start: N,
+    /// What a leg is worth.
     pub(in crate::campaign) score: O,
     /// Seed of what the search itself draws.
     pub(in crate::campaign) seed: u64,
@@ -51,6 +55,8 @@ pub(in crate::campaign) struct Looped<'a> {
 }
 
 /// What is wanted of a graph.
+///
+/// Decides the method before the scenario's is looked at.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::campaign) enum Wanted<'a> {
     /// What the scenario's method finds.
@@ -63,6 +69,8 @@ pub(in crate::campaign) enum Wanted<'a> {
 }
 
 /// One round.
+///
+/// optima + by_hand + draws trajectories, none of which is `known`; fewer where the graph has fewer.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::campaign) struct Round<'a> {
     /// From 0. The first one draws what the method `uniform` does.

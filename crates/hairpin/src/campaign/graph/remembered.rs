@@ -7,6 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const MOST_BYTES: usize = 512 << 20;
 
 /// What is dear to find and was found of graphs, by their numbers, as long as it is little enough together.
+///
+/// A cache that changes no answer: legs are functions of their graph.
 pub(in crate::campaign) struct Remembered<T> {
     kept: Mutex<Kept<T>>,
 }

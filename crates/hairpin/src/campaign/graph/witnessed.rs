@@ -21,6 +21,8 @@ use crate::trajectory::Profile;
 const NODES: usize = 8;
 
 /// One graph, and how it is searched.
+///
+/// What flights and boats share: nodes with velocities, and plans whose witness is a profile.
 pub(in crate::campaign) struct Witnessed<'a> {
     pub(in crate::campaign) search: &'a SearchSection,
     /// Waypoints of a trajectory, both ends included.

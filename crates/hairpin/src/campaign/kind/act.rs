@@ -1,4 +1,6 @@
 //! The act: who carries a mission out.
+//!
+//! Nothing is claimed here and nothing is judged: a plan goes in, a recorded motion comes out.
 
 use nalgebra::Point3;
 
@@ -9,6 +11,8 @@ use crate::simulation::{Airborne, SimulationError};
 use crate::trajectory::{Flight, Track};
 
 /// How a mission is to be carried out.
+///
+/// Of one run: everything that is not in the setup or in the case.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::campaign) struct Order<'a> {
     /// Both ends included, m.
@@ -16,21 +20,31 @@ pub(in crate::campaign) struct Order<'a> {
     /// A waypoint counts as reached inside this radius, m.
     pub(in crate::campaign) accept: f64,
     /// s.
+    /// From the release at t = 0; the run then ends as `time`.
     pub(in crate::campaign) time_limit: f64,
     /// The run's seed.
+    /// Of noise, and of what else is drawn in the simulator; equal seeds give equal bits.
     pub(in crate::campaign) seed: u64,
 }
 
 /// How missions are carried out in our own simulator.
+///
+/// Run on the setup as it was drawn for the run; the plan stays that of `nominal`, so that a controller meets what
+/// the planner did not know.
 pub(in crate::campaign) trait Act {
     /// Carries out the plan of `case`, which was made with `nominal`, as this setup has robot and world.
     ///
     /// # Errors
     /// Numbers that the simulator does not take; a case without what is to be carried out.
+    ///
+    /// A crash, a time-out or a way out of the world is a [`Flight`] that says so, not an error. Deterministic in all
+    /// arguments.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
 
     /// Partial trajectories that go on from where their beginning has led: where controllers know of one waypoint at a
     /// time.
+    ///
+    /// `None` of controllers that get the whole plan at once: what they do on a first leg depends on the last.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         None
     }
@@ -45,10 +59,15 @@ pub(in crate::campaign) trait Act {
 
     /// Obstacles that are asked for, placed in the way of an execution of `case` along `track`, clear of its plan.
     /// `None` where there is no room for any, or none are asked for.
+    ///
+    /// Obstacles stand where `track` came and the plan does not: they prove that the deviation matters.
     fn place(&self, case: &Case, track: &Track) -> Option<Placement>;
 }
 
 /// A flight that is flown on leg by leg.
+///
+/// States are cloned where a beam branches, so that each leg is flown once. A whole flight made of parts is bit for
+/// bit the one that [`Act::run`] flies.
 pub(in crate::campaign) trait LegByLeg {
     /// Ready at the first waypoint of `order`.
     ///

@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 /// One axis of the grid.
+///
+/// `edges` rises and has one more entry than there are cells, at least two entries. `words`, where there are any, has
+/// one for each cell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What is counted: `speed`.
@@ -35,6 +38,9 @@ impl Axis {
     }
 
     /// `1.2 … 2.4`, or the word of cell number `place`.
+    ///
+    /// # Panics
+    /// If an axis without words has no cell number `place`.
     pub fn in_words(&self, place: usize) -> String {
         match self.words.get(place) {
             Some(word) => word.clone(),
@@ -43,11 +49,16 @@ impl Axis {
     }
 
     /// Cells along it.
+    ///
+    /// At least 1.
     pub fn cells(&self) -> usize {
         self.edges.len() - 1
     }
 
     /// The cell that `value` lies in.
+    ///
+    /// Half-open from below: `edges[c]` ≤ value < `edges[c + 1]`; what lies beyond, and NaN, goes to an outermost
+    /// cell.
     pub(in crate::campaign) fn cell(&self, value: f64) -> usize {
         self.edges.partition_point(|edge| *edge <= value).saturating_sub(1).min(self.cells() - 1)
     }

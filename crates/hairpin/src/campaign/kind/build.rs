@@ -7,6 +7,8 @@ use crate::campaign::attachments::Attachments;
 use crate::campaign::scenario::Mistake;
 
 /// What a setup is built from.
+///
+/// `known` makes draws cheap: a drawn mass leaves the map, the graph of an arm and its meshes as they are.
 #[derive(Debug)]
 pub(in crate::campaign) struct Given<'a, S: Build> {
     /// The scenario's keys.
@@ -26,6 +28,8 @@ impl<S: Build> Clone for Given<'_, S> {
 impl<S: Build> Copy for Given<'_, S> {}
 
 /// What scenarios of one kind describe.
+///
+/// The only way from keys to a robot; so a scenario that is checked is one that can be built.
 pub(in crate::campaign) trait Build: Kind + Sized {
     /// The scenario's keys.
     type Keys;

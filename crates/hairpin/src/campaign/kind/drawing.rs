@@ -1,4 +1,7 @@
 //! What stands around the cases that are drawn: a cage with its obstacles, a stretch of ground, a cell.
+//!
+//! Plain shapes in the world frame, m: what the report, the figure and Python's plots draw, without asking which
+//! robot it is.
 
 use nalgebra::{Point3, Vector3};
 

@@ -1,4 +1,7 @@
 //! The robot as it is drawn: links that turn, each with surfaces, and what of them is a stand-in.
+//!
+//! A tree of links, as in URDF; every link has surfaces in its own frame, x forward, y left, z up. What a stand-in is
+//! drawn for says so, in words and link by link.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
@@ -6,6 +9,8 @@ use super::Surface;
 use super::solid::{cuboid, cylinder, named, round};
 
 /// What turns a link about its axis.
+///
+/// Angles are counter-clockwise about the link's own axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Turned {
     /// Nothing.
@@ -47,6 +52,8 @@ impl Look {
 }
 
 /// A link, drawn in its own frame.
+///
+/// world_from_link = world_from_parent · `place` · rotation(`axis`, angle).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigureLink {
     /// The link that carries it; `None`: the robot's own frame.
@@ -89,6 +96,8 @@ impl FigureLink {
 }
 
 /// The robot.
+///
+/// Links are few and simple, since the figure is drawn for every frame of a page; meshes of arms are the exception.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotFigure {
     /// Its links; a parent comes before what it carries.
@@ -104,6 +113,8 @@ pub struct RobotFigure {
 }
 
 /// A box between two corners, m.
+///
+/// `low` and `high` are opposite corners, in the link's frame.
 pub(in crate::campaign) fn block(low: [f64; 3], high: [f64; 3]) -> Surface {
     let (low, high) = (Point3::from(low), Point3::from(high));
     named("body", cuboid(&nalgebra::center(&low, &high), &((high - low) / 2.0)))
@@ -126,6 +137,8 @@ pub(in crate::campaign) fn rod(a: &Point3<f64>, b: &Point3<f64>, radius: f64) ->
 }
 
 /// A prism over a convex outline (forward, left), between two heights, m.
+///
+/// The outline runs counter-clockwise, so that triangles face outwards.
 pub(in crate::campaign) fn prism(outline: &[[f64; 2]], low: f64, high: f64) -> Surface {
     let n = outline.len() as u32;
     let at = |z: f64| outline.iter().map(move |[x, y]| Point3::new(*x, *y, z));

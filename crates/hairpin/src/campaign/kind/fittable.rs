@@ -1,10 +1,15 @@
 //! What of a robot's closed loop logs may tell.
+//!
+//! What [`crate::campaign::fit`] needs to know of a kind: numbers with their bounds and steps, outputs with their
+//! units, and from which sampling on they can be told.
 
 use serde_json::Value;
 
 use crate::simulation::Acceptance;
 
 /// A number of a robot, or of who steers it, that is adjusted until its simulation is nearest to logs.
+///
+/// One entry of θ. Its derivative is the central difference over [`Self::step`], by simulating twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adjustable {
     /// In words: `thrust to weight`.
@@ -16,8 +21,10 @@ pub struct Adjustable {
     /// Keys of the scenario, and what each is of the number. The first is the one that it is known by.
     pub keys: Vec<(String, f64)>,
     /// As the scenario has it.
+    /// In [`Self::unit`].
     pub value: f64,
     /// What it may be.
+    /// The search stays within; an estimate at a bound has no interval.
     pub bounds: [f64; 2],
     /// Half of the difference that derivatives are taken over.
     pub step: f64,
@@ -43,6 +50,8 @@ pub(in crate::campaign) enum Output {
 }
 
 /// How long and how often logs are compared.
+///
+/// What a log must have in order to be compared, and how its samples are weighed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::campaign) struct Sampling {
     /// Shortest motion of a log, s.
@@ -60,6 +69,9 @@ pub(in crate::campaign) struct Sampling {
 }
 
 /// Numbers, and how missions are carried out and compared while they are fitted.
+///
+/// `numbers` and `outputs` are those that the kind can tell at all; which of them logs determine is settled by their
+/// sensitivities.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct Fittable {
     /// Keys with values that leave out whatever is drawn by chance.

@@ -1,5 +1,8 @@
 //! The scenario keys of a family: those that can make more feasible, and which way they are turned; and what a run can
 //! be freed of.
+//!
+//! [`explain`](crate::campaign::explain) turns one key at a time by bisection and asks the same graphs again: what
+//! helps is found, not inferred.
 
 use serde_json::Value;
 
@@ -15,6 +18,8 @@ pub(in crate::campaign) struct Knob {
 }
 
 /// How a key is turned.
+///
+/// From a key's value towards what can only make more feasible; the least turn that helps is told.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::campaign) enum Turn {
     /// From `now` as far as `loosest`, whichever is larger; `unit` for people.
@@ -28,6 +33,8 @@ pub(in crate::campaign) enum Turn {
 }
 
 /// Something that a run meets beside its waypoints, and what the scenario is without it.
+///
+/// [`shrink`](crate::campaign::shrink) leaves them out one by one, to see what a violation takes.
 pub(in crate::campaign) struct Condition {
     /// `no wind`.
     pub(in crate::campaign) words: &'static str,
@@ -43,6 +50,8 @@ impl Condition {
 }
 
 /// What stands in a world, one beside the other.
+///
+/// Minimised by delta debugging over the places of the list.
 pub(in crate::campaign) struct Standing {
     /// `obstacles`.
     pub(in crate::campaign) words: &'static str,
@@ -55,6 +64,8 @@ pub(in crate::campaign) struct Standing {
 }
 
 /// The keys of a scenario that jobs turn.
+///
+/// Everything that explain and shrink know of a kind beside its claim.
 pub(in crate::campaign) struct Knobs {
     /// Those that can make more feasible, those first that are thought of first.
     pub(in crate::campaign) turned: Vec<Knob>,
@@ -72,26 +83,35 @@ pub(in crate::campaign) struct Knobs {
 
 /// Farthest that a number is turned, in multiples of its value, where nothing else bounds it: who mistakes a unit is
 /// off by as much.
+/// A search to there by bisection of the logarithm takes few steps.
 const FARTHEST: f64 = 1000.0;
 
 impl Knob {
     /// Turned from `now` to `loosest`; none where it is there.
+    ///
+    /// `unit` is told behind the number: `m/s`.
     pub(in crate::campaign) fn number(key: &'static str, now: f64, loosest: f64, unit: &'static str) -> Option<Self> {
         (now != loosest).then_some(Self { key, turn: Turn::Number { now, loosest, unit } })
     }
 
     /// Turned up, without a bound of its own.
+    ///
+    /// None where `now` is 0: a thousand times nothing is nothing.
     pub(in crate::campaign) fn up(key: &'static str, now: f64, unit: &'static str) -> Option<Self> {
         Self::number(key, now, FARTHEST * now, unit)
     }
 
     /// Turned up as far as `most`, where it is below.
+    ///
+    /// An infinite `most` is as none at all: 1000 times `now`.
     pub(in crate::campaign) fn up_to(key: &'static str, now: f64, most: f64, unit: &'static str) -> Option<Self> {
         let loosest = if most.is_finite() { most } else { FARTHEST * now };
         (now < most).then_some(Self { key, turn: Turn::Number { now, loosest, unit } })
     }
 
     /// A whole number turned up to so many times itself.
+    ///
+    /// `times` at least, so that 0 can be turned up too.
     pub(in crate::campaign) fn whole(key: &'static str, now: u64, times: u64) -> Option<Self> {
         Some(Self { key, turn: Turn::Whole { now, loosest: now.saturating_mul(times).max(times) } })
     }

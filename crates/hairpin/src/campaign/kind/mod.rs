@@ -13,6 +13,17 @@
 //!
 //! What one kind alone has (an arm's graph, a quadrotor's rotors) is asked of its own setup, by the verbs that are
 //! about nothing else: [`Setup::own`](super::Setup::own).
+//!
+//! | trait, type | asked by |
+//! | --- | --- |
+//! | `Solver` (of `Claim`) | generate, explain, compare: graphs, draws, changes of plans |
+//! | `Replanner` (of `Claim`) | shrink: a case over fewer waypoints |
+//! | `LegByLeg` (of `Act`) | searches that execute partial trajectories |
+//! | `Fittable` (of `Act`) | fit: numbers, outputs and sampling |
+//! | `Programs` (of `Say`) | judge: runs move by move |
+//!
+//! A default answer stands for "this kind has none"; jobs then leave the step out or say so. Lengths are m, times s,
+//! angles rad, in the world frame of the scenario, whatever the kind.
 
 mod act;
 mod axis;

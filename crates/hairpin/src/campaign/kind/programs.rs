@@ -1,4 +1,7 @@
 //! Programs: what kinds have whose motion is a list of moves for a controller.
+//!
+//! Only arms have them. The judge measures such runs move by move (when points are met, how far the path is left),
+//! not leg by leg of a straight line.
 
 use crate::campaign::case::Case;
 use crate::campaign::learn::MoveFeatures;
@@ -7,6 +10,9 @@ use crate::judgement::moves::Measured;
 use crate::trajectory::{PlannedPath, Track};
 
 /// Runs that are measured move by move, and what is known of moves that are not possible.
+///
+/// Moves are numbered from 0 in the order of the program; positions in m, times in s, whatever the units of the
+/// program's language.
 pub(in crate::campaign) trait Programs {
     /// The logs whose recordings are the runs, where nothing is executed.
     fn recordings(&self) -> Option<&str>;
@@ -34,8 +40,12 @@ pub(in crate::campaign) trait Programs {
     fn not_found_out(&self) -> Option<String>;
 
     /// Seconds that explaining takes at most where nobody says.
+    ///
+    /// s.
     fn patience(&self) -> f64;
 
     /// The same violation in the units that programs are written in.
+    ///
+    /// mm and ms in place of m and s, value and limit alike.
     fn in_their_units(&self, violation: Violation) -> Violation;
 }

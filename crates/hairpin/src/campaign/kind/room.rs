@@ -3,6 +3,9 @@
 use nalgebra::Point3;
 
 /// The space of what flies, drives or sails, and how it goes in it.
+///
+/// What QGroundControl plans, geofences and simulators' worlds are written from. An axis-aligned box in the world
+/// frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Room {
     /// Whether it flies: what does not stays on its ground, and its heights have no bound.
@@ -31,6 +34,9 @@ pub struct Wall {
 impl Room {
     /// The wall that is nearest to `place`, or farthest behind it. Who rises from the ground or comes down to it is not
     /// held to the `floor`.
+    ///
+    /// `place` in m, world frame. Of equally near walls the first in the order x, y, z, least before greatest. NaN is
+    /// behind the wall of its axis.
     pub fn nearest_wall(&self, place: &Point3<f64>, floor: bool) -> Wall {
         let names = [["x least", "x greatest"], ["y least", "y greatest"], ["the floor", "the ceiling"]];
         let axes = if self.flies { 3 } else { 2 };

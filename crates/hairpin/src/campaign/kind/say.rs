@@ -1,4 +1,7 @@
 //! What is said of a robot, its world and its runs, and what runs are measured against.
+//!
+//! Words are parts of sentences, in lower case and without a full stop, unless they are said to be sentences. Nothing
+//! here computes a verdict.
 
 use nalgebra::Point3;
 use serde::Serialize;
@@ -11,6 +14,8 @@ use crate::robot::battery::Battery;
 use crate::trajectory::{Flight, Track};
 
 /// The robot in words.
+///
+/// Borrowed from the setup; put together by the report, the verdict and the assumptions.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct RobotWords<'a> {
     /// Its name.
@@ -30,6 +35,8 @@ pub(in crate::campaign) struct RobotWords<'a> {
 }
 
 /// "Assumptions and limits of this run", by what they are about.
+///
+/// Each entry is a whole sentence; empty lists are left out of the report.
 #[derive(Debug, Clone, Default)]
 pub(in crate::campaign) struct Assumptions {
     /// What stands behind the plans.
@@ -45,6 +52,8 @@ pub(in crate::campaign) struct Assumptions {
 }
 
 /// How a campaign was set up, in the words of its report.
+///
+/// Each a sentence's part, with numbers in the units that people use.
 #[derive(Debug, Clone)]
 pub(in crate::campaign) struct Facts {
     /// The world.
@@ -60,6 +69,8 @@ pub(in crate::campaign) struct Facts {
 }
 
 /// What places are relative to, in words.
+///
+/// Kinds differ in what has an origin: a cage, a map, an arm's base, a harbour chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameWords {
     /// What positions and z are relative to: `cage origin`, `map origin`, `arm's base`.
@@ -73,6 +84,8 @@ pub struct FrameWords {
 }
 
 /// What an executor of the user's is handed, and how its answer is read.
+///
+/// Robot, world and limits as executors are told them, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Handed {
     /// The robot's numbers: a table of the scenario.
@@ -88,6 +101,7 @@ pub struct Handed {
     /// The first waypoint, world frame, m.
     pub start: Point3<f64>,
     /// How far from the origin a place may be, m: beyond is another unit or a slip.
+    /// An answer with a position beyond is refused rather than judged.
     pub farthest: f64,
 }
 
@@ -100,9 +114,13 @@ pub(in crate::campaign) fn reached_within(accept: f64, by_command: bool) -> Stri
 }
 
 /// Calls its last argument with the values, one an axis, of whatever a run over waypoints met.
+///
+/// Values are in the order of [`Motion::axes`], one call for each sample that counts.
 pub(in crate::campaign) type Meet<'a> = Box<dyn Fn(&[Point3<f64>], &Flight, &mut dyn FnMut(&[f64])) + 'a>;
 
 /// How motion is counted.
+///
+/// The grid of coverage: which speeds, turns, climbs or joints runs came to.
 pub(in crate::campaign) struct Motion<'a> {
     /// Axes of a grid.
     pub(in crate::campaign) axes: Vec<Axis>,
@@ -116,6 +134,8 @@ pub(in crate::campaign) trait Say {
     fn robot_words(&self) -> RobotWords<'_>;
 
     /// What claim, execution and limits rest on.
+    ///
+    /// Made of the run's own settings and numbers: what did not happen is not said.
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions;
 
     /// How the campaign was set up.
@@ -131,6 +151,8 @@ pub(in crate::campaign) trait Say {
     }
 
     /// Whether a place lies where the robot cannot be: outside of its world.
+    ///
+    /// `place` in m, world frame; the origin of the robot, without its radius.
     fn is_outside(&self, place: &Point3<f64>) -> bool;
 
     /// What stands around `places`; what only a case's environment has is last of its obstacles.
@@ -141,9 +163,14 @@ pub(in crate::campaign) trait Say {
 
     /// Distance (m) of the robot, a ball or a disc about its origin, from what it must not meet; `None` where there is
     /// nothing.
+    ///
+    /// Signed: below 0 inside. Changes by no more than the way that the robot moves (Lipschitz with constant 1), on
+    /// which bounds between samples rest.
     fn clearance(&self) -> Option<Box<Clearance<'_>>>;
 
     /// How fast it can be and become, for what may hide between the samples of a log; nothing where nothing bounds it.
+    ///
+    /// Top speed, m/s, and acceleration, m/s²; bounds of the model, not of a run.
     fn swiftness(&self) -> Swiftness {
         Swiftness::default()
     }
@@ -160,6 +187,8 @@ pub(in crate::campaign) trait Say {
 }
 
 /// A key's word, as it stands in scenario files.
+///
+/// The serialised name of a unit variant; empty of anything that is not written as a string.
 pub(in crate::campaign) fn word(value: &impl Serialize) -> String {
     serde_json::to_value(value).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
 }

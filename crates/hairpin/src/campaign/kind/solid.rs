@@ -7,6 +7,8 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use crate::world::{Obstacle, Shape};
 
 /// A named surface. Vertices in m, world frame; triangles index into them.
+///
+/// Triangles made here are counter-clockwise seen from outside; those of hulls and meshes are as these have them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// Name of the obstacle.
@@ -22,6 +24,8 @@ const AROUND: u32 = 24;
 const DOWN: u32 = 12;
 
 /// The surface of an obstacle: exact for boxes, hulls and meshes, faceted for spheres and capsules.
+///
+/// 24 steps around and 12 from pole to pole of what is round: for drawings, never for tests of collision.
 pub fn surface(obstacle: &Obstacle) -> Surface {
     let (vertices, triangles) = match &obstacle.shape {
         Shape::Box { center, half_extents } => cuboid(center, half_extents),
@@ -40,6 +44,8 @@ pub(super) fn named(name: &str, (vertices, triangles): Triangles) -> Surface {
 }
 
 /// A cylinder with flat ends.
+///
+/// 2 + 2 · 24 vertices; `a` = `b` gives a disc about z without height.
 pub(super) fn cylinder(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangles {
     let turn = UnitQuaternion::rotation_between(&Vector3::z(), &(b - a)).unwrap_or_else(UnitQuaternion::identity);
     let around = |i: u32| {
@@ -55,6 +61,7 @@ pub(super) fn cylinder(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangl
     (vertices, (0..AROUND).flat_map(side).collect())
 }
 
+/// Axis-aligned: `center` ± `half`, 8 vertices and 12 triangles.
 pub(super) fn cuboid(center: &Point3<f64>, half: &Vector3<f64>) -> Triangles {
     let sign = |corner: usize, bit: usize| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |c: usize| center + Vector3::new(sign(c, 0), sign(c, 1), sign(c, 2)).component_mul(half);

@@ -25,6 +25,8 @@ pub(super) fn named() -> Vec<Feature> {
 }
 
 /// Slope = climb / length; 0 for a leg without a length. `duration` in s.
+///
+/// ln(1 + v_in), ln(1 + v_out), turn, ln(1 + length), slope, slope_in, duration, ground; m/s, rad, m, s.
 pub(super) fn inputs(leg: &LegFeatures, duration: f64) -> [f64; FEATURES] {
     let slope = if leg.length > 0.0 { leg.climb / leg.length } else { 0.0 };
     let [v_in, v_out, length] = [leg.v_in, leg.v_out, leg.length].map(|size| libm::log(1.0 + size));

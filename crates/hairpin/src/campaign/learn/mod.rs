@@ -1,4 +1,11 @@
 //! Learned scores: the stress of executed legs, as a polynomial of what a search sees of them.
+//!
+//! Data flow: executed legs ([`LegSample`]) → own part and part of the leg before ([`ScoreModel::learn`]: degree and
+//! penalty by cross-validation over trajectories) → a model file → `AnyScore`, by which any search ranks legs.
+//! Resampled models (bootstrap) say how far to trust it.
+//!
+//! A model ranks; it does not predict what a controller will do elsewhere: it is checked against robot, controller
+//! and world that it was learned on ([`ScoreModel::check`]).
 
 mod feature;
 mod fit;

@@ -7,6 +7,8 @@ use crate::search::{Additive, LegView, Objective, Score};
 /// What a scenario scores legs by.
 ///
 /// One type for all, so that the searches are compiled for each kind of node and not for each score.
+///
+/// Memory is one number, what the last leg leaves: named scores and those of one's own leave 0.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) enum AnyScore<'a> {
     /// One of those that have names.

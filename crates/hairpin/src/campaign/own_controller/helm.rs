@@ -1,4 +1,10 @@
 //! A run's controller whose turns are code of the user's.
+//!
+//! ```text
+//! begin(mission) ─▶ turn(t, state, reference) ─▶ command … ─▶ finish, or dropped where something was wrong
+//! ```
+//!
+//! One turn a period of the user's code; what lies between two turns is the last command, held by the loop.
 
 use std::sync::Arc;
 
@@ -38,6 +44,8 @@ pub(in crate::campaign) trait Steered: Controlled + 'static {
 }
 
 /// The planned motion at a time; nothing where there is none.
+///
+/// m, m/s, m/s², rad, rad/s, by the names of its keys; world frame.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub(in crate::campaign) struct Planned {
     pub(in crate::campaign) p_m: Option<[f64; 3]>,
@@ -51,6 +59,8 @@ pub(in crate::campaign) struct Planned {
 }
 
 /// Where to go.
+///
+/// `next` is the number of the waypoint that is flown to, from 0.
 #[derive(Serialize)]
 struct Bearing {
     next: usize,
@@ -67,6 +77,9 @@ pub(in crate::campaign) fn keys<R: Steered, A: DeserializeOwned>(answer: &Value)
 }
 
 /// See the file's first line.
+///
+/// An answer that is no command, or an error, ends its turns: whatever is asked after that is refused, and dropping
+/// it gives up on the user's process without finishing it.
 pub(super) struct AtTheHelm {
     code: Arc<dyn UserSteering>,
     robot: Value,

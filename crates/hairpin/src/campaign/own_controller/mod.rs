@@ -53,6 +53,7 @@ impl AnyController {
     }
 
     /// Itself, if it is for robots of the kind `R`.
+    /// `None` for a caller's code that is for another kind.
     pub(super) fn of<R: Steered>(&self) -> Option<OwnController<R>> {
         match &self.source {
             Source::Callers(controller, _) => controller.downcast_ref().cloned(),
@@ -64,6 +65,9 @@ impl AnyController {
     }
 
     /// Why nobody could execute `scenario` with it.
+    ///
+    /// `None` where nothing is in the way: a name that is not blank, no `execute.command`, and no key varied that is
+    /// of our controllers alone.
     pub(super) fn mistake(&self, scenario: &Scenario) -> Option<Mistake> {
         if self.name.trim().is_empty() {
             return Some(self.refused("a name for reports"));

@@ -21,6 +21,8 @@ use crate::judgement::{
 use crate::trajectory::Track;
 
 /// One measure over all judged cases.
+///
+/// A table's column, or a distribution with its limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metric {
     /// Name: `max deviation`.
@@ -36,6 +38,7 @@ pub struct Metric {
     /// In [`Self::unit`].
     pub values: Vec<Option<f64>>,
     /// Of random feasible cases that were run alike.
+    /// In [`Self::unit`], without order.
     pub random: Vec<f64>,
 }
 
@@ -66,6 +69,8 @@ pub struct Moment {
 }
 
 /// A case that is shown in full.
+///
+/// Tracks and waypoints in the world's frame, m; what the kind draws around them is [`ReportData::drawing`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
     /// Its result.
@@ -132,6 +137,7 @@ pub struct OtherRun {
 
 impl Shown {
     /// Where it was, and where it was planned to be.
+    /// What a drawing's bounds come of: waypoints, plan, flown.
     pub fn places(&self) -> impl Iterator<Item = Point3<f64>> {
         let of = |track: &'_ Track| (0..track.len()).map(|i| track.position(i)).collect::<Vec<_>>();
         self.waypoints.clone().into_iter().chain(of(&self.planned)).chain(self.flown.as_ref().map_or(Vec::new(), of))
@@ -139,6 +145,8 @@ impl Shown {
 }
 
 /// Everything in a report.
+///
+/// Formats need nothing else: no file is read, and nothing is judged, when a page is made of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportData {
     /// What was tested: the robot's name.
@@ -253,8 +261,7 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
 /// A case in full: `run` is the result's worst one, `others` are drawn beside it. Distances are those that were judged.
 ///
 /// `case` has its witness: what is followed comes of it. The reference is the scenario's with the run's own draws:
-/// the leg being executed, the nearer of it and the one
-/// before, or the path that is followed.
+/// the leg being executed, the nearer of it and the one before, or the path that is followed.
 ///
 /// # Errors
 /// A track that the judge refuses.
@@ -341,6 +348,7 @@ fn moment(result: &CaseResult, length: &Length) -> Option<Moment> {
 }
 
 /// The obstacles and keep-outs that stand around the waypoints of `case`, its own ones last.
+/// Where the case's environment does not fit the scenario, the scenario's alone.
 pub fn surroundings(setup: &Setup, case: &Case) -> Vec<Surface> {
     let of = |setup: &Setup| setup.kind().drawing(&case.waypoints).obstacles;
     setup.around(case).map_or_else(|_| of(setup), |around| of(&around))

@@ -74,6 +74,8 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
 }
 
 /// How the cases were come by.
+///
+/// By what the tally says: missions, selected cases, the worst that were executed, or one a graph.
 fn origin(setup: &Setup, tally: &Tally) -> String {
     let search = setup.scenario.search();
     let (asked, graphs) = (search.cases, grouped(tally.graphs));
@@ -97,6 +99,7 @@ fn largest_deviation(results: &[CaseResult]) -> Option<(&CaseResult, &Measures)>
     measured.max_by(|a, b| a.1.max_deviation.total_cmp(&b.1.max_deviation).then(b.0.case.cmp(&a.0.case)))
 }
 
+/// How the campaign was set up, label and value, in the order that it is shown in.
 pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let setup = pieces.setup;
     let scenario = &setup.scenario;

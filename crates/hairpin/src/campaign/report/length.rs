@@ -13,6 +13,8 @@ pub struct Length {
 }
 
 /// What lengths are told in of the robot of `setup`.
+///
+/// Asked of the kind itself, by what it makes of a deviation of 1 m.
 pub fn length(setup: &Setup) -> Length {
     let metre = Violation { what: "deviation".into(), value: 1.0, limit: 1.0, unit: "m".into(), at: 0.0, leg: 0 };
     match setup.kind().programs().map(|programs| programs.in_their_units(metre)) {

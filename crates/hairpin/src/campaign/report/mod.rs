@@ -1,4 +1,11 @@
 //! What a report shows, as plain data and plain words; how it looks is the format's business.
+//!
+//! ```text
+//! judged campaign ─▶ Pieces ─▶ assemble (facts, text, length) ─▶ ReportData ─▶ a format
+//! cases to show   ─▶ shown ──▶ Shown ─┘
+//! ```
+//!
+//! Plain data in SI; a verdict's lengths are told in [`Length`]'s unit, and [`Metric`]s in the specification's.
 
 mod assemble;
 mod data;

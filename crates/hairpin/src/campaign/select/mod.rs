@@ -2,6 +2,12 @@
 //!
 //! The most stressful trajectory and 99 near copies of it are one test. How far two cases are apart is the mean of how
 //! far their ways are apart and how far what came of them is, each 0 … 1 over the campaign.
+//!
+//! | choice | maximises | known of it |
+//! | --- | --- | --- |
+//! | stress | Σ stress | the best |
+//! | diverse | ½ stress + distance, over pairs | at least half of the best |
+//! | coverage | cells that are met | at least 1 − 1/e of the best |
 
 mod greedy;
 
@@ -15,6 +21,8 @@ use crate::search::worst::{Crowd, Placed, Scale, Trace};
 use crate::trajectory::Route;
 
 /// What a choice is for.
+///
+/// All three are deterministic; ties go to the first candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum By {
@@ -86,6 +94,8 @@ pub fn measured(candidates: &[Candidate]) -> bool {
 
 /// How stressful cases are and how far apart, each 0 … 1 over all of them. Distances are computed where they are asked
 /// for: those of all pairs of ten thousand cases would take a gigabyte.
+///
+/// Stress and distances are relative to the candidates given: two campaigns' choices are not on one scale.
 #[derive(Debug, Clone)]
 pub struct Choice<'a> {
     candidates: &'a [Candidate],
@@ -94,6 +104,8 @@ pub struct Choice<'a> {
 }
 
 /// How good a choice is.
+///
+/// To compare choices of one [`Choice`] with each other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measured {
     /// Cases.

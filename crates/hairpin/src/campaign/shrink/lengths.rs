@@ -15,6 +15,9 @@ impl Job<'_> {
     /// along. Then rounds the coordinates as far as that goes.
     ///
     /// Up to 5 runs per leg and 3 for the coordinates. An arm's points stay where they are.
+    ///
+    /// Bisection takes shorter legs to violate less; where that is not so, it ends at a length that violates, and not
+    /// at the least.
     pub(super) fn shorten(&mut self) {
         if !self.route.moves() {
             return;

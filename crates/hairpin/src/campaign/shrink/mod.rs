@@ -3,6 +3,12 @@
 //! Waypoints first (delta debugging), then what the run met beside them (drawn values, wind, gusts, forces, noise,
 //! obstacles), then the lengths of legs. Every candidate is planned anew and must be feasible by the same claim as the
 //! case's own evidence before it is run; it is judged by the same spec.
+//!
+//! | pass | what | by |
+//! | --- | --- | --- |
+//! | waypoints | windows that end behind the violated leg, then any | doubling, [`ddmin`](fn@crate::search::ddmin) |
+//! | conditions | drawn values, wind, gusts, force, noise; obstacles, keep-outs | one by one; ddmin |
+//! | lengths | legs, coordinates that can be read | bisection, rounding |
 
 mod conditions;
 mod lengths;
@@ -18,6 +24,8 @@ use route::{Planner, Route};
 const PASSES: usize = 3;
 
 /// A case that is smaller than the one it was made of.
+///
+/// Run with `scenario`, as run [`CaseResult::run`], `case` violates the limit that the original violated first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shrunk {
     /// What it is run with: the scenario's, or simpler.
@@ -70,6 +78,9 @@ pub enum ShrinkError {
 ///
 /// # Errors
 /// A case that does not violate, at all or again.
+///
+/// Deterministic: `run` is asked in one order, and may be asked the same thing again by an interrupted shrinking that
+/// begins anew.
 pub fn shrink(
     setup: &Setup,
     case: &Case,

@@ -6,6 +6,8 @@ use crate::campaign::kind::Replanner;
 use crate::campaign::{Case, Setup};
 
 /// One waypoint of a candidate.
+///
+/// `index` is what a replanner needs to pass it as the case did (heading, posture).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stop {
     /// Which waypoint of the case it was.

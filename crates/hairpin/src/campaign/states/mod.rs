@@ -1,5 +1,8 @@
 //! The path of states of a drive, with what its wheels do: sampled in time, and held to the bounds of speeds and
 //! joints.
+//!
+//! Data flow: a drive → its motion predicted on the ground, step by step → states at even times → wheel speeds, steer
+//! angles, rates and joints of each → the largest of all, held to the vehicle's limits.
 
 mod peaks;
 mod vehicle_state;

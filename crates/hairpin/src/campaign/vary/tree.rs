@@ -16,6 +16,7 @@ impl<'a> Tree<'a> {
     }
 
     /// The value at `path`, if the scenario has one.
+    /// Costs the section's serialisation once.
     pub(in crate::campaign) fn get(&mut self, path: &KeyPath) -> Option<&Value> {
         self.make(path);
         path.get(&self.made)

@@ -90,6 +90,8 @@ pub struct BoatMotion<N> {
 }
 
 /// What a motion demands.
+///
+/// Forces in the body frame: ahead, to port, and the moment that turns to port.
 #[derive(Debug, Clone, Copy)]
 pub struct BoatDemand<N> {
     /// Speed over ground, m/s.
@@ -164,6 +166,8 @@ impl ForceMap {
     }
 
     /// Largest speed that thrust ahead keeps up over ground, with the current behind it, m/s.
+    ///
+    /// Where damping ahead equals the largest thrust, plus the current's speed.
     pub fn fastest(&self) -> f64 {
         self.boat.top_speed + (square(self.current[0]) + square(self.current[1])).sqrt()
     }

@@ -36,6 +36,8 @@ impl BoatEnd {
 }
 
 /// Judges legs of one boat in one stretch of water under one set of limits.
+///
+/// Sound for the boat in this current; not complete, as a leg has one shape for a time.
 #[derive(Debug, Clone)]
 pub struct BoatJudge {
     map: ForceMap,
@@ -77,6 +79,8 @@ impl BoatJudge {
     }
 
     /// The one leg from `from` to `to` in `duration` (s, > 0), not judged: it turns the shorter way round.
+    ///
+    /// x, y and ψ by one polynomial of degree 7 each, from value and three derivatives at both ends.
     #[inline]
     pub fn connect(from: &BoatEnd, to: &BoatEnd, duration: f64) -> ProfileLeg {
         let ahead = libm::atan2(to.place[1] - from.place[1], to.place[0] - from.place[0]);
@@ -93,6 +97,8 @@ impl BoatJudge {
     ///
     /// # Errors
     /// The limit that fails, where, and by how much.
+    ///
+    /// Four instants first, then proof; a duration that is not finite and positive is refused as such.
     pub fn judge(&self, from: &BoatEnd, to: &BoatEnd, duration: f64) -> Result<ProfileLeg, BoatInfeasible> {
         if !(duration > 0.0 && duration.is_finite()) {
             return Err(BoatInfeasible::Violates { limit: BoatLimit::Duration, at: 0.0, margin: -duration.abs() });

@@ -1,6 +1,8 @@
 //! What a leg of a boat must keep to, and the evidence when it does not.
 
 /// Limits that a task adds to those of the boat and the waters.
+///
+/// `max_speed` is over ground, so that a current ahead slows nothing that it forbids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoatLimits {
     /// Largest speed over ground, m/s; infinite: no cap.
@@ -40,6 +42,8 @@ impl BoatLimit {
         [Self::Speed, Self::Surge, Self::Sway, Self::Yaw, Self::Waters, Self::KeepOut, Self::Duration];
 
     /// The name in reports, and the unit of its margin.
+    ///
+    /// Units are those of the margins of [`BoatInfeasible`].
     pub fn name_and_unit(self) -> (&'static str, &'static str) {
         match self {
             Self::Speed => ("speed", "m/s"),

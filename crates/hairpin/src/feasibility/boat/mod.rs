@@ -14,6 +14,10 @@
 //!
 //! Sound for the model in the current given: without lag of the thrusters, wind or waves. Complete for nothing: a leg
 //! has one shape for a given time.
+//!
+//! Data flow of a leg: ends → polynomial ([`BoatJudge::connect`]) → instants → forces between samples ([`demand`],
+//! `proof`) → waters between samples (`space`) → a leg, or [`BoatInfeasible`] with limit, time and margin. World
+//! frame: x east, y north, m; ψ from x towards y; body: surge ahead, sway to port.
 
 pub mod demand;
 pub mod leg;

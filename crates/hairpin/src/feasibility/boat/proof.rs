@@ -31,6 +31,7 @@ pub(super) struct ForceLimits {
 type Margin<N> = (BoatLimit, N, f64);
 
 impl ForceLimits {
+    /// Thrusts times the share that plans may use.
     pub(super) fn new(boat: &Boat, limits: &BoatLimits) -> Self {
         let share = limits.thrust_share;
         Self {

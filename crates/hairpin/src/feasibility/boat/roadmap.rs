@@ -30,6 +30,8 @@ pub struct BoatRoadmapSettings {
 }
 
 /// The waypoint states of one graph and the legs between them. One graph is one task on one thread.
+///
+/// As the roadmap of flights ([`crate::feasibility::reach::witness`]), in the plane.
 #[derive(Debug)]
 pub struct BoatRoadmap<'a> {
     states: States<'a, BoatJudge>,

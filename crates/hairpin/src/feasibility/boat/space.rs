@@ -56,6 +56,7 @@ impl Piece {
 }
 
 impl FreeWaters {
+    /// `clearance`: the radius of the hull's disc, m.
     pub(super) fn new(waters: &BoatWaters, clearance: f64) -> Self {
         let high = waters.size.map(|side| side - waters.keep_in);
         Self { low: waters.keep_in, high, clearance, keep_outs: waters.keep_outs.clone() }
@@ -116,6 +117,7 @@ impl FreeWaters {
         (!clear).then_some(BoatLimit::KeepOut)
     }
 
+    /// m; below 0 beyond the margin of an edge.
     fn wall_margin(&self, p: [f64; 2]) -> f64 {
         let of = |axis: usize| (p[axis] - self.low).min(self.high[axis] - p[axis]);
         of(0).min(of(1))

@@ -3,6 +3,8 @@
 use crate::world::terrain::KeepOuts;
 
 /// The waters that boats move in: [0, size], places to keep out of, and a steady current.
+///
+/// World frame, origin in the south-west corner, x east, y north.
 #[derive(Debug, Clone)]
 pub struct BoatWaters {
     /// Edge lengths, east and north, m.

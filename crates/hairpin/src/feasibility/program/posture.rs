@@ -17,6 +17,8 @@ pub(super) fn within_limits(arm: &Arm, flange: &Isometry3<f64>, near: &Joints) -
 }
 
 /// Whether `q` has the configuration, quadrants as far as rounding lets one tell.
+///
+/// cf1, cf4, cf6 are ⌊angle / 90°⌋ of the axes; within 10⁻³ rad of a border both neighbours are right.
 pub(super) fn has(arm: &Arm, q: &Joints, configuration: &[i32; 4]) -> bool {
     let quadrant = |axis: usize, cf: i32| {
         let from = f64::from(cf) * std::f64::consts::FRAC_PI_2;

@@ -16,6 +16,8 @@ use crate::world::cell::Cell;
 ///
 /// `followed` + `ends_only` is the number of moves looked at; a program is executable if `findings` is empty and all
 /// moves were followed.
+///
+/// Nothing is executed: a program that passes is one that the arm can follow in its cell, blends aside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
     /// Moves that were looked at as a whole.

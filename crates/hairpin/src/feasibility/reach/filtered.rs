@@ -32,6 +32,8 @@ impl<N, R: Reach<N>, F: Fn(&N, &Leg<N>) -> bool> Reach<N> for Filtered<R, F> {
 /// pairs of a graph.
 ///
 /// 2 n² bits, of which those above the diagonal are used.
+///
+/// For n = 250 16 kB.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PairMask {
     points: usize,

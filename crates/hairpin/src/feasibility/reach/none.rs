@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 use super::step::StepSet;
 
 /// The whole space.
+///
+/// Nothing is claimed by it: cases keep the evidence [`crate::campaign`] calls unchecked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Everywhere;
 

@@ -33,6 +33,8 @@ const HEADINGS: u32 = 120;
 
 impl PlanarVehicle {
     /// `rover` at no more than `speed` (m/s), as fast in reverse if it may.
+    ///
+    /// Curvatures are the rover's limits; without `reverse` the least speed is 0.
     pub fn of(rover: &Rover, speed: f64, reverse: bool) -> Self {
         let limits = &rover.limits;
         let speed = speed.min(limits.speed);

@@ -9,6 +9,8 @@ use crate::trajectory::ProfileLeg;
 
 /// A node: a state of a waypoint and the waypoint before it, which the turn angle is seen from. Legs do not depend on
 /// `previous`, and are kept without it.
+///
+/// `Ord` is (previous, waypoint, velocity): ties of searches follow it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct WitnessNode {
     /// The waypoint before; equal to `waypoint` at the start.
@@ -27,6 +29,8 @@ pub(in crate::feasibility) struct Judged {
 }
 
 /// The legs of a roadmap that were judged so far; they serve every roadmap that is drawn alike.
+///
+/// One entry a state, `None` where nothing asked yet.
 #[derive(Debug)]
 pub struct WitnessLegs(pub(in crate::feasibility) Vec<Option<Arc<[Judged]>>>);
 
@@ -39,6 +43,8 @@ impl WitnessLegs {
 }
 
 /// Proves legs between states of one robot.
+///
+/// Quadrotors and boats: what roadmaps, walks and mending ask of a robot.
 pub(crate) trait ProveLegs {
     /// A state.
     type End;

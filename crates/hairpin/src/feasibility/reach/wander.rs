@@ -14,6 +14,8 @@ const BUDGET: u32 = 20_000;
 const DRAWS: u32 = 400;
 
 /// A walk, and the witness along it.
+///
+/// `waypoints` are as many as were asked for; the profile has one leg fewer.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Wandered {
     /// The waypoints it passes, both ends included.

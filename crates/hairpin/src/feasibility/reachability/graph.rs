@@ -51,6 +51,9 @@ impl ReachabilityGraph {
     }
 
     /// Whether the move is possible; from a point to itself none is.
+    ///
+    /// # Panics
+    /// If a point does not exist.
     pub fn is_free(&self, from: usize, to: usize) -> bool {
         from != to && self.reasons[from * self.points + to] == 0
     }
@@ -88,6 +91,8 @@ impl ReachabilityGraph {
     }
 
     /// Questions to obstacles per ordered pair.
+    ///
+    /// What the filter leaves for intervals shows in it; 0 without pairs.
     pub fn queries_per_pair(&self) -> f64 {
         let pairs = self.points * self.points.saturating_sub(1);
         if pairs == 0 { 0.0 } else { self.queries as f64 / pairs as f64 }

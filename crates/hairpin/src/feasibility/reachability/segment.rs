@@ -26,6 +26,8 @@ const MOST_PIECES: usize = 4000;
 
 impl Obstacle {
     /// Prepares a region.
+    ///
+    /// O(triangles) for hulls and meshes.
     pub fn new(region: Region) -> Self {
         let surface = match &region {
             Region::Shape(Shape::Hull(solid) | Shape::Mesh(solid)) => Some(Surface::of(solid)),

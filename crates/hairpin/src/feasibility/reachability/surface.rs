@@ -19,6 +19,8 @@ use crate::world::cell::Surface;
 const TOO_NEAR: f64 = 1e-6;
 
 /// See [`super::Obstacle::certify`].
+///
+/// A segment that is clear of all triangles is clear if one of its points is outside, and a hit if inside.
 pub(super) fn certify(surface: &Surface, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
     let undecided = Verdict::Undecided { at: 0.5, width: 1.0 };
     let Some(all) = Bounds::around(&surface.vertices) else { return undecided };
@@ -157,6 +159,8 @@ fn nearest(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>, d: &Point3<f64>) -
 }
 
 /// Whether the point at `t` is inside; `None` where it is too near to the surface to tell.
+///
+/// Inside where the nearest whole number is not 0; `None` as well where none is within 0.1.
 fn winding(surface: &Surface, a: &Point3<f64>, b: &Point3<f64>, t: f64, size: f64) -> Option<bool> {
     let p = a + (b - a) * t;
     let mut sum = 0.0;

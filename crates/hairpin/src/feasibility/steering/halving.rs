@@ -7,6 +7,8 @@ const WAITING: usize = 128;
 /// How hard the bound between samples tries.
 ///
 /// A larger budget decides more legs near their limits.
+///
+/// The worst case costs `budget` evaluations of four intervals; most legs take the first two batches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProofSettings {
     /// Equal intervals that a leg is cut into first; 4 … 64.

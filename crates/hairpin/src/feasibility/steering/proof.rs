@@ -22,6 +22,8 @@ use crate::trajectory::ProfileLeg;
 const ROUNDING: f64 = 1e-9;
 
 /// The body's limits as numbers to compare with.
+///
+/// What is compared is free of roots and angles: squares of rotor speeds, cos of the tilt.
 #[derive(Debug, Clone)]
 pub(super) struct BodyLimits {
     limits: Limits,
@@ -178,6 +180,8 @@ impl BodyLimits {
 }
 
 /// Root of |x| with the sign of x: a negative demand stays visible as a negative speed.
+///
+/// Only for what is told.
 fn signed_root(square: f64) -> f64 {
     square.abs().sqrt().copysign(square)
 }

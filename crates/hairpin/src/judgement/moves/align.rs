@@ -3,6 +3,9 @@
 //! d² = |Δp|² + (weight θ)², θ by the quaternions' chord: a move that only turns has a length, too. The whole alignment
 //! is one dynamic program of samples × poses; beyond a million cells every k-th sample is aligned first and the others
 //! between their neighbours.
+//!
+//! Data flow: [`Way::new`] lays the plan by length → `nearest` assigns samples to poses in their order → `progress`
+//! projects them between poses → distances of samples and points from the path about their pose.
 
 use std::ops::Range;
 
@@ -13,6 +16,9 @@ use crate::math::power::square;
 use crate::trajectory::{PlannedPath, Track};
 
 /// The planned path by distance: poses that differ, how far along each lies, and where moves end.
+///
+/// `poses` and `along` are of one length, without poses nearer than 10⁻⁹ m to the one before; `planned` has one entry
+/// a stamp of the plan.
 pub(super) struct Way {
     poses: Vec<Isometry3<f64>>,
     /// Length up to each, m: of position and weighted turn together.
@@ -34,6 +40,7 @@ const BESIDE: usize = 2;
 const MOST_CELLS: usize = 1 << 20;
 
 impl Way {
+    /// `weight` in m/rad.
     pub(super) fn new(path: &PlannedPath, weight: f64) -> Self {
         let (mut poses, mut along): (Vec<Isometry3<f64>>, Vec<f64>) = (Vec::new(), Vec::new());
         let mut kept = Vec::with_capacity(path.track().len());
@@ -60,6 +67,8 @@ impl Way {
     }
 
     /// The move that a length along the path belongs to.
+    ///
+    /// The first move that ends at or behind it; the last beyond all.
     pub(super) fn owner(&self, along: f64) -> usize {
         self.ends.partition_point(|end| *end < along).min(self.ends.len() - 1)
     }
@@ -91,6 +100,8 @@ impl Way {
         self.rising(recording, &all, &between)
     }
 
+    /// From the end of the move before the one before, to the end of the next: a recorder's word for its move may be
+    /// one off. Without the channel `move` the whole path.
     fn windows(&self, recording: &Track) -> Vec<Range<usize>> {
         let whole = 0..self.poses.len();
         let Some(moves) = recording.channel("move") else { return vec![whole; recording.len()] };
@@ -114,6 +125,7 @@ impl Way {
         self.rising_in(recording, samples, &narrowed(windows.iter().cloned(), cost))
     }
 
+    /// The dynamic program over rows of windows; what is kept of a row are bits and the last row's costs.
     fn rising_in(&self, recording: &Track, samples: &[usize], windows: &[Range<usize>]) -> Vec<usize> {
         // own[row][j − first]: the best up to j ends at j itself.
         let mut own: Vec<Vec<bool>> = Vec::with_capacity(samples.len());
@@ -152,6 +164,8 @@ impl Way {
     }
 
     /// How far along the path each sample has come at least, m.
+    ///
+    /// Never falls: what was passed stays passed. With it the pose that each sample belongs to.
     pub(super) fn progress(&self, recording: &Track) -> (Vec<f64>, Vec<usize>) {
         let nearest = self.nearest(recording);
         let mut furthest = 0.0f64;
@@ -179,6 +193,8 @@ impl Way {
     }
 
     /// Distance of a point from the path about the poses of `range`, m.
+    ///
+    /// Two poses more on either side, so that a segment at the range's border counts.
     pub(super) fn distance(&self, range: &Range<usize>, point: &Point3<f64>) -> f64 {
         let place = |i: usize| self.poses[i].translation.vector.into();
         let (first, last) = (range.start.saturating_sub(BESIDE), (range.end + BESIDE).min(self.poses.len() - 1));

@@ -8,6 +8,8 @@ use super::trend::Trend;
 use crate::judgement::Verdict;
 
 /// One program of a campaign.
+///
+/// Of the same program in both releases, by its digest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramComparison {
     /// As verdicts call it: `0003`.
@@ -19,6 +21,8 @@ pub struct ProgramComparison {
 }
 
 /// All programs of a campaign against a baseline. There is one at least.
+///
+/// Every program has the same two releases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regression {
     /// Releases that are known, oldest first: the last but one is the baseline, the last the new one.
@@ -40,6 +44,8 @@ impl Regression {
 
     /// Comparisons that chance alone puts outside their bands at this many standard deviations, were all releases
     /// equal: both sides, every metric of every move. Floors of the bands make it fewer.
+    ///
+    /// N erfc(σ/√2), N the number of comparisons: 0.27 % of them at 3 σ.
     pub fn expected_by_chance(&self, sigma: f64) -> f64 {
         let compared: usize = self.programs.iter().map(|one| one.comparison.compared.len()).sum();
         compared as f64 * libm::erfc(sigma / std::f64::consts::SQRT_2)
@@ -47,6 +53,8 @@ impl Regression {
 
     /// `3/48 moves outside the baseline's band, worst p17→p09 +41 ms (band ±6 ms)`; of several programs with the worst
     /// one's name.
+    ///
+    /// A move that is no longer completed is graver than any difference.
     pub fn outside(&self) -> String {
         let count = format!("{}/{} moves outside the baseline's band", self.count(Outcome::Worse), self.moves());
         let of = |one: &ProgramComparison| match self.programs.len() {
@@ -73,6 +81,9 @@ impl Regression {
 
     /// `verdict`, which was given by the limits alone (`limited`: there are some), with what the baseline says: a
     /// violation stays one, else a move that is worse makes a regression (1), and moves that are better are told.
+    ///
+    /// Exit code 1 stays 1; 0 becomes 1 where a move is worse; an inconclusive verdict becomes a regression too, with
+    /// its own sentence behind.
     pub fn join(&self, verdict: Verdict, limited: bool) -> Verdict {
         let (worse, better) = (self.count(Outcome::Worse), self.count(Outcome::Better));
         let baseline = &self.programs[0].comparison.baseline;
@@ -114,6 +125,7 @@ impl MoveComparison {
     }
 }
 
+/// In bands.
 fn beyond(one: &MoveComparison) -> f64 {
     one.difference() / one.band
 }

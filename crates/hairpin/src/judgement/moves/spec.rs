@@ -6,6 +6,8 @@ use crate::judgement::Violation;
 /// What is within spec. A limit that is `None` is not judged; a target that is not reached always is.
 ///
 /// Inside m and s; violations are told in mm and ms.
+///
+/// Both `None` judges nothing but whether targets are reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MoveLimits {
     /// Largest distance from the path, m.
@@ -18,6 +20,8 @@ const MILLI: f64 = 1e3;
 
 /// The violations of a recording in the order of its moves: `unreached`, `deviation` in mm, `arrival` in ms, the move
 /// in `leg`. After the first target that is not reached the later ones are not told.
+///
+/// A value at its limit is within it. `limit` of an unreached target is the number of targets.
 pub fn move_violations(measured: &Measured, limits: &MoveLimits) -> Vec<Violation> {
     let mut found = Vec::new();
     let violation = |what: &str, value: f64, limit: f64, unit: &str, at: f64, leg: usize| Violation {
@@ -53,6 +57,8 @@ pub fn move_violations(measured: &Measured, limits: &MoveLimits) -> Vec<Violatio
 /// limit.
 ///
 /// By value over limit: the move that used up the largest share of what it may.
+///
+/// `None` where nothing is limited and all targets are reached. Of equals the first.
 pub fn worst_of(runs: &[Measured], limits: &MoveLimits) -> Option<(usize, Violation)> {
     let mut worst: Option<(usize, Violation, f64)> = None;
     let mut offer = |run: usize, violation: Violation| {

@@ -5,6 +5,9 @@
 //! nothing is known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the
 //! median interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no
 //! sample.
+//!
+//! Data flow: plan and recording are aligned (`align`) → gaps, ends and moves without samples → each is held
+//! against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict open.
 
 use nalgebra::Point3;
 
@@ -15,6 +18,9 @@ use super::measure::{MeasureSettings, median, targets};
 use crate::trajectory::{PlannedPath, Track};
 
 /// What may have been between sample `i` and the one after it.
+///
+/// The arm's part: what joints can do between two samples, as the tool's point would show it. `i` is an index of the
+/// recording, not the last.
 pub trait Between {
     /// Farthest from the chord, m: a·h²/8.
     fn hidden(&self, i: usize) -> f64;
@@ -27,11 +33,15 @@ pub trait Between {
 }
 
 /// What a recording is held against.
+///
+/// Limits that are `None` are not looked at: what nothing limits, no gap leaves open.
 #[derive(Clone, Copy)]
 pub struct Hidden<'a> {
     /// Largest distance from the path, m.
+    /// As of [`super::MoveLimits::path`].
     pub path: Option<f64>,
     /// Latest arrival, s.
+    /// As of [`super::MoveLimits::late`].
     pub late: Option<f64>,
     /// How far what deviations are measured from may be from the planned path itself, m.
     pub corner: f64,
@@ -42,8 +52,10 @@ pub struct Hidden<'a> {
 }
 
 /// A gap is longer than so many median intervals.
+/// An even clock that stutters has none.
 const OUTLYING: f64 = 5.0;
 /// Share of a move, or of the plan, that may go unseen.
+/// Less cannot hide a move that would be judged by itself.
 const LEAST_SHARE: f64 = 0.1;
 /// Points of a chord that are looked at.
 const POINTS: usize = 32;
@@ -53,6 +65,11 @@ const MILLI: f64 = 1e3;
 ///
 /// # Errors
 /// As [`super::measure_moves`].
+///
+/// `recording` is in the plan's frame, m and s, both clocks from the same moment. Times in answers are the
+/// recording's.
+///
+/// At least two samples, and one move; else an error. Linear in the samples beside the alignment.
 pub fn unseen(
     path: &PlannedPath,
     recording: &Track,
@@ -74,6 +91,7 @@ pub fn unseen(
     Ok(look.all())
 }
 
+/// `progress` and `nearest` have one entry a sample, rising.
 struct Look<'a> {
     path: &'a PlannedPath,
     recording: &'a Track,
@@ -123,6 +141,7 @@ impl Look<'_> {
         }
     }
 
+    /// The interval after sample `i`.
     fn seconds(&self, i: usize) -> f64 {
         self.recording.times()[i + 1] - self.recording.times()[i]
     }
@@ -139,6 +158,7 @@ impl Look<'_> {
         self.path.passes(last).max(f64::MIN_POSITIVE)
     }
 
+    /// Moves from the first that is not over at its begin to the one that is under way at its end.
     fn gap(&self, i: usize) -> Gap {
         let (a, b) = (self.progress[i], self.progress[i + 1]);
         let last = self.way.owner(b);
@@ -170,6 +190,9 @@ impl Look<'_> {
     }
 
     /// How far off the path the arm may have been between two samples, m, where that is beyond the limit.
+    ///
+    /// The larger of both samples' deviations and those of 32 points of the chord, plus what bulges out of it, the
+    /// corner, and half a step of these points; a quick bound refuses most intervals first.
     fn beyond(&self, i: usize, limit: f64) -> Option<f64> {
         let poses = self.recording.poses();
         let measured =
@@ -186,6 +209,7 @@ impl Look<'_> {
         (most > limit).then_some(most)
     }
 
+    /// In mm, with what the bound rests on.
     fn told(&self, i: usize, most: f64, limit: f64) -> String {
         let gap = self.gap(i);
         let estimated = if self.hidden.estimated { ", estimated" } else { "" };
@@ -205,6 +229,7 @@ impl Look<'_> {
         seen.iter().enumerate().filter(|(_, seen)| !**seen).map(|(index, _)| index).collect()
     }
 
+    /// 0 … 1 of the plan's time.
     fn planned_share(&self, index: usize) -> f64 {
         let before = index.checked_sub(1).map_or(0.0, |before| self.path.passes(before));
         (self.path.passes(index) - before) / self.whole()
@@ -223,6 +248,9 @@ impl Look<'_> {
     }
 
     /// What is missing before the first sample and after the last.
+    ///
+    /// Only where the path is limited: a log may begin within the limit of the plan's begin, or in the first tenth of
+    /// its first move.
     fn ends(&self) -> Option<String> {
         let limit = self.hidden.path?;
         let (first, last) = (self.progress[0], self.progress[self.progress.len() - 1]);
@@ -255,6 +283,9 @@ impl Look<'_> {
 
     /// The arrival in a gap of which it is not known whether it is late, and whether its estimate is; and whether
     /// another one is late for certain.
+    ///
+    /// For each target in an outlying gap: late for certain if even the sample before it is, on time if the one after
+    /// it is; open in between.
     fn late(&self) -> (Option<(String, bool)>, bool) {
         let Some(limit) = self.hidden.late else { return (None, false) };
         let (times, mut unproven, mut proven) = (self.recording.times(), None, false);

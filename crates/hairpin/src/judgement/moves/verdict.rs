@@ -7,6 +7,8 @@ use super::spec::{MoveLimits, move_violations, worst_of};
 use crate::judgement::{Verdict, Violation};
 
 /// What is judged.
+///
+/// Plain data: what is said of a program's runs, whoever recorded them.
 #[derive(Debug, Clone, Copy)]
 pub struct JudgedMoves<'a> {
     /// How obtained, in order: `["simulated", "virtual controller", "irb120"]`.
@@ -25,6 +27,9 @@ pub struct JudgedMoves<'a> {
 /// nothing is limited.
 ///
 /// Exit codes as of all verdicts: 0 within spec, 1 a violation or a regression, 5 nothing to judge by.
+///
+/// A move counts as failed once, in however many runs it fails. The sentence names the worst value, its move, its
+/// time and its run.
 pub fn moves_verdict(judged: &JudgedMoves) -> Verdict {
     let moves = judged.runs.first().map_or(0, |run| run.moves.len());
     let mut failed: Vec<usize> = Vec::new();
@@ -76,6 +81,8 @@ fn worst_and_where(judged: &JudgedMoves, run: usize, violation: &Violation) -> S
 
 /// The largest of runs' offsets, each with the time between samples (s): one that was taken off, or one that every
 /// arrival of its run shares and that is told because it was not.
+///
+/// ms. An estimated offset is told where it is larger than the time between samples and known to half of itself.
 pub fn offset_told(offsets: impl Iterator<Item = (Offset, f64)>) -> Option<String> {
     let (offset, sample) = offsets.max_by(|a, b| a.0.seconds.abs().total_cmp(&b.0.seconds.abs()))?;
     let milliseconds = 1e3 * offset.seconds;

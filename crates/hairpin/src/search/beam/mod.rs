@@ -39,6 +39,11 @@ pub use settings::BeamSettings;
 /// the end.
 ///
 /// No bound on how far from the best an answer is: [`super::exact()`] has one.
+///
+/// Deterministic: ties by waypoint index, no draws. At most [`BeamSettings::iterations`] · [`BeamSettings::width`]
+/// expansions, of which each asks for the legs of one node (remembered) and scores them.
+///
+/// `may_arrive` prunes what cannot arrive; `|_, _| true` is always correct and only costs time.
 pub fn beam<N, R, O>(
     task: &Task<'_, N, R>,
     objective: &O,
@@ -56,6 +61,8 @@ where
 /// [`beam`] with scores that are not those of legs; `settings.aggregate` is not used.
 ///
 /// For scores of executions ([`super::in_loop::Executed`]): a growth may refuse to score, and says when to end.
+///
+/// `growth` is left as the search left it: executed scores keep what they measured there.
 pub fn beam_grown<N, R, G>(
     task: &Task<'_, N, R>,
     growth: &mut G,
@@ -73,6 +80,9 @@ where
 /// [`beam`], showing every iteration to `observe`.
 ///
 /// For figures: the golden test redraws the paper's fig. 4 from these snapshots.
+///
+/// `observe` is called after each iteration, on the caller's thread; copying and sorting the frontier for it is
+/// O(frontier · length) each time.
 pub fn beam_observed<N, R, O>(
     task: &Task<'_, N, R>,
     objective: &O,

@@ -27,6 +27,9 @@ struct Entry {
 }
 
 /// What an observer sees of an iteration: waypoint indices and scores, best first.
+///
+/// What fig. 4 of the paper shows: which partial trajectories were chosen, and what was put back. Indices are those
+/// of the task's candidates, each list begins with 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     /// Number of the iteration, from 1.

@@ -24,6 +24,7 @@ pub struct BeamSettings {
     /// Iterations after which the graph is given up: an infeasible graph may never end by itself.
     pub iterations: usize,
     /// Partial trajectories kept after an iteration; the worst are dropped and counted.
+    /// At 100 000 the memory of a graph is some tens of megabytes. 0 keeps nothing, and then nothing is found.
     pub frontier: usize,
     /// Of partial trajectories with equal length and node only the best so many are kept (*commutativity reduction*);
     /// `None` keeps all. Their futures are the same with revisits, if the objective has no memory, and then nothing
@@ -34,6 +35,7 @@ pub struct BeamSettings {
     pub keep: Option<usize>,
     /// Steps from the end within which it is known exactly whether the end can be reached (lazily computed backward
     /// pass over walks), at most 64; further away only `may_arrive` is asked.
+    /// 0 asks `may_arrive` alone. Costs at most legs · lookahead for the whole graph.
     pub lookahead: usize,
 }
 

@@ -34,6 +34,13 @@ pub use settings::ExactSettings;
 ///
 /// `found[..proven]` are the best there are; of later ones only `bound` is known. Two trajectories through other nodes
 /// of the same waypoints count once.
+///
+/// | `found` | `bound` | meaning |
+/// | --- | --- | --- |
+/// | some, `proven` ≥ 1 | their first score | the best |
+/// | some, `proven` = 0 | at least it | the best lies within [`Self::gap`] |
+/// | none | some | none was found; there may be one without revisits |
+/// | none | `None` | there is none |
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactOutcome<N> {
     /// Distinct trajectories, best first.
@@ -51,6 +58,8 @@ pub struct ExactOutcome<N> {
 
 impl<N> ExactOutcome<N> {
     /// How much better than the best one found a trajectory might be; 0: proven optimal.
+    ///
+    /// In the score's unit, at least 0; `None` where nothing was found or nothing exists.
     pub fn gap(&self) -> Option<f64> {
         Some((self.bound? - self.found.first()?.score).max(0.0))
     }
@@ -83,6 +92,9 @@ where
 /// Searches of one graph for several scores: what they share is done once.
 ///
 /// Several scores of one graph (all scores by hand, for a search in the loop) share its count and its trimming.
+///
+/// Made once a graph: without revisits the graph is copied and trimmed unless it was already
+/// ([`LegGraph::into_without_returns`]), then counted, O(legs · length).
 #[derive(Debug)]
 pub struct ExactSearch<'g, 'a, N: Copy> {
     graph: Cow<'g, LegGraph<'a, N>>,
@@ -93,6 +105,8 @@ pub struct ExactSearch<'g, 'a, N: Copy> {
 
 impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
     /// Prepares searches of `graph`, of whose `settings` those count that are not about scores.
+    ///
+    /// `settings.aggregate` is not used: [`Self::best`] and [`Scored::by`] are given theirs.
     pub fn new(graph: &'g LegGraph<'a, N>, settings: ExactSettings) -> Self {
         let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
         let walks = match settings.length {
@@ -104,18 +118,24 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
     }
 
     /// The best trajectories under `objective`, by each of `aggregates`.
+    ///
+    /// One scoring of all legs for all K aggregates; each has a dynamic program of its own.
     pub fn best<O: Additive, const K: usize>(&self, objective: &O, aggregates: [Aggregate; K]) -> [ExactOutcome<N>; K] {
         let scored = self.scored(objective);
         aggregates.map(|aggregate| scored.by(aggregate).best(self.settings.best))
     }
 
     /// The legs under `objective`.
+    ///
+    /// O(legs) calls of the objective, by rows. No call where there is no trajectory.
     pub fn scored<O: Additive>(&self, objective: &O) -> Scored<'_, 'g, 'a, N> {
         Scored { search: self, scores: (!self.walks.is_zero()).then(|| self.graph.scores(objective)) }
     }
 }
 
 /// The legs of a graph under one score.
+///
+/// Borrows the search; scores stay as they were asked, so that several aggregates and several counts share them.
 #[derive(Debug)]
 pub struct Scored<'s, 'g, 'a, N: Copy> {
     search: &'s ExactSearch<'g, 'a, N>,
@@ -125,6 +145,8 @@ pub struct Scored<'s, 'g, 'a, N: Copy> {
 
 impl<N: Copy> Scored<'_, '_, '_, N> {
     /// What trajectories can become whose legs add up as `aggregate` says.
+    ///
+    /// One backward pass, O(legs · length) time and nodes · length doubles.
     pub fn by(&self, aggregate: Aggregate) -> Ranking<'_, N> {
         let ExactSearch { graph, settings, walks, near_start } = self.search;
         let of = |scores| (scores, graph.values(settings.length, scores, aggregate, near_start));
@@ -134,6 +156,8 @@ impl<N: Copy> Scored<'_, '_, '_, N> {
 }
 
 /// The trajectories of a graph in the order of their scores: asking for more of them does over only what is different.
+///
+/// Nothing is kept from one call of [`Ranking::best`] to the next but the values.
 #[derive(Debug)]
 pub struct Ranking<'s, N: Copy> {
     graph: &'s LegGraph<'s, N>,
@@ -145,6 +169,9 @@ pub struct Ranking<'s, N: Copy> {
 
 impl<N: Copy> Ranking<'_, N> {
     /// The `count` best; 0 is taken as 1.
+    ///
+    /// At most [`ExactSettings::expansions`] expansions with proof; where that does not suffice for `count`, the beam
+    /// of `width` adds what it finds, without proof, behind those that are proven.
     pub fn best(&self, count: usize) -> ExactOutcome<N> {
         let (graph, walks, best) = (self.graph, self.walks, count.max(1));
         let Some((scores, values)) = &self.known else {

@@ -19,6 +19,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
     /// The end is the last candidate. `length` counts both ends; a graph serves all shorter lengths as well. Each node
     /// reached is one call of `reach`, which is nearly all of the time. With a step-wise set the nodes are pairs of
     /// waypoints, so up to n² of them.
+    ///
+    /// Lengths below 2, and graphs of fewer than two candidates, give the start's node alone, without legs.
     pub fn explore<R: Reach<N> + ?Sized>(start: N, candidates: &'a [Point3<f64>], reach: &R, length: usize) -> Self {
         Self::grow(start, candidates, length, |from, out| reach.legs(from, candidates, out)).trimmed(length)
     }
@@ -27,6 +29,8 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
     /// in the list is taken.
     ///
     /// For reach sets that were judged before, and for tests by enumeration.
+    ///
+    /// `to` of every leg must be a node at its `waypoint`: it is not asked. O(m log m) for m legs.
     pub fn from_legs(start: N, candidates: &'a [Point3<f64>], legs: &[(N, Leg<N>)], length: usize) -> Self {
         let mut order: Vec<u32> = (0..legs.len() as u32).collect();
         let key = |&i: &u32| {
@@ -107,6 +111,8 @@ impl<N: Copy> LegGraph<'_, N> {
 
     /// [`Self::without_returns`] of a graph that nobody needs as it was: dense graphs take hundreds of megabytes, which
     /// are cheaper kept than copied.
+    ///
+    /// The length is remembered, so that asking again for the same costs nothing. O(legs).
     pub fn into_without_returns(self, length: usize) -> Self {
         if self.without_returns == Some(length) {
             return self;

@@ -14,6 +14,8 @@ use super::LegGraph;
 /// A number of trajectories.
 ///
 /// `About` once a sum left 128 bits; from there on sums of doubles.
+///
+/// Equal only within a kind; compare by [`Count::as_f64`] where both may occur.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Count {
     /// To the last one.
@@ -24,11 +26,15 @@ pub enum Count {
 
 impl Count {
     /// Whether there is none: a proof.
+    ///
+    /// Only an exact 0 is one; 0 among doubles is not taken for a proof.
     pub fn is_zero(self) -> bool {
         self == Count::Exact(0)
     }
 
     /// The number, rounded.
+    ///
+    /// The relative error of an exact one is at most 2⁻⁵³.
     pub fn as_f64(self) -> f64 {
         match self {
             Count::Exact(count) => count as f64,
@@ -73,6 +79,9 @@ impl Counts {
     /// Walks of `legs` legs from the start to the end, that is trajectories of `legs` + 1 waypoints.
     ///
     /// `legs` below the length that the pass was made for.
+    ///
+    /// # Panics
+    /// If the pass has no layer of as many legs.
     pub fn from_start(&self, legs: usize) -> Count {
         self.layers[legs].at(0)
     }
@@ -87,6 +96,8 @@ impl<N: Copy> LegGraph<'_, N> {
     /// revisits; without them it is an upper bound. Lengths beyond the one the graph was built for are undercounted.
     ///
     /// O(legs · length) additions, one layer in memory.
+    ///
+    /// Items 0 and 1 are zero, as trajectories have two ends. `length` + 1 items.
     pub fn counts_by_length(&self, length: usize) -> Vec<Count> {
         let mut counts = vec![Count::Exact(0), Count::Exact(0)];
         let mut layer = self.last_layer();

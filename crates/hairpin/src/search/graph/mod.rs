@@ -11,6 +11,10 @@
 //! | explore from the start, breadth first | one look at the reach set a node |
 //! | trim to walks of the right length | two breadth-first passes |
 //! | count, value | legs · length additions |
+//!
+//! Data flow: a start's node and a reach set ([`LegGraph::explore`]), or a list of legs ([`LegGraph::from_legs`]) →
+//! breadth first to the length → trimmed to walks that arrive → [`LegGraph::counts`] and values (`value`), on which
+//! [`super::exact()`], [`super::uniform()`] and the loop's regrowing stand.
 
 mod build;
 mod count;
@@ -32,6 +36,20 @@ pub(super) use value::{LegScores, Values};
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
 ///
 /// Memory: 68 bytes a leg (target, duration, features), and the nodes. u32 numbers: at most four billion legs.
+///
+/// ```
+/// use hairpin::feasibility::reach::{Sphere, StepNode, StepReach, StepSettings};
+/// use hairpin::search::{Count, LegGraph};
+/// use nalgebra::Point3;
+///
+/// // Four points in a row, 1 m apart, legs of at most 2 m: 0-1-2-3 is one walk of four waypoints to the end.
+/// let points: Vec<Point3<f64>> = (0..4).map(|i| Point3::new(f64::from(i), 0.0, 1.0)).collect();
+/// let reach = StepReach::new(&Sphere { radius: 2.1 }, &points, StepSettings::default());
+/// let graph = LegGraph::explore(StepNode { previous: 0, current: 0 }, &points, &reach, 4);
+/// let counts = graph.counts_by_length(4);
+/// assert_eq!(counts[..3], [Count::Exact(0); 3]); // no leg of 3 m
+/// assert_eq!(counts[3], Count::Exact(2)); // 0-1-3, 0-2-3
+/// ```
 #[derive(Debug, Clone)]
 pub struct LegGraph<'a, N> {
     candidates: &'a [Point3<f64>],
@@ -56,11 +74,15 @@ struct Details {
 
 impl<'a, N: Copy> LegGraph<'a, N> {
     /// Number of nodes.
+    ///
+    /// At least 1: the start's stays even where nothing leads on from it.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
 
     /// Number of legs: for step-wise sets, of feasible triples that a walk from the start can meet.
+    ///
+    /// 0 proves that there is no trajectory of the length that the graph was built for, nor of a shorter one.
     pub fn legs(&self) -> usize {
         self.to.len()
     }
@@ -71,18 +93,26 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     }
 
     /// The waypoint index of `node`.
+    ///
+    /// An index into [`Self::candidates`].
+    ///
+    /// # Panics
+    /// If there is no such node.
     pub fn waypoint(&self, node: u32) -> u32 {
         self.waypoints[node as usize]
     }
 
+    /// The reach set's node behind a number.
     pub(super) fn node(&self, node: u32) -> N {
         self.nodes[node as usize]
     }
 
+    /// Numbers of legs; empty for nodes at the end that nothing leads on from.
     pub(super) fn legs_from(&self, node: u32) -> Range<usize> {
         self.first[node as usize] as usize..self.first[node as usize + 1] as usize
     }
 
+    /// Node that the leg leads to.
     pub(super) fn target(&self, leg: usize) -> u32 {
         self.to[leg]
     }
@@ -95,6 +125,8 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     }
 
     /// The node that a leg starts from.
+    ///
+    /// By halving over the rows: O(log nodes).
     pub(super) fn source(&self, leg: u32) -> u32 {
         (self.first.partition_point(|&first| first <= leg) - 1) as u32
     }
@@ -114,14 +146,17 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         Some(legs)
     }
 
+    /// Whether its waypoint is the last candidate. A reach set may have many nodes there (by entry).
     pub(super) fn at_end(&self, node: u32) -> bool {
         self.waypoint(node) as usize + 1 == self.candidates.len()
     }
 
+    /// s.
     pub(super) fn duration(&self, leg: usize) -> f64 {
         self.details[leg].duration
     }
 
+    /// `from` must be the node that `leg` starts from: it is not looked up, since rows are walked anyway.
     pub(super) fn view(&self, from: u32, leg: usize) -> LegView<'a> {
         let Details { duration, features } = self.details[leg];
         let to = self.waypoint(self.target(leg));

@@ -2,6 +2,9 @@
 //!
 //! Places are drawn uniformly at first; the best one is then improved by a (1+1) evolution strategy whose step follows
 //! success (Rechenberg's one in five).
+//!
+//! Derivative-free and scale-free: only the order of stresses is used, so that a plateau or a jump (a crash) does no
+//! harm.
 
 use rand::RngExt;
 
@@ -17,6 +20,8 @@ const STEPS: [f64; 2] = [0.3, 1e-3];
 /// The answer.
 ///
 /// `best_so_far` never falls; a trial of several executions has as many entries.
+///
+/// All entries of `place` are within −1 … 1 and as `bound` left them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Climbed {
     /// The most stressful place, if one was better than the first.
@@ -36,6 +41,21 @@ pub struct Climbed {
 ///
 /// `start` and places have as many coordinates as what surrounds the trajectory has numbers. Draws are 2 of 5
 /// executions; then σ begins at 0.3, grows by 1.5 on success, shrinks by 1.5^(−1/4) else, within 10⁻³ … 0.6.
+///
+/// Fewer executions than `per_trial` give the first place back, unexecuted. A failed execution counts as one and as
+/// no success.
+///
+/// ```
+/// use hairpin::search::in_loop::{Trial, climb};
+///
+/// // Stress falls with the distance from (0.5, −0.5): found within a tenth by 200 executions.
+/// let stress = |x: &[f64]| -((x[0] - 0.5).powi(2) + (x[1] + 0.5).powi(2));
+/// let trial = |stress| Trial { stress, worst_leg: 0, executions: 1 };
+/// let first = trial(stress(&[0.0, 0.0]));
+/// let answer = climb(&[0.0, 0.0], first, 1, [200, 1], |_| {}, |place, _| Some(trial(stress(place))));
+/// let place = answer.place.unwrap();
+/// assert!((place[0] - 0.5).hypot(place[1] + 0.5) < 0.1 && answer.best_so_far.len() == 200);
+/// ```
 pub fn climb(
     start: &[f64],
     trial: Trial,

@@ -28,6 +28,9 @@ const NEARBY: f64 = 0.4;
 /// What is asked for.
 ///
 /// `executions` counts failed ones too, so that it bounds the time.
+///
+/// `length` is at least 2. Where a trial may take several executions (repetitions of what leads), the last ones may
+/// stay unused: none is begun that could go beyond the budget.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvolveSettings {
     /// Waypoints of a trajectory, both ends included.
@@ -37,6 +40,7 @@ pub struct EvolveSettings {
     /// Executions of one trial at most.
     pub per_trial: u64,
     /// Trajectories that may have children.
+    /// 0 is taken as 1. Small pools converge, large ones spend executions on what is not stressful.
     pub pool: usize,
     /// Whether a waypoint may be used twice.
     pub revisits: bool,
@@ -60,6 +64,9 @@ pub struct Tested<N> {
 }
 
 /// The answer.
+///
+/// `pool` has at most [`EvolveSettings::pool`] entries, pairwise different in their legs; `best_so_far` one for each
+/// execution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evolved<N> {
     /// The pool, the most stressful first.
@@ -68,6 +75,7 @@ pub struct Evolved<N> {
     pub best_so_far: Vec<f64>,
 }
 
+/// `legs` are numbers of the graph's legs, from the start on.
 struct Member {
     legs: Vec<u32>,
     trial: Trial,
@@ -210,6 +218,8 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
     }
 
     /// One of the pool, better ones more often.
+    ///
+    /// u² of the pool: the first quarter has half of the children.
     fn parent(&mut self) -> usize {
         let u = unit(&mut self.rng);
         ((u * u) * self.pool.len() as f64) as usize

@@ -46,6 +46,8 @@ pub struct ShiftSettings {
 }
 
 /// The answer.
+///
+/// `best_so_far` never falls and has one entry for each execution; it is empty where no waypoint may move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shifted<P> {
     /// The most stressful plan, if one was better than the first.
@@ -67,6 +69,25 @@ pub struct Shifted<P> {
 /// x′ = x + σ n for 1 … 3 waypoints in a row (3 of 10 changes); one waypoint anew at neighbour + f · longest leg in a
 /// uniform direction (5 of 10); or 1 … 3 drawn towards a neighbour by the factor f (2 of 10), f = 0.05^u, u uniform. σ
 /// at the end is handed back, so that a search can be gone on with. `trial.worst_leg` says where to look.
+///
+/// `points` have both ends, m; the first never moves, the last only with `free_end`. With no waypoint that may move,
+/// or no execution, the first trial is the answer and `plan` is `None`.
+///
+/// ```
+/// use hairpin::search::in_loop::{ShiftSettings, Trial, shift};
+/// use nalgebra::Point3;
+///
+/// // One waypoint between two ends, in a box of 2 m: the longest way goes by one of its corners.
+/// let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]].map(|[x, y]| Point3::new(x, y, 0.0));
+/// let inside = |p: &[Point3<f64>]| p.iter().all(|p| (p.x - 1.0).abs() <= 1.0 && p.y.abs() <= 1.0 && p.z == 0.0);
+/// let flat = |p: &[Point3<f64>]| p.iter().map(|p| Point3::new(p.x, p.y, 0.0)).collect::<Vec<_>>();
+/// let length = |p: &[Point3<f64>]| p.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum::<f64>();
+/// let trial = |stress| Trial { stress, worst_leg: 0, executions: 1 };
+/// let settings = ShiftSettings { executions: 200, per_trial: 1, step: 0.2, largest: 1.0, free_end: false };
+/// let feasible = |p: &[Point3<f64>]| inside(&flat(p)).then(|| flat(p));
+/// let moved = shift(&points, trial(length(&points)), 1, &settings, feasible, |plan, _| Some(trial(length(plan))));
+/// assert!(moved.trial.stress > 3.0); // 1 + √5 = 3.24 m at a corner, 2 m straight on
+/// ```
 pub fn shift<P>(
     points: &[Point3<f64>],
     trial: Trial,
@@ -119,6 +140,8 @@ pub fn shift<P>(
 /// `points` with one or a few of those before `last` changed, the first never; mostly those at the worst leg.
 ///
 /// `last` is the first index that must stay, or the number of points.
+///
+/// The same three changes as those of [`crate::search::worst`], with σ in m and the last waypoint free on request.
 fn moved(points: &[Point3<f64>], worst_leg: usize, last: usize, step: f64, rng: &mut Stream) -> Vec<Point3<f64>> {
     let kind = unit(rng);
     let places = kind < PLACED;

@@ -8,6 +8,8 @@ use super::scale::{Placed, Scale, Trace};
 use crate::search::in_loop::Trial;
 
 /// An executed trajectory.
+///
+/// `placed` is computed once, as it is compared with every other member each time that standing is settled anew.
 #[derive(Debug, Clone)]
 pub(super) struct Member<P> {
     pub(super) plan: P,
@@ -16,10 +18,15 @@ pub(super) struct Member<P> {
     /// Step of its moved waypoints, as a share of its mean leg.
     pub(super) step: f64,
     /// Its number among all that were executed.
+    /// It names the member when ranks are asked; it is the index of its first execution.
     pub(super) number: u64,
 }
 
 /// Executed trajectories in the order of their stress, of which some stand.
+///
+/// Invariant after [`Archive::take`]: `members` falls in stress, `standing` rises, any two standing
+/// [`Archive::differ`], and every member before the last standing one that does not stand is nearer than `apart` to
+/// one that stands before it.
 pub(super) struct Archive<P> {
     /// The most stressful first, the first of equals first.
     members: Vec<Member<P>>,
@@ -31,22 +38,30 @@ pub(super) struct Archive<P> {
     /// How many stand at most.
     most: usize,
     /// How many are kept for each that may stand: what steps up where one falls.
+    /// 8: a member falls when a more stressful one comes near it, and with it the members that it held down may rise.
     spare: usize,
 }
 
 impl<P> Archive<P> {
     /// Of `most` trajectories at most that stand `apart` by `scale`.
+    ///
+    /// `apart` is in the units of [`Scale::apart`]; `most` of 0 is taken as 1.
     pub(super) fn new(scale: Scale, apart: f64, most: usize) -> Self {
         Self { members: Vec::new(), standing: Vec::new(), scale, apart, most: most.max(1), spare: 8 }
     }
 
     /// Whether two trajectories are far enough apart to stand both.
+    ///
+    /// Distance ≥ `apart`, and above 0 also where `apart` is 0: two equal traces are never two cases.
     pub(super) fn differ(&self, one: &Placed, other: &Placed) -> bool {
         let apart = self.scale.apart(one, other);
         apart >= self.apart && apart > 0.0
     }
 
     /// Takes `new` over; who stands afterwards is [`Self::standing`].
+    ///
+    /// In the order of `new`, which decides among equal stresses: the earlier one leads. Stresses must be numbers;
+    /// `offer` has sorted out those that are not.
     pub(super) fn take(&mut self, new: Vec<Member<P>>) {
         for member in new {
             let place = self.members.partition_point(|known| known.trial.stress >= member.trial.stress);
@@ -67,6 +82,8 @@ impl<P> Archive<P> {
     }
 
     /// The place of execution number `number` among those that stand.
+    ///
+    /// 0 is the most stressful. `None` where it fell, was held down by a near one, or was forgotten.
     pub(super) fn rank(&self, number: u64) -> Option<usize> {
         self.standing().position(|member| member.number == number)
     }
@@ -77,6 +94,9 @@ impl<P> Archive<P> {
     }
 
     /// The stress of number `count` of those that stand, counted from 1; −∞ where fewer do.
+    ///
+    /// What an execution has to come to in order to be of use: [`Field::run`](super::Field::run) is told it. −∞ for a
+    /// `count` of 0.
     pub(super) fn least(&self, count: usize) -> f64 {
         count
             .checked_sub(1)
@@ -84,6 +104,7 @@ impl<P> Archive<P> {
             .map_or(f64::NEG_INFINITY, |place| self.members[*place].trial.stress)
     }
 
+    /// Settles who stands: greedily in the order of stress. O(members · standing) distances.
     fn clear(&mut self) {
         let mut standing: Vec<usize> = Vec::with_capacity(self.most);
         for (place, member) in self.members.iter().enumerate() {

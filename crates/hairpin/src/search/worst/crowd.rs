@@ -1,10 +1,15 @@
 //! Many trajectories on one scale, compared with one another.
+//!
+//! The same distances as [`Scale::apart`](super::Scale::apart), in SIMD lanes: for sums over all pairs, and for
+//! greedy choices that need one row of distances after another.
 
 use super::lanes::{Centred, Lanes, over_pairs};
 use super::scale::{Placed, Scale, roots};
 use crate::trajectory::Route;
 
 /// Trajectories on a scale, to be compared by the million.
+///
+/// Memory: 72 coordinates and the measures of each, twice.
 #[derive(Debug, Clone)]
 pub struct Crowd {
     scale: Scale,
@@ -15,6 +20,8 @@ pub struct Crowd {
 
 impl Crowd {
     /// Of `placed`, which stand on `scale`.
+    ///
+    /// Numbers in the crowd are indices into `placed`, all of which `scale` must have placed.
     pub fn new(scale: &Scale, placed: &[Placed]) -> Self {
         let (ways, shares): (Vec<_>, Vec<_>) = placed.iter().map(Placed::vectors).map(|[w, s]| (w, s)).unzip();
         Self::of(scale.clone(), ways, shares)
@@ -27,12 +34,22 @@ impl Crowd {
     }
 
     /// How far each is from number `one`, to the bits of [`Scale::apart`].
+    ///
+    /// Entry k belongs to number k; its own is 0. O(n).
+    ///
+    /// # Panics
+    /// If there is no number `one`.
     pub fn from(&self, one: usize) -> Vec<f64> {
         let [ways, behaviours] = [0, 1].map(|part| self.lanes[part].squares_from(one));
         ways.into_iter().zip(behaviours).map(|(way, other)| self.scale.mean(roots([way, other]))).collect()
     }
 
     /// Those of these numbers.
+    ///
+    /// On the same scale, in the order given; number k of the new crowd is `numbers[k]` of this one.
+    ///
+    /// # Panics
+    /// If one of them does not exist.
     pub fn some(&self, numbers: &[usize]) -> Self {
         let of = |vectors: &[Vec<f64>]| numbers.iter().map(|number| vectors[*number].clone()).collect();
         Self::of(self.scale.clone(), of(&self.ways), of(&self.shares))
@@ -42,6 +59,10 @@ impl Crowd {
     /// two.
     ///
     /// O(n²) products of numbers on all threads, O(n) memory.
+    ///
+    /// The mean is taken from ‖x‖² + ‖y‖² − 2 x·y, which loses digits where two are alike; the least therefore is
+    /// looked for among the blocks that come within 10⁻⁶ of the smallest, and computed from differences. The same on
+    /// any number of threads.
     pub fn spread(&self) -> (f64, f64) {
         let count = self.ways.len();
         if count < 2 {

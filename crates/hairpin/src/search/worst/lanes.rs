@@ -1,5 +1,9 @@
 //! Vectors side by side in lanes, so that all pairs of them can be compared: what is asked of two is answered to the
 //! same bits, only sums over all pairs are added up another way.
+//!
+//! Eight vectors make a block: coordinate k of all eight lies side by side, so that one instruction serves eight
+//! pairs. Four vectors of a block are compared with each other block at once, which keeps 32 sums in registers.
+//! [`Outlines`] and their bound save most of the pairs where only the largest distance is asked for.
 
 use rayon::prelude::*;
 
@@ -18,6 +22,8 @@ const ALIKE: f64 = 1e-6;
 type Pairs = [[f64; LANES]; ROWS];
 
 /// Vectors of equal size, block by block, coordinate by coordinate; the last block is filled up with the first vector.
+///
+/// `values[(block · size + k) · 8 + lane]` is coordinate k of vector 8 · block + lane.
 #[derive(Debug, Clone)]
 pub(super) struct Lanes {
     count: usize,
@@ -45,6 +51,7 @@ impl Lanes {
         self.count.div_ceil(LANES)
     }
 
+    /// ‖x − y‖² of vectors `first` … `first` + 3 of block `own` with all of the first `out.len()` blocks.
     fn squares(&self, own: usize, first: usize, out: &mut [Pairs]) {
         if self.size == 0 {
             return;
@@ -61,6 +68,9 @@ impl Lanes {
 
     /// The largest ‖x − y‖² + (`left` of x + `left` of y)² of the vectors of a block with those of it and of all
     /// before.
+    ///
+    /// With all of `left` 0 it is a largest distance, with what outlines leave out a bound of it: (ρ + ρ′)² is added
+    /// since the left-out parts may point away from each other.
     fn most_of(&self, own: usize, left: &[f64]) -> f64 {
         let mut pairs = vec![[[0.0; LANES]; ROWS]; own + 1];
         let mut most = [0.0; LANES];
@@ -82,6 +92,9 @@ impl Lanes {
     /// The largest ‖x − y‖² of all pairs.
     ///
     /// Blocks are looked at in the order of what `outlines` say of them, until they say that none is left.
+    ///
+    /// Exact, not a bound: only blocks whose bound, less a share of 10⁻⁹ for rounding, is below a distance that was
+    /// found are left out. O(n²) bounds of few numbers always; whole vectors in the worst case too.
     pub(super) fn largest_square(&self, outlines: &Outlines) -> f64 {
         let all: Vec<usize> = (0..self.blocks()).collect();
         let bound = |own: &usize| (outlines.vectors.most_of(*own, &outlines.left), *own);
@@ -101,6 +114,8 @@ impl Lanes {
 
 /// Shorter vectors, each with the length ρ of what they leave out: those that they stand for are never farther apart
 /// than √(‖x − y‖² + (ρ + ρ')²).
+///
+/// By Pythagoras ‖x − y‖² = ‖short(x) − short(y)‖² + ‖rest(x) − rest(y)‖², and the last norm is at most ρ + ρ′.
 #[derive(Debug, Clone)]
 pub(super) struct Outlines {
     vectors: Lanes,
@@ -109,6 +124,9 @@ pub(super) struct Outlines {
 
 impl Outlines {
     /// The components of `vectors` along the orthonormal `directions`.
+    ///
+    /// ρ² = ‖v‖² − ‖short(v)‖², taken a little larger so that rounding never makes the bound too small; `vectors`
+    /// must not be empty.
     pub(super) fn new(vectors: &[Vec<f64>], directions: &[Vec<f64>]) -> Self {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let short: Vec<Vec<f64>> = vectors.iter().map(|v| directions.iter().map(|d| dot(v, d)).collect()).collect();
@@ -132,6 +150,8 @@ kernel! {
     }
 }
 
+/// Sums have one order, that of [`Scale::apart`](super::Scale::apart): groups of three coordinates first, then one
+/// group after another, at every SIMD level.
 #[inline(always)]
 fn squares<const GROUP: usize>(own: &[f64], first: usize, other: &[f64]) -> Pairs {
     let mut total = [[0.0; LANES]; ROWS];
@@ -160,6 +180,8 @@ pub(super) fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
 
 /// Vectors around their mean, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: half the work of differences,
 /// and as exact but where two are alike.
+///
+/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are.
 #[derive(Debug, Clone)]
 pub(super) struct Centred {
     lanes: Lanes,
@@ -183,6 +205,8 @@ impl Centred {
 /// may be nearest to one before them.
 ///
 /// Of each block a sum; they are added up in their order, on any number of threads.
+///
+/// Each pair once, and none of a vector with itself or with what fills up the last block.
 pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<usize>) {
     let (count, blocks) = (parts[0].lanes.count, parts[0].lanes.blocks());
     let parts = parts.map(|part| (part.lanes.values.as_slice(), part.squares.as_slice()));
@@ -236,6 +260,7 @@ kernel! {
     }
 }
 
+/// x·y of four vectors of one block with the eight of another.
 #[inline(always)]
 fn dots(own: &[f64], first: usize, other: &[f64]) -> Pairs {
     let mut total = [[0.0; LANES]; ROWS];

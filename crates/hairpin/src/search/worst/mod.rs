@@ -38,35 +38,60 @@ pub use self::settings::WorstSettings;
 use super::in_loop::Trial;
 
 /// Pairs of draws that may be nearer than two that stand.
+/// Small enough that a hard place may hold several cases, large enough that near copies of one trajectory are one.
 const QUANTILE: f64 = 0.1;
 /// Parents at least.
+/// Where few cases are asked for: a search that changes only one or two parents is caught at the next peak.
 const PARENTS: usize = 12;
 
 /// A trajectory that was found.
+///
+/// One of [`Worst::found`]. `trial.stress` is finite: what is not is held as not measured before any archive sees it.
 #[derive(Debug, Clone)]
 pub struct Found<P> {
     /// The plan.
+    /// Feasible, as all plans of a [`Field`] are; cloned from the archive.
     pub plan: P,
     /// The target that it was kept for.
+    ///
+    /// An index into [`Ran::trials`], below [`WorstSettings::targets`].
     pub target: usize,
     /// Its execution, by that target.
+    /// As it was measured in the search: a maximum over many noisy executions is biased upwards, so that what is
+    /// reported is better executed anew.
     pub trial: Trial,
 }
 
 /// The answer.
+///
+/// Everything that statistics of the search need is in it: a caller who compares with random testing takes the
+/// executions of draws, not all of them, for the baseline.
 #[derive(Debug, Clone)]
 pub struct Worst<P> {
     /// In turns for each target, the most stressful first, no two nearer than `apart`.
+    ///
+    /// At most [`WorstSettings::cases`]; fewer where fewer differ, or where the executions do not suffice for as
+    /// many.
     pub found: Vec<Found<P>>,
     /// The stresses of each execution, one for each target, in order; `None` of those that failed.
+    ///
+    /// A trial of several executions has as many equal entries, so that an index is a number of executions. NaN where
+    /// a target was not measured.
     pub stresses: Vec<Option<Vec<f64>>>,
     /// Executions before anything was changed: of seeds and draws, which fix the scale.
+    ///
+    /// An index into `stresses`: everything behind it is due to changes.
     pub first: u64,
     /// Executions of all trajectories that were drawn at random.
     pub drawn: u64,
     /// The least distance of two that are found: the 10 % quantile of the distances of those drawn first.
+    ///
+    /// On the scale of [`Scale`], without unit, 0 … about 1. 0 where fewer than two draws were executed; then only
+    /// what is not equal on the scale counts as different.
     pub apart: f64,
     /// Why nothing was found, in a sentence's part.
+    ///
+    /// The reason of the last draw that gave no plan; `None` as soon as one trajectory was found.
     pub nothing: Option<String>,
 }
 
@@ -76,6 +101,22 @@ pub struct Worst<P> {
 /// Where there are several targets each has an archive of its own, every execution is offered to all, and a portfolio
 /// says for which one a round is made: one plain sum or minimum of them would let one hide the others. Source: Zhang,
 /// Hasuo, Arcaini, Multi-armed bandits for Boolean connectives in hybrid system falsification, CAV 2019.
+///
+/// Three stages. *First* executes seeds and draws: a tenth of the executions, and 20 where at least 40 are paid for.
+/// Their traces fix the scale and `apart`. *Evolve* makes rounds: one target (drawn by its success), a change for
+/// each place of the round (drawn by its success for that target), children made in parallel and without execution,
+/// then what is new executed in parallel, then taken over in the order of places. *Deal* takes the most stressful of
+/// each archive in turn.
+///
+/// It ends after the last execution that is paid for, after 20 rounds in a row that execute nothing new, when no
+/// archive has a member, or when `stopped` says so; what was executed until then is the answer in each case.
+/// `stopped` is asked before every execution, from any thread; `told` is called on the caller's.
+///
+/// Deterministic in `field` and `settings` on any number of threads, as long as `stopped` does not end it: each place
+/// of a round has a stream of its own (`named_seed(seed, "worst", place)`), each round's target likewise.
+///
+/// Cost beside executions: O(n²) distances of the first traces, and for each taken trajectory as many distances as
+/// there are standing ones, at most max(12, 5/4 cases).
 pub fn worst<F: Field>(
     field: &F,
     settings: &WorstSettings,
@@ -99,6 +140,9 @@ pub fn worst<F: Field>(
 }
 
 /// `count` of what stands, from each archive in turn, that differ also from each other.
+///
+/// A trajectory is kept once, for the first target that takes it: what another archive took is nearer than `apart` to
+/// itself.
 fn dealt<P: Clone>(archives: &[Archive<P>], count: usize) -> Vec<Found<P>> {
     let mut standing: Vec<_> = archives.iter().map(Archive::standing).collect();
     let mut chosen: Vec<(usize, &Member<P>)> = Vec::with_capacity(count);

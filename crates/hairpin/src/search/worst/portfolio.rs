@@ -12,6 +12,10 @@ const LEAST: f64 = 0.25;
 const MEMORY: f64 = 0.97;
 
 /// Shares of changes.
+///
+/// Rewards are 0 … 1 and not stationary: what pays early (draws, crossings) does not pay late (steps). Shares
+/// therefore follow an exponential mean of the last thirty or so trials, and none falls below a quarter of an even
+/// one, so that what begins to pay is noticed.
 #[derive(Debug, Clone)]
 pub(super) struct Portfolio {
     /// Mean reward of each, the last ones weighing most.
@@ -20,6 +24,8 @@ pub(super) struct Portfolio {
 
 impl Portfolio {
     /// Of `count` changes, all of them promising.
+    ///
+    /// All begin at 0.3: about what a child is worth that becomes a parent.
     pub(super) fn new(count: usize) -> Self {
         Self { success: vec![0.3; count] }
     }
@@ -27,6 +33,8 @@ impl Portfolio {
     /// One of the changes.
     ///
     /// P = least / n + (1 − least) s / Σ s.
+    ///
+    /// An index below `count`; one uniform number is taken from `random`. With all successes at 0 shares are even.
     pub(super) fn draw(&self, random: &mut Stream) -> usize {
         let count = self.success.len() as f64;
         let all: f64 = self.success.iter().sum();
@@ -42,6 +50,8 @@ impl Portfolio {
     }
 
     /// Change `number` came to `reward`, 0 … 1.
+    ///
+    /// s ← 0.97 s + 0.03 · reward.
     pub(super) fn reward(&mut self, number: usize, reward: f64) {
         let success = &mut self.success[number];
         *success = MEMORY * *success + (1.0 - MEMORY) * reward;

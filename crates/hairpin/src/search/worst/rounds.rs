@@ -1,4 +1,8 @@
 //! Executions, round by round: draws first, then changes of what stands.
+//!
+//! Within a round nothing learns: parents, shares and the least stress are those from before it, and results are
+//! taken over in the order of places. That is what makes the answer independent of threads; it costs a little, since
+//! a round's children do not know of each other.
 
 use std::collections::HashSet;
 
@@ -19,6 +23,7 @@ const DRAWN: u64 = 10;
 /// Executions of that kind at least, where there are twice as many in all.
 const LEAST_DRAWN: u64 = 20;
 /// Places of a round, at least and at most, and rounds that the executions suffice for.
+/// Small rounds learn sooner, large ones keep more threads busy.
 const PLACES: [u64; 2] = [8, 64];
 const ROUNDS: u64 = 40;
 /// Rounds in a row in which nothing new could be executed before the field counts as used up.
@@ -29,6 +34,8 @@ const DRAWS: u64 = 50;
 const REWARD: f64 = 0.3;
 
 /// The search as far as it has come.
+///
+/// `stresses` grows by the executions of each trial, in the order of places: its length is the budget used.
 pub(super) struct Search<'a, F: Field> {
     field: &'a F,
     settings: &'a WorstSettings,
@@ -57,6 +64,8 @@ pub(super) struct Executed<P> {
 }
 
 /// What is executed is offered to the archive of each target.
+///
+/// One execution may stand in several archives; what a target did not measure (NaN) is not offered to its archive.
 pub(super) fn offer<P: Clone>(archives: &mut [Archive<P>], executed: Vec<Executed<P>>) {
     for (target, archive) in archives.iter_mut().enumerate() {
         let measured = executed.iter().filter(|executed| !executed.trials[target].stress.is_nan());
@@ -73,6 +82,8 @@ pub(super) fn offer<P: Clone>(archives: &mut [Archive<P>], executed: Vec<Execute
 }
 
 /// What became of a place of a round.
+///
+/// `change` is an index into the changes of the field, and is rewarded with 0 where `child` is `None`.
 struct Slot<P> {
     change: usize,
     child: Option<Child<P>>,
@@ -91,6 +102,8 @@ impl<'a, F: Field> Search<'a, F> {
     }
 
     /// How many more trials are paid for.
+    ///
+    /// A trial is paid for in full before it is begun, whatever it takes in the end.
     fn left(&self) -> u64 {
         self.settings.executions.saturating_sub(self.executions()) / self.settings.per_trial.max(1)
     }
@@ -106,6 +119,9 @@ impl<'a, F: Field> Search<'a, F> {
     }
 
     /// What is executed before anything is changed: seeds and draws.
+    ///
+    /// Draws go on in batches until enough were executed, at most 50 draws for each that is wanted. Seeds come first
+    /// and may use the budget up.
     pub(super) fn first(&mut self, told: &dyn Fn(u64)) -> Vec<Executed<F::Plan>> {
         let executions = self.settings.sized_for;
         let wanted = (executions / DRAWN).max(LEAST_DRAWN.min(executions / 2)).max(1);
@@ -134,6 +150,9 @@ impl<'a, F: Field> Search<'a, F> {
     }
 
     /// Rounds of changes, each for one target.
+    ///
+    /// Reward of a child that stands as number r of the cases, from 0: 1 − 0.7 r / cases; 0.3 for one that stands
+    /// behind them; 0 else. The target of the round gets the same rewards as the change.
     pub(super) fn evolve(&mut self, archives: &mut [Archive<F::Plan>], told: &dyn Fn(u64)) {
         let changes: &[Change] = if self.field.moves() { &Change::ALL } else { &Change::OF_GRAPHS };
         let mut portfolios = vec![Portfolio::new(changes.len()); archives.len()];
@@ -179,6 +198,8 @@ impl<'a, F: Field> Search<'a, F> {
     }
 
     /// The children of one round.
+    ///
+    /// Draw numbers and places are given out before the parallel part, one of each a place, used or not.
     fn round(&mut self, archive: &Archive<F::Plan>, changes: &[Change], portfolio: &Portfolio) -> Vec<Slot<F::Plan>> {
         let count = self.places().min(self.left());
         let (first, draws) = (self.slots, self.draws);
@@ -198,6 +219,9 @@ impl<'a, F: Field> Search<'a, F> {
     }
 
     /// Executes what was not executed before; what failed, or was known, is `None`.
+    ///
+    /// As many entries as `children`, in their order. Of equal fingerprints in one round only the first is executed.
+    /// What `stopped` cut off counts as known.
     fn execute(&mut self, children: Vec<Child<F::Plan>>, least: &[f64]) -> Vec<Option<Executed<F::Plan>>> {
         let mut left = self.left();
         let mut is_new = |child: &Child<F::Plan>| {

@@ -1,5 +1,9 @@
 //! How far two trajectories are apart: how far their ways are, and how far what came of them is, each as a share of
 //! what a sample spans.
+//!
+//! Data flow: the first executions make a [`Scale`] ([`Scale::of`]); each trajectory is put on it once
+//! ([`Scale::place`]) and compared as often as needed ([`Scale::apart`]), many of them side by side in a
+//! [`Crowd`](super::Crowd).
 
 use std::f64::consts::PI;
 
@@ -10,6 +14,8 @@ use crate::trajectory::Route;
 const WAVES: usize = 4;
 
 /// A trajectory as it is compared.
+///
+/// Plain data: [`Scale::place`] turns it into what is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// Its way.
@@ -19,6 +25,8 @@ pub struct Trace {
 }
 
 /// A trajectory on a scale.
+///
+/// Only comparable with others that the same [`Scale`] placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     route: Route,
@@ -34,10 +42,28 @@ pub struct Placed {
 ///
 /// over the pairs of the sample, shares being (x − min) / (max − min) of each measure; a part that is 0 throughout the
 /// sample is left out, and so are behaviours where one is not known. Both parts are metrics, and so is the whole.
+///
+/// ```
+/// use hairpin::search::worst::{Scale, Trace};
+/// use hairpin::trajectory::route::Route;
+/// use nalgebra::Point3;
+///
+/// // Straight ways at three heights, each with one measure.
+/// let trace = |z: f64, measure: f64| Trace {
+///     route: Route::along(&[Point3::new(0.0, 0.0, z), Point3::new(9.0, 0.0, z)]),
+///     behaviour: vec![measure],
+/// };
+/// let sample = [trace(0.0, 1.0), trace(1.0, 3.0), trace(4.0, 2.0)];
+/// let scale = Scale::of(&sample);
+/// let [a, b, c] = [0, 1, 2].map(|i| scale.place(&sample[i]));
+/// assert!((scale.apart(&a, &b) - 0.5 * (0.25 + 1.0)).abs() < 1e-12); // 1 of 4 m, the whole range of the measure
+/// assert!((scale.apart(&a, &c) - 0.5 * (1.0 + 0.5)).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
     /// Least value and range of each measure.
     measures: Vec<[f64; 2]>,
+    /// Largest distance of two ways of the sample, m, and of two vectors of shares; 0 for a part that does not count.
     longest: [f64; 2],
 }
 
@@ -46,6 +72,9 @@ impl Scale {
     ///
     /// O(n²) outlines of ways and behaviours on all threads, O(n) memory; ways themselves only where outlines do not
     /// say that they are nearer than others.
+    ///
+    /// A sample of none or one gives a scale on which everything is 0 apart. Measures beyond the number that all
+    /// traces have are not looked at.
     pub fn of(sample: &[Trace]) -> Self {
         let count = sample.iter().map(|trace| trace.behaviour.len()).min().unwrap_or(0);
         let range = |m: usize| {
@@ -66,6 +95,9 @@ impl Scale {
     }
 
     /// Where `trace` stands; shares of what lies outside of the sample's range lie outside of 0 … 1.
+    ///
+    /// A measure that is the same throughout the sample has no range and share 0 for all, whatever comes later.
+    /// O(places + measures).
     pub fn place(&self, trace: &Trace) -> Placed {
         let share = |(value, [low, range]): (&f64, &[f64; 2])| if *range > 0.0 { (value - low) / range } else { 0.0 };
         Placed { route: trace.route.clone(), shares: trace.behaviour.iter().zip(&self.measures).map(share).collect() }
@@ -74,6 +106,8 @@ impl Scale {
     /// How far two trajectories are apart: 0 … 1 within the sample, and maybe more beyond.
     ///
     /// Of both parts that are not 0 throughout the sample the mean, or one of them alone.
+    ///
+    /// Symmetric, 0 of one with itself, and the triangle inequality holds: a mean of metrics.
     pub fn apart(&self, one: &Placed, other: &Placed) -> f64 {
         let squares = one.shares.iter().zip(&other.shares).map(|(x, y)| (x - y) * (x - y));
         self.mean([one.route.apart(&other.route), squares.sum::<f64>().sqrt()])
@@ -96,12 +130,18 @@ impl Scale {
     }
 
     /// By what the roots of both parts' squared differences are multiplied before they are added up.
+    ///
+    /// 1/(longest · parts that count), the way's divided by √24 as well, since [`Route::apart`] takes the mean over
+    /// places; 0 for a part that does not count.
     pub(super) fn weights(&self) -> [f64; 2] {
         let [way, behaviour] = self.longest.map(|l| if l > 0.0 { 1.0 / (l * self.counting()) } else { 0.0 });
         [way / (Route::PLACES as f64).sqrt(), behaviour]
     }
 
     /// The distance that so many of the pairs of `sample` (0 … 1) are nearer than; 0 without pairs.
+    ///
+    /// The order statistic number ⌊q m⌋, from 0, of the m = n (n − 1)/2 distances, without interpolation; the largest
+    /// for q = 1. O(n² log n) time and O(n²) memory: for samples, not for populations.
     pub fn quantile(&self, sample: &[Trace], quantile: f64) -> f64 {
         let placed: Vec<Placed> = sample.iter().map(|trace| self.place(trace)).collect();
         let rows = placed.iter().enumerate();
@@ -125,6 +165,9 @@ pub(super) fn roots([way, behaviour]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The first waves of the ways' orthonormal cosine transform along each axis.
+///
+/// DCT-II: c_k(p) = √(2/P) cos(π (p + ½) k / P), k = 1 … 3, and c_0 = √(1/P), P = 24 places. Ways are smooth, so that
+/// four waves hold nearly all of their differences and the bound of what is left out is tight.
 fn outlines(ways: &[Vec<f64>]) -> Outlines {
     let places = Route::PLACES;
     let wave = |k: usize, place: usize| {

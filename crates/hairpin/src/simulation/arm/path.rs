@@ -3,6 +3,10 @@
 //! A zone of radius r adds the end of one move and the beginning of the next about their corner: u = 1 − (r/ℓ₁)(1 −
 //! w)², v = (r/ℓ₂) w², p = p₁(u) + p₂(v) − C, w in [0, 1], a parabola between straight lines
 //! (docs/virtual-controller.md). s grows by 2r, so that the path is C¹ in s.
+//!
+//! Data flow: orders → legs with their curves ([`Builder::leg`]) → along each to where its zone begins → blended with
+//! the next, or stopped → sections of nodes with joint angles, whose slopes are laid at the end ([`Section::shape`]).
+//! What cannot be followed ends the path with a [`Stop`]; what comes before it stays.
 
 use nalgebra::Isometry3;
 
@@ -14,6 +18,7 @@ use crate::math::rotation::rotation_vector;
 use crate::robot::arm::{Branch, Configuration, Joints};
 
 /// Longest step along a line, m.
+/// Between nodes joints are cubics: at 10 mm a straight line is off by less than a micrometre.
 const LINE_STEP: f64 = 0.01;
 /// Longest step of a turn or an arc, rad, and of a joint that moves by itself.
 const TURN_STEP: f64 = 0.035;
@@ -22,6 +27,7 @@ const JOINT_STEP: f64 = 0.06;
 /// Spans of a piece at most by doubling.
 const MOST_SPANS: usize = 512;
 /// Spans of a blend; even, as its middle is where the target is passed.
+/// At least 8 on either side of the corner.
 const BLEND_SPANS: usize = 16;
 /// Shorter than this (in s, m) is no move.
 const NOTHING: f64 = 1e-9;
@@ -29,6 +35,8 @@ const NOTHING: f64 = 1e-9;
 /// A move with its curve.
 ///
 /// The solver's branch is that of where it begins: a path of the tool never changes it.
+///
+/// `order` is its number; `wanted` the configuration that its end must have.
 struct Leg<'a> {
     order: usize,
     given: &'a Order,
@@ -45,6 +53,8 @@ struct Leg<'a> {
 }
 
 /// The path of a program, as far as it can be followed.
+///
+/// A section is a motion from rest to rest: its law is laid by itself.
 pub(super) struct Path {
     /// From stop to stop, at least one.
     pub(super) sections: Vec<Section>,
@@ -77,6 +87,7 @@ pub(super) fn lay(follower: Follower, start: &Joints, orders: &[Order]) -> Path 
     path
 }
 
+/// Goes forward only; a blend looks ahead to the next leg's beginning.
 struct Builder<'a> {
     follower: Follower<'a>,
     orders: &'a [Order],
@@ -155,6 +166,10 @@ impl<'a> Builder<'a> {
     }
 
     /// Move `order` from the joint angles `from`, where its tool is at `pose`.
+    ///
+    /// # Errors
+    /// A target out of reach or bounds, a configuration that is not there, points that give no arc: the program stops
+    /// before this move.
     fn leg(&mut self, order: usize, from: &Joints, pose: &Isometry3<f64>) -> Result<Leg<'a>, Stop> {
         let given: &'a Order = &self.orders[order];
         let flange = given.tool.inverse();
@@ -186,6 +201,8 @@ impl<'a> Builder<'a> {
     }
 
     /// Way (m) and turn (rad) of the tool in a joint move, from a few chords.
+    ///
+    /// Eight chords: an estimate of the path's parameter, not of a limit.
     fn swept(&self, from: &Joints, to: &Joints, tool: &Isometry3<f64>) -> (f64, f64) {
         const CHORDS: usize = 8;
         let pose = |i: usize| self.follower.arm.forward(&between(from, to, i as f64 / CHORDS as f64)) * tool;
@@ -226,6 +243,8 @@ impl<'a> Builder<'a> {
     }
 
     /// Joint angles and tool of `leg` at the share `u`.
+    ///
+    /// `near` picks the turns of the axes; the branch is the leg's.
     fn at(&mut self, leg: &Leg, u: f64, near: &Joints) -> Result<(Joints, Isometry3<f64>), Reason> {
         match &leg.curve {
             Curve::Joints { from, to } => {
@@ -241,6 +260,8 @@ impl<'a> Builder<'a> {
     }
 
     /// The end of `leg` from the share `from` on, in a few steps, without going there.
+    ///
+    /// Four steps, so that the branch is kept; counted as work of the move.
     fn ahead(&mut self, leg: &Leg, from: f64) -> Result<(Joints, Isometry3<f64>), Stop> {
         const STEPS: usize = 4;
         let before = self.follower.iterations;
@@ -289,6 +310,8 @@ impl<'a> Builder<'a> {
 
     /// From `leg` to `next` about their corner: the end of one and the beginning of the other, added, as s grows by
     /// 2·`radius`.
+    ///
+    /// Two tool paths with one tool are added as poses; otherwise joint angles are added.
     fn blend(&mut self, leg: &Leg, next: &Leg, radius: f64, corner: &Joints) -> Result<(), Stop> {
         let (f, g) = (radius / leg.length, radius / next.length);
         let rates = [leg.rates[0].max(next.rates[0]), leg.rates[1].max(next.rates[1])];
@@ -329,6 +352,9 @@ impl<'a> Builder<'a> {
 
     /// A smooth piece of `way` in s from the last node on, in at least `spans` equal steps. `at` gives what is at the
     /// share w.
+    ///
+    /// Spans are doubled, to [`MOST_SPANS`] at most, where joints turn more than [`JOINT_STEP`] from node to node.
+    /// What was found before a stop is kept.
     fn piece(
         &mut self,
         way: f64,
@@ -398,6 +424,8 @@ fn stop(leg: &Leg, share: f64, reason: Reason) -> Stop {
 }
 
 /// What the programmed speeds of both moves leave; accelerations follow with the plan's settings.
+///
+/// Rates of s, m/s: the slower of both moves' speeds rules in a blend.
 fn span(order: usize, legs: [&Leg; 2], rates: [f64; 2]) -> Span {
     let [way, turn] = rates.map(|rate| rate.max(1e-12));
     let limit = legs.iter().map(|leg| {

@@ -1,4 +1,10 @@
 //! Closes the loop over plant and controller, and drives a plan to its end.
+//!
+//! ```text
+//! each turn (20 … 100 ms):   stand ─▶ ended? ─▶ log ─▶ controller (measured pose) ─▶ commands, latency late ─▶ plant
+//! ```
+//!
+//! The plant is exact between turns: commands that come to act in between split the step.
 
 use std::collections::VecDeque;
 
@@ -49,6 +55,8 @@ const MOST_FORCE: f64 = 1e6;
 /// # Errors
 /// Settings, latency or a drive out of bounds; a plan along which the nominal vehicle cannot stand; a start where the
 /// true one cannot.
+///
+/// `seed` is for noise alone: without noise it changes nothing.
 pub fn drive(
     sortie: &GroundSortie,
     controller: &GroundController,
@@ -163,6 +171,8 @@ impl<'a> Checked<'a> {
 }
 
 /// `force` (N, world axes) as a share of the vehicle's weight.
+///
+/// Without unit; world axes east, north, up.
 fn pull(vehicle: &Rover, force: &[f64; 3]) -> Result<Vector3<f64>, SimulationError> {
     let told = || format!("{force:?}");
     if force.iter().any(|part| part.is_nan() || part.abs() > MOST_FORCE) {
@@ -184,6 +194,8 @@ fn word(lost: Lost) -> Ended {
 }
 
 /// Plant, controller and commands of one run.
+///
+/// `coming` holds commands that do not act yet, in the order in which they do.
 struct Run<'a> {
     plant: Plant<'a>,
     name: &'a str,
@@ -291,6 +303,7 @@ impl<'a> Run<'a> {
         self.lost.map(word).or_else(|| self.watch.note(t, &self.plant))
     }
 
+    /// A sample with the least margins since the one before.
     fn record(&self, recorder: &mut Recorder, t: f64) -> Result<(), Lost> {
         recorder.push(t, &self.plant, self.watch.leg(), self.acting.curvature, &self.watch.least)
     }

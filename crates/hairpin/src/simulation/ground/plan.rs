@@ -2,6 +2,10 @@
 //!
 //! Stations every 2 cm, between stops: progress along a section is monotone even where sections cross. Latency is left
 //! out, as plans leave it out.
+//!
+//! Data flow: commands of a [`Drive`] → followed on the ground by the nominal vehicle, leg by leg → sections between
+//! stops, with stations → what controllers look up ([`station_at`], [`speed_at`]) and the track that runs are
+//! compared with.
 
 use nalgebra::Isometry3;
 
@@ -63,6 +67,8 @@ pub(super) enum Section {
 }
 
 /// The whole plan.
+///
+/// Made once a run; nothing in it depends on the true vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Plan {
     /// In the order they are driven.
@@ -74,6 +80,8 @@ pub(super) struct Plan {
 }
 
 /// A plan that is being driven for the first time.
+///
+/// Columns of the track, filled as the plan is driven.
 #[derive(Default)]
 struct Draft {
     sections: Vec<Section>,
@@ -89,6 +97,9 @@ struct Draft {
 ///
 /// # Errors
 /// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
+///
+/// World frame, m and s; the channel `leg` counts from 0. About one pose every 2 cm, and every 0.05 rad of turns in
+/// place.
 pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Track, SimulationError> {
     Ok(Plan::new(nominal, terrain, drive)?.track)
 }
@@ -96,6 +107,9 @@ pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> 
 impl Plan {
     /// Bounds of speed, curvature and acceleration are lifted, as the plan's commands keep them already; steering lags
     /// and slip of the nominal vehicle act. 4 steps of at most 5 mm between stations.
+    ///
+    /// # Errors
+    /// Numbers that are no drive, or a leg along which the vehicle loses ground or rest, by the leg's number.
     pub(super) fn new(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Self, SimulationError> {
         check(drive)?;
         let mut at_once = nominal.clone();
@@ -124,6 +138,8 @@ impl Plan {
     }
 
     /// The longest time that the plan takes to move by `way` m or turn by `angle` rad, s.
+    ///
+    /// What a run's patience is measured by: a plan that waits is no vehicle that is stuck.
     pub(super) fn longest_rest(&self, [way, angle]: [f64; 2]) -> f64 {
         // Of two attitudes as quaternions.
         let alike = libm::cos(0.5 * angle);
@@ -236,6 +252,8 @@ impl Draft {
     }
 
     /// A pose of the track, now.
+    ///
+    /// At the time that is planned.
     fn note(&mut self, plant: &Plant, leg: usize) {
         self.times.push(self.duration);
         self.poses.push(plant.world_from_body());
@@ -294,6 +312,8 @@ pub(super) fn rises([roll, pitch]: [f64; 2], direction: f64, sign: f64) -> [f64;
 }
 
 /// The planned speed `s` commanded metres along `stations`, m/s: v² is linear between two; beyond the last, its own.
+///
+/// Constant acceleration between stations.
 pub(super) fn speed_at(stations: &[Station], s: f64) -> f64 {
     let next = stations.partition_point(|station| station.s < s);
     let (Some(b), Some(a)) = (stations.get(next), stations.get(next.wrapping_sub(1))) else {

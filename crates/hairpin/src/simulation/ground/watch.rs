@@ -11,9 +11,12 @@ use crate::trajectory::{Ended, Track};
 use crate::world::terrain::Terrain;
 
 /// Less than this is no progress, m and rad.
+/// Of place and heading.
 pub(super) const PROGRESS: [f64; 2] = [0.01, std::f64::consts::PI / 180.0];
 
 /// Watches one run.
+///
+/// Looked at once a turn; what happened between two looks is told by chords and least values.
 pub(super) struct Watch<'a> {
     sortie: &'a GroundSortie<'a>,
     settings: &'a DriveSettings,
@@ -74,6 +77,8 @@ impl<'a> Watch<'a> {
     }
 
     /// Takes the controller's word for where it is.
+    ///
+    /// Legs without a schedule follow from the waypoints that were reached.
     pub(super) fn heed(&mut self, schedule: Option<Schedule>) {
         self.schedule = schedule;
         if let Some(schedule) = schedule {

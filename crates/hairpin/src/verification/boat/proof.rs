@@ -1,4 +1,10 @@
 //! The proof of one trip: every condition checked, every leg sailed.
+//!
+//! | condition | how |
+//! | --- | --- |
+//! | polynomials meet waypoints and each other in value and three derivatives | compared |
+//! | forces, speed, waters, keep-outs at every moment | bounded between moments, in ways of this room's own |
+//! | each leg leads to the next waypoint under its forces | integrated, steps halved until they agree |
 
 use super::bound::broken;
 use super::claim::{BoatClaim, BoatHull, BoatLeg};
@@ -15,6 +21,8 @@ use crate::verification::gauss::Gauss;
 ///
 /// What becomes of the whole trip in one go is told, not judged ([`Proof::open_loop`]): not every hull keeps its
 /// heading by itself. Of [`Tolerances`] `attitude` and `rates` are those of the heading; no grid is used.
+///
+/// `proof.findings` empty is a proof for the model. Times of findings are of the whole trip, s.
 pub fn verify_boat(hull: &BoatHull, claim: &BoatClaim, tolerances: &Tolerances) -> Proof {
     let mut proof = Proof::default();
     if let Some((field, value, bound, leg)) = unsound(hull, claim) {
@@ -37,6 +45,8 @@ pub fn verify_boat(hull: &BoatHull, claim: &BoatClaim, tolerances: &Tolerances) 
 
 /// The end error of the whole trip, open loop, with thrusters that lag behind the demand: what the claim leaves out.
 /// `None` where the claim or the hull cannot be sailed at all, or nothing lags.
+///
+/// m, m/s, rad and rad/s at the end; an estimate, held to nothing.
 pub fn boat_with_lag(hull: &BoatHull, claim: &BoatClaim) -> Option<EndError> {
     if unsound(hull, claim).is_some() || hull.time_constant <= 0.0 {
         return None;
@@ -51,6 +61,8 @@ pub fn boat_with_lag(hull: &BoatHull, claim: &BoatClaim) -> Option<EndError> {
 }
 
 /// What makes the claim none at all: field, value, bound, leg.
+///
+/// Told as one finding, and nothing else is looked at.
 fn unsound(hull: &BoatHull, claim: &BoatClaim) -> Option<(String, f64, f64, usize)> {
     if claim.legs.is_empty() || claim.legs.len() + 1 != claim.waypoints.len() {
         return Some(("legs".into(), claim.legs.len() as f64, claim.waypoints.len() as f64 - 1.0, 0));
@@ -65,6 +77,7 @@ fn unsound(hull: &BoatHull, claim: &BoatClaim) -> Option<(String, f64, f64, usiz
     (!sound).then(|| ("hull".into(), f64::NAN, f64::MAX, 0))
 }
 
+/// Of value, velocity, acceleration and jerk, for places and headings apart.
 fn check_knots(proof: &mut Proof, claim: &BoatClaim, tolerances: &Tolerances) {
     let mut ends = vec![0.0];
     claim.legs.iter().for_each(|leg| ends.push(ends[ends.len() - 1] + leg.duration));
@@ -87,6 +100,7 @@ fn check_knots(proof: &mut Proof, claim: &BoatClaim, tolerances: &Tolerances) {
     }
 }
 
+/// Every limit that is broken or not shown to hold, once a leg.
 fn check_limits(proof: &mut Proof, hull: &BoatHull, claim: &BoatClaim, (number, leg): (usize, &BoatLeg), began: f64) {
     for broken in broken(hull, claim, leg) {
         let mut found = Collector::on_leg(&mut proof.findings, number, began + broken.at);

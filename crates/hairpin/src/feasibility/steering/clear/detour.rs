@@ -11,6 +11,7 @@ use crate::trajectory::drive::{Segment, SegmentList};
 use crate::world::terrain::KeepOutShape;
 
 /// Legs that are looked for, at most.
+/// Each is one question to the closed forms, so that a detour ends within milliseconds.
 const LEGS: u32 = 1500;
 /// Places whose sides are tried, at most.
 const PLACES: usize = 24;
@@ -21,6 +22,8 @@ const AROUND: u32 = 8;
 const RINGS: [(f64, f64); 2] = [(0.02, 0.0), (0.02, 0.6)];
 
 /// A state under way, and the drive to it.
+///
+/// Goals are in the frame of the question's start; `driven` in m.
 #[derive(Debug, Clone, Copy)]
 struct Reached {
     at: Goal,
@@ -32,6 +35,8 @@ struct Reached {
 }
 
 /// Poses beside what was found in the way.
+///
+/// Poses are (x, y, heading) in the frame of the start; each place gives poses once.
 struct Beside {
     places: Vec<usize>,
     poses: Vec<[f64; 3]>,
@@ -41,6 +46,9 @@ struct Beside {
 /// what is driven and the straight rest.
 ///
 /// `None` where no detour is clear within [`LEGS`] legs.
+///
+/// `first` is an index into the list of places, that of the deepest intrusion so far. `stop` is asked before each
+/// leg.
 pub(super) fn detour(
     query: &Query,
     bounds: &Curvatures,
@@ -123,6 +131,8 @@ fn seen(from: &Goal, to: &Goal) -> Query {
 }
 
 /// `None` where a list has no room for both.
+///
+/// At most [`MOST_SEGMENTS`](crate::trajectory::drive::MOST_SEGMENTS) segments.
 fn joined(first: &SegmentList, second: &[Segment]) -> Option<SegmentList> {
     let mut all = *first;
     all.append(second).is_ok().then_some(all)

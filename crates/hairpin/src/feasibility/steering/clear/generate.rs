@@ -18,6 +18,9 @@ const ASIDE: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 /// along the words of Dubins, until one stays clear. Those without any answer with their one drive, which is checked.
 ///
 /// Beside the drive the deepest intrusion of its path; `None` of it: clear all along. Intrusions are of the plane.
+///
+/// The answer is judged by the same [`Hazards::intrusion`] whatever family it is of. `stop` ends it with what was
+/// found.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -64,6 +67,8 @@ pub fn generate(
 }
 
 /// Ways around in the gear of `choices`, as if they were driven forward.
+///
+/// Paths only: their clothoids need not be of the family that is bent along them.
 fn guides(
     problem: &Problem,
     bounds: &Curvatures,

@@ -26,6 +26,8 @@ pub struct Around<'a> {
 }
 
 /// An answer, and where its motion comes too near to a place to keep out of.
+///
+/// Clear and arrived only where `intrusion` is `None` and the answer's status is `Ok`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClearedOnGround {
     /// The drive that stays clear; where none was found, the one that comes least near.
@@ -37,6 +39,7 @@ pub struct ClearedOnGround {
 }
 
 /// What flat drives keep in addition, in turn, m: ground and slip push motions aside by so much.
+/// The least that does is taken, so that drives are no wider than they have to be.
 const ADDED: [f64; 4] = [0.0, 0.05, 0.15, 0.4];
 
 /// Commands from `start` whose motion on the ground ends at `goal` and stays clear of all places; `over` as in
@@ -44,6 +47,9 @@ const ADDED: [f64; 4] = [0.0, 0.05, 0.15, 0.4];
 ///
 /// Four attempts at most, which keep 0, 5, 15 and 40 cm more than asked for in the plane; `iterations` counts the
 /// predictions of all.
+///
+/// Each attempt shapes a flat drive clear of what it keeps, moves its goal on the ground, and looks along the
+/// predicted motion.
 pub fn solve_on_ground<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,

@@ -23,6 +23,8 @@ pub struct Hazards<'a> {
 }
 
 /// Where a drive comes too near, at its worst.
+///
+/// `place` indexes [`KeepOuts::list`]. `after_m` is measured along the drive, reversals included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Intrusion {
     /// Which place: its index in the list.
@@ -57,6 +59,8 @@ pub fn footprint(rover: &Rover) -> f64 {
 impl Hazards<'_> {
     /// How far a place given in the frame of the flat solver (x along the direction of travel at the start) is from
     /// being too near, m.
+    ///
+    /// Signed: below 0 it is too near by so much.
     pub fn room(&self, x: f64, y: f64) -> f64 {
         let [x, y] = self.in_map(x, y);
         self.keep_outs.distance(x, y) - self.radius
@@ -68,6 +72,8 @@ impl Hazards<'_> {
     /// curve of length ℓ leaves its chord of length c by more.
     ///
     /// Turns in place turn the circle about its own middle and need no look.
+    ///
+    /// Deepest of all; the first of equals. Cost falls with room: far from everything a look vouches for metres.
     pub fn intrusion(&self, segments: &[Segment]) -> Option<Intrusion> {
         self.worst(segments, f64::INFINITY)
     }
@@ -139,6 +145,8 @@ impl Hazards<'_> {
 }
 
 /// Looks along a motion that was predicted, step by step.
+///
+/// An observer of [`crate::feasibility::steering::shooting::rough::predict`]: no motion is stored for it.
 #[derive(Debug, Clone, Copy)]
 pub struct MotionCheck<'a> {
     check: Check<'a>,

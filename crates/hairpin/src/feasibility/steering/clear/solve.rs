@@ -9,6 +9,8 @@ use crate::feasibility::steering::shooting::solve::{self, Choices, Outcome, Solu
 /// A solution, and where it comes too near to a place to keep out of.
 ///
 /// `intrusion.depth` is what the best drive lacks, so that 0 cannot occur in it.
+///
+/// A solution whose goal is not met may be clear; status and intrusion are asked apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cleared {
     /// The drive that stays clear; where none was found, the one that comes least near.

@@ -6,6 +6,8 @@ use crate::feasibility::steering::shooting::solve::{Choices, Method, single_arcs
 use crate::trajectory::drive::{Segment, SegmentList};
 
 /// A drive to the goal.
+///
+/// Lengths are metres driven; a smooth arc is preferred to words of clothoids up to a quarter more.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way {
     /// In the frame of the start.
@@ -22,6 +24,8 @@ const SHARES: [f64; 3] = [1.0, 0.6, 0.35];
 const SMOOTH: f64 = 0.8;
 
 /// Every way of every kind that `choices` allow.
+///
+/// Three circle sizes, the gears that are allowed, arcs, words, turns in place; unjudged against places.
 pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Vec<Way> {
     let mut ways = Vec::new();
     if choices.arcs {

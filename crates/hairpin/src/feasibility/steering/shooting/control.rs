@@ -69,6 +69,8 @@ impl Control {
     }
 
     /// Numbers that a family's curves have, the length among them; of turn-drive-turn two angles and a length.
+    ///
+    /// One more than the degree of the curvature's function, and the length.
     pub fn parameters(self) -> usize {
         match self {
             Self::Arc => 2,

@@ -8,6 +8,8 @@ use super::solve::{Choices, Method, Outcome, Solution, solve};
 use crate::trajectory::drive::{Gear, Segment};
 
 /// What was found, with the family's own numbers.
+///
+/// `parameters` are those of the drive as it was solved, forward; a drive in reverse is its mirror image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generated {
     /// The drive, and how it was found.
@@ -24,6 +26,8 @@ pub struct Generated {
 /// own family or not at all: then the outcome is `NotConverged` and [`Solution::arc`] says what the family lacks. With
 /// `choices.reversals` they try both gears; they do not change gear on the way. `stop` is asked between descents,
 /// `observe` sees their steps.
+///
+/// Deterministic unless `stop` depends on a clock. Nothing is allocated by the quintic.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -119,6 +123,7 @@ fn solution(
     Solution { outcome, segments, method: Method::SingleArc, iterations, arc: Some(status) }
 }
 
+/// Solved before unsolved, then the shorter.
 fn better(found: &Solution, best: &Solution) -> bool {
     let length = |solution: &Solution| solution.segments.iter().map(Segment::length_m).sum::<f64>();
     match (found.outcome == Outcome::Solved, best.outcome == Outcome::Solved) {

@@ -29,6 +29,8 @@ const HALVINGS: u32 = 8;
 const DIRECT: f64 = 1.5;
 
 /// The single arc of `choices` that keeps `bounds` and reaches the goal of `query` without a loop, if there is one.
+///
+/// `None` also where only a chain or a reversal does.
 pub fn direct_arc(query: &Query, bounds: &Curvatures, choices: &Choices) -> Option<SegmentList> {
     let answer = single_arc(query, bounds, choices.gear, &choices.flat);
     let driven: f64 = answer.segments.iter().map(Segment::length_m).sum();
@@ -39,6 +41,8 @@ pub fn direct_arc(query: &Query, bounds: &Curvatures, choices: &Choices) -> Opti
 /// Moves the goal of `query`, which is not `reachable`, as little as it finds need to until it is: along sixteen
 /// directions by bisection, then around the best of them in ever smaller steps. `None` if nothing near is; a local
 /// search, not a proof.
+///
+/// At most 600 goals. `reachable` is asked about checked queries only; `stop` between them.
 pub fn nearest(
     query: &Query,
     bounds: &Curvatures,

@@ -19,9 +19,11 @@ use crate::trajectory::Direction;
 use crate::trajectory::drive::{Gear, Motion, Planar, Segment, SegmentList};
 
 /// How far ahead on the path the goal lies, in smallest turning radii, and per speed, s.
+/// Nearer goals ask for sharp curves, farther ones answer late.
 const RADII: f64 = 1.5;
 const TIME: f64 = 0.5;
 /// Way from one solution to the next, as a share of that.
+/// Ten solutions on the way to each goal.
 const CYCLE: f64 = 0.1;
 /// Way after which what was learnt is forgotten, in smallest turning radii.
 const MEMORY: f64 = 5.0;
@@ -36,6 +38,8 @@ const NEAR: f64 = 0.02;
 const LONGEST: f64 = 1.5;
 
 /// An answer that is being driven.
+///
+/// Driven by the odometer, not by the clock, so that lags of the speed do not matter.
 struct Answer {
     segments: SegmentList,
     /// What the odometer says where it begins, m.
@@ -45,6 +49,8 @@ struct Answer {
 }
 
 /// A coefficient c in off = −c · rise/sin 20° · way, by least squares.
+///
+/// Without unit: a share of the way, as slip is.
 #[derive(Debug, Clone, Copy, Default)]
 struct Learnt {
     information: f64,
@@ -117,6 +123,8 @@ impl<'a> Predictive<'a> {
     }
 
     /// Takes note of the command given at `measured.t`, and of how the vehicle drifts.
+    ///
+    /// Called once a turn, after the command was given.
     pub(super) fn note(&mut self, measured: &DriveState, command: &DriveCommand) {
         self.under_way.push_back((measured.t, *command));
         let oldest = measured.t - self.latency;

@@ -1,7 +1,11 @@
 //! What an inequation says, as a tree.
+//!
+//! Evaluated over any [`Real`]: doubles give an answer, intervals give yes, no or unknown for a whole box, so that
+//! one tree serves fast tests and proofs.
 
 use crate::math::outward::Real;
 
+/// Built by the parser alone, from comparisons of terms.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Condition {
     /// left < right, or ≤ with `or_equal`.
@@ -15,6 +19,7 @@ pub(super) enum Condition {
     Not(Box<Condition>),
 }
 
+/// Axes are 0, 1, 2 for x, y, z, in the unit of the text's key. What is no number is for the comparison to decide.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Term {
     Number(f64),
@@ -33,6 +38,8 @@ pub(super) enum Term {
 
 impl Condition {
     /// Kleene's logic of true, false and unknown.
+    ///
+    /// `less(left − right, or_equal)` decides a comparison; `None`: unknown.
     pub(super) fn at<N: Real>(&self, p: &[N; 3], less: &impl Fn(N, bool) -> Option<bool>) -> Option<bool> {
         match self {
             Self::Less { left, right, or_equal } => less(left.at(p) - right.at(p), *or_equal),
@@ -52,6 +59,7 @@ impl Condition {
 }
 
 impl Term {
+    /// At the point, or over the box, `p`.
     fn at<N: Real>(&self, p: &[N; 3]) -> N {
         match self {
             Self::Number(value) => N::constant(*value),

@@ -11,12 +11,17 @@
 //! power    = atom [ "^" whole number ]
 //! atom     = number | x | y | z | "(" either or sum ")" | sqrt(…) | abs(…) | min(…, …) | max(…, …)
 //! ```
+//!
+//! One pass over tokens, no backtracking: a parenthesis may hold a number or a condition, and what it was is asked
+//! where it is used. Bounded in tokens and depth, since texts come from strangers.
 
 use thiserror::Error;
 
 use super::condition::{Condition, Term};
 
 /// Why a text is no inequation.
+///
+/// `Display` says column, expectation and finding, as the command line underlines it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("column {column}: expected {expected}, found {found}")]
 pub struct WordsError {
@@ -29,6 +34,11 @@ pub struct WordsError {
 }
 
 /// The condition that `text` is.
+///
+/// At most 1000 tokens, 100 nested parentheses, exponents to 64. Names in any case.
+///
+/// # Errors
+/// [`WordsError`]: the first place that cannot be read.
 pub(super) fn condition(text: &str) -> Result<Condition, WordsError> {
     let mut parser = Parser::new(text)?;
     let read = parser.either()?;
@@ -40,6 +50,8 @@ pub(super) fn condition(text: &str) -> Result<Condition, WordsError> {
 }
 
 /// A number is what the machine made of the written one.
+///
+/// Words in lower case, signs by their text.
 #[derive(Debug, Clone, PartialEq)]
 enum Token {
     Number(f64),
@@ -48,11 +60,14 @@ enum Token {
 }
 
 /// What a parenthesis may hold.
+///
+/// What the grammar calls sum and either: told apart when an operator or the whole asks for one of them.
 enum Value {
     Term(Term),
     Condition(Condition),
 }
 
+/// `next` is the token that is read next, `end` the column behind the text, `depth` that of nesting.
 struct Parser {
     /// With the column of each.
     tokens: Vec<(usize, Token)>,
@@ -71,6 +86,10 @@ const LONGEST: usize = 1000;
 const HIGHEST: u32 = 64;
 
 impl Parser {
+    /// Cuts the text into tokens.
+    ///
+    /// # Errors
+    /// A character that begins none, a number that is none, more than 1000 tokens.
     fn new(text: &str) -> Result<Self, WordsError> {
         let characters: Vec<char> = text.chars().collect();
         let (mut tokens, mut at) = (Vec::new(), 0);
@@ -118,6 +137,7 @@ impl Parser {
         Ok(Self { next: 0, ..parser })
     }
 
+    /// The mistake at the next token.
     fn expected(&self, expected: &str) -> WordsError {
         let (column, found) = match self.tokens.get(self.next) {
             Some((column, Token::Number(value))) => (*column, format!("`{value}`")),
@@ -128,6 +148,7 @@ impl Parser {
         WordsError { column, expected: expected.to_owned(), found }
     }
 
+    /// The next token, if it is one of `signs`.
     fn takes_sign(&mut self, signs: &[&'static str]) -> Option<&'static str> {
         let Some((_, Token::Sign(sign))) = self.tokens.get(self.next) else { return None };
         let sign = signs.iter().find(|wanted| *wanted == sign)?;
@@ -135,12 +156,15 @@ impl Parser {
         Some(sign)
     }
 
+    /// Whether the next token was `wanted`.
     fn takes_word(&mut self, wanted: &str) -> bool {
         let takes = matches!(self.tokens.get(self.next), Some((_, Token::Word(word))) if word == wanted);
         self.next += usize::from(takes);
         takes
     }
 
+    /// # Errors
+    /// A number where a comparison is asked for.
     fn condition(&self, value: Value) -> Result<Condition, WordsError> {
         match value {
             Value::Condition(condition) => Ok(condition),
@@ -148,6 +172,8 @@ impl Parser {
         }
     }
 
+    /// # Errors
+    /// A comparison where a number is asked for.
     fn term(&self, value: Value) -> Result<Term, WordsError> {
         match value {
             Value::Term(term) => Ok(term),
@@ -155,6 +181,7 @@ impl Parser {
         }
     }
 
+    /// `either` of the grammar; and so the following, each one rule.
     fn either(&mut self) -> Result<Value, WordsError> {
         let mut left = self.both()?;
         while self.takes_word("or") {
@@ -183,6 +210,7 @@ impl Parser {
         })
     }
 
+    /// A chain a < b < c is a < b and b < c; every comparison becomes a < or ≤.
     fn compared(&mut self) -> Result<Value, WordsError> {
         let first = self.sum()?;
         let Some(mut sign) = self.takes_sign(&["<=", ">=", "<", ">"]) else { return Ok(first) };
@@ -232,6 +260,7 @@ impl Parser {
         })
     }
 
+    /// Right of `^` a whole number from 0 to 64: no function of a function.
     fn power(&mut self) -> Result<Value, WordsError> {
         let base = self.atom()?;
         if self.takes_sign(&["^"]).is_none() {
@@ -275,6 +304,7 @@ impl Parser {
         }
     }
 
+    /// `min` and `max` have two arguments, `sqrt` and `abs` one.
     fn call(&mut self, function: &str) -> Result<Value, WordsError> {
         self.takes_sign(&["("]).ok_or_else(|| self.expected("`(`"))?;
         let first = self.sum()?;

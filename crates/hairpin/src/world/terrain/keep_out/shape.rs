@@ -6,6 +6,8 @@ use crate::world::WorldError;
 ///
 /// The border belongs to it. A polygon's inside is by the even-odd rule, so that the order of its corners does not
 /// matter.
+///
+/// Checked where a list is made of it: finite corners within ±10 000 km, radii above 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KeepOutShape {
     /// All points within `radius_m` of `center_m`.

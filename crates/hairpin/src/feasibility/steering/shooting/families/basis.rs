@@ -3,6 +3,7 @@
 use super::clock::Clock;
 
 /// Parameters of a family at most.
+/// Fixed, so that rows live on the stack.
 pub(super) const MOST: usize = 8;
 
 /// A value for each parameter.
@@ -75,6 +76,8 @@ impl Basis {
 }
 
 /// `P_i(2u − 1)` and their derivatives by u.
+///
+/// By Bonnet's recurrence (n + 1) P_{n+1} = (2n + 1) x P_n − n P_{n−1} with x = 2u − 1.
 fn legendre(order: usize, u: f64) -> (Row, Row) {
     let x = 2.0 * u - 1.0;
     let (mut value, mut slope) = ([0.0; MOST], [0.0; MOST]);
@@ -127,6 +130,8 @@ const fn bends() -> [Row; MOST] {
 }
 
 /// The cardinal splines and their derivatives.
+///
+/// Between knots k and k + 1 by the cubic that has both values and both [`BENDS`].
 fn splines(u: f64) -> (Row, Row) {
     let last = MOST - 1;
     let h = 1.0 / last as f64;

@@ -43,6 +43,8 @@ impl Clock {
     }
 
     /// dσ/du.
+    ///
+    /// 1 of metres; speed over mean speed of the others.
     pub(super) fn pace(&self, u: f64) -> f64 {
         match self {
             Self::Metres => 1.0,

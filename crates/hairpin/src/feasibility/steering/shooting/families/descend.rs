@@ -56,6 +56,8 @@ pub(super) struct Free {
 }
 
 /// How a descent ended.
+///
+/// In the task's units: lengths over the least radius, so that most = 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fit {
     /// The drive.
@@ -70,6 +72,8 @@ pub(super) struct Fit {
 
 impl Fit {
     /// Whether goal and bounds are met.
+    ///
+    /// miss ≤ `tolerance` and bends ≤ [`ENOUGH`], a little below 1 for what lies between nodes.
     pub(super) fn good(&self, tolerance: f64) -> bool {
         self.miss <= tolerance && self.bends <= ENOUGH
     }
@@ -100,6 +104,8 @@ const POLISH: u32 = 4;
 const SOFT: f64 = 1e-10;
 
 /// The drive of some parameters, with its derivatives.
+///
+/// Everything that a step needs, from one pass over the grid.
 struct Shot {
     constraints: [f64; CONSTRAINTS],
     jacobian: [[f64; UNKNOWNS]; CONSTRAINTS],
@@ -365,6 +371,8 @@ pub(super) fn grade(fit: &Fit, task: &Task) -> (bool, f64) {
 }
 
 /// What a step is for.
+///
+/// The last steps of a descent aim at the goal alone, where convergence is quadratic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Aim {
     /// The goal's conditions and less cost.

@@ -13,6 +13,8 @@ use crate::trajectory::drive::{Motion, Segment, SegmentList};
 const EXACT: f64 = 1e-7;
 
 /// What a descent came to.
+///
+/// The fit is what the descent ended with; `segments` and `status` are what counts.
 pub(super) struct Found {
     /// In units of the least radius.
     pub(super) fit: Fit,

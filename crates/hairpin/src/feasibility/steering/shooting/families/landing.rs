@@ -3,6 +3,7 @@
 use crate::math::quadrature::Gauss;
 use crate::trajectory::drive::{Motion, Segment};
 
+/// Gauss-Legendre points of a panel.
 const POINTS: usize = 8;
 /// Longest turn of a panel, rad, and panels of a segment at most.
 const PANEL: f64 = 1.0;

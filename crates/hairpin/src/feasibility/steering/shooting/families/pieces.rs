@@ -16,6 +16,9 @@ const THROUGH: [f64; 6] =
 
 /// The drive of `parameters` (1/m) over `length` metres, driven forward, and the largest difference of its curvature,
 /// 1/m.
+///
+/// Exact, with difference 0, for polynomials and splines of arc length; else at most 28 pieces within 2·10⁻⁸ of the
+/// largest curvature, or as near as those come.
 pub(super) fn segments(basis: &Basis, clock: &Clock, parameters: &Row, length: f64) -> (SegmentList, f64) {
     let mut list = SegmentList::EMPTY;
     match (basis, clock) {
@@ -84,6 +87,8 @@ fn chain(clock: &Clock, curvature: &impl Fn(f64) -> f64, length: f64) -> (Segmen
 }
 
 /// The polynomial of t ∈ [0, 1] through the curvatures between two shares, and its largest difference from them.
+///
+/// By interpolation at six Chebyshev points; the difference is looked for between them.
 fn fitted(curvature: &impl Fn(f64) -> f64, from: f64, to: f64) -> ([f64; 6], f64) {
     let at = |t: f64| curvature(from + (to - from) * t);
     // Newton's divided differences, then expanded.

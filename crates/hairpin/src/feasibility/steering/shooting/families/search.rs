@@ -21,6 +21,7 @@ use crate::trajectory::SpeedProfile;
 use crate::trajectory::drive::{Motion, Segment, SegmentList};
 
 /// The descents' tolerance as a share of the precision.
+/// So that what fitting commands to the family loses does not count.
 const TOLERANCE: f64 = 1e-3;
 /// A drive no longer than the shortest way around by this factor is short enough.
 const SHORT: f64 = 1.25;
@@ -97,6 +98,9 @@ fn mirrored(mut answer: Answer) -> Answer {
 }
 
 /// A search under way, in units of the least radius.
+///
+/// Scaled by 1/most: lengths in least radii, curvatures over the bound, so that tolerances and weights serve all
+/// vehicles.
 struct Search<'a> {
     problem: &'a Problem,
     control: Control,
@@ -282,6 +286,8 @@ impl Search<'_> {
     }
 
     /// Trapezoids are other functions of σ for every length.
+    ///
+    /// Then length and speeds are made to agree in up to 12 rounds.
     fn shape_depends_on_length(&self) -> bool {
         let timed = matches!(self.control, Control::TimePolynomial | Control::VelocityPolynomial);
         timed && matches!(self.problem.speed, SpeedProfile::Trapezoid { .. }) && !self.problem.speed.is_constant()

@@ -34,6 +34,8 @@ pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option
 }
 
 /// Curvature that is constant on three pieces, `signs` over `pieces` metres, 1/m, and bends at most by `most`.
+///
+/// `share` in 0 … 1 of the whole length; 1/m.
 pub(super) fn word(signs: [f64; 3], pieces: [f64; 3], most: f64, share: f64) -> f64 {
     let mut left = share * pieces.iter().sum::<f64>();
     for (sign, piece) in signs.iter().zip(pieces) {

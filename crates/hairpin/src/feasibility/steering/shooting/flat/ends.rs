@@ -5,6 +5,8 @@ use crate::feasibility::steering::shooting::query::{Curvatures, Query};
 use super::dubins::Word;
 
 /// A query with its heading unwrapped: the whole turn from start to end is chosen.
+///
+/// In the frame of the start, driven forward.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ends {
     /// Where the curve ends, m.
@@ -57,6 +59,8 @@ impl Bends {
 }
 
 /// Bounds between which numbers stay tame: no vehicle has others. What is no number becomes the least.
+///
+/// Positive and finite; a path that breaks no such bound does not exist for any vehicle.
 pub(super) fn tame(bounds: &Curvatures) -> Curvatures {
     let between = |value: f64, least: f64, most: f64| if value > least { value.min(most) } else { least };
     Curvatures { most: between(bounds.most, 1e-9, 1e6), most_rate: between(bounds.most_rate, 1e-12, 1e12) }

@@ -14,12 +14,14 @@ use crate::feasibility::steering::shooting::query::{Curvatures, Query};
 use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 
 /// A curve no longer than the next way around by this factor is short enough.
+/// A longer one may be a loop: the next way around is tried as well.
 const SHORT: f64 = 1.25;
 /// Steps of an arc after which a chain is the better bet.
 const ARC_STEPS: u32 = 8;
 /// The descents' tolerance as a share of the precision.
 const TOLERANCE: f64 = 1e-3;
 
+/// What a descent ended in; made into segments only if it is answered.
 #[derive(Clone, Copy)]
 pub(super) enum Curve {
     Arc(Ends, Free),
@@ -38,6 +40,8 @@ enum Grade {
 }
 
 /// The best curve so far, with the steps of all.
+///
+/// Steps of all descents count against [`Settings::most_steps`].
 struct Search<'a> {
     query: &'a Query,
     settings: &'a Settings<'a>,
@@ -47,6 +51,8 @@ struct Search<'a> {
 }
 
 /// Curvature as a polynomial or a chain, from the origin to the goal.
+///
+/// Statuses: `Ok` where goal and bounds are met; `Infeasible` where only a bound is not; else `NotConverged`.
 pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     let bounds = tame(bounds);
     let mut search = Search::new(query, &bounds, settings);
@@ -65,6 +71,8 @@ pub(super) fn best(query: &Query, bounds: &Curvatures, settings: &Settings) -> O
 }
 
 /// The answer along every way around by itself, shortest first.
+///
+/// Arcs and chains alike; unlike [`search`] it does not stop at a short one.
 pub(super) fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(Answer)) {
     let bounds = tame(bounds);
     let goal = &query.goal;
@@ -120,6 +128,8 @@ impl<'a> Search<'a> {
     }
 
     /// Looks for a curve that turns like `word`.
+    ///
+    /// A descent to an arc first; a chain where that does not keep the bounds.
     fn along(&mut self, word: &Word) {
         let ends = Ends::along(self.query, word);
         let chains = self.settings.control == Control::Quintic;
@@ -181,6 +191,7 @@ impl<'a> Search<'a> {
     }
 }
 
+/// `length` in m; `bends` is asked only where the goal is met.
 fn grade(miss: f64, tolerance: f64, length: f64, bends: impl FnOnce() -> Bends) -> Grade {
     if miss.is_nan() || miss >= tolerance {
         return Grade::Missed(if miss.is_nan() { f64::INFINITY } else { miss });

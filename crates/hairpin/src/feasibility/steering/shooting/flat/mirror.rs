@@ -11,6 +11,8 @@ pub(super) fn leans_right(query: &Query) -> bool {
 }
 
 /// The query with left and right exchanged.
+///
+/// y, yaw and curvatures change their signs.
 pub(super) fn query(query: &Query) -> Query {
     let Goal { x, y, yaw, curvature } = query.goal;
     Query { start_curvature: -query.start_curvature, goal: Goal { x, y: -y, yaw: -yaw, curvature: -curvature } }

@@ -14,6 +14,8 @@ const NODES: usize = 8;
 const PANELS: f64 = 256.0;
 
 /// Errors at the end of a drive.
+///
+/// Of the commands as they are handed out, not of what made them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Miss {
     /// Distance from the goal, m.
@@ -34,6 +36,8 @@ impl Miss {
 }
 
 /// Integrates `segments` from the origin, driving forward.
+///
+/// Eight Gauss points a panel; the error is below 10⁻¹⁰ m for drives of hundreds of metres.
 pub(super) fn miss(simd: Simd, segments: &[Segment], query: &Query) -> Miss {
     let (mut x, mut y, mut heading, mut curvature) = (0.0, 0.0, 0.0, query.start_curvature);
     for segment in segments {

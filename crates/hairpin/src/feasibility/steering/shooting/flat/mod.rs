@@ -4,6 +4,11 @@
 //! words say which ways around there are and how short a path can be at best; along each, shortest first, an arc is
 //! fitted and, where none keeps the bounds, a chain of clothoids. Nothing is allocated, nothing depends on a clock;
 //! work is counted in steps.
+//!
+//! Data flow: query → mirrored so that it leans left (`mirror`) → Dubins' words, shortest first (`dubins`) → an arc
+//! along each by sequential quadratic programming (`arc`), else a chain of clothoids (`chain`) → judged from the
+//! numbers that are handed out (`miss`, `extremes`) → [`Answer`]. Turns in place and single arcs are closed forms
+//! (`controls`).
 
 mod arc;
 mod chain;

@@ -9,6 +9,8 @@ use crate::trajectory::start_table::{APART, BEHIND, NODES, StartTable, TURN};
 const ALIKE: f64 = 1.5;
 
 /// most_rate/most²: how fast the bend may change, in units of the tightest circle.
+///
+/// Without unit: 1 means that the curvature comes to its bound along one least radius.
 pub fn steering(bounds: &Curvatures) -> f64 {
     bounds.most_rate / (bounds.most * bounds.most)
 }

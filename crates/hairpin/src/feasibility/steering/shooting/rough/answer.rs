@@ -10,6 +10,8 @@ use crate::trajectory::drive::{Planar, SegmentList};
 pub(super) const ENOUGH: f64 = 0.8;
 
 /// How long and how exactly to look.
+///
+/// Counts of predictions bound the time: each integrates the whole drive on the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Predictions for flat goals, at most; commands that are bent on from there take more, up to 16 for each of five
@@ -31,6 +33,8 @@ impl Default for Settings {
 
 impl Settings {
     /// Whether `end` is as near to `goal` as answers are, with room for a finer integration's difference.
+    ///
+    /// Position, heading and curvature each within 0.8 of its precision.
     pub fn met(&self, goal: &Planar, end: &Planar) -> bool {
         miss(goal, end, &self.precision).residual <= ENOUGH
     }
