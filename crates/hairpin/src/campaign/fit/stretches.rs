@@ -56,16 +56,15 @@ pub(super) fn residuals(loops: &Loops, theta: &[f64], which: &[usize], filters: 
 /// `None` where one is not simulated.
 pub(super) fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Vec<Filter>> {
     let logs = loops.residuals(theta, which)?;
-    let mut found = vec![Filter::NONE; loops.rule.deviations()];
-    // Logs may have different outputs: those of one kind at once.
-    for outputs in which.iter().map(|log| &loops.compared[*log].outputs) {
-        let alike = which.iter().zip(&logs).filter(|(log, _)| loops.compared[**log].outputs == *outputs);
-        let legs: Vec<Leg> = alike.flat_map(|(log, residuals)| legs(&loops.compared[*log], residuals)).collect();
-        for (number, filter) in filters(&legs, outputs).into_iter().enumerate() {
-            found[number] = filter;
-        }
-    }
-    Some(found)
+    let legs: Vec<(Leg, &[usize])> = which
+        .iter()
+        .zip(&logs)
+        .flat_map(|(log, residuals)| {
+            let compared = &loops.compared[*log];
+            legs(compared, residuals).map(|leg| (leg, &compared.outputs[..]))
+        })
+        .collect();
+    Some(filters(&legs, loops.rule.deviations()))
 }
 
 /// The residuals of a log, leg by leg.

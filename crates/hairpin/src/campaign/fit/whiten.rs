@@ -47,11 +47,11 @@ impl Filter {
 /// Samples of one leg each: residuals of all outputs, sample by sample.
 pub(super) type Leg<'a> = &'a [Vec<f64>];
 
-/// The filter of each output number, from the legs' residuals; `outputs` says which number each column has.
-pub(super) fn filters(legs: &[Leg], outputs: &[usize]) -> Vec<Filter> {
-    let numbers = outputs.iter().max().map_or(0, |most| most + 1);
+/// The filter of each of `numbers` outputs, from the legs' residuals; with each leg stands which number its columns
+/// have. Legs of logs that have other outputs count for those that they have.
+pub(super) fn filters(legs: &[(Leg, &[usize])], numbers: usize) -> Vec<Filter> {
     let mut covariances = vec![[0.0; 3]; numbers];
-    for leg in legs {
+    for (leg, outputs) in legs {
         for (column, &number) in outputs.iter().enumerate() {
             for (lag, sum) in covariances[number].iter_mut().enumerate() {
                 *sum += leg.iter().zip(leg.iter().skip(lag)).map(|(a, b)| a[column] * b[column]).sum::<f64>();
@@ -86,10 +86,21 @@ mod tests {
             leg.push(vec![1.6 * leg[i - 1][0] - 0.7 * leg[i - 2][0] + drive]);
             drives.push(drive);
         }
-        let filters = filters(&[&leg], &[0]);
+        let filters = filters(&[(&leg, &[0])], 1);
         let mut left = Vec::new();
         whitened(&leg, &[0], &filters, &mut left);
         let off: f64 = left.iter().zip(&drives).skip(2).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() / 2e4;
         assert!(off < 0.01, "{off}, {filters:?}");
+    }
+
+    /// A log of fewer outputs takes nothing from what the others say of theirs, wherever it stands.
+    #[test]
+    fn logs_of_other_outputs_leave_filters_as_they_were() {
+        let both: Vec<Vec<f64>> = (0..50).map(|i| vec![f64::from(i).sin(), f64::from(i).cos()]).collect();
+        let one: Vec<Vec<f64>> = (0..50).map(|i| vec![f64::from(i * i).sin()]).collect();
+        let second = |legs: &[(Leg, &[usize])]| format!("{:?}", filters(legs, 2)[1]);
+        let alone = second(&[(&both, &[0, 1])]);
+        assert_eq!(second(&[(&both, &[0, 1]), (&one, &[0])]), alone);
+        assert_eq!(second(&[(&one, &[0]), (&both, &[0, 1])]), alone);
     }
 }

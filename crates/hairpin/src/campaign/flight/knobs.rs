@@ -31,7 +31,7 @@ pub(super) fn knobs(setup: &FlightSetup) -> Knobs {
     }
 }
 
-/// Limits that are not given bind nothing and have none; a tilt goes up to 90°, margins down to 0.
+/// Limits that are not given bind nothing and have none; a tilt that is below goes up to 90°, margins down to 0.
 fn turned(scenario: &FlightScenario) -> Vec<Knob> {
     let (generate, world) = (&scenario.generate, &scenario.world);
     let (limits, search) = (&generate.limits, &generate.search);
@@ -42,7 +42,7 @@ fn turned(scenario: &FlightScenario) -> Vec<Knob> {
     [
         Knob::either("task.length", scenario.task.length, 2),
         limits.max_speed_m_s.and_then(|now| Knob::up("generate.limits.max_speed_m_s", now, "m/s")),
-        limits.max_tilt_deg.and_then(|now| Knob::number("generate.limits.max_tilt_deg", now, 90.0, "°")),
+        limits.max_tilt_deg.and_then(|now| Knob::number("generate.limits.max_tilt_deg", now, now.max(90.0), "°")),
         limits.max_flight_time_s.and_then(|now| Knob::up("generate.limits.max_flight_time_s", now, "s")),
         timing.step_s.and_then(|now| Knob::up("generate.timing.step_s", now, "s")),
         timing.leg_time_s.and_then(|[_, now]| Knob::up("generate.timing.leg_time_s[1]", now, "s")),

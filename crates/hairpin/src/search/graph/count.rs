@@ -27,9 +27,9 @@ pub enum Count {
 impl Count {
     /// Whether there is none: a proof.
     ///
-    /// Only an exact 0 is one; 0 among doubles is not taken for a proof.
+    /// Among doubles as well: a sum of counts, none below 1, is 0 where it has no summand.
     pub fn is_zero(self) -> bool {
-        self == Count::Exact(0)
+        self.as_f64() == 0.0
     }
 
     /// The number, rounded.
