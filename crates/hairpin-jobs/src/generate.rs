@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
+use crate::rounds::Rounds;
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
 use crate::{Deadline, Problem, Watch, optimum};
@@ -52,6 +53,16 @@ pub(crate) fn find_cases(
     proof: Deadline,
     watch: &dyn Watch,
 ) -> Result<(Vec<Case>, Tally), Problem> {
+    find_cases_together(work, [deadline, proof], None, watch)
+}
+
+/// The same with `rounds` of the search shared with other machines.
+pub(crate) fn find_cases_together(
+    work: &Work,
+    [deadline, proof]: [Deadline; 2],
+    rounds: Option<&Rounds>,
+    watch: &dyn Watch,
+) -> Result<(Vec<Case>, Tally), Problem> {
     let known = known(work)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
@@ -60,7 +71,7 @@ pub(crate) fn find_cases(
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let found = searched(&work.setup, &Scope::From(&known), (deadline, watch), &mut |new, tally| {
+    let found = searched(&work.setup, (&Scope::From(&known), rounds), (deadline, watch), &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
             trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
@@ -122,7 +133,7 @@ enum Scope<'a> {
 /// user's program where that was the end of it.
 fn searched(
     setup: &Setup,
-    scope: &Scope,
+    (scope, rounds): (&Scope, Option<&Rounds>),
     (deadline, watch): (Deadline, &dyn Watch),
     found: &mut (dyn FnMut(&[Case], &Tally) + Send),
 ) -> Result<(Tally, Option<Problem>), Problem> {
@@ -143,7 +154,7 @@ fn searched(
             Scope::Units(units, first) => generate_units(setup, (units.clone(), *first), executor, &stop, found),
         })
     };
-    let answer = in_the_loop(setup, &stopped, watch, search)?;
+    let answer = in_the_loop(setup, &stopped, rounds, watch, search)?;
     watch.finished(WHAT);
     match code_trouble() {
         Some((key, trouble)) => Err(Problem::input(format!("`{key}` = {trouble}"))),
@@ -173,7 +184,8 @@ pub(crate) fn find_units(
 
 fn found_in(setup: &Setup, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -> Result<Known, Problem> {
     let mut cases = Vec::new();
-    let (tally, trouble) = searched(setup, scope, (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    let (tally, trouble) =
+        searched(setup, (scope, None), (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
     match trouble {
         Some(problem) => Err(problem),
         None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),

@@ -57,6 +57,7 @@ mod list;
 mod names;
 mod parts;
 mod recent;
+mod rounds;
 mod run_writer;
 mod runs;
 mod scenario;
@@ -92,6 +93,7 @@ pub(crate) fn is_exported(path: &Path) -> bool {
     List::has_exported(path)
 }
 use recent::Recent;
+pub use rounds::{ALIVE, Piece};
 pub use run_writer::{Landed, RunWriter};
 
 const LOCK: &str = ".lock";

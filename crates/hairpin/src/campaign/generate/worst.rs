@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::graphs::Graphs;
 use super::known::Known;
 use super::targets::{Margins, targets};
-use crate::campaign::answers::Answers;
+use crate::campaign::answers::{Answers, Executed};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::{Sought, executed_case};
-use crate::campaign::{Case, Setup, Stop, Tally, Witness, vary};
+use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::{Stream, named_seed};
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 
@@ -92,20 +92,44 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        let fingerprint = self.fingerprint(drawn);
-        if let Some(known) = self.known.of(&fingerprint) {
-            return known.clone();
-        }
-        let ran = self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least);
-        // Who was stopped has failed at nothing.
-        if ran.is_some() || !(self.stop.cancelled)() {
-            self.all.lock().unwrap_or_else(PoisonError::into_inner).take(fingerprint, ran.clone());
+        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
+    }
+
+    fn run_all(
+        &self,
+        plans: &[&Drawn],
+        least: &[f64],
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        let names: Vec<[u8; 16]> = plans.iter().map(|drawn| self.fingerprint(drawn)).collect();
+        let ran = self.carried_out(&names, &|place| {
+            if let Some(known) = self.known.of(&names[place]) {
+                return Some(known.clone());
+            }
+            let ran = (!stopped()).then(|| self.run(plans[place], least))?;
+            // Who was stopped has failed at nothing.
+            (ran.is_some() || !(self.stop.cancelled)()).then_some(ran)
+        });
+        let mut all = self.all.lock().unwrap_or_else(PoisonError::into_inner);
+        for (name, ran) in names.into_iter().zip(&ran) {
+            ran.iter().for_each(|ran| all.take(name, ran.clone()));
         }
         ran
     }
 }
 
 impl Plans<'_> {
+    /// What whoever executes has of a batch, of which `execute` carries one out.
+    fn carried_out(
+        &self,
+        names: &[[u8; 16]],
+        execute: &(dyn Fn(usize) -> Option<Option<Ran>> + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        let execute = |place: usize| Some(execute(place)?.as_ref().map(Executed::from));
+        let answers = self.graphs.executor.carry_out(&Batch { names, execute: &execute });
+        answers.into_iter().map(|answer| Some(answer?.map(Ran::from))).collect()
+    }
+
     /// Chooses the run that trajectories are executed as: the nominal one where nothing is drawn for runs, else of the
     /// first four that of which a few random trajectories bear most, by the first target; the executions that this
     /// took.
@@ -125,14 +149,13 @@ impl Plans<'_> {
         let drawn: Vec<Drawn> = drawn.collect();
         let pairs: Vec<(usize, &Drawn)> =
             (0..runs).flat_map(|run| drawn.iter().map(move |drawn| (run, drawn))).collect();
-        let stresses: Vec<(usize, f64)> = pairs
-            .par_iter()
-            .map(|(run, drawn)| {
-                let plan = (&drawn.plan, *run);
-                let ran = self.graphs.trials(drawn.graph).execute_for(plan, &self.sought[..1], &[f64::INFINITY]);
-                (*run, ran.map_or(f64::NAN, |ran| ran.trials[0].stress))
-            })
-            .collect();
+        let names: Vec<[u8; 16]> = pairs.iter().map(|(_, drawn)| self.fingerprint(drawn)).collect();
+        let ran = self.carried_out(&names, &|place| {
+            let (run, Drawn { graph, plan }) = pairs[place];
+            Some(self.graphs.trials(*graph).execute_for((plan, run), &self.sought[..1], &[f64::INFINITY]))
+        });
+        let stress = |ran: Option<Option<Ran>>| ran.flatten().map_or(f64::NAN, |ran| ran.trials[0].stress);
+        let stresses: Vec<(usize, f64)> = pairs.iter().zip(ran).map(|((run, _), ran)| (*run, stress(ran))).collect();
         let mean = |run: usize| {
             let of_run =
                 || stresses.iter().filter(|(of, stress)| *of == run && !stress.is_nan()).map(|(_, stress)| stress);

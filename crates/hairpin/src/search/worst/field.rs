@@ -1,6 +1,7 @@
 //! What is searched: plans that are feasible, how one becomes another, and what carries them out.
 
 use nalgebra::Point3;
+use rayon::prelude::*;
 
 use crate::math::random::Stream;
 use crate::search::in_loop::Trial;
@@ -53,4 +54,15 @@ pub trait Field: Sync {
     /// Carries `plan` out. `None` where that fails; what comes to the stress `least` of its target may be carried out
     /// more often.
     fn run(&self, plan: &Self::Plan, least: &[f64]) -> Option<Ran>;
+
+    /// The same of plans that do not depend on each other, on any threads; `None` of those that were not begun before
+    /// the search was `stopped`.
+    fn run_all(
+        &self,
+        plans: &[&Self::Plan],
+        least: &[f64],
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        plans.par_iter().map(|plan| (!stopped()).then(|| self.run(plan, least))).collect()
+    }
 }
