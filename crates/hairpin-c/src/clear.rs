@@ -26,8 +26,8 @@ pub struct KeepOutPlace {
     pub corners: usize,
 }
 
-/// Looks for a drive as hairpin_steer does, and around `places`: the circle about all wheels and the underside stays out
-/// of them, on a map along the predicted motion. Takes memory, and knows no budget.
+/// Looks for a drive as hairpin_steer does, and around `places`: the circle about all wheels and the underside stays
+/// out of them, on a map along the predicted motion. Takes memory, and knows no budget.
 ///
 /// Where none stays clear the answer is HAIRPIN_INFEASIBLE with `keep_out`, and `excess` says by how many metres the
 /// drive comes too near.
@@ -81,6 +81,9 @@ impl KeepOutPlace {
 
 impl SteerHandle {
     fn clear_of(&self, keep_outs: &KeepOuts, start: &Planar, goal: &Planar) -> Result<Drive, Refused> {
+        if keep_outs.is_empty() {
+            return self.answer(start, goal);
+        }
         let hazards = self.hazards(start, keep_outs);
         let query = match self.question(start, goal)? {
             Ok(query) => query,

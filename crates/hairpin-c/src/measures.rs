@@ -63,7 +63,8 @@ pub struct TrackLeg {
 /// One limit that is violated.
 #[repr(C)]
 pub struct TrackViolation {
-    /// What: `deviation`, `overshoot`, `acceleration`, `total-time`, `late`, `clearance`; or `crash`, `unfinished`, `stalled`.
+    /// What: `deviation`, `overshoot`, `acceleration`, `total-time`, `late`, `clearance`; or `crash`, `unfinished`,
+    /// `stalled`.
     pub what: [c_char; HAIRPIN_NAME],
     /// What was measured, in the limit's unit; of `crash` when, s; of a track without its end how many waypoints.
     pub value: f64,

@@ -75,8 +75,8 @@ pub struct JudgeSettings {
     pub min_clearance_m: f64,
     /// Longest duration, s.
     pub max_total_time_s: f64,
-    /// When each waypoint was to be reached, s, as a program of an arm has it; NaN: at no time; NULL: none has one. Read
-    /// with `reached_s`, of which it is taken off.
+    /// When each waypoint was to be reached, s, as a program of an arm has it; NaN: at no time; NULL: none has one.
+    /// Read with `reached_s`, of which it is taken off.
     pub planned_s: *const f64,
     /// Latest arrival at a waypoint after its planned time, s.
     pub max_late_s: f64,

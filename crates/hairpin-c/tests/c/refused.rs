@@ -107,7 +107,6 @@ fn questions_that_are_none_are_refused() {
             (SteerSettings { tolerance_yaw_rad: -0.1, ..usual }, "`tolerance_yaw_rad` = -0.1"),
             (SteerSettings { speed_m_s: f64::INFINITY, ..usual }, "`speed_m_s` = inf"),
             (SteerSettings { control: 7, ..usual }, "`control` = 7"),
-            (SteerSettings { control: 3, ..usual }, "`control`: `plain` cannot turn in place"),
             (SteerSettings { direction_rad: f64::NAN, ..usual }, "`direction_rad` = NaN"),
         ] {
             refused(said(|e| hairpin_steer_new(rover, null(), &settings, &mut other, e)), HAIRPIN_INVALID, words);

@@ -162,7 +162,7 @@ fn a_shard_that_is_killed_in_a_round_holds_up_no_other() {
     let place = tempfile::tempdir().unwrap();
     let place = place.path();
     fs::write(place.join("slow.py"), SLOW).unwrap();
-    let search = "generate.search={ method = 'worst', waypoints = 60, cases = 2, executions = 60 }";
+    let search = "generate.search={ method = 'worst', waypoints = 60, cases = 2, executions = 30 }";
     let few = ["--set", search, "--set", "execute.repeat=1", "--set", "execute.baseline=0"];
     let flown_by = ["--executor", "python3 slow.py", "--set", "execute.processes=1"];
     for verb in [["stress", "one"], ["plan", "many"]] {

@@ -9,8 +9,8 @@
 //!
 //! Data flow: the search asks for a batch → its pieces that nobody has are claimed and executed, those of others read
 //! as they land → all of them are the answer. Which round it is and what is in it follows from the answers before, so
-//! that all ask the same and nobody is told anything. A lease decides who works, never what comes of it: a piece that is
-//! executed twice has one result, the one that was there first.
+//! that all ask the same and nobody is told anything. A lease decides who works, never what comes of it: a piece that
+//! is executed twice has one result, the one that was there first.
 
 mod beat;
 mod lease;
