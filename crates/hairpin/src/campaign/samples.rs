@@ -27,7 +27,7 @@ pub(super) fn stresses_of(measures: &Measures, stress: Stress) -> Vec<f64> {
 /// The legs of `case` with the stress that was measured on them.
 pub(super) fn samples_of(case: &Case, stresses: &[f64]) -> Vec<LegSample> {
     let before = std::iter::once(None).chain(case.seen.iter().copied().map(Some));
-    let legs = case.seen.iter().zip(before).zip(stresses).filter(|(_, stress)| !stress.is_nan());
+    let legs = case.seen.iter().zip(before).zip(stresses).filter(|(_, stress)| stress.is_finite());
     legs.map(|((seen, before), stress)| LegSample { trajectory: case.number.0, seen: *seen, before, stress: *stress })
         .collect()
 }

@@ -14,6 +14,7 @@ use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::{Sought, executed_case};
 use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::{Stream, named_seed};
+use crate::search::in_loop::Trial;
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 
 /// Runs that the one of the search is chosen among, and random trajectories that they are compared by.
@@ -102,7 +103,7 @@ impl Field for Plans<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Option<Option<Ran>>> {
         let names: Vec<[u8; 16]> = plans.iter().map(|drawn| self.fingerprint(drawn)).collect();
-        let ran = self.carried_out(&names, &|place| {
+        let ran = self.carried_out((&names, self.sought.len()), &|place| {
             if let Some(known) = self.known.of(&names[place]) {
                 return Some(known.clone());
             }
@@ -119,15 +120,19 @@ impl Field for Plans<'_> {
 }
 
 impl Plans<'_> {
-    /// What whoever executes has of a batch, of which `execute` carries one out.
+    /// What whoever executes has of a batch, of which `execute` carries one out, measured by so many targets. What
+    /// cannot be an execution's, as files of a stranger's may have it, counts as failed.
     fn carried_out(
         &self,
-        names: &[[u8; 16]],
+        (names, targets): (&[[u8; 16]], usize),
         execute: &(dyn Fn(usize) -> Option<Option<Ran>> + Sync),
     ) -> Vec<Option<Option<Ran>>> {
+        let most = 1 + self.graphs.setup.scenario.search().confirm;
+        let sound = |trial: &Trial| trial.executions <= most && u32::try_from(trial.worst_leg).is_ok();
+        let fits = |ran: &Ran| ran.trials.len() == targets && ran.trials.iter().all(sound);
         let execute = |place: usize| Some(execute(place)?.as_ref().map(Executed::from));
         let answers = self.graphs.executor.carry_out(&Batch { names, execute: &execute });
-        answers.into_iter().map(|answer| Some(answer?.map(Ran::from))).collect()
+        answers.into_iter().map(|answer| Some(answer?.map(Ran::from).filter(fits))).collect()
     }
 
     /// Chooses the run that trajectories are executed as: the nominal one where nothing is drawn for runs, else of the
@@ -150,7 +155,7 @@ impl Plans<'_> {
         let pairs: Vec<(usize, &Drawn)> =
             (0..runs).flat_map(|run| drawn.iter().map(move |drawn| (run, drawn))).collect();
         let names: Vec<[u8; 16]> = pairs.iter().map(|(_, drawn)| self.fingerprint(drawn)).collect();
-        let ran = self.carried_out(&names, &|place| {
+        let ran = self.carried_out((&names, 1), &|place| {
             let (run, Drawn { graph, plan }) = pairs[place];
             Some(self.graphs.trials(*graph).execute_for((plan, run), &self.sought[..1], &[f64::INFINITY]))
         });
