@@ -52,6 +52,7 @@ int main(void)
     hairpin_steer_settings settings = hairpin_steer_fixed_budget();
     hairpin_grid grid = {CELLS, CELLS, {0.0, 0.0}, {0.2, 0.2}};
     hairpin_state start = {0.0, 0.0, 0.0, 0.0}, goal = {1.0, 1.0, 0.785, 0.0};
+    hairpin_keep_out rock = {{3.0, 0.0}, 0.5, NULL, 0};
     hairpin_drive drive;
     size_t count = 0, row, column;
     int solved;
@@ -67,6 +68,12 @@ int main(void)
     printf("  %lu moments, the last at %.2f s in (%.3f, %.3f)\n", (unsigned long)count, path[count - 1].t_s,
            path[count - 1].state.x_m, path[count - 1].state.y_m);
 
+    /* Around a rock, which takes memory; crabs and other controls are settings. */
+    start.curvature_1_m = goal.curvature_1_m = goal.y_m = goal.yaw_rad = 0.0, goal.x_m = 6.0;
+    must(hairpin_steer_clear(plane, &start, &goal, &rock, 1, &drive, &error), &error);
+    tell("around a rock", &drive);
+    solved = solved && drive.status == HAIRPIN_SOLVED;
+
     /* On hills of 20 cm, from the middle of the map to 3 m ahead of it. */
     for (row = 0; row < CELLS; row++) {
         for (column = 0; column < CELLS; column++) {
@@ -77,7 +84,7 @@ int main(void)
     must(hairpin_map_new(&grid, heights, HAIRPIN_HOLES_REFUSED, &map, &error), &error);
     must(hairpin_steer_new(wheels, map, NULL, &ground, &error), &error);
     start.x_m = start.y_m = 5.0;
-    goal.x_m = 8.0, goal.y_m = 6.0;
+    goal.x_m = 8.0, goal.y_m = 6.0, goal.yaw_rad = 0.785;
     must(hairpin_steer(ground, &start, &goal, &drive, &error), &error);
     tell("on the ground", &drive);
     must(hairpin_confirm(ground, &start, &goal, &drive, &error), &error);

@@ -39,6 +39,41 @@
 #define HAIRPIN_HOLES_FILL 2
 
 /**
+ * Of fifth order in the way: the usual one, with chains of clothoids where it keeps no bound.
+ */
+#define HAIRPIN_CONTROL_QUINTIC 0
+
+/**
+ * Constant: heading and curvature at the goal are as they come.
+ */
+#define HAIRPIN_CONTROL_ARC 1
+
+/**
+ * Of third order in the way.
+ */
+#define HAIRPIN_CONTROL_CUBIC 2
+
+/**
+ * A turn in place, a straight, a turn in place.
+ */
+#define HAIRPIN_CONTROL_TURN_DRIVE_TURN 3
+
+/**
+ * Of fifth order in time.
+ */
+#define HAIRPIN_CONTROL_TIME_POLYNOMIAL 4
+
+/**
+ * The natural cubic spline through eight even knots of the way.
+ */
+#define HAIRPIN_CONTROL_KNOTS 5
+
+/**
+ * Turn rate over speed, both polynomials of time.
+ */
+#define HAIRPIN_CONTROL_VELOCITY_POLYNOMIAL 6
+
+/**
  * Steps for one goal of the fixed budget.
  */
 #define HAIRPIN_FIXED_STEPS 60
@@ -305,6 +340,18 @@ typedef struct {
    * Looks at a map at most, of which a settled pose takes some dozen; 0: no bound.
    */
   uint64_t most_looks;
+  /**
+   * What curvature is a function of, one of HAIRPIN_CONTROL_...; the budgets are the usual one's.
+   */
+  int32_t control;
+  /**
+   * Direction of travel in the body where the drive begins, rad, left positive: not 0, it crabs.
+   */
+  double direction_rad;
+  /**
+   * By how much that changes until the drive ends, rad, left positive.
+   */
+  double swing_rad;
 } hairpin_steer_settings;
 
 /**
@@ -413,6 +460,28 @@ typedef struct {
    */
   hairpin_segment segments[HAIRPIN_MOST_SEGMENTS];
 } hairpin_drive;
+
+/**
+ * A place to keep out of: a disc, or a polygon where it has corners.
+ */
+typedef struct {
+  /**
+   * Middle of the disc, x and y, m.
+   */
+  double center_m[2];
+  /**
+   * Its radius, m.
+   */
+  double radius_m;
+  /**
+   * Corners of a polygon in turn, x and y each, m; NULL: a disc.
+   */
+  const double *corners_m;
+  /**
+   * How many, 3 or more; 0 of a disc.
+   */
+  size_t corners;
+} hairpin_keep_out;
 
 /**
  * One moment of a drive.
@@ -618,6 +687,15 @@ typedef struct {
    * Longest duration, s.
    */
   double max_total_time_s;
+  /**
+   * When each waypoint was to be reached, s, as a program of an arm has it; NaN: at no time; NULL: none has one.
+   * Read with `reached_s`, of which it is taken off.
+   */
+  const double *planned_s;
+  /**
+   * Latest arrival at a waypoint after its planned time, s.
+   */
+  double max_late_s;
 } hairpin_judge_settings;
 
 /**
@@ -695,6 +773,18 @@ typedef struct {
    */
   double total_time_s;
   /**
+   * Latest arrival at a waypoint, by its planned time, s; negative: all were early.
+   */
+  double latest_s;
+  /**
+   * When, s.
+   */
+  double t_latest_s;
+  /**
+   * Which leg led there.
+   */
+  size_t leg_latest;
+  /**
    * 1 where legs were not told, and samples were assigned to them along the path.
    */
   int32_t legs_assigned;
@@ -728,6 +818,10 @@ typedef struct {
    * Time spent on it, s.
    */
   double time_s;
+  /**
+   * How late its last waypoint was reached, by its planned time, s; negative is early.
+   */
+  double lateness_s;
 } hairpin_leg;
 
 /**
@@ -735,7 +829,8 @@ typedef struct {
  */
 typedef struct {
   /**
-   * What: `deviation`, `overshoot`, `acceleration`, `total-time`, `clearance`; or `crash`, `unfinished`, `stalled`.
+   * What: `deviation`, `overshoot`, `acceleration`, `total-time`, `late`, `clearance`; or `crash`, `unfinished`,
+   * `stalled`.
    */
   char what[HAIRPIN_NAME];
   /**
@@ -913,6 +1008,29 @@ hairpin_code hairpin_confirm(const hairpin_steerer *steer,
                              const hairpin_state *goal,
                              hairpin_drive *drive,
                              hairpin_error *error);
+
+/**
+ * Looks for a drive as hairpin_steer does, and around `places`: the circle about all wheels and the underside stays
+ * out of them, on a map along the predicted motion. Takes memory, and knows no budget.
+ *
+ * Where none stays clear the answer is HAIRPIN_INFEASIBLE with `keep_out`, and `excess` says by how many metres the
+ * drive comes too near.
+ *
+ * @param steer what is asked
+ * @param start where the vehicle is, on the map or anywhere in the plane
+ * @param goal where it is to be, in the same frame
+ * @param places what it keeps out of, in the same frame
+ * @param count how many
+ * @param drive the answer
+ * @param error NULL, or where the call says why it did nothing
+ */
+hairpin_code hairpin_steer_clear(const hairpin_steerer *steer,
+                                 const hairpin_state *start,
+                                 const hairpin_state *goal,
+                                 const hairpin_keep_out *places,
+                                 size_t count,
+                                 hairpin_drive *drive,
+                                 hairpin_error *error);
 
 /**
  * Follows a drive in steps of time: on the map with suspension, slip and lag, in the plane as it is commanded. Takes

@@ -122,6 +122,18 @@ public:
         return drive;
     }
 
+    /// The same around places; takes memory.
+    hairpin_drive clear_of(const std::vector<hairpin_keep_out> &places, const hairpin_state &start,
+                           const hairpin_state &goal) const
+    {
+        hairpin_error why;
+        hairpin_drive drive;
+        const auto code =
+            hairpin_steer_clear(handle_.get(), &start, &goal, places.data(), places.size(), &drive, &why);
+        detail::check(code, why);
+        return drive;
+    }
+
     /// The drive, held to its replay.
     hairpin_drive confirm(const hairpin_state &start, const hairpin_state &goal, hairpin_drive drive) const
     {

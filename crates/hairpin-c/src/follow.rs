@@ -1,7 +1,6 @@
 //! The states along a drive: the source's `GetPath`.
 
 use hairpin::campaign::states::{Followed, VehicleState};
-use hairpin::trajectory::Direction;
 
 use crate::drive::{Drive, State};
 use crate::memory::{Room, given, put, result};
@@ -75,7 +74,7 @@ fn follow(steer: &SteerHandle, start: &State, drive: &Drive, time_step: f64) -> 
     // In place the outermost wheel goes as fast as the vehicle would ahead.
     let arm = rover.suspension.outer_radius();
     let turn_rate = steer.speed / if arm > 0.0 { arm } else { 1.0 };
-    let direction = Direction::default();
+    let direction = steer.settings.direction();
     let most_steps = MOST_STEPS;
     let followed = Followed { rover, speed: steer.speed.into(), turn_rate, direction, time_step, most_steps };
     let start = start.planar();

@@ -3,6 +3,7 @@
 //! | header | what | file |
 //! | --- | --- | --- |
 //! | `hairpin_steer` | a drive between two states, in the plane or on a map | `steer` |
+//! | `hairpin_steer_clear` | the same, around places | `clear` |
 //! | `hairpin_follow` | the states along a drive | `follow` |
 //! | `hairpin_max_load` | the heaviest path through a table of costs | `max_load` |
 //! | `hairpin_judge` | a track against waypoints and limits | `judge` |
@@ -13,15 +14,22 @@
 
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 
+mod asked;
+pub mod clear;
+mod confirm;
 pub mod drive;
 pub mod follow;
+mod ground;
+mod held;
 pub mod judge;
 pub mod map;
 pub mod max_load;
 pub mod measures;
 mod memory;
+mod plane;
 pub mod refusal;
 pub mod rover;
 pub mod settings;
 pub mod steer;
+pub mod track;
 pub mod version;

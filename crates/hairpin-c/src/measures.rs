@@ -31,6 +31,12 @@ pub struct TrackMeasures {
     pub max_tilt_deg: f64,
     /// Duration, s.
     pub total_time_s: f64,
+    /// Latest arrival at a waypoint, by its planned time, s; negative: all were early.
+    pub latest_s: f64,
+    /// When, s.
+    pub t_latest_s: f64,
+    /// Which leg led there.
+    pub leg_latest: usize,
     /// 1 where legs were not told, and samples were assigned to them along the path.
     pub legs_assigned: i32,
 }
@@ -50,12 +56,15 @@ pub struct TrackLeg {
     pub min_clearance_m: f64,
     /// Time spent on it, s.
     pub time_s: f64,
+    /// How late its last waypoint was reached, by its planned time, s; negative is early.
+    pub lateness_s: f64,
 }
 
 /// One limit that is violated.
 #[repr(C)]
 pub struct TrackViolation {
-    /// What: `deviation`, `overshoot`, `acceleration`, `total-time`, `clearance`; or `crash`, `unfinished`, `stalled`.
+    /// What: `deviation`, `overshoot`, `acceleration`, `total-time`, `late`, `clearance`; or `crash`, `unfinished`,
+    /// `stalled`.
     pub what: [c_char; HAIRPIN_NAME],
     /// What was measured, in the limit's unit; of `crash` when, s; of a track without its end how many waypoints.
     pub value: f64,
@@ -81,6 +90,9 @@ impl From<&Measures> for TrackMeasures {
             t_clearance_s: of.min_clearance.map_or(f64::NAN, |_| of.t_clearance),
             max_tilt_deg: of.max_tilt.unwrap_or(f64::NAN),
             total_time_s: of.total_time,
+            latest_s: of.latest.map_or(f64::NAN, |latest| latest.by),
+            t_latest_s: of.latest.map_or(f64::NAN, |latest| latest.at),
+            leg_latest: of.latest.map_or(0, |latest| latest.leg),
             legs_assigned: (of.leg_source == LegSource::Assigned).into(),
         }
     }
@@ -95,6 +107,7 @@ impl From<&LegMeasures> for TrackLeg {
             max_acceleration_m_s2: of.max_acceleration,
             min_clearance_m: of.min_clearance.unwrap_or(f64::NAN),
             time_s: of.time,
+            lateness_s: of.lateness.unwrap_or(f64::NAN),
         }
     }
 }

@@ -1,8 +1,11 @@
 //! How drives are looked for, and how long.
 
+use std::f64::consts::TAU;
+
 use hairpin::feasibility::steering::shooting::rough;
 use hairpin::feasibility::steering::shooting::solve::Choices;
-use hairpin::feasibility::steering::shooting::{Precision, flat};
+use hairpin::feasibility::steering::shooting::{Control, Precision, flat};
+use hairpin::trajectory::Direction;
 
 use crate::refusal::{HAIRPIN_INVALID, Refused};
 
@@ -30,7 +33,39 @@ pub struct SteerSettings {
     pub predictions: u32,
     /// Looks at a map at most, of which a settled pose takes some dozen; 0: no bound.
     pub most_looks: u64,
+    /// What curvature is a function of, one of HAIRPIN_CONTROL_...; the budgets are the usual one's.
+    pub control: i32,
+    /// Direction of travel in the body where the drive begins, rad, left positive: not 0, it crabs.
+    pub direction_rad: f64,
+    /// By how much that changes until the drive ends, rad, left positive.
+    pub swing_rad: f64,
 }
+
+/// Of fifth order in the way: the usual one, with chains of clothoids where it keeps no bound.
+pub const HAIRPIN_CONTROL_QUINTIC: i32 = 0;
+/// Constant: heading and curvature at the goal are as they come.
+pub const HAIRPIN_CONTROL_ARC: i32 = 1;
+/// Of third order in the way.
+pub const HAIRPIN_CONTROL_CUBIC: i32 = 2;
+/// A turn in place, a straight, a turn in place.
+pub const HAIRPIN_CONTROL_TURN_DRIVE_TURN: i32 = 3;
+/// Of fifth order in time.
+pub const HAIRPIN_CONTROL_TIME_POLYNOMIAL: i32 = 4;
+/// The natural cubic spline through eight even knots of the way.
+pub const HAIRPIN_CONTROL_KNOTS: i32 = 5;
+/// Turn rate over speed, both polynomials of time.
+pub const HAIRPIN_CONTROL_VELOCITY_POLYNOMIAL: i32 = 6;
+
+/// Controls by their numbers.
+const CONTROLS: [Control; 7] = [
+    Control::Quintic,
+    Control::Arc,
+    Control::Cubic,
+    Control::TurnDriveTurn,
+    Control::TimePolynomial,
+    Control::Knots,
+    Control::VelocityPolynomial,
+];
 
 /// Steps for one goal of the fixed budget.
 pub const HAIRPIN_FIXED_STEPS: u32 = 60;
@@ -52,6 +87,9 @@ pub extern "C" fn hairpin_steer_defaults() -> SteerSettings {
         most_steps: 0,
         predictions: ground.iterations,
         most_looks: 0,
+        control: HAIRPIN_CONTROL_QUINTIC,
+        direction_rad: 0.0,
+        swing_rad: 0.0,
     }
 }
 
@@ -80,11 +118,27 @@ impl SteerSettings {
                 return Err(Refused::new(HAIRPIN_INVALID, sentence));
             }
         }
+        for (field, value) in [("direction_rad", self.direction_rad), ("swing_rad", self.swing_rad)] {
+            if value.is_nan() || value.abs() > TAU {
+                return Err(Refused::new(HAIRPIN_INVALID, format_args!("`{field}` = {value}: must be within a turn")));
+            }
+        }
         if !(self.speed_m_s >= 0.0 && self.speed_m_s.is_finite()) {
             let sentence = format_args!("`speed_m_s` = {}: must be finite and >= 0", self.speed_m_s);
             return Err(Refused::new(HAIRPIN_INVALID, sentence));
         }
         Ok(())
+    }
+
+    pub(crate) fn control(&self) -> Result<Control, Refused> {
+        let found = usize::try_from(self.control).ok().and_then(|number| CONTROLS.get(number)).copied();
+        let sentence = format_args!("`control` = {}: must be one of HAIRPIN_CONTROL_..., 0 to 6", self.control);
+        found.ok_or_else(|| Refused::new(HAIRPIN_INVALID, sentence))
+    }
+
+    /// Direction of travel in the body.
+    pub(crate) fn direction(&self) -> Direction {
+        Direction { start: self.direction_rad, end: self.direction_rad + self.swing_rad }
     }
 
     pub(crate) fn precision(&self) -> Precision {

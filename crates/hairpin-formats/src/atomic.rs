@@ -92,6 +92,22 @@ pub fn write_with(path: &Path, fill: impl FnOnce(&mut (dyn Write + Send)) -> io:
     Ok(())
 }
 
+/// Writes `bytes` to `path` unless something stands there; whether it was written. Who reads it finds all of it or
+/// nothing; a machine that fails may still lose it, so what is written so has to say whether it is whole.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<bool, WriteError> {
+    let refuse = |cause| WriteError { path: path.into(), cause };
+    let mut temporary = temporary_in(path.parent().unwrap_or(Path::new("."))).map_err(refuse)?;
+    temporary.as_file_mut().write_all(bytes).map_err(refuse)?;
+    match temporary.persist_noclobber(path) {
+        Ok(_) => Ok(true),
+        Err(error) if error.error.kind() == ErrorKind::AlreadyExists => Ok(false),
+        Err(error) => Err(refuse(error.error)),
+    }
+}
+
 fn pour(file: &mut File, fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) -> io::Result<()> {
     let mut buffered = BufWriter::new(file);
     fill(&mut buffered)?;

@@ -31,6 +31,7 @@ pub mod optimum;
 mod problem;
 pub mod replay;
 pub mod report;
+mod rounds;
 pub mod saved;
 pub mod select;
 pub mod sets;

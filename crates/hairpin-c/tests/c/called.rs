@@ -4,6 +4,7 @@ use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
+use hairpin_c::clear::{KeepOutPlace, hairpin_steer_clear};
 use hairpin_c::drive::{Drive, State};
 use hairpin_c::map::{Grid, HAIRPIN_HOLES_REFUSED, MapHandle, hairpin_map_free, hairpin_map_new};
 use hairpin_c::refusal::{Code, Error, HAIRPIN_OK};
@@ -56,6 +57,19 @@ impl Steerer {
         // SAFETY: every pointer leads to what its type says, and the answer is written where the code says so.
         unsafe {
             assert_eq!(hairpin_steer(self.0, start, goal, drive.as_mut_ptr(), null_mut()), HAIRPIN_OK);
+            drive.assume_init()
+        }
+    }
+}
+
+impl Steerer {
+    pub(crate) fn ask_clear_of(&self, places: &[KeepOutPlace], start: &State, goal: &State) -> Drive {
+        let mut drive = MaybeUninit::uninit();
+        // SAFETY: every pointer leads to what its type says, and the answer is written where the code says so.
+        unsafe {
+            let (from, count) = (places.as_ptr(), places.len());
+            let code = hairpin_steer_clear(self.0, start, goal, from, count, drive.as_mut_ptr(), null_mut());
+            assert_eq!(code, HAIRPIN_OK);
             drive.assume_init()
         }
     }

@@ -22,15 +22,15 @@ use hairpin_jobs::steer::Vehicle;
 use crate::called::{Steerer, name};
 
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
-const HERE: State = State { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0, curvature_1_m: 0.0 };
+pub(crate) const HERE: State = State { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0, curvature_1_m: 0.0 };
 
-fn file(name: &str) -> String {
+pub(crate) fn file(name: &str) -> String {
     let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(path).expect("a shipped rover")
 }
 
 /// Hills on which a rocker-bogie leans, 24 m a side.
-fn hills() -> (Grid, Vec<f32>) {
+pub(crate) fn hills() -> (Grid, Vec<f32>) {
     let height = |cell: usize| {
         let (x, y) = ((cell % 60) as f64 * 0.4, (cell / 60) as f64 * 0.4);
         (0.4 * libm::sin(0.5 * x) * libm::cos(0.4 * y)) as f32
@@ -52,7 +52,7 @@ fn queries() -> Vec<(State, State)> {
 }
 
 /// From places of the hills to others near them.
-fn on_the_hills() -> Vec<(State, State)> {
+pub(crate) fn on_the_hills() -> Vec<(State, State)> {
     let from = |i: f64| State { x_m: 8.0 + 0.7 * i, y_m: 10.0 + 0.3 * i, yaw_rad: 0.4 * i, curvature_1_m: 0.0 };
     let to = |i: f64, from: &State| {
         let (sin, cos) = libm::sincos(from.yaw_rad + 0.2);
@@ -61,7 +61,7 @@ fn on_the_hills() -> Vec<(State, State)> {
     (0..8).map(f64::from).map(|i| (from(i), to(i, &from(i)))).collect()
 }
 
-fn asked(start: &State, goal: [f64; 3], kf: f64) -> Asked {
+pub(crate) fn asked(start: &State, goal: [f64; 3], kf: f64) -> Asked {
     Asked {
         start: Some([start.x_m, start.y_m, start.yaw_rad]),
         goal,
@@ -78,11 +78,11 @@ fn asked(start: &State, goal: [f64; 3], kf: f64) -> Asked {
     }
 }
 
-fn rover(name: &str) -> Rover {
+pub(crate) fn rover(name: &str) -> Rover {
     toml::from_str::<RoverDescription>(&file(name)).expect("its keys").build().expect("its numbers")
 }
 
-fn bits(drive: &Drive) -> Vec<u64> {
+pub(crate) fn bits(drive: &Drive) -> Vec<u64> {
     let numbers = |s: &DrivenSegment| {
         let motion = s.curvature.map(f64::to_bits).into_iter().chain([s.length_m.to_bits(), s.angle_rad.to_bits()]);
         motion.chain([i64::from(s.direction) as u64]).collect::<Vec<_>>()
@@ -90,7 +90,7 @@ fn bits(drive: &Drive) -> Vec<u64> {
     drive.segments[..drive.count as usize].iter().flat_map(numbers).collect()
 }
 
-fn bits_of(segments: &[Segment]) -> Vec<u64> {
+pub(crate) fn bits_of(segments: &[Segment]) -> Vec<u64> {
     let numbers = |segment: &Segment| {
         let Motion::Arc { length_m, curvature } = segment.motion else { panic!("no turns were allowed") };
         let motion = curvature.map(f64::to_bits).into_iter().chain([length_m.to_bits(), 0.0_f64.to_bits()]);

@@ -6,9 +6,11 @@ use std::path::Path;
 /// The crate.
 const HERE: &str = env!("CARGO_MANIFEST_DIR");
 /// What C sees, in the order in which the header has it; the others hold nothing for C.
-const SOURCES: &[&str] =
-    &["refusal", "version", "rover", "map", "settings", "drive", "steer", "follow", "max_load", "measures", "judge"];
-const NOTHING_FOR_C: &[&str] = &["lib", "memory"];
+const SOURCES: &[&str] = &[
+    "refusal", "version", "rover", "map", "settings", "drive", "steer", "clear", "follow", "max_load", "measures",
+    "track", "judge",
+];
+const NOTHING_FOR_C: &[&str] = &["lib", "memory", "asked", "plane", "ground", "confirm", "held"];
 
 fn made() -> String {
     let place = Path::new(HERE);

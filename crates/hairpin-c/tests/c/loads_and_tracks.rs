@@ -5,13 +5,14 @@ use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use hairpin_c::judge::{JudgeSettings, Sample, hairpin_judge, hairpin_judge_defaults};
+use hairpin_c::judge::hairpin_judge;
 use hairpin_c::max_load::{
     HAIRPIN_BELOW_MIN_COST, HAIRPIN_FOUND, HAIRPIN_NO_ARC, HAIRPIN_NO_PATH, LoadPath, MaxLoad, MaxLoadSettings,
     hairpin_max_load, hairpin_max_load_defaults,
 };
 use hairpin_c::measures::{TrackLeg, TrackMeasures, TrackViolation};
 use hairpin_c::refusal::HAIRPIN_OK;
+use hairpin_c::track::{JudgeSettings, Sample, hairpin_judge_defaults};
 
 use crate::called::name;
 
@@ -162,4 +163,14 @@ fn a_track_is_measured_and_held_to_its_limits() {
     let Judged { violations, .. } = judge(&late);
     let TrackViolation { value, limit, .. } = violations[0];
     assert_eq!((name(&violations[0].what).as_str(), value, limit), ("unfinished", 2.0, 3.0));
+
+    // The corner was to be reached after 9.75 s, the end at no time.
+    let (reached, planned) = ([0.0, 10.0, 20.0], [0.0, 9.75, f64::NAN]);
+    let (reached_s, planned_s) = (reached.as_ptr(), planned.as_ptr());
+    let late = JudgeSettings { reached_s, planned_s, max_late_s: 0.2, ..hairpin_judge_defaults() };
+    let Judged { measures, legs, violations, .. } = judge(&late);
+    assert_eq!((measures.latest_s, measures.t_latest_s, measures.leg_latest), (0.25, 10.0, 0));
+    assert!(legs[0].lateness_s == 0.25 && legs[1].lateness_s.is_nan());
+    let TrackViolation { value, limit, .. } = violations[0];
+    assert_eq!((violations.len(), name(&violations[0].what).as_str(), value, limit), (1, "late", 0.25, 0.2));
 }

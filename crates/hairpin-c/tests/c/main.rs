@@ -4,5 +4,6 @@ mod called;
 mod drives;
 mod header;
 mod loads_and_tracks;
+mod other_drives;
 mod page;
 mod refused;

@@ -35,6 +35,7 @@ fn the_examples_run_without_a_warning_and_without_a_leak() {
     assert!(told.status.success(), "{out}{error}");
     for words in [
         "in the plane: status 0",
+        "around a rock: status 0",
         "replayed: status 0",
         "refused: x = NaN",
         "58000 um, proven",

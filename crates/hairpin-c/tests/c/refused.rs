@@ -5,13 +5,14 @@ use std::ptr::{dangling, null, null_mut};
 
 use hairpin_c::drive::{Drive, State};
 use hairpin_c::follow::{Moment, hairpin_follow};
-use hairpin_c::judge::{Sample, hairpin_judge, hairpin_judge_defaults};
+use hairpin_c::judge::hairpin_judge;
 use hairpin_c::map::{Grid, hairpin_map_free, hairpin_map_new};
 use hairpin_c::max_load::{MaxLoadSettings, hairpin_max_load, hairpin_max_load_defaults};
 use hairpin_c::refusal::{HAIRPIN_INVALID, HAIRPIN_NULL, HAIRPIN_OK};
 use hairpin_c::rover::{hairpin_rover_free, hairpin_rover_from_toml, hairpin_rover_new};
 use hairpin_c::settings::{SteerSettings, hairpin_steer_defaults};
 use hairpin_c::steer::{hairpin_steer, hairpin_steer_free, hairpin_steer_new};
+use hairpin_c::track::{JudgeSettings, Sample, hairpin_judge_defaults};
 
 use crate::called::{Steerer, nothing, said};
 
@@ -105,6 +106,8 @@ fn questions_that_are_none_are_refused() {
             (SteerSettings { tolerance_m: f64::NAN, ..usual }, "`tolerance_m` = NaN"),
             (SteerSettings { tolerance_yaw_rad: -0.1, ..usual }, "`tolerance_yaw_rad` = -0.1"),
             (SteerSettings { speed_m_s: f64::INFINITY, ..usual }, "`speed_m_s` = inf"),
+            (SteerSettings { control: 7, ..usual }, "`control` = 7"),
+            (SteerSettings { direction_rad: f64::NAN, ..usual }, "`direction_rad` = NaN"),
         ] {
             refused(said(|e| hairpin_steer_new(rover, null(), &settings, &mut other, e)), HAIRPIN_INVALID, words);
         }
@@ -200,7 +203,7 @@ fn tables_and_tracks_that_are_none_are_refused() {
         refused(judge(&waypoints, &[], &settings), HAIRPIN_INVALID, "no sample");
         refused(judge(&waypoints, &[track[1], track[0]], &settings), HAIRPIN_INVALID, "times must rise");
         refused(judge(&waypoints, &[sample(0.0, f64::NAN)], &settings), HAIRPIN_INVALID, "x_m[0] = NaN");
-        let of = |change: fn(&mut hairpin_c::judge::JudgeSettings)| {
+        let of = |change: fn(&mut JudgeSettings)| {
             let mut settings = hairpin_judge_defaults();
             change(&mut settings);
             settings
@@ -213,6 +216,7 @@ fn tables_and_tracks_that_are_none_are_refused() {
             (of(|s| s.ended = -1), "`ended` = -1"),
             (of(|s| s.corner_m = -1.0), "corner_m"),
             (of(|s| s.max_deviation_m = -0.5), "`max_deviation_m` = -0.5"),
+            (of(|s| s.max_late_s = 1.0), "must stand with `planned_s`"),
         ] {
             refused(judge(&waypoints, &track, &settings), HAIRPIN_INVALID, words);
         }

@@ -48,7 +48,8 @@ pub(crate) struct Plan {
 }
 
 /// Makes the parts of one shard: every N-th of the plan, those that are there and whole left out. A part appears whole
-/// or not at all, so that a shard that was killed is simply run again.
+/// or not at all, so that a shard that was killed is simply run again. A search that learns is shared round by round by
+/// all shards that run.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "hairpin run-shard [OPTIONS] <I/N> <DIR>\n       hairpin run-shard [OPTIONS] --shard from-env <DIR>"

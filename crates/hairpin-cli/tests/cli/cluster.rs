@@ -140,6 +140,61 @@ fn a_shard_that_is_killed_is_run_again() {
     assert_eq!(run(place, &["compare", "calm", "hit"]).0, 0);
 }
 
+/// A point that flies from waypoint to waypoint in no time, and takes its time to say so.
+const SLOW: &str = r#"
+import json, sys, time
+say = lambda **message: print(json.dumps(message), flush=True)
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "hello":
+        say(type="ready", protocol=1, name="slow")
+    elif message["type"] == "mission":
+        time.sleep(0.03)
+        for i, p in enumerate(message["waypoints_m"]):
+            say(type="pose", t_s=i, p_m=[p[0], p[1] + 0.1 * (i % 2), p[2]], q_wxyz=[1, 0, 0, 0], v_m_s=[0, 0, 0], leg=max(0, i - 1))
+        say(type="end", reason="done")
+    elif message["type"] == "bye":
+        break
+"#;
+
+#[test]
+fn a_shard_that_is_killed_in_a_round_holds_up_no_other() {
+    let place = tempfile::tempdir().unwrap();
+    let place = place.path();
+    fs::write(place.join("slow.py"), SLOW).unwrap();
+    let search = "generate.search={ method = 'worst', waypoints = 60, cases = 2, executions = 30 }";
+    let few = ["--set", search, "--set", "execute.repeat=1", "--set", "execute.baseline=0"];
+    let flown_by = ["--executor", "python3 slow.py", "--set", "execute.processes=1"];
+    for verb in [["stress", "one"], ["plan", "many"]] {
+        let words = [&[verb[0], "demo-quadrotor", "--out", verb[1]], &few[..], &flown_by].concat();
+        assert!([0, 1].contains(&run(place, &words).0), "{verb:?}");
+    }
+    let start = |shard: &str| {
+        let mut command = hairpin(place, &["run-shard", shard, "many", "--threads", "1", "--json"]);
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    };
+    let executed = || {
+        let rounds = fs::read_dir(place.join("many/parts")).into_iter().flatten().flatten();
+        let rounds = rounds.filter(|entry| entry.file_name().to_string_lossy().starts_with("rounds-"));
+        let files = rounds.flat_map(|entry| fs::read_dir(entry.path()).unwrap()).flatten();
+        files.filter(|file| file.path().extension().is_some_and(|extension| extension == "tsv")).count()
+    };
+    let (mut killed, mut other) = (start("1/3"), start("2/3"));
+    let begun = Instant::now();
+    while executed() < 15 && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(2));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(executed() < 60, "it was too late to be killed");
+    // The third comes late.
+    assert!(start("3/3").wait().unwrap().success() && other.wait().unwrap().success());
+    assert_eq!(executed(), 60, "each has one result");
+    json(place, &["run-shard", "1/3", "many"]);
+    json(place, &["merge", "many", "--remove-parts"]);
+    assert_same(&place.join("one"), &place.join("many"));
+}
+
 #[test]
 fn what_is_no_plan_or_no_shard_is_refused() {
     let place = tempfile::tempdir().unwrap();

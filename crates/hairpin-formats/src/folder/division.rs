@@ -32,6 +32,7 @@ impl CampaignFolder {
         if ours.names(PLAN) {
             remove_file(&self.file(PLAN))?;
         }
+        self.forget_rounds()?;
         self.forget_parts_where(&|path| is_part(path) || is_cut_short(path))
     }
 

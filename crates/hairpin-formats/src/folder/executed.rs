@@ -6,7 +6,7 @@
 use std::io;
 use std::str::FromStr;
 
-use hairpin::campaign::answers::{Answers, Executed};
+use hairpin::campaign::answers::{Answer, Answers, Executed};
 
 use super::names::EXECUTED;
 use super::{CampaignFolder, FolderError};
@@ -49,7 +49,7 @@ impl CampaignFolder {
     }
 }
 
-fn row(fingerprint: &[u8; 16], ran: Option<&Executed>) -> String {
+pub(super) fn row(fingerprint: &[u8; 16], ran: Option<&Executed>) -> String {
     let name = u128::from_be_bytes(*fingerprint);
     let Some(Executed { trials, behaviour }) = ran else { return format!("{name:032x}\n") };
     let trial = |(stress, leg, executions): &(f64, usize, u64)| format!("{stress}:{leg}:{executions}");
@@ -58,7 +58,7 @@ fn row(fingerprint: &[u8; 16], ran: Option<&Executed>) -> String {
     format!("{name:032x}\t{}\t{}\n", trials.join(" "), behaviour.join(" "))
 }
 
-fn read(line: &str) -> Option<([u8; 16], Option<Executed>)> {
+pub(super) fn read(line: &str) -> Option<([u8; 16], Answer)> {
     let mut parts = line.split('\t');
     let fingerprint = u128::from_str_radix(parts.next()?, 16).ok()?.to_be_bytes();
     let (Some(trials), Some(behaviour)) = (parts.next(), parts.next()) else { return Some((fingerprint, None)) };

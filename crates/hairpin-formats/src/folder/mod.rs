@@ -21,10 +21,9 @@
 //! | `reruns/`, `rerun-runs/` | the same of violations run again with other noise, `run` numbering the times |
 //! | `coverage.json`, `coverage.tsv` | once judged, which cells of the grid of motion were met, and by how many cases |
 //! | `influence.json` | once judged, where `[vary]` was drawn: rank correlations, the strongest first |
-//! | `moves.json` | of arms, once judged: every run's durations and deviations, move by move, for later campaigns |
+//! | `moves.json` | of arms, once judged: what every run did on every move; `baseline.json`: of earlier releases |
 //! | `optimum.json` | of arms: the proof that the first program is the heaviest |
 //! | `graph.csv`, `reasons.csv`, `arcs.csv` | of arms: the graph, why moves are not in it, its arcs where it has any |
-//! | `baseline.json` | of arms with `spec.regression`: the same of earlier releases |
 //! | `repro/`, `junit.xml`, `report.html` | see the README |
 //! | `plan.json`, `parts/` | of a campaign for several machines: how it is divided, and what each of them made |
 //! | `export/` | what was exported; of earlier versions `missions/` and files in the folder itself |
@@ -57,6 +56,7 @@ mod list;
 mod names;
 mod parts;
 mod recent;
+mod rounds;
 mod run_writer;
 mod runs;
 mod scenario;
@@ -92,6 +92,7 @@ pub(crate) fn is_exported(path: &Path) -> bool {
     List::has_exported(path)
 }
 use recent::Recent;
+pub use rounds::{ALIVE, Piece};
 pub use run_writer::{Landed, RunWriter};
 
 const LOCK: &str = ".lock";

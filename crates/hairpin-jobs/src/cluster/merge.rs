@@ -47,8 +47,9 @@ pub fn merge(folder: &Path, consent: &Consent, watch: &dyn Watch) -> Result<Merg
     let parts = whole_parts(&work, &plan)?;
     work.folder.forget_cases()?;
     work.folder.forget_parts_cut_short()?;
+    work.folder.forget_rounds()?;
     let taken = match plan.unit {
-        Unit::Search => take_all(&work, &parts)?,
+        Unit::Search | Unit::Rounds => take_all(&work, &parts)?,
         Unit::Graph | Unit::Case => take_over(&work, &parts)?,
     };
     drop(parts);

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::{Plan, Unit};
 use crate::execute::fly_missing;
-use crate::generate::{find_cases, find_units, keep_cases};
+use crate::generate::{find_cases_together, find_units, keep_cases};
+use crate::rounds::Rounds;
 use crate::work::Work;
 use crate::{Deadline, Problem, Watch};
 
@@ -68,20 +69,21 @@ pub(super) fn is_current(work: &Work, plan: &Plan, told: &Part) -> bool {
     match plan.unit {
         Unit::Case => true,
         Unit::Graph => told.first == first_of(work, plan, told.part),
-        Unit::Search if told.part == 0 => true,
-        Unit::Search => Part::told(work, plan, 0).is_none_or(|search| {
+        Unit::Search | Unit::Rounds if told.part == 0 => true,
+        Unit::Search | Unit::Rounds => Part::told(work, plan, 0).is_none_or(|search| {
             let own = plan.flown_by(told.part);
             told.cases == own.end.min(search.cases).saturating_sub(own.start)
         }),
     }
 }
 
-/// Makes part number `part`; of one that is there with other numbers, `before`, only the runs are made again.
+/// Makes part number `part`, the `rounds` of a search shared with others; of one that is there with other numbers,
+/// `before`, only the runs are made again.
 pub(super) fn make(
     work: &Work,
     plan: &Plan,
-    part: u64,
-    before: Option<&CampaignFolder>,
+    (part, before): (u64, Option<&CampaignFolder>),
+    rounds: Option<&Rounds>,
     watch: &dyn Watch,
 ) -> Result<(), Problem> {
     let place = work.folder.part_folder(part);
@@ -90,7 +92,7 @@ pub(super) fn make(
     folder.write_scenario(&work.folder.read_scenario()?)?;
     let own = Work { folder, setup: work.setup.clone() };
     let (first, cases, found) = match plan.unit {
-        Unit::Search => searched(work, &own, plan, part, watch)?,
+        Unit::Search | Unit::Rounds => searched(work, (&own, part), plan, rounds, watch)?,
         Unit::Graph | Unit::Case => {
             let first = first_of(work, plan, part);
             let known = match before {
@@ -122,14 +124,14 @@ pub(super) fn make(
 /// number of the first case, the cases to be flown, and how many the part says that it has.
 fn searched(
     work: &Work,
-    own: &Work,
+    (own, part): (&Work, u64),
     plan: &Plan,
-    part: u64,
+    rounds: Option<&Rounds>,
     watch: &dyn Watch,
 ) -> Result<(u64, Vec<Case>, usize), Problem> {
     let share = plan.flown_by(part);
     let cases = if part == 0 {
-        find_cases(own, Deadline::after(None), Deadline::after(None), watch)?.0
+        find_cases_together(own, [Deadline::after(None); 2], rounds, watch)?.0
     } else {
         Part::whole(work, plan, 0).map_or_else(|| Ok(Vec::new()), |(_, folder)| folder.read_cases())?
     };

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use hairpin::campaign::Setup;
-use hairpin::campaign::generate::{expected_before, sure_units};
+use hairpin::campaign::generate::{expected_before, has_rounds, sure_units};
 use hairpin_formats::folder::PLAN;
 use hairpin_formats::scenario::setup_for;
 use hairpin_formats::{atomic, bounds, checksum};
@@ -63,6 +63,8 @@ pub enum Unit {
     Case,
     /// One search, in which everything depends on all before it; and the runs of each case that it finds.
     Search,
+    /// The same, of which all shards that run follow every round and execute a share of it.
+    Rounds,
 }
 
 /// Divides the campaign of a scenario, whose folder is begun as on one machine.
@@ -96,6 +98,7 @@ impl Plan {
         // Of one search the runs of what it finds are by cases, each a unit beside it.
         let units = sure.unwrap_or_else(|| scenario.search().cases.saturating_add(1));
         let unit = match sure {
+            None if has_rounds(scenario) => Unit::Rounds,
             None => Unit::Search,
             Some(_) if expected_before(scenario, 1) == 1 && units == scenario.search().cases && is_by_case(setup) => {
                 Unit::Case
@@ -106,7 +109,7 @@ impl Plan {
         let parts = parts.unwrap_or(usual);
         if parts == 0 || parts > units {
             let what = match unit {
-                Unit::Search => format!("it is one search, and the runs of {} cases", units - 1),
+                Unit::Search | Unit::Rounds => format!("it is one search, and the runs of {} cases", units - 1),
                 Unit::Graph => format!("there are {units} graphs to search"),
                 Unit::Case => format!("there are {units} cases to search for"),
             };
@@ -161,9 +164,23 @@ impl Plan {
 
     /// What whoever planned has to know, in a sentence.
     pub fn told(&self) -> Option<String> {
-        let one = "it is one search, in which everything depends on what was executed before: shard 1 makes all of it, and the \
-                   others fly what it finds, as far as it is there when they begin";
-        (self.unit == Unit::Search).then(|| one.to_owned())
+        let told = match self.unit {
+            Unit::Graph | Unit::Case => return None,
+            Unit::Rounds => {
+                "it is one search, in which each round depends on what was executed before: all shards that run share the \
+                 executions of every round, and one that comes late or dies holds up none of the others"
+            }
+            Unit::Search => {
+                "it is one search, in which everything depends on what was found before: shard 1 makes all of it, and the \
+                 others fly what it finds, as far as it is there when they begin"
+            }
+        };
+        Some(told.to_owned())
+    }
+
+    /// Whether it is one search, and the runs of what it finds.
+    pub(super) fn is_one_search(&self) -> bool {
+        matches!(self.unit, Unit::Search | Unit::Rounds)
     }
 
     fn own_hash(&self) -> String {

@@ -9,8 +9,9 @@ use super::part::{Part, is_current, make};
 use super::plan::{Plan, Unit};
 use super::shard::Shard;
 use crate::consent::{Consent, Wish};
+use crate::rounds::{Pace, Rounds};
 use crate::watch::Steps;
-use crate::work::{open_to_read, same_level};
+use crate::work::{Work, open_to_read, same_level};
 use crate::{Problem, Seen, Watch};
 
 /// What a shard came to.
@@ -39,8 +40,12 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
     same_level(&work.folder, work.setup.simd)?;
     consent.ask(folder, &Wish::of_campaign(&work.setup))?;
     let own: Vec<u64> = shard.own(plan.parts).collect();
-    let steps = Steps::new(watch, "shard", 0, own.len());
     let (made, cases) = (AtomicU64::new(0), AtomicU64::new(0));
+    if plan.unit == Unit::Rounds && !is_there(&work, &plan, 0) {
+        search_together(&work, &plan, shard, watch)?;
+        made.fetch_add(u64::from(own.first() == Some(&0)), Ordering::Relaxed);
+    }
+    let steps = Steps::new(watch, "shard", 0, own.len());
     let one = |part: &u64| -> Result<(), Problem> {
         if watch.stopped() {
             return Err(Problem::Interrupted(
@@ -49,20 +54,21 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
         }
         let there = Part::whole(&work, &plan, *part);
         if !there.as_ref().is_some_and(|(told, _)| is_current(&work, &plan, told)) {
-            make(&work, &plan, *part, there.as_ref().map(|(_, folder)| folder), &Quiet(watch))?;
+            let before = there.as_ref().map(|(_, folder)| folder);
+            make(&work, &plan, (*part, before), None, &Quiet(watch))?;
             made.fetch_add(1, Ordering::Relaxed);
         }
         // Those that one search has found are flown in the parts beside it.
-        let counts = plan.unit != Unit::Search || *part > 0 || plan.parts == 1;
+        let counts = !plan.is_one_search() || *part > 0 || plan.parts == 1;
         let told = Part::told(&work, &plan, *part).filter(|_| counts);
         cases.fetch_add(told.map_or(0, |told| told.cases), Ordering::Relaxed);
         steps.step();
         Ok(())
     };
     // Programs of the user's are started part by part: as many of them run as the scenario says.
-    let programs = work.setup.scenario.executor().command.is_some() || work.setup.steering_code().is_some();
+    let programs = has_programs(&work);
     // What others need comes first.
-    let searches = plan.unit == Unit::Search && own.first() == Some(&0);
+    let searches = plan.is_one_search() && own.first() == Some(&0);
     let (before, others) = own.split_at(usize::from(searches));
     before.iter().try_for_each(one)?;
     if programs {
@@ -78,6 +84,23 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
     let none_found = plan.unit == Unit::Search && cases == 0 && Part::told(&work, &plan, 0).is_none();
     let told = own.is_empty().then(idle).or_else(|| none_found.then(early));
     Ok(Ran { parts: own.len() as u64, made, cases, of: plan.parts, told })
+}
+
+fn is_there(work: &Work, plan: &Plan, part: u64) -> bool {
+    Part::whole(work, plan, part).is_some_and(|(told, _)| is_current(work, plan, &told))
+}
+
+/// Whether runs are dear, so far as one can know: a program of the user's flies or steers them.
+fn has_programs(work: &Work) -> bool {
+    work.setup.scenario.executor().command.is_some() || work.setup.steering_code().is_some()
+}
+
+/// Follows the search, whoever it is of whose parts it is one: what it needs executed is shared with all others that
+/// run.
+fn search_together(work: &Work, plan: &Plan, shard: Shard, watch: &dyn Watch) -> Result<(), Problem> {
+    let (folder, place) = (work.folder.rounds(&plan.hash), (shard.number - 1, shard.of));
+    let rounds = Rounds::join(&folder, place, has_programs(work), Pace::default())?;
+    make(work, plan, (0, None), Some(&rounds), watch)
 }
 
 /// Hears nothing of the steps of single parts.

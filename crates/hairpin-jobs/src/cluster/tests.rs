@@ -81,27 +81,56 @@ fn graphs_without_a_case_move_the_numbers_of_those_behind() {
     assert_eq!((first, second), (2, 3));
 }
 
+/// A search that learns, by each method that does, small.
+fn learning(method: &str) -> [Set; 3] {
+    let search = format!("{{ method = \"{method}\", waypoints = 80, cases = 2, executions = 24 }}");
+    [set("generate.search", &search), set("execute.repeat", "1"), set("execute.baseline", "0")]
+}
+
+#[test]
+fn searches_that_learn_are_shared_round_by_round() {
+    let place = tempfile::tempdir().unwrap();
+    let scenario = small_hull(place.path());
+    for method in ["worst", "adaptive"] {
+        let more = learning(method);
+        let at = |name: &str| place.path().join(format!("{method}-{name}"));
+        let one = on_one_machine(&settings(&scenario, &at("one"), &more));
+        // Side by side, and one after the other, the last one first.
+        let (folder, plan) = planned(&settings(&scenario, &at("many"), &more), None);
+        assert_eq!((plan.parts, plan.unit), (3, Unit::Rounds));
+        std::thread::scope(|scope| {
+            for shard in ["3/3", "1/3", "2/3"] {
+                let folder = &folder;
+                scope.spawn(move || run(folder, &[shard]));
+            }
+        });
+        assert!(folder.join("parts").read_dir().unwrap().count() > 3);
+        assert_eq!(merged(&folder).unwrap(), (one.clone(), 2), "{method}");
+        assert_eq!(folder.join("parts").read_dir().unwrap().count(), 3, "rounds are not needed any more");
+        let (folder, _) = planned(&settings(&scenario, &at("last"), &more), None);
+        let ran = run(&folder, &["2/2", "1/2"]);
+        assert_eq!(ran.iter().map(|ran| (ran.made, ran.cases)).collect::<Vec<_>>(), [(1, 1), (1, 1)]);
+        assert_eq!(merged(&folder).unwrap(), (one, 2), "{method}");
+    }
+}
+
 #[test]
 fn one_search_is_one_part() {
     let place = tempfile::tempdir().unwrap();
-    let search = "{ method = \"worst\", cases = 2, executions = 15 }";
-    let more = [set("generate.search", search), set("execute.repeat", "1")];
-    let one = on_one_machine(&settings("demo-quadrotor", &place.path().join("one"), &more));
-    let of_many = settings("demo-quadrotor", &place.path().join("many"), &more);
-    let (folder, plan) = planned(&of_many, None);
+    // A clock ends it: nobody can follow where it was.
+    let search = "{ method = \"worst\", waypoints = 80, cases = 2, seconds = 0.2 }";
+    let more = [set("generate.search", search), set("execute.repeat", "1"), set("execute.baseline", "0")];
+    let scenario = small_hull(place.path());
+    let (folder, plan) = planned(&settings(&scenario, &place.path().join("many"), &more), None);
     assert_eq!((plan.parts, plan.unit, plan.told().is_some()), (3, Unit::Search, true));
     // The second flies a case of a search that is not there yet, and leaves it to whoever comes after.
     let ran = run(&folder, &["2/2", "1/2"]);
     assert!(ran[0].told.is_some() && (ran[0].cases, ran[1].cases) == (0, 1), "{ran:?}");
-    assert_eq!(merged(&folder).unwrap(), (one.clone(), 1));
+    let (hash, taken) = merged(&folder).unwrap();
     let again = run(&folder, &["2/2", "1/2"]);
     assert_eq!(again.iter().map(|ran| (ran.made, ran.cases)).collect::<Vec<_>>(), [(1, 1), (0, 1)]);
-    assert_eq!(merged(&folder).unwrap(), (one.clone(), 2));
-    let (whole, plan) = planned(&settings("demo-quadrotor", &place.path().join("whole"), &more), Some(1));
-    run(&whole, &["1/4"]);
-    assert_eq!((plan.parts, merged(&whole).unwrap()), (1, (one, 2)));
-    let changed =
-        fs::read_to_string(folder.join("scenario.toml")).unwrap().replace("executions = 15", "executions = 16");
+    assert_eq!((merged(&folder).unwrap(), taken), ((hash, 2), 1));
+    let changed = fs::read_to_string(folder.join("scenario.toml")).unwrap().replace("seconds = 0.2", "seconds = 0.3");
     fs::write(folder.join("scenario.toml"), changed).unwrap();
     assert!(merged(&folder).unwrap_err().to_string().contains("not what it was"));
 }

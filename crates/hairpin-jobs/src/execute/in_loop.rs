@@ -1,12 +1,14 @@
 //! Who executes what a search asks for: our own simulator, or the user's program.
 
-use hairpin::campaign::{Case, Executor, Mission, OwnSimulator, Setup};
+use hairpin::campaign::answers::Answer;
+use hairpin::campaign::{Batch, Case, Executor, Mission, OwnSimulator, Setup};
 use hairpin::judgement::Measures;
 use hairpin::trajectory::Flight;
 use hairpin_formats::executor::{InLoop, Told};
 use rayon::ThreadPoolBuilder;
 
 use super::fly::{command_of, processes, while_wanted};
+use crate::rounds::Rounds;
 use crate::{Problem, Seen, Watch};
 
 /// Who executes, and whether the search is to stop.
@@ -16,15 +18,24 @@ pub(crate) struct Asked<'a> {
     pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Who executes, with each run told to whoever watches.
+/// Who executes, with each run told to whoever watches, and rounds shared with other machines.
 struct Seeing<'a> {
     executor: &'a dyn Executor,
     watch: &'a dyn Watch,
+    rounds: Option<&'a Rounds>,
+    stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Executor for Seeing<'_> {
     fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String> {
         self.executor.fly(nominal, case, mission)
+    }
+
+    fn carry_out(&self, batch: &Batch) -> Vec<Option<Answer>> {
+        match self.rounds {
+            Some(rounds) => rounds.carry_out(batch, self.stop),
+            None => self.executor.carry_out(batch),
+        }
     }
 
     fn measured(&self, measures: &Measures, violates: bool) {
@@ -36,8 +47,8 @@ impl Executor for Seeing<'_> {
     }
 }
 
-/// Does `search` with whoever executes for `setup`. Gives what it found, and what went wrong with the user's program
-/// where that was the end of it.
+/// Does `search` with whoever executes for `setup`, its `rounds` shared where others search with this machine. Gives
+/// what it found, and what went wrong with the user's program, or between the machines, where that was the end of it.
 ///
 /// Where there are more processes than threads, the search has a thread for each: who waits for a program does nothing
 /// else.
@@ -47,23 +58,25 @@ impl Executor for Seeing<'_> {
 pub(crate) fn in_the_loop<T: Send>(
     setup: &Setup,
     stopped: &(dyn Fn() -> bool + Sync),
+    rounds: Option<&Rounds>,
     watch: &dyn Watch,
     search: impl FnOnce(Asked) -> T + Send,
 ) -> Result<(T, Option<Problem>), Problem> {
+    let apart = || rounds.is_some_and(Rounds::is_in_trouble);
     let program = if setup.scenario.executes() { command_of(setup)? } else { None };
     let Some((command, limits)) = program else {
         let steers = setup.steering_code();
         let trouble = || steers.and_then(|(_, code)| code.trouble());
-        let stop = || stopped() || trouble().is_some();
+        let stop = || stopped() || trouble().is_some() || apart();
         // The limit of a search's time is none of who steers: what was found is executed after it.
-        let executor = &Seeing { executor: &OwnSimulator, watch };
+        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop };
         let found = while_wanted(setup, watch, || search(Asked { executor, stop: &stop }));
-        return Ok((found, trouble().map(Problem::Executor)));
+        return Ok((found, trouble().map(Problem::Executor).or_else(|| rounds?.trouble())));
     };
     let processes = processes(setup);
     let program = InLoop::new(&command, limits, processes, stopped);
-    let stop = || stopped() || program.trouble().is_some();
-    let executor = &Seeing { executor: &program, watch };
+    let stop = || stopped() || program.trouble().is_some() || apart();
+    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop };
     let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
         let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;
@@ -73,7 +86,9 @@ pub(crate) fn in_the_loop<T: Send>(
     };
     let told = program.all();
     tell(&told, watch);
-    Ok((found, trouble(&program, &told, stopped())))
+    // What others have flown was not flown in vain.
+    let goes_on = stopped() || rounds.is_some_and(Rounds::any_flown);
+    Ok((found, trouble(&program, &told, goes_on).or_else(|| rounds?.trouble())))
 }
 
 /// What the user's program did not fly.
@@ -88,9 +103,9 @@ fn tell(told: &Told, watch: &dyn Watch) {
 }
 
 /// Why the search was in vain, or had to end.
-fn trouble(program: &InLoop, told: &Told, stopped: bool) -> Option<Problem> {
+fn trouble(program: &InLoop, told: &Told, goes_on: bool) -> Option<Problem> {
     let Told { flown, failed, last, .. } = told;
-    let in_vain = *flown == 0 && *failed > 0 && !stopped;
+    let in_vain = *flown == 0 && *failed > 0 && !goes_on;
     let last = last.as_ref().map_or(String::new(), |last| format!("; the last: {}", last.in_full()));
     let in_vain =
         || in_vain.then(|| program.by_name(format!("none of {failed} executions in the loop came to a flight{last}")));

@@ -6,7 +6,6 @@ use hairpin::campaign::drive::drive_piece;
 use hairpin::feasibility::steering::clear::Intrusion;
 use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::{Parameters, Problem};
-use hairpin::feasibility::steering::shooting::flat::Limit;
 use hairpin::feasibility::steering::shooting::query::Curvatures;
 use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::trajectory::SpeedProfile;
@@ -104,16 +103,6 @@ pub(super) fn claim(asked: &Asked, segments: &[Segment], free_end: bool) -> Driv
         crab_rate: direction.rate(length),
         end: asked.goal,
         end_curvature: if free_end { last } else { asked.kf },
-    }
-}
-
-/// What a family of controls exceeds, by its name in answers.
-pub fn limit_name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::Curvature => "curvature_1_m",
-        Limit::CurvatureRate => "curvature_rate_1_m2",
-        Limit::Yaw => "yaw_rad",
-        Limit::EndCurvature => "end_curvature_1_m",
     }
 }
 

@@ -21,7 +21,7 @@ mod tolerance;
 mod trace;
 mod vehicle;
 
-pub use answered::{Answered, Near, limit_name};
+pub use answered::{Answered, Near};
 pub use batch::Batch;
 pub use pace::{Pace, Rows};
 pub use queries::Answers;

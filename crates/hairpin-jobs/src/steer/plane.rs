@@ -14,7 +14,7 @@ use hairpin::verification::{DriveReplay, replay_drive};
 use hairpin::world::terrain::KeepOuts;
 use hairpin_formats::steering::{Asked, Status};
 
-use super::answered::{Answered, Near, claim, limit_name, pieces};
+use super::answered::{Answered, Near, claim, pieces};
 use super::pace::start;
 use super::solver::Solver;
 use super::trace::{retrace, trace_step};
@@ -99,7 +99,7 @@ pub(super) fn answer(task: &Task<'_>, asked: &Asked) -> Answered {
         broken = drive::broken(&replay, &bounds, &precision);
     }
     let lacks = match solution.arc {
-        Some(flat::Status::Infeasible { limit, excess }) if !default => Some((limit_name(limit), Some(excess))),
+        Some(flat::Status::Infeasible { limit, excess }) if !default => Some((limit.name(), Some(excess))),
         _ => None,
     };
     let near = intrusion.map(|intrusion| Near::new(&intrusion, task.keep_outs, control, boundary));

@@ -23,26 +23,36 @@ pub struct Executed {
     /// By each target the stress (NaN where it was not measured), the leg that it is owed to, and how many executions
     /// it took.
     pub trials: Vec<(f64, usize, u64)>,
-    /// Measures that tell it from others.
+    /// Measures that tell it from others, or the stress of each leg (NaN where it was not measured) for who learns it.
     pub behaviour: Vec<f64>,
+}
+
+/// What an execution came to; `None` of one that failed.
+pub type Answer = Option<Executed>;
+
+impl From<&Ran> for Executed {
+    fn from(Ran { trials, behaviour }: &Ran) -> Self {
+        let trial = |trial: &Trial| (trial.stress, trial.worst_leg, trial.executions);
+        Self { trials: trials.iter().map(trial).collect(), behaviour: behaviour.clone() }
+    }
+}
+
+impl From<Executed> for Ran {
+    fn from(Executed { trials, behaviour }: Executed) -> Self {
+        let trial = |(stress, worst_leg, executions)| Trial { stress, worst_leg, executions };
+        Self { trials: trials.into_iter().map(trial).collect(), behaviour }
+    }
 }
 
 impl Answers {
     /// Those of `rows`.
-    pub fn of_rows(rows: impl IntoIterator<Item = ([u8; 16], Option<Executed>)>) -> Self {
-        let trial = |(stress, worst_leg, executions)| Trial { stress, worst_leg, executions };
-        let ran = |Executed { trials, behaviour }| Ran { trials: trials.into_iter().map(trial).collect(), behaviour };
-        Self(rows.into_iter().map(|(fingerprint, row)| (fingerprint, row.map(ran))).collect())
+    pub fn of_rows(rows: impl IntoIterator<Item = ([u8; 16], Answer)>) -> Self {
+        Self(rows.into_iter().map(|(fingerprint, row)| (fingerprint, row.map(Ran::from))).collect())
     }
 
     /// All of them, in the order of their fingerprints.
-    pub fn rows(&self) -> impl Iterator<Item = ([u8; 16], Option<Executed>)> {
-        let trial = |trial: &Trial| (trial.stress, trial.worst_leg, trial.executions);
-        let row = move |ran: &Ran| Executed {
-            trials: ran.trials.iter().map(trial).collect(),
-            behaviour: ran.behaviour.clone(),
-        };
-        self.0.iter().map(move |(fingerprint, ran)| (*fingerprint, ran.as_ref().map(row)))
+    pub fn rows(&self) -> impl Iterator<Item = ([u8; 16], Answer)> {
+        self.0.iter().map(|(fingerprint, ran)| (*fingerprint, ran.as_ref().map(Executed::from)))
     }
 
     /// What the execution of the plan with this fingerprint came to, if it was executed.

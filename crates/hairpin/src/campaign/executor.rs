@@ -1,10 +1,23 @@
 //! Who carries runs out: our own simulator, or whatever a caller brings in its place.
 
+use rayon::prelude::*;
+
+use super::answers::Answer;
 use super::kind::Order;
 use super::{Case, Mission, Setup};
 use crate::judgement::Measures;
 use crate::simulation::SimulationError;
 use crate::trajectory::Flight;
+
+/// Executions that a search asks for at once: none depends on another.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// Of each the fingerprint of what is executed.
+    pub names: &'a [[u8; 16]],
+    /// Carries one out, by its place; `None` where the search is stopped before. What comes of it is all that the
+    /// search reads.
+    pub execute: &'a (dyn Fn(usize) -> Option<Answer> + Sync),
+}
 
 /// Who carries runs out.
 ///
@@ -24,6 +37,12 @@ pub trait Executor: Sync {
     ///
     /// Blocks until the run has ended. May be called for several missions at once.
     fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String>;
+
+    /// Has a batch carried out, on all threads: what came of each, in their order, `None` where the search was stopped
+    /// before. Who shares a search with others, that search alike, takes from them what they have executed.
+    fn carry_out(&self, batch: &Batch) -> Vec<Option<Answer>> {
+        (0..batch.names.len()).into_par_iter().map(|place| (batch.execute)(place)).collect()
+    }
 
     /// Told of each run that a search asked for, once it is measured: what it came to, and whether it violates what the
     /// scenario limits.

@@ -92,7 +92,7 @@ pub use compare::{Comparison, compare};
 pub use coverage::{Coverage, Grid};
 pub use curve::Curve;
 pub use execute::{execute, execute_again, execute_run};
-pub use executor::{Executor, OwnSimulator};
+pub use executor::{Batch, Executor, OwnSimulator};
 pub use flown::{Doubt, Flown, FlownError, Log, Why, judge_flown};
 pub use full_rate::FullRate;
 pub use generate::{Known, Optimum, generate, optima};

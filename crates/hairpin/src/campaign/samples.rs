@@ -18,20 +18,23 @@ pub fn leg_samples(setup: &Setup, case: &Case, runs: &[Run], stress: Stress) -> 
     let mut samples = Vec::new();
     for run in runs {
         let Some(measures) = measures_of(setup, case, run) else { continue };
-        samples.extend(samples_of(case, &measures, stress));
+        samples.extend(samples_of(case, &stresses_of(&measures, stress)));
     }
     samples
 }
 
+/// The stress of each leg; NaN where there is none to learn from.
+pub(super) fn stresses_of(measures: &Measures, stress: Stress) -> Vec<f64> {
+    let of_leg = |leg: &LegMeasures| stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
+    measures.legs.iter().map(|leg| of_leg(leg).unwrap_or(f64::NAN)).collect()
+}
+
 /// The legs of `case` with the stress that was measured on them.
-pub(super) fn samples_of(case: &Case, measures: &Measures, stress: Stress) -> Vec<LegSample> {
-    let mut samples = Vec::new();
+pub(super) fn samples_of(case: &Case, stresses: &[f64]) -> Vec<LegSample> {
     let before = std::iter::once(None).chain(case.seen.iter().copied().map(Some));
-    for ((seen, before), leg) in case.seen.iter().zip(before).zip(&measures.legs) {
-        let stress = stress.of_leg(leg).filter(|value| value.is_finite() && leg.time > 0.0);
-        samples.extend(stress.map(|stress| LegSample { trajectory: case.number.0, seen: *seen, before, stress }));
-    }
-    samples
+    let legs = case.seen.iter().zip(before).zip(stresses).filter(|(_, stress)| stress.is_finite());
+    legs.map(|((seen, before), stress)| LegSample { trajectory: case.number.0, seen: *seen, before, stress: *stress })
+        .collect()
 }
 
 /// Learns the stress of `samples`, which executions of `setup` gave.

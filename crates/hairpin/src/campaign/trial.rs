@@ -13,7 +13,7 @@ use super::kind::Order;
 use super::learn::LegSample;
 use super::mission::run_seed;
 use super::placement::Placement;
-use super::samples::samples_of;
+use super::samples::{samples_of, stresses_of};
 use super::user_target::RunFacts;
 use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
@@ -130,14 +130,18 @@ impl Trials<'_> {
         Some(self.setup.user_target()?.measure(&RunFacts::of(flight, &case.waypoints)))
     }
 
-    /// The same once, with what there is to learn from it as trajectory number `trajectory`.
-    ///
-    /// `trajectory` keeps legs of one trajectory together when folds and resamples are made.
-    pub(super) fn execute_and_learn(&self, plan: &Plan, trajectory: usize) -> Option<(Trial, Vec<LegSample>)> {
-        let Executed { case, measures, .. } = self.executed(plan)?;
-        let mut samples = samples_of(&case, &measures, self.setup.scenario.search().stress);
+    /// The same once, with the stress of each leg, NaN where there is none to learn from.
+    pub(super) fn execute_legs(&self, plan: &Plan) -> Option<(Trial, Vec<f64>)> {
+        let Executed { measures, .. } = self.executed(plan)?;
+        Some((trial(self.setup, &measures)?, stresses_of(&measures, self.setup.scenario.search().stress)))
+    }
+
+    /// What there is to learn from an execution of `plan` whose legs had these stresses, as trajectory number
+    /// `trajectory`, which keeps legs of one trajectory together when folds and resamples are made.
+    pub(super) fn learned(&self, plan: &Plan, stresses: &[f64], trajectory: usize) -> Vec<LegSample> {
+        let mut samples = samples_of(&self.case(plan), stresses);
         samples.iter_mut().for_each(|sample| sample.trajectory = trajectory);
-        Some((trial(self.setup, &measures)?, samples))
+        samples
     }
 
     /// Whether a part of a trajectory can be executed from where its beginning has led: in our own simulator, where

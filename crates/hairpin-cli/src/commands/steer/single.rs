@@ -5,9 +5,7 @@ use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
 use hairpin::verification::DriveReplay;
 use hairpin_formats::atomic;
 use hairpin_formats::steering::{Asked, Frame, Piece, Status, svg};
-use hairpin_jobs::steer::{
-    Answered, Question, Remedies, Vehicle, goal_in_the_map, in_frame, limit_name, pieces, stretches,
-};
+use hairpin_jobs::steer::{Answered, Question, Remedies, Vehicle, goal_in_the_map, in_frame, pieces, stretches};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::{Value, json};
 
@@ -148,7 +146,7 @@ fn method(method: Method) -> &'static str {
 fn arc_lacks(solution: &Solution) -> Option<(&'static str, f64)> {
     match solution.arc {
         Some(ArcStatus::Infeasible { limit, excess }) if solution.method != Method::SingleArc => {
-            Some((limit_name(limit), excess))
+            Some((limit.name(), excess))
         }
         _ => None,
     }

@@ -22,8 +22,7 @@ use crate::math::random::case_seed;
 pub fn sure_units(scenario: &Scenario) -> Option<u64> {
     let search = scenario.search();
     let varied = varies(scenario);
-    let learns = search.method == SearchMethod::Adaptive || (search.method == SearchMethod::Worst && !varied);
-    if learns || scenario.head().one_search {
+    if learns(scenario) || scenario.head().one_search {
         return None;
     }
     if varied {
@@ -32,6 +31,19 @@ pub fn sure_units(scenario: &Scenario) -> Option<u64> {
     // Each gives so many cases at most: with fewer graphs there are too few.
     let least = search.cases.div_ceil(search.per_graph.max(1));
     Some(search.graphs.map_or(least, |graphs| graphs.min(least)))
+}
+
+/// Whether a search learns from each round of its executions for the next one.
+fn learns(scenario: &Scenario) -> bool {
+    let method = scenario.search().method;
+    method == SearchMethod::Adaptive || (method == SearchMethod::Worst && !varies(scenario))
+}
+
+/// Whether a search that is one comes in rounds that are the same wherever it is searched: it learns, and no clock ends
+/// it. All that is executed in such a round can be executed by others.
+pub fn has_rounds(scenario: &Scenario) -> bool {
+    let search = scenario.search();
+    learns(scenario) && search.seconds.is_none() && search.time_s.is_none()
 }
 
 /// How many cases the units before number `unit` give where each gives all that it may.

@@ -37,7 +37,7 @@ use super::trial::executed_case;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
 pub use by_chance::{ByChance, Purpose, by_chance};
-pub use division::{expected_before, generate_units, joined, renumbered, sure_units};
+pub use division::{expected_before, generate_units, has_rounds, joined, renumbered, sure_units};
 pub use known::Known;
 pub use optima::{Optimum, optima};
 pub use space::Space;

@@ -12,12 +12,13 @@ use rayon::prelude::*;
 use super::graphs::Graphs;
 use super::known::Known;
 use super::targets::{Margins, targets};
-use crate::campaign::answers::Answers;
+use crate::campaign::answers::{Answers, Executed};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::trial::{Sought, executed_case};
-use crate::campaign::{Case, Setup, Stop, Tally, Witness, vary};
+use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::{Stream, named_seed};
+use crate::search::in_loop::Trial;
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 
 /// Runs that the one of the search is chosen among, and random trajectories that they are compared by.
@@ -99,20 +100,48 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        let fingerprint = self.fingerprint(drawn);
-        if let Some(known) = self.known.of(&fingerprint) {
-            return known.clone();
-        }
-        let ran = self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least);
-        // Who was stopped has failed at nothing.
-        if ran.is_some() || !(self.stop.cancelled)() {
-            self.all.lock().unwrap_or_else(PoisonError::into_inner).take(fingerprint, ran.clone());
+        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
+    }
+
+    fn run_all(
+        &self,
+        plans: &[&Drawn],
+        least: &[f64],
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        let names: Vec<[u8; 16]> = plans.iter().map(|drawn| self.fingerprint(drawn)).collect();
+        let ran = self.carried_out((&names, self.sought.len()), &|place| {
+            if let Some(known) = self.known.of(&names[place]) {
+                return Some(known.clone());
+            }
+            let ran = (!stopped()).then(|| self.run(plans[place], least))?;
+            // Who was stopped has failed at nothing.
+            (ran.is_some() || !(self.stop.cancelled)()).then_some(ran)
+        });
+        let mut all = self.all.lock().unwrap_or_else(PoisonError::into_inner);
+        for (name, ran) in names.into_iter().zip(&ran) {
+            ran.iter().for_each(|ran| all.take(name, ran.clone()));
         }
         ran
     }
 }
 
 impl Plans<'_> {
+    /// What whoever executes has of a batch, of which `execute` carries one out, measured by so many targets. What
+    /// cannot be an execution's, as files of a stranger's may have it, counts as failed.
+    fn carried_out(
+        &self,
+        (names, targets): (&[[u8; 16]], usize),
+        execute: &(dyn Fn(usize) -> Option<Option<Ran>> + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        let most = 1 + self.graphs.setup.scenario.search().confirm;
+        let sound = |trial: &Trial| trial.executions <= most && u32::try_from(trial.worst_leg).is_ok();
+        let fits = |ran: &Ran| ran.trials.len() == targets && ran.trials.iter().all(sound);
+        let execute = |place: usize| Some(execute(place)?.as_ref().map(Executed::from));
+        let answers = self.graphs.executor.carry_out(&Batch { names, execute: &execute });
+        answers.into_iter().map(|answer| Some(answer?.map(Ran::from).filter(fits))).collect()
+    }
+
     /// Chooses the run that trajectories are executed as: the nominal one where nothing is drawn for runs, else of the
     /// first four that of which a few random trajectories bear most, by the first target; the executions that this
     /// took.
@@ -132,14 +161,13 @@ impl Plans<'_> {
         let drawn: Vec<Drawn> = drawn.collect();
         let pairs: Vec<(usize, &Drawn)> =
             (0..runs).flat_map(|run| drawn.iter().map(move |drawn| (run, drawn))).collect();
-        let stresses: Vec<(usize, f64)> = pairs
-            .par_iter()
-            .map(|(run, drawn)| {
-                let plan = (&drawn.plan, *run);
-                let ran = self.graphs.trials(drawn.graph).execute_for(plan, &self.sought[..1], &[f64::INFINITY]);
-                (*run, ran.map_or(f64::NAN, |ran| ran.trials[0].stress))
-            })
-            .collect();
+        let names: Vec<[u8; 16]> = pairs.iter().map(|(_, drawn)| self.fingerprint(drawn)).collect();
+        let ran = self.carried_out((&names, 1), &|place| {
+            let (run, Drawn { graph, plan }) = pairs[place];
+            Some(self.graphs.trials(*graph).execute_for((plan, run), &self.sought[..1], &[f64::INFINITY]))
+        });
+        let stress = |ran: Option<Option<Ran>>| ran.flatten().map_or(f64::NAN, |ran| ran.trials[0].stress);
+        let stresses: Vec<(usize, f64)> = pairs.iter().zip(ran).map(|((run, _), ran)| (*run, stress(ran))).collect();
         let mean = |run: usize| {
             let of_run =
                 || stresses.iter().filter(|(of, stress)| *of == run && !stress.is_nan()).map(|(_, stress)| stress);

@@ -4,6 +4,7 @@
 //! themselves; the search sees waypoints, stresses and a fingerprint.
 
 use nalgebra::Point3;
+use rayon::prelude::*;
 
 use crate::math::random::Stream;
 use crate::search::in_loop::Trial;
@@ -92,4 +93,15 @@ pub trait Field: Sync {
     /// too few. With noise, what comes to it is worth repeating: a mean of several takes the luck out. The most
     /// expensive call by far; made in parallel.
     fn run(&self, plan: &Self::Plan, least: &[f64]) -> Option<Ran>;
+
+    /// The same of plans that do not depend on each other, on any threads; `None` of those that were not begun before
+    /// the search was `stopped`.
+    fn run_all(
+        &self,
+        plans: &[&Self::Plan],
+        least: &[f64],
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Option<Option<Ran>>> {
+        plans.par_iter().map(|plan| (!stopped()).then(|| self.run(plan, least))).collect()
+    }
 }

@@ -230,15 +230,12 @@ impl<'a, F: Field> Search<'a, F> {
             new
         };
         let new: Vec<bool> = children.iter().map(&mut is_new).collect();
-        let (field, stopped) = (self.field, self.stopped);
-        let ran: Vec<Option<Option<Ran>>> = children
-            .par_iter()
-            .zip(&new)
-            .map(|(child, new)| (*new && !stopped()).then(|| field.run(&child.plan, least)))
-            .collect();
+        let plans: Vec<&F::Plan> =
+            children.iter().zip(&new).filter(|(_, new)| **new).map(|(child, _)| &child.plan).collect();
+        let mut ran = self.field.run_all(&plans, least, self.stopped).into_iter();
         let mut executed = Vec::with_capacity(children.len());
-        for (Child { plan, step }, ran) in children.into_iter().zip(ran) {
-            let Some(ran) = ran else {
+        for (Child { plan, step }, new) in children.into_iter().zip(new) {
+            let Some(ran) = new.then(|| ran.next().flatten()).flatten() else {
                 executed.push(None);
                 continue;
             };

@@ -116,3 +116,15 @@ pub enum Limit {
     /// The curvature at the goal, 1/m: the control cannot choose it.
     EndCurvature,
 }
+
+impl Limit {
+    /// Its name in answers: `curvature_1_m`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Curvature => "curvature_1_m",
+            Self::CurvatureRate => "curvature_rate_1_m2",
+            Self::Yaw => "yaw_rad",
+            Self::EndCurvature => "end_curvature_1_m",
+        }
+    }
+}

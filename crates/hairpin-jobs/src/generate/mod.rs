@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
+use crate::rounds::Rounds;
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
 use crate::{Deadline, Problem, Watch, optimum};
@@ -52,6 +53,16 @@ pub(crate) fn find_cases(
     proof: Deadline,
     watch: &dyn Watch,
 ) -> Result<(Vec<Case>, Tally), Problem> {
+    find_cases_together(work, [deadline, proof], None, watch)
+}
+
+/// The same with `rounds` of the search shared with other machines.
+pub(crate) fn find_cases_together(
+    work: &Work,
+    [deadline, proof]: [Deadline; 2],
+    rounds: Option<&Rounds>,
+    watch: &dyn Watch,
+) -> Result<(Vec<Case>, Tally), Problem> {
     let known = known(work)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
@@ -60,7 +71,7 @@ pub(crate) fn find_cases(
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let found = searched(&work.setup, &Scope::From(&known), (deadline, watch), &mut |new, tally| {
+    let found = searched(&work.setup, (&Scope::From(&known), rounds), (deadline, watch), &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
             trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
@@ -122,7 +133,7 @@ enum Scope<'a> {
 /// user's program where that was the end of it.
 fn searched(
     setup: &Setup,
-    scope: &Scope,
+    (scope, rounds): (&Scope, Option<&Rounds>),
     (deadline, watch): (Deadline, &dyn Watch),
     found: &mut (dyn FnMut(&[Case], &Tally) + Send),
 ) -> Result<(Tally, Option<Problem>), Problem> {
@@ -143,7 +154,7 @@ fn searched(
             Scope::Units(units, first) => generate_units(setup, (units.clone(), *first), executor, &stop, found),
         })
     };
-    let answer = in_the_loop(setup, &stopped, watch, search)?;
+    let answer = in_the_loop(setup, &stopped, rounds, watch, search)?;
     watch.finished(WHAT);
     match code_trouble() {
         Some((key, trouble)) => Err(Problem::input(format!("`{key}` = {trouble}"))),
@@ -173,7 +184,8 @@ pub(crate) fn find_units(
 
 fn found_in(setup: &Setup, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -> Result<Known, Problem> {
     let mut cases = Vec::new();
-    let (tally, trouble) = searched(setup, scope, (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    let (tally, trouble) =
+        searched(setup, (scope, None), (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
     match trouble {
         Some(problem) => Err(problem),
         None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),
@@ -229,78 +241,4 @@ pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::testing::small;
-    use crate::{Problem, Unwatched};
-
-    #[test]
-    fn cases_are_found_once_and_known_from_then_on() {
-        let place = tempfile::tempdir().unwrap();
-        let found = generate(&small(&place), &Unwatched).unwrap();
-        assert_eq!((found.cases.len(), found.tally.complete), (2, true));
-        let again = find_cases(&found.work, Deadline::after(None), Deadline::after(None), &Unwatched).unwrap();
-        assert_eq!(again, (found.cases, found.tally));
-    }
-
-    /// Stops after so many executions, and counts them.
-    #[derive(Debug, Default)]
-    struct Counting {
-        most: Option<usize>,
-        seen: std::sync::atomic::AtomicUsize,
-    }
-
-    impl Watch for Counting {
-        fn stopped(&self) -> bool {
-            let seen = self.seen.load(std::sync::atomic::Ordering::Relaxed);
-            self.most.is_some_and(|most| seen >= most)
-        }
-
-        fn seen(&self, run: crate::Seen) {
-            assert!(run.deviation.is_some());
-            self.seen.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        }
-    }
-
-    #[test]
-    fn a_search_that_was_stopped_executes_nothing_twice_and_finds_what_it_would_have_found() {
-        let [place, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-        let settings = |place| {
-            let mut settings = small(place);
-            settings.scenario = crate::testing::small_hull(place.path());
-            let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 30 }";
-            settings.sets.push(("generate.search".into(), search.into()));
-            settings
-        };
-        let whole = Counting::default();
-        let uninterrupted = generate(&settings(&other), &whole).unwrap();
-        let count = |watch: &Counting| watch.seen.load(std::sync::atomic::Ordering::Relaxed);
-        let begun = Counting { most: Some(25), ..Counting::default() };
-        let stopped = generate(&settings(&place), &begun).map(|found| found.cases.len());
-        assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
-        let executed = place.path().join("out/executed.tsv");
-        assert!(executed.is_file());
-        let resumed = CampaignSettings { if_there: crate::work::IfThere::Resume, ..settings(&place) };
-        let rest = Counting::default();
-        let found = generate(&resumed, &rest).unwrap();
-        assert_eq!((&found.cases, &found.tally), (&uninterrupted.cases, &uninterrupted.tally));
-        // Runs that choose which draws the search is executed under are no plans of it: there are none here.
-        assert!(count(&begun) >= 25 && count(&begun) + count(&rest) == count(&whole), "{begun:?} {rest:?} {whole:?}");
-        assert!(!executed.exists(), "nothing is left to go on with");
-    }
-
-    #[test]
-    fn who_stops_it_is_told_and_may_go_on() {
-        struct Stopped;
-        impl Watch for Stopped {
-            fn stopped(&self) -> bool {
-                true
-            }
-        }
-        let place = tempfile::tempdir().unwrap();
-        let stopped = generate(&small(&place), &Stopped).map(|found| found.cases.len());
-        assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
-        let settings = CampaignSettings { if_there: crate::work::IfThere::Resume, ..small(&place) };
-        assert_eq!(generate(&settings, &Unwatched).unwrap().cases.len(), 2);
-    }
-}
+mod tests;

@@ -1,0 +1,68 @@
+//! What a round has chosen is executed, and taken over in order.
+
+use super::{Campaign, Origin, Todo};
+use crate::campaign::answers::{Answer, Executed};
+use crate::campaign::graph::{Plan, fingerprint};
+use crate::campaign::learn::LegSample;
+use crate::campaign::{Batch, RoundTally};
+use crate::search::in_loop::Trial;
+
+/// A stress, and the legs that it was measured on.
+type Learned = (f64, Vec<LegSample>);
+
+impl Campaign<'_> {
+    /// Executes `todo` in part `part` of round `number`; stresses are added to `sums`, by origin.
+    pub(super) fn execute(
+        &mut self,
+        (number, part): (u64, u64),
+        todo: Vec<Todo>,
+        told: &mut RoundTally,
+        sums: &mut [(f64, u64); 3],
+    ) {
+        let results = self.carried_out((number, part), &todo);
+        self.executed += results.len() as u64;
+        for (Todo { graph, plan, origin }, result) in todo.into_iter().zip(results) {
+            let Some(result) = result else { continue };
+            told.executions += 1;
+            told.drawn += u64::from(origin == Origin::Drawn);
+            told.by_hand += u64::from(origin == Origin::ByHand);
+            let graph = &mut self.graphs[graph];
+            graph.known.insert(fingerprint(plan.waypoints.iter().copied()));
+            graph.curve.push(result.as_ref().map(|(stress, _)| *stress));
+            let Some((stress, samples)) = result else {
+                told.failed += 1;
+                continue;
+            };
+            let (sum, count) = &mut sums[origin as usize];
+            (*sum, *count) = (*sum + stress, *count + 1);
+            self.samples.extend(samples);
+            let place = graph.kept.partition_point(|kept| kept.score >= stress);
+            graph.kept.insert(place, Plan { score: stress, bound: None, ..plan });
+            graph.kept.truncate(self.search.per_graph as usize);
+        }
+    }
+
+    /// What each of `todo` came to: its stress, and those of its legs to learn from. What is not begun in time does not
+    /// count.
+    fn carried_out(&self, (number, part): (u64, u64), todo: &[Todo]) -> Vec<Option<Option<Learned>>> {
+        let names: Vec<[u8; 16]> = todo.iter().map(|todo| fingerprint(todo.plan.waypoints.iter().copied())).collect();
+        let trials = |todo: &Todo| self.sampled.trials(self.graphs[todo.graph].number);
+        let execute = |place: usize| {
+            let todo = &todo[place];
+            let answer = |(Trial { stress, worst_leg, executions }, behaviour)| Executed {
+                trials: vec![(stress, worst_leg, executions)],
+                behaviour,
+            };
+            self.begins(number, part).then(|| trials(todo).execute_legs(&todo.plan).map(answer))
+        };
+        let answers = self.sampled.executor.carry_out(&Batch { names: &names, execute: &execute });
+        let learned = |place: usize, answer: Answer| {
+            let Executed { trials: stresses, behaviour } = answer?;
+            // An infinite stress could not be told from a mistake.
+            let (stress, ..) = stresses.first().copied().filter(|(stress, ..)| stress.is_finite())?;
+            let trajectory = self.executed as usize + place;
+            Some((stress, trials(&todo[place]).learned(&todo[place].plan, &behaviour, trajectory)))
+        };
+        answers.into_iter().enumerate().map(|(place, answer)| answer.map(|answer| learned(place, answer))).collect()
+    }
+}
