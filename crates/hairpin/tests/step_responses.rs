@@ -139,7 +139,7 @@ fn crazyflie_goto_is_as_fast_as_it_is_asked_to_be_and_half_a_second_late() {
     }
 }
 
-/// A hop before a long leg: a `go_to` that is sent in the middle of the hop's swings out by 10 m, as the firmware's does.
+/// A hop before a long leg: a `go_to` that is sent amid the hop's swings out by 10 m, as the firmware's does.
 #[test]
 fn crazyflie_goto_stays_on_its_legs_where_a_hop_is_before_a_long_one() {
     let world = World::new(Vector3::repeat(8.0), 0.0, vec![]).unwrap();

@@ -8,10 +8,10 @@
 //! ```
 //!
 //! So does `PositionHlCommander` of cflib 0.1.34, which sleeps for T, and so is it done here: the next `go_to` is given
-//! once the waypoint is reached, inside the scenario's acceptance radius, and the one before is over. Sent while another
-//! is under way, a `go_to` begins with that one's velocity and acceleration, and the longer it takes the farther it
-//! swings out: by 20 m for a hop of 0.3 m before a leg of 6 m. cflib warns of it ("unexpected routes"), firmware issue
-//! 1111 is such a flight; it is a mistake of who calls the stack, not the stack's own.
+//! once the waypoint is reached, inside the scenario's acceptance radius, and the one before is over. Sent while
+//! another is under way, a `go_to` begins with that one's velocity and acceleration, and the longer it takes the
+//! farther it swings out: by 20 m for a hop of 0.3 m before a leg of 6 m. cflib warns of it ("unexpected routes"),
+//! firmware issue 1111 is such a flight; it is a mistake of who calls the stack, not the stack's own.
 //!
 //! The mean speed v is `goto_speed_m_s`, by default a tenth of the robot's top speed: 0.5 m/s for the Crazyflie, which
 //! is what `PositionHlCommander` has by default. [`pid`] follows the polynomial's position.
