@@ -138,7 +138,8 @@ class _steering_many:
     def turn(self, asked: dict[str, Any]) -> dict[str, Any]:
         try:
             self._missions = {run: self._missions[run] for run in asked["runs"]}
-            state, reference = ({key: _column(values) for key, values in asked[of].items()} for of in ("state", "reference"))
+            tables: list[dict[str, Any]] = [{key: _column(values) for key, values in asked[of].items()} for of in ("state", "reference")]
+            state, reference = tables
             reference["mission"] = list(self._missions.values())
             answer = self._given(_column(asked["t_s"]), state, reference)
             if not isinstance(answer, Mapping):
@@ -159,7 +160,9 @@ def _column(values: list[Any]) -> npt.NDArray[np.float64] | None:
 def _rows(values: Any) -> list[Any]:
     """A list with None in place of what is not finite, which costs its own run alone."""
     rows = np.asarray(values, dtype=np.float64)
-    return np.where(np.isfinite(rows), rows.astype(object), None).tolist()
+    found = rows.astype(object)
+    found[~np.isfinite(rows)] = None
+    return list(found.tolist())
 
 
 def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[bytes], Any]:
