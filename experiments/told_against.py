@@ -30,7 +30,7 @@ EXECUTORS = {
     "rotorpy": ("flightgoggles", HALL, "geometric", "rotorpy_executor.py", (1, 4, 16)),
     "mujoco": ("flightgoggles", HALL, "stable-waypoint", "mujoco_executor.py", (2, 4, 25)),
     "foundation-policy": ("x500", HALL, "stable-waypoint", "foundation_policy_executor.py", (3, 4, 25)),
-    "drone-models": ("crazyflie", ROOM, "crazyflie-goto", "drone_models_executor.py", (1, 4, 16)),
+    "drone-models": ("crazyflie", ROOM, "crazyflie-goto", "drone_models_executor.py", (1, 8, 100)),
     "skeleton": ("flightgoggles", HALL, "stable-waypoint", "skeleton.cpp", (1, 20, 200)),
     "firmware-full-state": ("crazyflie", ROOM, "geometric", "crazyflie_firmware.py --mode full_state", (1, 4, 25)),
     "firmware-go-to": ("crazyflie", ROOM, "crazyflie-goto", "crazyflie_firmware.py --mode go_to", (1, 4, 25)),
@@ -57,6 +57,7 @@ def hairpin(program, out, *words, sets=()):
             sys.exit(f"{shlex.join(words)}: exit code {done.returncode}\n{done.stderr}")
         if words[1] == "execute":
             subprocess.run([program, "judge", str(out)], capture_output=True)
+        (out / "told.json").write_text(done.stdout)
     return out
 
 

@@ -19,15 +19,19 @@ FLY = {
     "drone_models_executor.py": "crazyflie",
     "foundation_policy_executor.py": "x500",
 }
+# The default search in its loop, small, beside missions by chance: a dozen executions are enough with any seed that was tried.
+SEARCHED = ['generate.search={ method = "worst", waypoints = 60, cases = 1, executions = 12 }', "execute.baseline=3"]
+# One mission: JAX compiles for seconds in each process, and an identified Crazyflie tracks its own reference within 3 cm but on hops.
+FLOWN = ['generate.search={ method = "uniform", waypoints = 60, cases = 1 }', "execute.baseline=0"]
 
 
 @pytest.mark.parametrize("name", FLY)
-def test_another_simulator_flies_a_campaign(name, tmp_path):
+def test_the_default_search_stresses_another_simulator(name, tmp_path):
     command = f"{shlex.quote(sys.executable)} {shlex.quote(str(EXECUTORS / name))}"
-    out = tmp_path / "campaign"
-    sets = [f'robot="{FLY[name]}"', 'generate.search={ method = "uniform", waypoints = 60, cases = 1 }', "execute.repeat=1",
-            "task.length=4", "task.end_m=[9, 7, 6]", "execute.timeout_s=240", "spec.deviation.max_m=3", "execute.baseline=0"]
-    arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", command, "--out", str(out), "--json"]
+    out, searched = tmp_path / "campaign", name != "drone_models_executor.py"
+    sets = [f'robot="{FLY[name]}"', *(SEARCHED if searched else FLOWN), "execute.repeat=1", "task.length=3", "task.end_m=[7, 6, 5]",
+            "execute.timeout_s=240", "spec.deviation.max_m=8"]
+    arguments = [HAIRPIN, "stress", "demo-quadrotor", "--executor", command, "--out", str(out), "--seed", "3", "--threads", "1", "--json"]
     for one in sets:
         arguments += ["--set", one]
     done = subprocess.run(arguments, capture_output=True, text=True)
@@ -36,15 +40,17 @@ def test_another_simulator_flies_a_campaign(name, tmp_path):
     logs = [path.read_text() for path in out.glob("executor-*.log")]
     assert done.returncode == 0, (answer, logs, done.stderr)
     assert answer["counts"]["cases"] == answer["counts"]["pass"] == 1
+    if searched:
+        assert "; random feasible ones" in answer["verdict"] and answer["stress_percent"] > 0, answer
     subprocess.run([HAIRPIN, "export", str(out), "--to", "csv"], check=True, capture_output=True)
     # Of what was flown only the rows are kept where it bends: an export has all samples again.
     flight = pv.read_csv(out / "export" / "0000-0.csv").to_pydict()
     times, legs = flight["t"], flight["leg"]
     assert len(times) > 200 and times[0] == 0 and all(b > a for a, b in zip(times, times[1:]))
-    assert legs[0] == 0 and legs[-1] == 2 and all(b >= a for a, b in zip(legs, legs[1:]))
-    assert abs(flight["x_m"][-1] - 9) + abs(flight["y_m"][-1] - 7) + abs(flight["z_m"][-1] - 6) < 1.0
+    assert legs[-1] == 1 and all(b >= a for a, b in zip(legs, legs[1:]))
+    assert abs(flight["x_m"][-1] - 7) + abs(flight["y_m"][-1] - 6) + abs(flight["z_m"][-1] - 5) < 1.0
     # A tracking controller in calm air neither stands still nor is perfect.
-    assert 0.01 < answer["worst"]["max_deviation_m"] < 3
+    assert 0.01 < answer["worst"]["max_deviation_m"] < 8
 
 
 # Overshoots where the path turns back, and waits there for ever to have passed the waypoint: a public bug of an autopilot.

@@ -11,20 +11,25 @@
 //! SI, world frame, in lockstep: the plant waits. The last four of `reference` are of the planned motion at that time,
 //! null where there is none. A program may leave `reset` unanswered.
 //!
-//! Keys of states, references and commands of each kind of robot: docs/own-controllers.md.
+//! Keys of states, references and commands of each kind of robot: docs/own-controllers.md. A Python function that takes
+//! many runs at once steers all that are under way in one process ([`Together`]).
 //!
 //! Whatever goes wrong at a turn ends that run, and its process with it; the next run has a new one.
 
+mod together;
+
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::UserCode;
+use hairpin::campaign::convoy::Convoy;
 use hairpin::campaign::user_controller::{Turns, UserSteering};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use self::together::Together;
 use crate::executor::{Command, excerpt};
 use crate::lockstep::{Lockstep, Silence};
 use crate::scenario::{driver, held};
@@ -59,6 +64,11 @@ pub(crate) struct Steersman {
     period: f64,
     /// Processes that steer nothing just now.
     idle: Mutex<Vec<Lockstep>>,
+    /// Whether one process steers all runs, which it says itself.
+    takes_many: OnceLock<bool>,
+    convoy: Convoy,
+    /// The process of them all.
+    shared: Mutex<Option<Lockstep>>,
     late: AtomicUsize,
     trouble: Mutex<Option<String>>,
     stopped: AtomicBool,
@@ -67,8 +77,9 @@ pub(crate) struct Steersman {
 impl Steersman {
     /// Called `name` in reports, with `period` s from turn to turn and `limit` for a run.
     pub(crate) fn new(source: Source, name: &str, period: f64, limit: Duration) -> Self {
-        let (idle, late, trouble, stopped) = Default::default();
-        Self { source, name: name.to_owned(), limit, period, idle, late, trouble, stopped }
+        let (idle, takes_many, convoy, shared) = Default::default();
+        let (late, trouble, stopped) = Default::default();
+        Self { source, name: name.to_owned(), limit, period, idle, takes_many, convoy, shared, late, trouble, stopped }
     }
 
     /// Whether it is told the waypoints once a run; a program is told them every time.
@@ -130,7 +141,9 @@ impl Steersman {
         })?;
         if self.remembers() {
             match process.hear(&self.stopped, None) {
-                Ok(line) if line == b"ready" => {}
+                Ok(line) if line == b"ready" || line == b"ready for many" => {
+                    self.takes_many.get_or_init(|| line != b"ready");
+                }
                 Ok(_) => return Err(self.complaint(&process, Silence::Gone)),
                 Err(why) => return Err(self.complaint(&process, why)),
             }
@@ -162,6 +175,9 @@ impl UserSteering for Steersman {
 
     fn begin(self: Arc<Self>, mission: Value) -> Result<Box<dyn Turns>, String> {
         let until = Instant::now().checked_add(self.limit);
+        if self.takes_many.get() == Some(&true) {
+            return Ok(Box::new(Together::begin(self, &mission, until)?));
+        }
         let process = self.process()?;
         let waypoints = mission.get("waypoints_m").cloned().filter(|_| !self.remembers());
         // A program need not answer; if it does, that comes before its first command.
@@ -191,14 +207,21 @@ impl Run {
     /// Its next line, a table, but for `type`, which is not looked at.
     fn hear(&mut self) -> Result<Map<String, Value>, String> {
         let line = self.process.hear(&self.steersman.stopped, self.until);
-        let line = line.map_err(|why| self.steersman.complaint(&self.process, why))?;
-        let mut keys = serde_json::from_slice::<Map<String, Value>>(&line).map_err(|error| {
-            let said = excerpt(&String::from_utf8_lossy(&line), QUOTED);
-            format!("it answered `{said}`: must be a line of JSON, a table of finite numbers ({error})")
-        })?;
+        let mut keys = table(&line.map_err(|why| self.steersman.complaint(&self.process, why))?)?;
         keys.remove("type");
         Ok(keys)
     }
+}
+
+/// What a line says.
+///
+/// # Errors
+/// That it is no table.
+fn table(line: &[u8]) -> Result<Map<String, Value>, String> {
+    serde_json::from_slice(line).map_err(|error| {
+        let said = excerpt(&String::from_utf8_lossy(line), QUOTED);
+        format!("it answered `{said}`: must be a line of JSON, a table of finite numbers ({error})")
+    })
 }
 
 /// What is said at a turn.

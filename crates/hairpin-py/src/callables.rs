@@ -4,6 +4,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use hairpin::campaign::convoy::{Commands, Convoy, Turn, columns, commands};
 use hairpin::campaign::user_controller::{Turns, UserSteering};
 use hairpin::campaign::user_score::LegFacts;
 use hairpin::campaign::user_target::RunFacts;
@@ -45,7 +46,7 @@ impl Code {
                 controller: asked(&self.controller).map(|callable| {
                     let make = move |period: f64| {
                         let callable = Python::attach(|py| callable.clone_ref(py));
-                        Arc::new(Steersman { asked: Asked::new(callable), period }) as Arc<dyn UserSteering>
+                        Arc::new(Steersman::new(callable, period)) as Arc<dyn UserSteering>
                     };
                     Arc::new(make) as Arc<_>
                 }),
@@ -121,10 +122,41 @@ impl RunMeter for Asked {
     }
 }
 
-/// Who steers: a callable that makes a run's own of its mission.
+/// Who steers: a callable that makes a run's own of its mission, or one that takes all runs that are under way.
 struct Steersman {
     asked: Asked,
     period: f64,
+    takes_many: bool,
+    convoy: Convoy,
+}
+
+impl Steersman {
+    fn new(callable: Py<PyAny>, period: f64) -> Self {
+        let marked = Python::attach(|py| callable.bind(py).hasattr("hairpin_vectorised"));
+        Self { asked: Asked::new(callable), period, takes_many: marked.unwrap_or(false), convoy: Convoy::default() }
+    }
+
+    /// Tells of a run that sets out.
+    fn welcome(&self, run: u64, mission: &Value) -> Result<(), String> {
+        let told =
+            Python::attach(|py| self.asked.callable.call_method1(py, "join", (run, object(py, mission)?)).map(|_| ()));
+        told.map_err(|error| error.to_string())
+    }
+
+    /// The commands of all that are under way.
+    fn ask(&self, asked: &[Turn]) -> Result<Commands, String> {
+        if self.asked.stopped.load(Ordering::Relaxed) {
+            return Err("stopped".into());
+        }
+        let answer = Python::attach(|py| {
+            value(self.asked.callable.call_method1(py, "turn", (object(py, &columns(asked))?,))?.bind(py))
+        });
+        match answer {
+            Ok(Value::Object(keys)) => commands(&keys, asked.len()),
+            Ok(other) => Err(format!("{other} is no dictionary")),
+            Err(error) => Err(format!("{error}, of control for {} runs", asked.len())),
+        }
+    }
 }
 
 impl UserCode for Steersman {
@@ -147,6 +179,10 @@ impl UserSteering for Steersman {
     }
 
     fn begin(self: Arc<Self>, mission: Value) -> Result<Box<dyn Turns>, String> {
+        if self.takes_many {
+            let run = self.convoy.join(|run| self.welcome(run, &mission))?;
+            return Ok(Box::new(Together { steersman: self, run }));
+        }
         let waypoints = mission.get("waypoints_m").cloned().unwrap_or_default();
         let begun = Python::attach(|py| -> PyResult<_> {
             let control = self.asked.callable.call1(py, (object(py, &mission)?,))?;
@@ -182,4 +218,25 @@ impl Turns for Run {
     }
 
     fn finish(self: Box<Self>) {}
+}
+
+/// A run that is under way with others.
+struct Together {
+    steersman: Arc<Steersman>,
+    run: u64,
+}
+
+impl Turns for Together {
+    fn turn(&mut self, t_s: f64, state: &Value, reference: &Value) -> Result<Value, String> {
+        let turn = Turn { run: self.run, t_s, state: state.clone(), reference: reference.clone() };
+        self.steersman.convoy.turn(turn, |asked| self.steersman.ask(asked))
+    }
+
+    fn finish(self: Box<Self>) {}
+}
+
+impl Drop for Together {
+    fn drop(&mut self) {
+        self.steersman.convoy.leave();
+    }
 }

@@ -47,8 +47,38 @@ def plain(value):
     return value.tolist()
 
 
+def column(values):
+    # A row for each run. What a run has not is NaN in its row; what none has is None.
+    import numpy
+
+    there = next((value for value in values if value is not None), None)
+    gap = [math.nan] * len(there) if isinstance(there, list) else math.nan
+    return None if there is None else numpy.array([gap if value is None else value for value in values])
+
+
+def steer_many(control, questions, say):
+    say("ready for many")
+    missions = {}
+    for line in questions:
+        asked = json.loads(line)
+        if asked["type"] == "join":
+            missions[asked["run"]] = asked["mission"]
+            continue
+        missions = {run: missions[run] for run in asked["runs"]}
+        state, reference = ({key: column(values) for key, values in asked[of].items()} for of in ("state", "reference"))
+        reference["mission"] = list(missions.values())
+        answer = control(column(asked["t_s"]), state, reference)
+        if not isinstance(answer, dict):
+            raise TypeError(f"{answer!r} is no dictionary, of control for {len(missions)} runs")
+        text = json.dumps(answer, default=plain)
+        # What is no number costs its own run alone.
+        say(json.dumps(json.loads(text, parse_constant=lambda _: None)) if "NaN" in text or "Infinity" in text else text)
+
+
 def steer(load, questions, say):
     space, fresh = load(), True
+    if getattr(space["control"], "hairpin_vectorised", False):
+        return steer_many(space["control"], questions, say)
     say("ready")
     for line in questions:
         asked = json.loads(line)

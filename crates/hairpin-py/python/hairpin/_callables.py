@@ -12,7 +12,7 @@ import textwrap
 import types
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Protocol, Union
+from typing import Any, Protocol, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -41,17 +41,21 @@ ControllerLike = Union[Callable[[float, dict[str, Any], dict[str, Any]], Mapping
 """A function ``control(t_s, state, reference)``, an object with such a method, or its class."""
 
 
-def vectorised(score: Callable[[dict[str, npt.NDArray[np.float64]]], Any]) -> Callable[[dict[str, npt.NDArray[np.float64]]], Any]:
+_Marked = TypeVar("_Marked", bound=Callable[..., Any])
+
+
+def vectorised(function: _Marked) -> _Marked:
     """Marks a score that takes all legs at once: a dictionary of arrays, numbers (n,) and places (n, 3), and gives (n,) or (n, 2).
 
-    The second column is what a leg leaves to the next (docs/stress.md).
+    The second column is what a leg leaves to the next (docs/stress.md). Or a controller that takes all runs that are under way at
+    once: the same keys as of one, with a row for each run (docs/own-controllers.md).
 
     >>> @vectorised
     ... def score(legs):
     ...     return legs["v_in_m_s"] * legs["turn_rad"]
     """
-    score.hairpin_vectorised = True  # type: ignore[attr-defined]
-    return score
+    function.hairpin_vectorised = True  # type: ignore[attr-defined]
+    return function
 
 
 def bring(
@@ -80,6 +84,8 @@ def bring(
                 repr(given),
                 "a function, an object with `control`, or its class",
             )
+        if what == "controller" and getattr(given, "hairpin_vectorised", False):
+            make = _steering_many
         if what != "controller" and not callable(given):
             raise InputError(f"`{what}` = {given!r}: must be a function", what, repr(given), "a function")
         setattr(brought, what, make(given, brought.raised))
@@ -116,6 +122,47 @@ def _steering(given: Any, raised: list[BaseException]) -> Callable[[dict[str, An
         return turn
 
     return begin
+
+
+class _steering_many:
+    """Steers all runs that are under way by a function that takes many."""
+
+    hairpin_vectorised = True
+
+    def __init__(self, given: Callable[..., Any], raised: list[BaseException]) -> None:
+        self._given, self._raised, self._missions = given, raised, dict[int, dict[str, Any]]()
+
+    def join(self, run: int, mission: dict[str, Any]) -> None:
+        self._missions[run] = mission
+
+    def turn(self, asked: dict[str, Any]) -> dict[str, Any]:
+        try:
+            self._missions = {run: self._missions[run] for run in asked["runs"]}
+            tables: list[dict[str, Any]] = [{key: _column(values) for key, values in asked[of].items()} for of in ("state", "reference")]
+            state, reference = tables
+            reference["mission"] = list(self._missions.values())
+            answer = self._given(_column(asked["t_s"]), state, reference)
+            if not isinstance(answer, Mapping):
+                raise TypeError(f"{answer!r} is no dictionary, of control for {len(self._missions)} runs")
+            return {key: _rows(values) for key, values in answer.items()}
+        except BaseException as error:
+            self._raised.append(error)
+            raise
+
+
+def _column(values: list[Any]) -> npt.NDArray[np.float64] | None:
+    """A row for each run: what a run has not is NaN in its row, what none has is None."""
+    there = next((value for value in values if value is not None), None)
+    gap = [np.nan] * len(there) if isinstance(there, list) else np.nan
+    return None if there is None else np.array([gap if value is None else value for value in values])
+
+
+def _rows(values: Any) -> list[Any]:
+    """A list with None in place of what is not finite, which costs its own run alone."""
+    rows = np.asarray(values, dtype=np.float64)
+    found = rows.astype(object)
+    found[~np.isfinite(rows)] = None
+    return list(found.tolist())
 
 
 def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[bytes], Any]:
@@ -209,13 +256,15 @@ def source(given: Any, what: str = "controller") -> str | None:
             f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n"
         )
         lines.append("def control(t_s, state, reference):\n    return _own.control(t_s, state, reference)\n")
-    elif getattr(given, "hairpin_vectorised", False):
+    elif what == "score" and getattr(given, "hairpin_vectorised", False):
         # The command asks for one leg at a time.
         lines.append(_ONE_BY_ONE.format(name=name))
     else:
         asked = "control" if what == "controller" else what
         if name != asked:
             lines.append(f"{asked} = {name}\n")
+        if getattr(given, "hairpin_vectorised", False):
+            lines.append(f"{asked}.hairpin_vectorised = True\n")
     return "\n\n".join(lines)
 
 

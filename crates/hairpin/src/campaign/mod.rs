@@ -37,6 +37,7 @@ pub mod chance;
 mod check;
 mod clock;
 pub mod compare;
+pub mod convoy;
 pub mod coverage;
 pub mod curve;
 pub mod digits;

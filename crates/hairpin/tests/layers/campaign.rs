@@ -15,7 +15,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["boat::keys"],
     // All keys are one sum: the table of the kinds.
     &["scenario::kinds"],
-    &["user_code"],
+    &["user_code", "convoy"],
     &["vary", "user_score", "user_target", "user_controller", "baseline"],
     // What a case and its runs are.
     &["full_rate"],

@@ -1,9 +1,11 @@
 //! Controllers that a stranger brings: what they are told, what they may ask for, and what happens when they fail.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::ground_drives::site::{plan, plane, shipped};
 use allocation_counter::measure;
+use hairpin::campaign::convoy::{Convoy, Turn, columns, commands};
 use hairpin::math::minimum_snap::minimum_snap;
 use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use hairpin::robot::rover::Rover;
@@ -19,6 +21,7 @@ use hairpin::trajectory::{Drive, Ended, Flight, Profile, ProfileLeg, Track};
 use hairpin::world::World;
 use hairpin::world::terrain::KeepOuts;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use serde_json::json;
 
 /// FlightGoggles' body without drag, so that closed forms hold.
 fn robot() -> Quadrotor {
@@ -397,4 +400,53 @@ fn a_drivers_command_that_is_no_number_ends_the_run_by_name() {
     let own = OwnController::new("straight", move |_: &Rover| Gives(good));
     let flight = driven(&own, &vehicle).expect("a drive");
     assert!(flight.ended != Ended::Done && flight.reached.iter().any(Option::is_none), "{:?}", flight.ended);
+}
+
+/// Of a run in a convoy.
+fn turn(run: u64, t_s: f64) -> Turn {
+    Turn { run, t_s, state: json!({ "p_m": [t_s, 0.0] }), reference: json!({ "next": run, "p_m": null }) }
+}
+
+/// Runs of other lengths, each on its thread: every question has all that are under way, every run its own answers.
+#[test]
+fn all_that_are_under_way_are_asked_at_once() {
+    let (convoy, questions) = (Convoy::default(), AtomicUsize::new(0));
+    let runs: Vec<u64> = (0..4).map(|_| convoy.join(|_| Ok(())).unwrap()).collect();
+    let ask = |asked: &[Turn]| {
+        questions.fetch_add(1, Ordering::Relaxed);
+        Ok(asked.iter().map(|turn| Ok(json!(turn.t_s + turn.run as f64))).collect())
+    };
+    std::thread::scope(|scope| {
+        for run in &runs {
+            let (convoy, ask) = (&convoy, &ask);
+            scope.spawn(move || {
+                for k in 0..5 * run {
+                    assert_eq!(convoy.turn(turn(*run, k as f64), ask).unwrap(), json!(k as f64 + *run as f64));
+                }
+                convoy.leave();
+            });
+        }
+    });
+    assert_eq!(questions.into_inner(), 20);
+}
+
+#[test]
+fn an_error_is_that_of_each_and_who_is_not_told_does_not_set_out() {
+    let convoy = Convoy::default();
+    assert_eq!(convoy.join(|_| Err("full".into())), Err("full".into()));
+    let run = convoy.join(|_| Ok(())).unwrap();
+    assert_eq!(convoy.turn(turn(run, 0.0), |_| Err("gone".into())), Err("gone".into()));
+}
+
+#[test]
+fn turns_become_columns_and_columns_commands() {
+    let asked = columns(&[turn(3, 0.5), turn(5, 1.5)]);
+    assert_eq!(asked["runs"], json!([3, 5]));
+    assert_eq!(asked["state"], json!({ "p_m": [[0.5, 0.0], [1.5, 0.0]] }));
+    assert_eq!(asked["reference"], json!({ "next": [3, 5], "p_m": [null, null] }));
+    let answer = json!({ "v_m_s": [[1.0, 2.0], [3.0, null]], "thrust_n": [1.0, 2.0] });
+    let found = commands(answer.as_object().unwrap(), 2).unwrap();
+    assert_eq!(found[0], Ok(json!({ "v_m_s": [1.0, 2.0], "thrust_n": 1.0 })));
+    assert!(found[1].as_ref().is_err_and(|why| why.contains("not finite")));
+    assert!(commands(answer.as_object().unwrap(), 3).unwrap_err().contains("a row for each of 3 runs"));
 }

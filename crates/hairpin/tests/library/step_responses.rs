@@ -139,6 +139,29 @@ fn crazyflie_goto_is_as_fast_as_it_is_asked_to_be_and_half_a_second_late() {
     }
 }
 
+/// A hop before a long leg: a `go_to` that is sent amid the hop's swings out by 10 m, as the firmware's does.
+#[test]
+fn crazyflie_goto_stays_on_its_legs_where_a_hop_is_before_a_long_one() {
+    let world = World::new(Vector3::repeat(8.0), 0.0, vec![]).unwrap();
+    let waypoints =
+        [[1.0, 1.0, 1.0], [5.3, 3.5, 1.5], [5.2, 3.4, 1.2], [5.3, 3.0, 6.9], [6.0, 6.0, 6.0]].map(Point3::from);
+    let robot = shipped("crazyflie");
+    let sortie = Sortie { robot: &robot, world: &world, waypoints: &waypoints, profile: None };
+    let controller = ControllerSettings { kind: ControllerKind::CrazyflieGoto, ..Default::default() };
+    let settings = FlySettings { time_limit: 60.0, accept: 0.3, ..Default::default() };
+    let flight = fly(&sortie, &controller, &Conditions::default(), &settings, 1).unwrap();
+    assert!(flight.reached.iter().all(Option::is_some), "{:?}", flight.reached);
+    let away = |p: &Point3<f64>, ends: &[Point3<f64>]| {
+        let way = ends[1] - ends[0];
+        let along = ((p - ends[0]).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+        (p - (ends[0] + way * along)).norm()
+    };
+    let nearest = |p: Point3<f64>| waypoints.windows(2).map(|ends| away(&p, ends)).fold(f64::INFINITY, f64::min);
+    let farthest = (0..flight.track.times().len()).map(|i| nearest(flight.track.position(i))).fold(0.0, f64::max);
+    // The integral of the height overshoots after the climb.
+    assert!(farthest < 0.3, "{farthest} m");
+}
+
 /// Ten waypoints, legs of 3 to 9 m, moderate turns and climbs.
 fn baseline() -> Vec<Point3<f64>> {
     [

@@ -34,8 +34,8 @@ pub enum ControllerKind {
     Anafi,
     /// A jerk-limited set point that looks two waypoints ahead, and a cascade that follows it, as PX4 flies missions.
     Px4Mission,
-    /// A polynomial to each waypoint from the motion that was planned, and a PID that follows it, as the Crazyflie's
-    /// high-level commander flies `go_to`.
+    /// A polynomial to each waypoint, from rest to rest, and a PID that follows it, as the Crazyflie's high-level
+    /// commander flies `go_to`.
     CrazyflieGoto,
 }
 

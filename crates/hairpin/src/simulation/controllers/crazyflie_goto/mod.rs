@@ -1,16 +1,20 @@
 //! `crazyflie-goto`: a `go_to` of the Crazyflie's high-level commander for each waypoint, followed by its PID.
 //!
 //! The commander plans one polynomial of degree 7 a `go_to`, from the motion that is *planned* at that moment, not from
-//! where the robot is, to rest at the waypoint, with the acceleration at its start and no jerk at either end:
+//! where the robot is. Who waits until one is over before he sends the next plans from rest to rest, straight:
 //!
 //! ```text
-//! p(0), ṗ(0), p̈(0) as planned, p⃛(0) = 0;    p(T) the waypoint, ṗ(T) = p̈(T) = p⃛(T) = 0;    T = |p(T) − p(0)|/v
+//! p = p(0) + (p(T) − p(0)) (35 σ⁴ − 84 σ⁵ + 70 σ⁶ − 20 σ⁷),    σ = τ/T,    T = |p(T) − p(0)|/v
 //! ```
 //!
-//! The next `go_to` is given once the waypoint is reached, inside the scenario's acceptance radius, so that it knows of
-//! one waypoint at a time: where the plan still moves then, the next path begins with that velocity and swings out.
+//! So does `PositionHlCommander` of cflib 0.1.34, which sleeps for T, and so is it done here: the next `go_to` is given
+//! once the waypoint is reached, inside the scenario's acceptance radius, and the one before is over. Sent while
+//! another is under way, a `go_to` begins with that one's velocity and acceleration, and the longer it takes the
+//! farther it swings out: by 20 m for a hop of 0.3 m before a leg of 6 m. cflib warns of it ("unexpected routes"),
+//! firmware issue 1111 is such a flight; it is a mistake of who calls the stack, not the stack's own.
+//!
 //! The mean speed v is `goto_speed_m_s`, by default a tenth of the robot's top speed: 0.5 m/s for the Crazyflie, which
-//! is what `PositionHlCommander` of cflib 0.1.34 has by default. [`pid`] follows the polynomial's position.
+//! is what `PositionHlCommander` has by default. [`pid`] follows the polynomial's position.
 //!
 //! Source: `planner.c` and `pptraj.c` of crazyflie-firmware 2026.08 for what is planned from where, after Mellinger and
 //! Kumar (ICRA 2011); the polynomial is this library's own, and none of the firmware's code is here. What differs: the
@@ -61,14 +65,13 @@ impl CrazyflieGoto {
         Self { speed, pid, plan: None }
     }
 
-    /// The plan to the waypoint that `to` asks for: the one there is, or a new `go_to` from what was planned.
+    /// The `go_to` on its way; once it is over, the next one, if its waypoint was reached.
     fn planned(&mut self, to: &Reference<Quadrotor>) -> &mut Plan {
-        let waypoint = to.next.min(to.waypoints.len() - 1);
+        let asked = to.next.min(to.waypoints.len() - 1);
         let speed = self.speed;
-        let at_rest = || Plan::at_rest(to.waypoints[0].coords);
-        let plan = self.plan.get_or_insert_with(at_rest);
-        if plan.waypoint != waypoint {
-            *plan = plan.go_to(waypoint, to.target(), speed);
+        let plan = self.plan.get_or_insert_with(|| Plan::at_rest(to.waypoints[0].coords));
+        if plan.is_over() && plan.waypoint < asked {
+            *plan = plan.go_to(to.waypoints[plan.waypoint + 1].coords, speed);
         }
         plan
     }
@@ -82,28 +85,28 @@ impl Plan {
         Self { waypoint: 0, leg: ProfileLeg { duration: LEAST_DURATION, coefficients }, tau: LEAST_DURATION }
     }
 
-    /// Position, velocity and acceleration now; at the end it stands still.
-    fn sample(&self) -> [Vector3<f64>; 3] {
-        let mut sample = [0, 1, 2].map(|order| self.leg.derivative(self.tau, order));
-        if self.tau >= self.leg.duration {
-            sample[1..].fill(Vector3::zeros());
-        }
-        sample
+    fn position(&self) -> Vector3<f64> {
+        self.leg.derivative(self.tau, 0)
     }
 
-    /// On from here to `target` (m), in the time that `speed` m/s takes straight.
-    fn go_to(&self, waypoint: usize, target: Vector3<f64>, speed: f64) -> Self {
-        let [p, v, a] = self.sample();
-        let duration = ((target - p).norm() / speed).max(LEAST_DURATION);
-        let axis = |i: usize| septic(&[p[i], v[i], a[i], 0.0], &[target[i], 0.0, 0.0, 0.0], duration);
-        Self { waypoint, leg: ProfileLeg { duration, coefficients: [axis(0), axis(1), axis(2)] }, tau: 0.0 }
+    fn is_over(&self) -> bool {
+        self.tau >= self.leg.duration
+    }
+
+    /// On to the next waypoint, `target` (m), in the time that `speed` m/s takes straight.
+    fn go_to(&self, target: Vector3<f64>, speed: f64) -> Self {
+        let from = self.position();
+        let duration = ((target - from).norm() / speed).max(LEAST_DURATION);
+        let axis = |i: usize| septic(&[from[i], 0.0, 0.0, 0.0], &[target[i], 0.0, 0.0, 0.0], duration);
+        let leg = ProfileLeg { duration, coefficients: [axis(0), axis(1), axis(2)] };
+        Self { waypoint: self.waypoint + 1, leg, tau: 0.0 }
     }
 }
 
 impl Controller<Quadrotor> for CrazyflieGoto {
     fn control(&mut self, dt: f64, now: &FlightState, to: &Reference<Quadrotor>) -> Result<FlightCommand, Fault> {
         let plan = self.planned(to);
-        let [position, ..] = plan.sample();
+        let position = plan.position();
         plan.tau = (plan.tau + dt).min(plan.leg.duration);
         Ok(self.pid.follow(dt, now, &position))
     }
@@ -111,6 +114,8 @@ impl Controller<Quadrotor> for CrazyflieGoto {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Point3, UnitQuaternion};
+
     use super::*;
 
     fn start() -> Plan {
@@ -118,39 +123,41 @@ mod tests {
     }
 
     #[test]
-    fn from_rest_it_is_straight_and_peaks_at_35_sixteenths_of_its_mean_speed() {
+    fn it_is_straight_and_peaks_at_35_sixteenths_of_its_mean_speed() {
         let target = Vector3::new(4.0, 6.0, 3.0);
-        let mut plan = start().go_to(1, target, 0.5);
+        let mut plan = start().go_to(target, 0.5);
         assert!((plan.leg.duration - 10.0).abs() < 1e-12);
         let (way, from) = (target - Vector3::new(1.0, 2.0, 3.0), Vector3::new(1.0, 2.0, 3.0));
         let mut peak: f64 = 0.0;
         for i in 0..=1000 {
             plan.tau = 0.01 * i as f64;
-            let [p, v, _] = plan.sample();
-            assert!((p - from).cross(&way).norm() < 1e-9);
-            peak = peak.max(v.norm());
+            assert!((plan.position() - from).cross(&way).norm() < 1e-9);
+            peak = peak.max(plan.leg.derivative(plan.tau, 1).norm());
         }
         assert!((peak - 35.0 / 16.0 * 0.5).abs() < 1e-6, "{peak}");
-        assert!((plan.sample()[0] - target).norm() < 1e-9 && plan.sample()[1].norm() == 0.0);
+        assert!((plan.position() - target).norm() < 1e-9 && plan.leg.derivative(10.0, 1).norm() < 1e-9);
     }
 
-    /// Asked in mid-flight, the next path takes over position, velocity and acceleration, and ends at rest.
+    /// A hop before a long leg, reached while the plan still moves: a `go_to` from that motion would swing out by 20 m.
     #[test]
-    fn the_next_one_begins_with_the_planned_motion() {
-        let mut first = start().go_to(1, Vector3::new(4.0, 2.0, 3.0), 1.0);
-        first.tau = 1.9;
-        let mut second = first.go_to(2, Vector3::new(4.0, 5.0, 3.0), 1.0);
-        for (before, after) in first.sample().into_iter().zip(second.sample()) {
-            assert!((before - after).norm() < 1e-9, "{before} {after}");
+    fn the_next_one_is_given_once_the_one_before_is_over() {
+        let waypoints = [[1.0, 1.0, 1.0], [1.3, 1.0, 1.0], [1.3, 7.0, 1.0]].map(Point3::from);
+        let mut controller = CrazyflieGoto { speed: 0.5, pid: Pid::new(0.3, MAX_VELOCITY, 1.0), plan: None };
+        let mut reached = 1;
+        for turn in 0..1400 {
+            let to = Reference { waypoints: &waypoints, next: reached, accept: 0.3, plan: None };
+            let at = controller.planned(&to).position();
+            assert!((at.x - 1.3).min(0.0) * (at.y - 1.0) == 0.0 && at.x < 1.3 + 1e-9, "{turn}: {at}");
+            let now = FlightState {
+                t: 0.01 * turn as f64,
+                position: at.into(),
+                velocity: Vector3::zeros(),
+                attitude: UnitQuaternion::identity(),
+                rates: Vector3::zeros(),
+            };
+            controller.control(0.01, &now, &to).unwrap();
+            reached = if turn < 30 { 1 } else { 2 };
         }
-        assert!(second.leg.derivative(0.0, 3).norm() < 1e-9);
-        let end = second.leg.duration;
-        for order in 1..=3 {
-            assert!(second.leg.derivative(end, order).norm() < 1e-8, "order {order}");
-        }
-        // The corner is swung out of: the path goes on along x before it comes back.
-        second.tau = 0.5;
-        let farthest = (0..300).map(|i| second.leg.derivative(0.01 * i as f64, 0).x).fold(0.0, f64::max);
-        assert!(farthest > first.sample()[0].x + 0.1, "{farthest}");
+        assert!((controller.plan.unwrap().position() - waypoints[2].coords).norm() < 1e-9);
     }
 }
