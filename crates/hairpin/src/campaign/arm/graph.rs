@@ -1,6 +1,8 @@
 //! The reachability graph of a scenario: which moves are possible, in which posture each point is met, and what moves
 //! cost.
 
+use std::sync::{Arc, OnceLock};
+
 use nalgebra::{Isometry3, Point3};
 
 use super::points::DRAWS;
@@ -82,11 +84,25 @@ pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
     scenario.spec.path.map_or(0.0, |limit| limit.max_mm * 1e-3)
 }
 
-/// The graph of `setup`.
+/// What is in `known`, or else made. Nobody waits for another thread, which might be waiting for this one's work: what
+/// several make at once is the same.
+pub(super) fn once<T>(known: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    if known.get().is_none() {
+        // Another's counts where there is one by now.
+        known.set(make()).ok();
+    }
+    known.get_or_init(|| unreachable!("it was set"))
+}
+
+/// The graph of `setup`, made when it is first asked for.
 ///
 /// # Errors
 /// No point can be met, or a table of costs of another size, in a sentence's part.
-pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
+pub fn graph_of(setup: &ArmSetup) -> Result<Arc<ArmGraph>, String> {
+    once(&setup.graph, || made(setup).map(Arc::new)).clone()
+}
+
+fn made(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let graph = whole_graph(setup)?;
     let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
     let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);

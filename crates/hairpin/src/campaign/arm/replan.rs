@@ -1,5 +1,7 @@
 //! Fewer points for a program, every move still proven by the graph.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::ArmSetup;
@@ -10,7 +12,7 @@ use crate::trajectory::program::{Motion, Program, Zone};
 
 /// A program, and the graph that it is a way through.
 pub(super) struct Shortened {
-    graph: ArmGraph,
+    graph: Arc<ArmGraph>,
     case: Case,
     program: Program,
     /// Row of the cloud at every waypoint but the home at both ends.
