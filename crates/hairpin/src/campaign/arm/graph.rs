@@ -5,44 +5,17 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Point3};
 
+use super::arm_graph::ArmGraph;
 use super::points::DRAWS;
 use super::{ArmSetup, Station};
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
-    ArcGraph, Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
+    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
 };
-use crate::feasibility::reachability::{
-    CartesianSettings, Level, Obstacle, ReachabilityGraph, Refusal, Verdict, cartesian,
-};
+use crate::feasibility::reachability::{CartesianSettings, Level, Obstacle, Refusal, Verdict, cartesian};
 use crate::robot::arm::{Branch, Configuration, Joints};
 
-/// The graph of a scenario, ready to be searched.
-#[derive(Debug, Clone)]
-pub struct ArmGraph {
-    /// Which moves are possible, and why the others are not.
-    pub reachability: ReachabilityGraph,
-    /// Joint angles at every point, rad, or why it has none; in Cartesian mode nobody asked.
-    pub postures: Option<Vec<Result<Joints, Refusal>>>,
-    /// Costs in whole units, row = from.
-    pub costs: Vec<Option<i64>>,
-    /// Whether the move from home to each point is possible.
-    pub from_home: Vec<bool>,
-    /// Whether the move from each point to home is.
-    pub to_home: Vec<bool>,
-    /// Arcs from point to point through a third, with costs in whole units, where the scenario takes them.
-    pub arcs: Option<ArcGraph>,
-    /// What one unit is, in `unit_name`.
-    pub unit: f64,
-    /// The unit that users are told: `m`, `s`, `steps`, `rad²/s³`, that of their table.
-    pub unit_name: String,
-}
-
 impl ArmGraph {
-    /// Points of the cloud.
-    pub fn points(&self) -> usize {
-        self.reachability.points()
-    }
-
     /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm
     /// can stand there.
     pub(super) fn configuration(&self, setup: &ArmSetup, row: usize) -> Option<Configuration> {

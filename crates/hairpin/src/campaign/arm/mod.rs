@@ -1,6 +1,7 @@
 //! Arms: a cell and a cloud of points, the reachability graph between them, and the programs that load the arm most.
 
 mod alter;
+mod arm_graph;
 mod assumptions;
 mod build;
 mod cell;
@@ -38,8 +39,9 @@ mod verify;
 mod ways;
 mod written;
 
+pub use arm_graph::ArmGraph;
 pub use clock::ArcClock;
-pub use graph::{ArmGraph, graph_of};
+pub use graph::graph_of;
 pub use points::CellPoint;
 pub use recorded::Shorter;
 pub use regression::RegressionError;

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, graph_of};
+use super::arm_graph::ArmGraph;
+use super::graph::graph_of;
 use crate::campaign::Case;
 use crate::campaign::kind::{Replanner, Same};
 use crate::trajectory::program::{Motion, Program, Zone};

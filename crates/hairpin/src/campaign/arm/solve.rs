@@ -1,7 +1,7 @@
 //! The search: the heaviest paths through the reachability graph, made into programs.
 
 use super::ArmSetup;
-use super::graph::ArmGraph;
+use super::arm_graph::ArmGraph;
 use super::program::Met;
 use crate::campaign::graph::Plan;
 use crate::campaign::scenario::ArmMode;

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Vector3};
 
-use super::graph::ArmGraph;
+use super::arm_graph::ArmGraph;
 use super::points::{CellPoint, count};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::Kind;
