@@ -23,6 +23,10 @@ quick:
 fuzz:
     HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test formats -p hairpin-jobs --test fuzz_certificates fuzz
 
+# The pages of every kind of robot, of logs and of comparisons as pictures in FOLDER, to look at.
+pictures FOLDER:
+    tests/browser/pictures {{FOLDER}}
+
 demo:
     cargo run --release -p hairpin-cli -- demo
 

@@ -71,7 +71,7 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let graph = work
         .setup
         .own::<ArmSetup>()
-        .and_then(|arm| Some(arm.graph_again(&graph_of(arm).ok()?)))
+        .and_then(|arm| graph_of(arm).ok().map(|graph| arm.graph_again(&graph)))
         .filter(|graph| graph.moves > 0);
     let around = answers.iter().zip(&cases).filter(|(answer, case)| case.environment.is_some() && answer.is_checked());
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();

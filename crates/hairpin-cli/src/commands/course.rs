@@ -8,14 +8,14 @@ const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█']
 /// Bars of a row.
 const WIDTH: usize = 48;
 
-/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to `limit` (m),
-/// in the unit that the verdict has.
-pub(super) fn course(shown: &Shown, limit: Option<f64>, length: &Length) -> Vec<String> {
+/// `case 0117, run 3: max 0.65 m, mean …` in evo's names and order, and the course of the deviation up to its limit, in
+/// the unit and with the digits that the verdict has.
+pub(super) fn course(shown: &Shown, length: &Length) -> Vec<String> {
     let mut lines = Vec::new();
-    let Length { unit, in_metre } = *length;
+    let Length { unit, in_metre, limit } = *length;
     let result = &shown.result;
     if let Some(told) = &shown.statistics {
-        let value = |name: &str, value: f64| format!("{name} {} {unit}", number(Some(in_metre * value)));
+        let value = |name: &str, value: f64| format!("{name} {}", length.told(value));
         let values = [
             value("max", told.max),
             value("mean", told.mean),
@@ -29,10 +29,10 @@ pub(super) fn course(shown: &Shown, limit: Option<f64>, length: &Length) -> Vec<
     }
     let times = shown.flown.as_ref().map_or(&[][..], |track| track.times());
     if let (Some(row), [first, .., last]) = (bars(times, &shown.distances), times) {
-        let limit = limit.map_or(String::new(), |metres| format!(", limit {} {unit}", given(Some(in_metre * metres))));
+        let limit = limit.map_or(String::new(), |limit| format!(", limit {} {unit}", given(Some(limit))));
         let span = format!("{} … {} s", number(Some(*first)), number(Some(*last)));
-        let most = in_metre * shown.distances.iter().copied().fold(0.0, f64::max);
-        lines.push(format!("{row}  {span}, at most {} {unit}{limit}", number(Some(most))));
+        let most = length.told(shown.distances.iter().copied().fold(0.0, f64::max));
+        lines.push(format!("{row}  {span}, at most {most}{limit}"));
     }
     lines
 }

@@ -99,18 +99,6 @@ fn hairpin_alone_shows_the_ways_in() {
 }
 
 #[test]
-fn help_is_in_groups_with_examples() {
-    let place = tempfile::tempdir().unwrap();
-    let (_, out, _) = run(place.path(), &["steer", "--help"]);
-    for heading in
-        ["Start and goal:", "Many at once:", "Ground:", "Obstacles:", "Solver:", "Map:", "Output:", "Examples:"]
-    {
-        assert!(out.contains(&format!("\n{heading}\n")), "{heading}: {out}");
-    }
-    assert!(!out.contains("\nOptions:\n  --"), "{out}");
-}
-
-#[test]
 fn man_pages_are_written() {
     let place = tempfile::tempdir().unwrap();
     let (code, out, error) = run(place.path(), &["man", "--out", "man1"]);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use hairpin::campaign::Status;
 use hairpin::campaign::kind::Relief;
 use hairpin::campaign::report::{Length, Metric, OtherRun, ReportData, Shown};
+use hairpin::judgement::decimals_of;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use serde_json::{Value, json};
 
@@ -36,11 +37,12 @@ pub(super) fn json(data: &ReportData) -> String {
         "obstacles": obstacles,
         "robot": data.drawing.figure.as_ref().map(robot),
         "beside": data.beside.runs,
+        "shown": data.beside.shown,
         "folder": data.folder,
         "unit": data.length.unit,
-        "done": if data.drawing.relief.is_some() { "driven" } else { "flown" },
-        "digits": digits(data),
-        "limit": data.deviation_limit.map(|limit| tidy(data.length.in_metre * limit)),
+        "done": data.drawing.done,
+        "digits": decimals_of(data.length.limit.unwrap_or_default(), 2),
+        "limit": data.length.limit.map(tidy),
         "open": data.shown.iter().position(|shown| Some(shown.result.case) == data.opens).unwrap_or_default(),
         "ids": data.results.iter().map(|result| data.name(result.case)).collect::<Vec<_>>(),
         "status": data.results.iter().map(|result| result.status.word()).collect::<Vec<_>>(),
@@ -49,12 +51,6 @@ pub(super) fn json(data: &ReportData) -> String {
         "cases": data.shown.iter().map(|shown| case(data, shown, samples, &mut others)).collect::<Vec<_>>(),
     });
     value.to_string().replace('<', "\\u003c")
-}
-
-/// Decimals that deviations are told with: two, or as many as their limit was given with.
-fn digits(data: &ReportData) -> usize {
-    let limit = data.deviation_limit.map_or(0.0, |limit| tidy(data.length.in_metre * limit)).to_string();
-    limit.split_once('.').map_or(0, |(_, decimals)| decimals.len()).clamp(2, 5)
 }
 
 /// The ground; holes are nothing.

@@ -6,6 +6,7 @@ mod column;
 mod data;
 mod day_card;
 mod escape;
+mod layout;
 mod more;
 mod page;
 mod panels;

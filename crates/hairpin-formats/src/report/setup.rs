@@ -4,7 +4,16 @@ use hairpin::campaign::digits::number;
 use hairpin::campaign::report::ReportData;
 
 use super::escape::escape;
-use super::svg;
+use super::layout;
+
+/// A sentence in which what stands in backticks is a name of a file or a scenario.
+fn with_code(line: &str) -> String {
+    let part = |(place, part): (usize, &str)| match place % 2 {
+        0 => escape(part),
+        _ => format!("<code>{}</code>", escape(part)),
+    };
+    line.split('`').enumerate().map(part).collect()
+}
 
 /// The section.
 pub(super) fn section(data: &ReportData) -> String {
@@ -13,7 +22,7 @@ pub(super) fn section(data: &ReportData) -> String {
         .iter()
         .map(|[label, value]| format!("<dt>{}</dt><dd>{}</dd>", escape(label), escape(value)))
         .collect();
-    let assumptions: String = data.assumptions.iter().map(|line| format!("<li>{}</li>", escape(line))).collect();
+    let assumptions: String = data.assumptions.iter().map(|line| format!("<li>{}</li>", with_code(line))).collect();
     let assumptions = if assumptions.is_empty() {
         String::new()
     } else {
@@ -33,7 +42,7 @@ pub(super) fn section(data: &ReportData) -> String {
     // Of an arm the 3D view shows all there is.
     let drawn = !data.drawing.rotors.is_empty() || !data.drawing.wheels.is_empty() || data.drawing.relief.is_some();
     let robot = if drawn {
-        format!("<figure>{}<figcaption>{caption}</figcaption></figure>", svg::robot(&data.drawing))
+        format!("<figure>{}<figcaption>{caption}</figcaption></figure>", layout::robot(&data.drawing))
     } else {
         String::new()
     };

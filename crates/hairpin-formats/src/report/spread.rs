@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use hairpin::campaign::Influence;
-use hairpin::campaign::digits::{limit, number};
+use hairpin::campaign::digits::number;
 use hairpin::campaign::report::ReportData;
-use hairpin::judgement::Statistics;
+use hairpin::judgement::{Statistics, told};
 use serde_json::Value;
 
 use super::escape::escape;
@@ -25,10 +25,16 @@ pub(super) fn distributions(data: &ReportData) -> String {
                 .map(|statistics| (metric, statistics))
         })
         .map(|(metric, s)| {
-            let values =
-                [Some(s.max), Some(s.mean), Some(s.median), Some(s.min), Some(s.rmse), Some(s.sse), Some(s.std)];
-            let values: String = values.iter().map(|value| format!("<td>{}</td>", number(*value))).collect();
-            let limit = limit(metric.limit);
+            let values = [s.max, s.mean, s.median, s.min, s.rmse, s.sse, s.std];
+            // With the digits of a limit: its own, or of lengths that of the deviation.
+            let of_lengths = data.length.limit.filter(|_| metric.unit == data.length.unit);
+            let digits = metric.limit.or(of_lengths);
+            let digits = |value: f64| match digits {
+                Some(limit) => told(value, Some(limit), metric.unit),
+                None => number(Some(value)),
+            };
+            let values: String = values.map(|value| format!("<td>{}</td>", digits(value))).concat();
+            let limit = metric.limit.map_or("–".into(), |limit| told(limit, Some(limit), metric.unit));
             format!(
                 "<tr><th scope=\"row\">{} <span class=\"note\">{}</span></th><td>{limit}</td>{values}</tr>",
                 metric.name, metric.unit

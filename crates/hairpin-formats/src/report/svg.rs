@@ -1,4 +1,4 @@
-//! Drawings without JavaScript: top and side view of a case, and the robot's rotors with their spins.
+//! Drawings without JavaScript: top and side view of a case.
 
 use std::fmt::Write;
 
@@ -9,6 +9,7 @@ use hairpin::campaign::report::Shown;
 use hairpin::trajectory::Track;
 use nalgebra::Point3;
 
+use super::column::round;
 use super::relief;
 
 /// Drawing area of one view, in the SVG's own units.
@@ -147,10 +148,11 @@ fn view(svg: &mut String, shown: &Shown, drawing: &Drawing, view: &View, name: &
         add(format!("<use href=\"#ground\" transform=\"translate({x0:.1} {y0:.1}) scale({across:.5} {up:.5})\"/>"));
     }
     let ticks = |low: f64, extent: f64| {
-        let step =
-            [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0].into_iter().find(|s| extent / s <= 6.5).unwrap_or(extent);
+        let most = (extent * view.scale / 22.0).min(6.5);
+        let steps = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+        let step = steps.into_iter().find(|step| extent / step <= most).unwrap_or(extent);
         let first = (low / step).ceil() as i64;
-        (first..=((low + extent) / step).floor() as i64).map(move |i| i as f64 * step)
+        (first..=((low + extent) / step).floor() as i64).map(move |i| round(i as f64 * step, 3))
     };
     for tick in ticks(view.low[0], drawing.size[view.across]) {
         let x = view.x0 + (tick - view.low[0]) * view.scale;
@@ -226,74 +228,4 @@ fn points(positions: impl Iterator<Item = Point3<f64>>, view: &View) -> String {
         let _ = write!(text, "{x:.1},{y:.1} ");
     }
     text.trim_end().to_owned()
-}
-
-/// The robot seen from above, forward up: its rotors or its wheels.
-pub(super) fn robot(drawing: &Drawing) -> String {
-    if drawing.rotors.is_empty() { wheels(drawing) } else { rotors(drawing) }
-}
-
-fn wheels(drawing: &Drawing) -> String {
-    let reach = drawing.wheels.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max).max(1e-6);
-    let unit = 84.0 / reach;
-    let mut svg = String::from(
-        "<svg class=\"rotors\" viewBox=\"-120 -120 240 240\" role=\"img\" aria-label=\"Wheels seen from above\">\
-         <path class=\"forward\" d=\"M0 -14 L7 4 L0 0 L-7 4 Z\"/>\
-         <text class=\"axis\" x=\"0\" y=\"-104\" text-anchor=\"middle\">forward ↑</text>",
-    );
-    for [x, y] in &drawing.wheels {
-        let (x, y) = (-y * unit, -x * unit);
-        let _ = write!(
-            svg,
-            "<line class=\"arm\" x1=\"0\" y1=\"0\" x2=\"{x:.1}\" y2=\"{y:.1}\"/>\
-             <rect class=\"wheel\" x=\"{:.1}\" y=\"{:.1}\" width=\"14\" height=\"30\" rx=\"4\"/>",
-            x - 7.0,
-            y - 15.0
-        );
-    }
-    svg + "</svg>"
-}
-
-/// The rotors: numbers, spins, and the ball that holds the robot.
-fn rotors(drawing: &Drawing) -> String {
-    let reach = drawing.rotors.iter().map(|r| r.x.hypot(r.y)).fold(0.0, f64::max).max(1e-6);
-    let unit = 62.0 / reach;
-    let mut svg = String::from(
-        "<svg class=\"rotors\" viewBox=\"-120 -120 240 240\" role=\"img\" aria-label=\"Rotor layout seen from above\">",
-    );
-    let mut add = |part: String| svg.push_str(&part);
-    add(String::from(
-        "<path class=\"forward\" d=\"M0 -14 L7 4 L0 0 L-7 4 Z\"/><text class=\"axis\" x=\"0\" y=\"-104\" text-anchor=\"middle\">forward ↑</text>",
-    ));
-    for (number, rotor) in drawing.rotors.iter().enumerate() {
-        // Body x is up on the page, body y (left) is left.
-        let (x, y) = (-rotor.y * unit, -rotor.x * unit);
-        let class = if rotor.clockwise { "cw" } else { "ccw" };
-        let (r, sweep) = (27.0, if rotor.clockwise { 1.0 } else { -1.0 });
-        let point = |angle: f64| (x + r * angle.cos(), y + r * angle.sin());
-        let (from, to) = (point(-2.6 * sweep - 1.57), point(1.3 * sweep - 1.57));
-        let large =
-            format!("M{:.1} {:.1} A{r} {r} 0 1 {} {:.1} {:.1}", from.0, from.1, u8::from(rotor.clockwise), to.0, to.1);
-        // The arrow head: a triangle at the arc's end, along its tangent.
-        let end = 1.3 * sweep - 1.57;
-        let (tangent, normal) = ((-end.sin() * sweep, end.cos() * sweep), (end.cos(), end.sin()));
-        let tip = (to.0 + 10.0 * tangent.0, to.1 + 10.0 * tangent.1);
-        let wing = |side: f64| (to.0 + side * 6.0 * normal.0, to.1 + side * 6.0 * normal.1);
-        let (a, b) = (wing(1.0), wing(-1.0));
-        add(format!("<line class=\"arm\" x1=\"0\" y1=\"0\" x2=\"{x:.1}\" y2=\"{y:.1}\"/>"));
-        add(format!(
-            "<circle class=\"disc {class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r}\"/><path class=\"arc {class}\" d=\"{large}\"/>"
-        ));
-        add(format!(
-            "<path class=\"head {class}\" d=\"M{:.1} {:.1} L{:.1} {:.1} L{:.1} {:.1} Z\"/>",
-            tip.0, tip.1, a.0, a.1, b.0, b.1
-        ));
-        add(format!(
-            "<text class=\"rotor\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-            y + 5.0,
-            number + 1
-        ));
-    }
-    svg.push_str("</svg>");
-    svg
 }

@@ -42,7 +42,7 @@ pub(super) fn section(data: &ReportData) -> String {
         clock = if is_of_logs {
             OF_LOGS
         } else {
-            "planned and flown positions stand in one frame and on one clock, as they were"
+            "what was planned and what was run stand in one frame and on one clock, as they were"
         },
         legend = legend(data),
         ground = svg::ground(&data.drawing),
@@ -79,22 +79,22 @@ const COMMANDS: &str = "<div class=\"tools\" id=\"commands\"><span>copy the comm
     <button type=\"button\" data-verb=\"shrink\">shrink</button><button type=\"button\" data-verb=\"export\">export</button>\
     <button type=\"button\" data-verb=\"report\">report of this case</button></div>";
 
-/// Under the picture, never over a curve.
-fn legend(data: &ReportData) -> String {
-    let others = if data.shown.iter().any(|shown| !shown.others.is_empty()) {
-        format!(" <span class=\"key other\"></span>{}", data.beside.runs)
-    } else {
-        String::new()
-    };
-    format!(
-        "<p class=\"keys\"><span class=\"key scale\"></span>{}, deviation 0 to <span id=\"scale-top\">–</span> \
-         <span class=\"key planned\"></span>planned{others} <span class=\"key worst\"></span>worst moment</p>",
-        done(data)
-    )
+/// A line's look and what it is, which a narrow page does not part.
+fn key(look: &str, words: &str) -> String {
+    format!("<span class=\"named\"><span class=\"key {look}\"></span>{words}</span>")
 }
 
-fn done(data: &ReportData) -> &'static str {
-    if data.drawing.relief.is_some() { "driven" } else { "flown" }
+/// Under the picture, never over a curve.
+fn legend(data: &ReportData) -> String {
+    let others = data.shown.iter().any(|shown| !shown.others.is_empty());
+    let others = if others { format!(" {}", key("other", data.beside.runs)) } else { String::new() };
+    let scale = format!("{}, deviation 0 to <span id=\"scale-top\">–</span>", data.drawing.done);
+    format!(
+        "<p class=\"keys\">{} {}{others} {}</p>",
+        key("scale", &scale),
+        key("planned", "planned"),
+        key("worst", "worst moment")
+    )
 }
 
 fn option(data: &ReportData, shown: &Shown, index: usize) -> String {
@@ -158,27 +158,28 @@ pub fn picture(data: &ReportData) -> Option<String> {
     let told = shown.moment.as_ref().map_or("", |moment| moment.told.as_str());
     let name = format!("case {}", data.name(shown.result.case));
     let title = escape(&format!("{}, {name}: {told}", data.title));
-    Some(svg::picture(shown, &escape(&name), [&title, done(data)], &data.drawing))
+    Some(svg::picture(shown, &escape(&name), [&title, data.drawing.done], &data.drawing))
 }
 
 fn figure(data: &ReportData, shown: &Shown) -> String {
     let (what, id) = (if data.logs.is_empty() { "case" } else { "log" }, escape(&data.name(shown.result.case)));
     format!(
-        "<figure class=\"case\" data-case=\"{id}\">{}\
-         <figcaption>{what} {id}: <span class=\"key flown\"></span>{} <span class=\"key planned\"></span>planned \
-         <span class=\"key legs\"></span>straight legs <span class=\"key worst\"></span>worst moment</figcaption></figure>",
+        "<figure class=\"case\" data-case=\"{id}\">{}<figcaption>{what} {id}: {} {} {} {}</figcaption></figure>",
         svg::views(shown, &format!("{what} {id}"), &data.drawing),
-        done(data),
+        key("flown", data.drawing.done),
+        key("planned", "planned"),
+        key("legs", "straight legs"),
+        key("worst", "worst moment")
     )
 }
 
 fn statistics(found: Option<&Statistics>, length: &Length) -> String {
     let Some(s) = found else { return String::new() };
     let names = ["max", "mean", "median", "min", "rmse", "sse", "std"];
-    let factor = length.in_metre;
-    let values = [s.max, s.mean, s.median, s.min, s.rmse, factor * s.sse, s.std].map(|value| factor * value);
+    // A sum of squares has a factor more.
+    let values = [s.max, s.mean, s.median, s.min, s.rmse, length.in_metre * s.sse, s.std];
     let head: String = names.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
-    let row: String = values.iter().map(|value| format!("<td>{}</td>", number(Some(*value)))).collect();
+    let row: String = values.iter().map(|value| format!("<td>{}</td>", length.number(*value))).collect();
     format!(
         "<table class=\"statistics\"><caption>deviation of this run, {unit} (sse {unit}²), over its judged samples, not aligned</caption>\
          <thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>",

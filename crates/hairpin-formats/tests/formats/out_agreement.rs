@@ -25,9 +25,9 @@ fn track() -> Track {
     Track::new(times, poses, vec![Channel { name: "leg".into(), values: legs }]).unwrap()
 }
 
-fn result(number: usize, violations: Vec<Violation>) -> CaseResult {
+fn result(number: usize, deviation: f64, violations: Vec<Violation>) -> CaseResult {
     let measures = Measures {
-        max_deviation: if number == 0 { 0.5 * DEVIATION_M } else { DEVIATION_M },
+        max_deviation: if number == 0 { 0.5 * deviation } else { deviation },
         t_worst: 3.0,
         leg_worst: 0,
         legs: vec![LegMeasures::default(); 2],
@@ -50,9 +50,9 @@ fn result(number: usize, violations: Vec<Violation>) -> CaseResult {
 }
 
 /// The page of two cases, of which number 1 violates, or none does.
-fn page(setup: &Setup, violation: Option<Violation>) -> (String, String) {
+fn page(setup: &Setup, deviation: f64, violation: Option<Violation>) -> (String, String) {
     let cases = [case(0), case(1)];
-    let results = [result(0, vec![]), result(1, violation.into_iter().collect())];
+    let results = [result(0, deviation, vec![]), result(1, deviation, violation.into_iter().collect())];
     let tally = Tally { graphs: 2, solved: 2, complete: true, ..Tally::default() };
     let verdict = campaign::verdict(setup, &cases, (&results, None), &tally);
     let full = |(case, result): (&Case, &CaseResult)| {
@@ -87,7 +87,7 @@ fn escaped(text: &str) -> String {
 }
 
 fn agree(name: &str, setup: &Setup, (value, printed): (Violation, Option<[&str; 2]>)) {
-    let (sentence, page) = page(setup, Some(value.clone()));
+    let (sentence, page) = page(setup, DEVIATION_M, Some(value.clone()));
     let context = format!("{name}: {}", value.what);
     assert!(sentence.contains("case 0001, t = 7.25 s, leg 1→2"), "{context}: {sentence}");
     let finding = match printed {
@@ -157,15 +157,44 @@ fn verdict_cards_table_and_picture_agree() {
         for way in ways(kind == "arm") {
             agree(kind, &setup, way);
         }
-        // Where nothing is violated the deviation is, in the unit of the limit.
-        let (sentence, page) = page(&setup, None);
-        if setup.scenario.deviation_limit().is_some() {
-            let finding = between(&sentence, "worst ", ", case 0001, t = 3.00 s");
-            let (largest, limit) = finding.split_once(" ≤ ").unwrap_or_else(|| panic!("{kind}: {finding}"));
-            assert_eq!(largest.ends_with(" mm"), kind == "arm", "{kind}: {finding}");
-            let card = format!("<p class=\"value\">{largest}</p><p class=\"note\">limit {limit}</p>");
-            assert!(page.contains(&card), "{kind}: no {card}");
-        }
-        assert_eq!(page.contains("max deviation mm"), kind == "arm", "{kind}: the table's unit");
+        passing(kind);
+    }
+}
+
+/// Where nothing is violated the largest deviation is told, in the unit and with the digits of its limit, or as many as
+/// show that it keeps it, or that there is any.
+fn passing(kind: &str) {
+    let key = match kind {
+        "arm" => "spec.path.max_mm",
+        "rover" | "car" => "spec.limits.path_deviation_m",
+        _ => "spec.deviation.max_m",
+    };
+    for [deviation, limit, told, of] in [
+        ["0.0183", "0.025", "0.018", "0.025"],
+        ["0.02496", "0.025", "0.02496", "0.02500"],
+        ["0.0042", "0.5", "0.0042", "0.5000"],
+        ["0.31", "0.5", "0.31", "0.50"],
+    ] {
+        let unit = if kind == "arm" { "mm" } else { "m" };
+        let setup = setup_for(kind, &[(key.into(), limit.into())]).unwrap();
+        let metres = deviation.parse::<f64>().unwrap() / if kind == "arm" { 1e3 } else { 1.0 };
+        let (sentence, page) = page(&setup, metres, None);
+        let context = format!("{kind}: {told} {unit} within {of}");
+        let place = "case 0001, t = 3.00 s, leg 0→1";
+        assert!(sentence.contains(&format!("worst {told} {unit} ≤ {of} {unit}, {place}")), "{context}: {sentence}");
+        let card = format!("<p class=\"value\">{told} {unit}</p><p class=\"note\">limit {of} {unit}</p>");
+        assert!(page.contains(&card), "{context}: no {card}");
+        let row = between(&page, "data-case=\"0001\"><td>", "</tr>");
+        assert!(row.contains(&format!("pass</span></td><td>{told}</td><td>3.00</td>")), "{context}: {row}");
+        assert!(page.contains(&format!(">max deviation {unit}<")), "{context}: the table's unit");
+        assert!(page.contains(&format!(">0001 · {told} {unit} · pass<")), "{context}: the list of cases");
+        let drawn: serde_json::Value = serde_json::from_str(between(&page, "id=\"data\">", "</script>")).unwrap();
+        let open = &drawn["cases"][drawn["open"].as_u64().unwrap() as usize];
+        assert_eq!(open["told"], format!("largest deviation {told} {unit} at t=3.00 s"), "{context}");
+        assert_eq!(drawn["limit"].as_f64(), limit.parse().ok(), "{context}");
+        // What the view itself writes has so many decimals, and more by the same rule.
+        assert_eq!(drawn["digits"], if limit == "0.025" { 3 } else { 2 }, "{context}");
+        let distribution = between(&page, "<table class=\"spread\">", "</table>");
+        assert!(distribution.contains(&format!("<td>{told}</td>")), "{context}: {distribution}");
     }
 }

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use hairpin::campaign::digits::number;
 use hairpin::campaign::report::{Length, length, violation};
 use hairpin::campaign::{CaseResult, Comparison, Status};
 use hairpin_formats::junit::{Outcome, OutcomeKind, outcomes_text};
@@ -82,8 +81,7 @@ fn told(result: &CaseResult, length: &Length) -> String {
     let found = result.violations.first().map(violation);
     let largest = || {
         let m = result.measures.as_ref()?;
-        let deviation = number(Some(length.in_metre * m.max_deviation));
-        Some(format!("largest deviation {deviation} {} at t={:.2} s", length.unit, m.t_worst))
+        Some(format!("largest deviation {} at t={:.2} s", length.told(m.max_deviation), m.t_worst))
     };
     let other = || result.message.clone().unwrap_or_else(|| result.ended.clone());
     format!("{}, {}", result.status.word(), found.or_else(largest).unwrap_or_else(other))

@@ -66,7 +66,7 @@ pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Res
     });
     let number = |label: &str, count: usize, note: String| [label.to_owned(), count.to_string(), note];
     let data = ReportData {
-        beside: Beside { runs: "A, before", cases: "A, before" },
+        beside: Beside { runs: "A, before", cases: "A, before", shown: "B, after" },
         folder: Some(b.display().to_string()),
         key_numbers: vec![
             number("newly failing", compared.newly_failing.len(), compared.newly_failing.join(", ")),

@@ -58,6 +58,28 @@ fn a_search_that_was_stopped_executes_nothing_twice_and_finds_what_it_would_have
 }
 
 #[test]
+fn a_proof_that_is_out_of_time_is_claimed_no_more_until_it_is_there() {
+    let place = tempfile::tempdir().unwrap();
+    let mut settings = small(&place);
+    settings.scenario = "arm".into();
+    let set = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+    // More points than a table of all subsets is for: a tree of bounds is what its proof is made of.
+    settings.sets = vec![set("task.points", "{ count = 20 }"), set("generate.search", "{ programs = 1 }")];
+    let work = plan(&settings, &Unwatched).unwrap().begin().unwrap();
+    let (endless, over) = (Deadline::after(None), Deadline::after(Some(0.0)));
+    let (cases, tally) = find_cases(&work, endless, over, &Unwatched).unwrap();
+    assert_eq!((tally.complete, tally.cut.as_deref(), cases[0].gap()), (false, Some(UNPROVEN), None));
+    assert!(!work.folder.file("optimum.json").exists());
+    // Whoever looks at it says so: it is no pass, and the budget has cut it.
+    let budget = crate::Budget::of(Some(3600.0), None);
+    assert_eq!(budget.cut_of_search(&work.setup.scenario, &cases, &tally).as_deref(), Some(UNPROVEN));
+    assert_eq!(budget.spent().unwrap().cut, [UNPROVEN]);
+    let (proven, tally) = find_cases(&work, endless, endless, &Unwatched).unwrap();
+    assert_eq!((tally.complete, tally.cut, proven[0].gap()), (true, None, Some(0.0)));
+    assert!(work.folder.file("optimum.json").is_file());
+}
+
+#[test]
 fn who_stops_it_is_told_and_may_go_on() {
     struct Stopped;
     impl Watch for Stopped {

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use hairpin::campaign::digits::number;
 use hairpin::campaign::report::{self, Beside, Length, Pieces, ReportData, Shown, worst_first};
 use hairpin::campaign::{Case, CaseNumber, CaseResult};
 use hairpin::judgement::Verdict;
@@ -57,7 +56,7 @@ pub(super) fn write(file: &Path, judged: &JudgedLogs, against: &Ready) -> Result
     let logs = numbered().map(|(case, log, _)| (case, if many { names.of(&log.file) } else { case.to_string() }));
     let mut data = ReportData {
         logs: logs.collect(),
-        beside: Beside { runs: beside(against), cases: "the same cases in simulation" },
+        beside: Beside { runs: beside(against), cases: "the same cases in simulation", shown: "the log" },
         facts: facts(judged, against),
         ..data
     };
@@ -131,7 +130,6 @@ fn facts(judged: &JudgedLogs, against: &Ready) -> Vec<[String; 2]> {
 /// What a log says of the simulation, or how many came to what.
 fn cards(judged: &JudgedLogs, length: &Length) -> Vec<[String; 3]> {
     let card = |label: &str, value: String, note: String| [label.to_owned(), value, note];
-    let long = |metres: f64| format!("{} {}", number(Some(length.in_metre * metres)), length.unit);
     let [only] = &judged.logs[..] else {
         let of = |word: &str| judged.logs.iter().filter(|log| log.outcome.word() == word).count();
         let note =
@@ -141,13 +139,13 @@ fn cards(judged: &JudgedLogs, length: &Length) -> Vec<[String; 3]> {
     let flown = only.sheet.as_ref().and_then(|sheet| sheet.shown.result.measures.as_ref());
     let simulated = only.sheet.as_ref().and_then(|sheet| sheet.simulated.as_ref()?.measures.as_ref());
     let (Some(flown), Some(simulated)) = (flown, simulated) else { return Vec::new() };
-    let gap = length.in_metre * (flown.max_deviation - simulated.max_deviation);
-    let gap = format!("{}{} {}", if gap > 0.0 { "+" } else { "" }, number(Some(gap)), length.unit);
+    let gap = flown.max_deviation - simulated.max_deviation;
+    let gap = format!("{}{}", if gap > 0.0 { "+" } else { "" }, length.told(gap));
     vec![
         card(
             "largest deviation, simulated",
-            long(simulated.max_deviation),
-            format!("flown {}", long(flown.max_deviation)),
+            length.told(simulated.max_deviation),
+            format!("flown {}", length.told(flown.max_deviation)),
         ),
         card("gap", gap, "flown less simulated, at worst".into()),
     ]

@@ -1,6 +1,7 @@
 //! The heaviest programs of an arm through a cloud of points.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::ArmSetup;
@@ -32,7 +33,7 @@ pub struct CloudSearch {
     /// The arm in its cell.
     pub setup: Setup,
     /// Its graph.
-    pub graph: ArmGraph,
+    pub graph: Arc<ArmGraph>,
     /// The heaviest programs.
     pub found: Heaviest,
     /// Why there is no program, in a sentence's part; `None` where there is one.

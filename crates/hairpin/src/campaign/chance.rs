@@ -6,7 +6,7 @@
 use super::case::CaseResult;
 use super::digits::number;
 use super::setup::Setup;
-use crate::judgement::{Measures, Statistics, Stress, Violation, mean_interval};
+use crate::judgement::{Measures, Statistics, Stress, Violation, mean_interval, told};
 
 /// Random feasible cases, measured by what the campaign searches for.
 ///
@@ -90,29 +90,38 @@ impl Baseline {
 
     /// `1.05 to 1.40`, in the unit that [`Self::told`] has.
     pub fn interval_in_words(&self, setup: &Setup) -> Option<String> {
-        let [low, high] = self.interval?.map(|end| self.in_unit(setup, end).0);
-        Some(format!("{} to {}", number(Some(low)), number(Some(high))))
+        let [low, high] = self.interval?.map(|end| digits(&self.in_unit(setup, end)));
+        Some(format!("{low} to {high}"))
     }
 
     /// `value` with the unit that it is told in.
     pub fn told(&self, setup: &Setup, value: f64) -> String {
-        match self.in_unit(setup, value) {
-            (value, unit) if unit == "°" => format!("{value:.1}°"),
-            (value, unit) if unit.is_empty() => number(Some(value)),
-            (value, unit) => format!("{} {unit}", number(Some(value))),
+        let found = self.in_unit(setup, value);
+        match found.unit.as_str() {
+            "°" => format!("{:.1}°", found.value),
+            "" => digits(&found),
+            unit => format!("{} {unit}", digits(&found)),
         }
     }
 
-    fn in_unit(&self, setup: &Setup, value: f64) -> (f64, String) {
-        let what = if self.stress == Stress::MaxDeviation { "deviation" } else { self.stress.word() };
-        let unit = self.stress.unit().to_owned();
-        let measured = Violation { what: what.into(), value, limit: 0.0, unit, at: 0.0, leg: 0 };
-        let Violation { value, unit, .. } = match setup.kind().programs() {
+    /// Beside the limit of the deviation where that is what is sought; the limit is no number where there is none.
+    fn in_unit(&self, setup: &Setup, value: f64) -> Violation {
+        let (what, limit) = match self.stress {
+            Stress::MaxDeviation => ("deviation", setup.scenario.deviation_limit()),
+            other => (other.word(), None),
+        };
+        let (unit, limit) = (self.stress.unit().to_owned(), limit.unwrap_or(f64::NAN));
+        let measured = Violation { what: what.into(), value, limit, unit, at: 0.0, leg: 0 };
+        match setup.kind().programs() {
             Some(programs) => programs.in_their_units(measured),
             None => measured,
-        };
-        (value, unit)
+        }
     }
+}
+
+/// With the digits of the limit, as the verdict has them.
+fn digits(found: &Violation) -> String {
+    if found.limit.is_nan() { number(Some(found.value)) } else { told(found.value, Some(found.limit), &found.unit) }
 }
 
 /// What was measured of each case's worst run, and whether less of it is worse.

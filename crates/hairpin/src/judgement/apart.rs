@@ -2,19 +2,39 @@
 //!
 //! A verdict never says "0.50 m > 0.50 m".
 
-/// Two numbers with as many decimals as it takes to see that they differ, and how far a value below zero is below it:
-/// at least `least`.
+/// What is nearer to nothing is nothing to whoever reads: 5 µm.
+const NOTHING: f64 = 5e-6;
+
+/// A number of `unit` as a verdict tells it: with the digits that `limit` was given with, two decimals at least (of
+/// degrees one), and as many more as it takes to see that they differ.
+pub fn told(value: f64, limit: Option<f64>, unit: &str) -> String {
+    apart(value, limit.unwrap_or(f64::NAN), limit.map_or(least(unit), |limit| decimals_of(limit, least(unit)))).0
+}
+
+/// Decimals that every number of `unit` has.
+pub(super) fn least(unit: &str) -> usize {
+    if unit == "°" { 1 } else { 2 }
+}
+
+/// Two numbers with as many decimals as it takes to see that they differ, and that a value is not zero: at least
+/// `least`.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
-    // Of −0 too: what is nothing has no sign.
+    // Of −0 too: what is nothing has no sign. How far below zero is always told, for a bound may be there.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
+    let least = if value > -1e-12 && value < NOTHING { least } else { two_digits(value, least) };
     for decimals in least..12 {
         let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
-        let shown = value >= 0.0 || pair.0.bytes().any(|digit| (b'1'..=b'9').contains(&digit));
-        if shown && (pair.0 != pair.1 || value == limit) {
+        if pair.0 != pair.1 || value == limit {
             return pair;
         }
     }
     (value.to_string(), limit.to_string())
+}
+
+/// `least` decimals, or where these show nothing of `value` the first two digits that it has.
+fn two_digits(value: f64, least: usize) -> usize {
+    let shows = |decimals: usize| format!("{value:.decimals$}").bytes().any(|digit| (b'1'..=b'9').contains(&digit));
+    (least..12).find(|decimals| shows(*decimals)).map_or(12, |first| if first == least { least } else { first + 1 })
 }
 
 /// Decimals that `limit` was given with, from `least` to four; `least` of one that was drawn or computed, and has more.
@@ -42,8 +62,19 @@ mod tests {
     #[test]
     fn digits_show_the_difference() {
         assert_eq!(apart(0.500_04, 0.5, 2), ("0.50004".into(), "0.50000".into()));
-        assert_eq!(apart(-0.002, 0.25, 2), ("-0.002".into(), "0.250".into()));
+        assert_eq!(apart(-0.002, 0.25, 2), ("-0.0020".into(), "0.2500".into()));
+        assert_eq!(apart(0.0042, 0.5, 2), ("0.0042".into(), "0.5000".into()));
+        assert_eq!(apart(1e-9, 0.5, 2), ("0.00".into(), "0.50".into()));
         assert_eq!(apart(-0.0, 0.25, 2), ("0.00".into(), "0.25".into()));
         assert_eq!(apart(0.65, 0.5, 2), ("0.65".into(), "0.50".into()));
+    }
+
+    #[test]
+    fn numbers_have_the_digits_of_their_limit() {
+        let of = |value: f64, limit: f64| told(value, Some(limit), "m");
+        assert_eq!([of(0.0183, 0.025), of(0.5004, 0.5), of(650.0, 500.0)], ["0.018", "0.5004", "650.00"]);
+        let free = |value: f64| told(value, None, "m");
+        assert_eq!([free(0.654), free(0.004_21), free(0.0)], ["0.65", "0.0042", "0.00"]);
+        assert_eq!([told(7.24, Some(10.0), "°"), told(7.24, None, "°")], ["7.2", "7.2"]);
     }
 }

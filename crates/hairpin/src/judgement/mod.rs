@@ -38,7 +38,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use apart::decimals_of;
+pub use apart::{decimals_of, told};
 pub use between::{Close, Swiftness, look_closely, most_between};
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};

@@ -3,7 +3,7 @@
 //! A limit is a number and a sense (at most, or at least); an event is a violation without one. Their order is the
 //! order in which a reader wants to know.
 
-use super::apart::{apart, decimals_of};
+use super::apart::{apart, decimals_of, least};
 use super::{LegMeasures, Measures};
 use crate::trajectory::{Ended, Flight, Track};
 
@@ -129,9 +129,11 @@ impl Violation {
     /// Value and limit as they are printed, with their unit, and as many decimals as the limit was given with or as it
     /// takes to tell them apart.
     pub fn printed(&self) -> (String, String) {
-        let angle = self.unit == "°";
-        let (value, limit) = apart(self.value, self.limit, decimals_of(self.limit, if angle { 1 } else { 2 }));
-        let with_unit = |number: String| if angle { number + "°" } else { format!("{number} {}", self.unit) };
+        let (value, limit) = apart(self.value, self.limit, decimals_of(self.limit, least(&self.unit)));
+        let with_unit = |number: String| match self.unit.as_str() {
+            "°" => number + "°",
+            unit => format!("{number} {unit}"),
+        };
         (with_unit(value), with_unit(limit))
     }
 

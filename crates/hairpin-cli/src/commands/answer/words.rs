@@ -43,8 +43,7 @@ impl Answer<'_> {
             console::say("");
         }
         if let Some(worst) = worst_in_full(self.work, self.cases, &self.judgement.results) {
-            let length = length(&self.work.setup);
-            let lines = course(&worst, self.work.setup.scenario.deviation_limit(), &length);
+            let lines = course(&worst, &length(&self.work.setup));
             lines.iter().for_each(|line| console::say(line));
         }
         let header = self.header();

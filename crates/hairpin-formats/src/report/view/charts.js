@@ -5,7 +5,7 @@ function svg(tag, attributes, parent, text) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
   if (text !== undefined) element.textContent = text;
-  if (parent) parent.append(element);
+  parent?.append(element);
   return element;
 }
 
@@ -22,8 +22,13 @@ function svg(tag, attributes, parent, text) {
   if (size < 1e-9) return "0";
   return String(Number(value.toFixed(Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(size)))))));
 }
-/** With the digits that verdicts have. @param {number} value */
-const fixed = (value) => (Number.isNaN(value) ? "–" : value.toFixed(value !== 0 && Math.abs(value) < 0.00995 ? 5 : data.digits));
+/** With the digits that verdicts have: of the limit, or as many as it takes to see that it differs from it, or from nothing. @param {number} value */
+function fixed(value) {
+  const { digits, limit } = data, shows = Math.abs(value) < 5e-6 || Number(value.toFixed(digits)) !== 0;
+  let n = shows ? digits : 1 - Math.floor(Math.log10(Math.abs(value)));
+  while (n < 7 && limit !== null && value.toFixed(n) === limit.toFixed(n) && value !== limit) n++;
+  return Number.isNaN(value) ? "–" : value.toFixed(n);
+}
 /** A limit as it was given. @param {number} value */
 const given = (value) => (/\.\d{2}/.test(String(value)) ? String(value) : value.toFixed(2));
 
@@ -57,20 +62,15 @@ class Plot {
 
   /** A curve, with holes where a value is none. @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys @param {string} look */ curve(xs, ys, look) {
     let d = "", pen = "M";
-    for (let i = 0; i < xs.length; i++) {
-      if (Number.isNaN(ys[i])) { pen = "M"; continue; }
-      d += pen + this.x(xs[i]).toFixed(1) + " " + this.y(ys[i]).toFixed(1);
-      pen = "L";
-    }
+    for (let i = 0; i < xs.length; i++) if (Number.isNaN(ys[i])) pen = "M"; else { d += pen + this.x(xs[i]).toFixed(1) + " " + this.y(ys[i]).toFixed(1); pen = "L"; }
     if (d) svg("path", { class: "curve " + look, d }, this.svg);
   }
 
   /** @param {number} value @param {boolean} upright @param {string} look @param {string} [text] */ rule(value, upright, look, text) {
     const at = upright ? this.x(value) : this.y(value);
     svg("line", upright ? { class: look, x1: at, x2: at, y1: this.top, y2: this.bottom } : { class: look, x1: this.left, x2: this.right, y1: at, y2: at }, this.svg);
-    if (!text) return;
-    const late = at > (this.left + this.right) / 2;
-    svg("text", upright ? { class: "said", x: at + (late ? -5 : 5), y: this.top + 11, "text-anchor": late ? "end" : "start" } : { class: "said", x: this.right, y: at > this.top + 16 ? at - 5 : at + 14, "text-anchor": "end" }, this.svg, text);
+    // Above the frame, where there is no curve.
+    if (text) svg("text", { class: "said", x: this.right, y: 12, "text-anchor": "end" }, this.svg, text);
   }
 }
 
@@ -88,7 +88,7 @@ function drawSeries(place, c, data, seek) {
   const panels = [{ title: `deviation ${data.unit}`, limit: data.limit, zero: true, curves: [
     ...c.runs.map((run, i) => ({ name: i ? "" : data.beside, look: "other", t: run.t, y: run.d })),
     ...(f.judged.includes(0) ? [{ name: "in corners (overshoot judges)", look: "corner", t: f.t, y: corner }] : []),
-    { name: "this run", look: "flown", t: f.t, y: judged },
+    { name: data.shown, look: "flown", t: f.t, y: judged },
   ] }, { title: "speed m/s", limit: null, zero: true, curves: [{ name: "", look: "plan", t: f.t, y: f.v }] }];
   for (const { title, lines } of c.data.flown.panels) {
     panels.push({ title, limit: null, zero: false, curves: lines.map((l, i) => ({ name: l.name, look: "c" + (i % 6), t: f.t, y: f.channels[l.channel].map((v) => v * l.scale) })) });
@@ -99,8 +99,11 @@ function drawSeries(place, c, data, seek) {
       const keys = place.appendChild(document.createElement("p"));
       keys.className = "keys";
       for (const { name, look } of named) {
-        svg("path", { class: "curve " + look, d: "M1 5H25" }, svg("svg", { width: 26, height: 10, "aria-hidden": "true" }, keys));
-        keys.append(" " + name + " ");
+        const key = document.createElement("span");
+        key.className = "named";
+        svg("path", { class: "curve " + look, d: "M1 5H25" }, svg("svg", { width: 26, height: 10, "aria-hidden": "true" }, key));
+        key.append(" " + name);
+        keys.append(key, " ");
       }
     }
     let [low, high] = range(curves.flatMap(({ y }) => range(y)).concat(limit === null ? [] : [limit]));
@@ -162,7 +165,7 @@ function drawBars(place, m, chosen, choose) {
   place.textContent = "";
   const known = [...m.values].filter((v) => !Number.isNaN(v)).sort((a, b) => a - b), n = known.length || 1;
   const random = m.random && [...m.random].filter((v) => !Number.isNaN(v)).sort((a, b) => a - b);
-  const high = Math.max(known[known.length - 1] || 0, m.limit || 0) * 1.04 || 1;
+  const high = Math.max(range(known.concat(random || []))[1], m.limit || 0) * 1.04 || 1;
   const plot = new Plot(place, Math.max(280, place.clientWidth), 230, { x: [0, high], y: [0, 104], xName: `limit of the ${m.name} ${m.unit}`, yName: "% of cases over it" });
   const stairs = (/** @type {number[]} */ sorted, /** @type {string} */ look) => {
     const xs = [0], ys = [100];
@@ -172,7 +175,7 @@ function drawBars(place, m, chosen, choose) {
   if (random && random.length) stairs(random, "other");
   stairs(known, "flown");
   const limit = m.limit;
-  if (limit !== null) plot.rule(limit, true, "limit", `limit ${given(limit)} ${m.unit}: ${fixed(100 * known.filter((v) => v > limit).length / n)} % over it`);
+  if (limit !== null) plot.rule(limit, true, "limit", `limit ${given(limit)} ${m.unit}: ${short(100 * known.filter((v) => v > limit).length / n)} % over it`);
 }
 
 /** Dots of two measures; one opens its case. @param {HTMLElement} place @param {{ name: string, values: Float64Array }} a @param {{ name: string, values: Float64Array }} b @param {{ ids: string[], fails: (i: number) => boolean, chosen: Set<number> | null, current: number, open: (i: number) => void }} of */

@@ -164,10 +164,7 @@ function figure(m, t, ghost) {
   return { solids, lines, size };
 }
 
-function request() {
-  if (!waiting) requestAnimationFrame((now) => { waiting = false; play(now); paint(); });
-  waiting = true;
-}
+function request() { if (!waiting) requestAnimationFrame((now) => { waiting = false; play(now); paint(); }); waiting = true; }
 /** @param {number} now */ function play(now) {
   const f = caseOf(state.index).flown;
   if (!state.playing || !f) { last = 0; return; }
@@ -189,7 +186,8 @@ function paint() {
     size = robot.size;
     s.parts.solids.push(...robot.solids);
     if (plan) {
-      s.parts.glass.push(...plan.solids);
+      // Where the plan is where the robot is there is nothing to tell apart.
+      s.parts.glass.push(...plan.solids.filter(({ at }, i) => at.some((v, k) => Math.abs(v - robot.solids[i].at[k]) > 0.02)));
       made.push(s.line({ points: [p, lifted(placeAt(c.planned, state.t))], colours: [rgba(theme.now)], width: 2, dash: 0 }));
     }
     made.push(...robot.lines.map((line) => s.line(line)));
@@ -246,21 +244,17 @@ function fit(azimuth, elevation) {
 /** @param {number} index @param {boolean} [quiet] */ function select(index, quiet) {
   state.index = Math.max(0, Math.min(index, data.cases.length - 1));
   const c = caseOf(state.index), { id } = c.data, f = c.flown;
-  byId("case-id").textContent = id;
-  byId("case-status").textContent = c.data.status;
+  for (const [name, text] of [["case-id", id], ["case-status", c.data.status], ["told", c.data.told]]) byId(name).textContent = text;
   byId("case-status").className = "status " + c.data.status;
-  byId("told").textContent = c.data.told;
   byId("pick").value = String(state.index);
-  byId("before").disabled = state.index === 0;
-  byId("after").disabled = state.index === data.cases.length - 1;
+  [byId("before").disabled, byId("after").disabled] = [state.index === 0, state.index === data.cases.length - 1];
   for (const part of every("figure.case, .findings")) part.hidden = part.dataset.case !== id;
   for (const row of every("tr[data-case]")) row.setAttribute("aria-selected", String(row.dataset.case === id));
   for (const name of ["time", "play", "worst-moment"]) byId(name).disabled = !f;
   byId("time").max = String(f ? f.t[f.t.length - 1] : 1);
   for (const part of every("button[data-verb=shrink]")) part.hidden = !c.data.fails;
   state.t = f ? c.data.at : 0; playing(false);
-  build();
-  fit();
+  build(); fit();
   cursor = drawSeries(byId("series"), c, data, seek);
   seek(state.t);
   if (!quiet) location.replace("#" + id);
@@ -273,8 +267,7 @@ const measures = [...metrics.map((m) => ({ name: `${m.name} ${m.unit}`.trim(), v
   state.chosen = cases && new Set(cases);
   const ids = new Set((cases || []).map((i) => data.ids[i]));
   for (const row of every("table.cases tbody tr")) row.hidden = Boolean(cases) && !ids.has(row.dataset.case || "");
-  byId("chosen").hidden = !cases;
-  byId("chosen-words").textContent = cases ? `${cases.length} of ${data.ids.length} cases: ${why}` : "";
+  byId("chosen").hidden = !cases; byId("chosen-words").textContent = cases ? `${cases.length} of ${data.ids.length} cases: ${why}` : "";
   drawChosen();
 }
 function drawChosen() {
@@ -377,8 +370,7 @@ function picture() {
     const { pointerId, clientX, clientY } = /** @type {PointerEvent} */ (event), box = place.getBoundingClientRect();
     if (held.delete(pointerId) && name === "pointerup" && moved < 4) { const { t } = under(clientX - box.left, clientY - box.top); if (!Number.isNaN(t)) seek(t); }
   });
-  place.addEventListener("pointerleave", () => { tip.hidden = true; });
-  place.addEventListener("contextmenu", (event) => event.preventDefault());
+  place.addEventListener("pointerleave", () => { tip.hidden = true; }); place.addEventListener("contextmenu", (event) => event.preventDefault());
   place.addEventListener("wheel", (event) => { event.preventDefault(); zoom(Math.exp(event.deltaY * 0.0012)); request(); }, { passive: false });
   /** @type {{ [key: string]: (shifted: boolean) => void }} */ const keys = {
     ArrowLeft: (shifted) => (shifted ? shift(30, 0) : orbit(-20, 0)), ArrowRight: (shifted) => (shifted ? shift(-30, 0) : orbit(20, 0)),
@@ -410,12 +402,11 @@ function listen() {
   on("worst-moment", "click", () => seek(caseOf(state.index).data.at));
   on("play", "click", () => playing(!state.playing));
   on("speed", "change", (e) => { state.speed = Number(e.value); });
-  on("fit", "click", () => fit());
+  on("fit", "click", () => fit()); on("png", "click", picture);
   for (const [id, up] of /** @type {[string, number][]} */ ([["from-above", 1.57], ["from-side", 0]])) on(id, "click", () => fit(-Math.PI / 2, up));
   on("ghost", "change", (e) => { state.ghost = e.checked; request(); });
   on("follow", "change", (e) => { state.follow = e.checked; if (scene && e.checked && data.robot) scene.distance = Math.min(scene.distance, 9 * data.robot.radius); request(); });
   on("high", "change", (e) => { state.high = Number(e.value); build(); fit(); });
-  on("png", "click", picture);
   addEventListener("hashchange", () => { const index = data.cases.findIndex((c) => "#" + c.id === location.hash); if (index >= 0 && index !== state.index) select(index); });
 }
 /** All that is drawn in the page's colours and to its width. */

@@ -213,7 +213,8 @@ class Scene {
   /** Words with a rim of paper around them, so that they are read over anything. @param {Theme} theme */ write(theme) {
     const pen = this.pen;
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0); pen.clearRect(0, 0, this.width, this.height); pen.lineJoin = "round";
-    for (const { p, text, look } of this.parts.words) {
+    const taken = /** @type {number[][]} */ ([]), order = ["worst", "point", "tick"], words = [...this.parts.words].sort((a, b) => order.indexOf(a.look) - order.indexOf(b.look));
+    for (const { p, text, look } of words) {
       const at = this.project(p);
       if (!at || at[0] < 0 || at[0] > this.width || at[1] < 0 || at[1] > this.height) continue;
       const [x, y] = at, small = look === "tick";
@@ -226,6 +227,9 @@ class Scene {
       pen.font = `${look === "tick" ? "" : look === "worst" ? "700 " : "600 "}${small ? 11 : 13}px system-ui, sans-serif`;
       const wide = pen.measureText(text).width, [dx, dy] = small ? [-wide / 2, 4] : look === "worst" ? [22, -14] : [6, -6];
       const left = Math.min(Math.max(4, x + dx), this.width - wide - 4), top = Math.min(Math.max(14, y + dy), this.height - 6);
+      // Where words would lie on others they are left out: the worst moment's are first, then places', then ticks'.
+      if (!text || taken.some(([x, y, far]) => left < far && x < left + wide + 3 && Math.abs(top - y) < 13)) continue;
+      taken.push([left, top, left + wide + 3]);
       pen.lineWidth = 4; pen.strokeText(text, left, top); pen.fillText(text, left, top);
     }
   }

@@ -26,7 +26,8 @@ impl Build for ArmSetup {
         };
         let simd = known.map_or_else(Simd::default, |known| known.simd);
         let controller = known.and_then(|known| known.controller.clone());
-        Ok(Self { scenario: keys.clone(), attachments: files.clone(), station, simd, controller })
+        let graph = Arc::default();
+        Ok(Self { scenario: keys.clone(), attachments: files.clone(), station, simd, controller, graph })
     }
 
     fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {

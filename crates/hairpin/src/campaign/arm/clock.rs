@@ -1,7 +1,7 @@
 //! What clocking every move of a graph on the real controller takes.
 
 use super::ArmSetup;
-use super::graph::ArmGraph;
+use super::arm_graph::ArmGraph;
 use crate::campaign::scenario::MoveName;
 use crate::trajectory::program::{JointTarget, PoseTarget, Speed, Tool, WorkObject};
 

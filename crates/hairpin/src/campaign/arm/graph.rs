@@ -9,50 +9,21 @@
 //!
 //! n points: n(n − 1) moves are looked at, and with arcs n(n − 1)(n − 2) triples. Nothing is random.
 
+use std::sync::{Arc, OnceLock};
+
 use nalgebra::{Isometry3, Point3};
 
+use super::arm_graph::ArmGraph;
 use super::points::DRAWS;
 use super::{ArmSetup, Station};
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
-    ArcGraph, Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
+    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
 };
-use crate::feasibility::reachability::{
-    CartesianSettings, Level, Obstacle, ReachabilityGraph, Refusal, Verdict, cartesian,
-};
+use crate::feasibility::reachability::{CartesianSettings, Level, Obstacle, Refusal, Verdict, cartesian};
 use crate::robot::arm::{Branch, Configuration, Joints};
 
-/// The graph of a scenario, ready to be searched.
-///
-/// Rows are those of the station's cloud.
-#[derive(Debug, Clone)]
-pub struct ArmGraph {
-    /// Which moves are possible, and why the others are not.
-    pub reachability: ReachabilityGraph,
-    /// Joint angles at every point, rad, or why it has none; in Cartesian mode nobody asked.
-    pub postures: Option<Vec<Result<Joints, Refusal>>>,
-    /// Costs in whole units, row = from.
-    /// `None` where the move is not possible; n × n, its diagonal `None`.
-    pub costs: Vec<Option<i64>>,
-    /// Whether the move from home to each point is possible.
-    pub from_home: Vec<bool>,
-    /// Whether the move from each point to home is.
-    pub to_home: Vec<bool>,
-    /// Arcs from point to point through a third, with costs in whole units, where the scenario takes them.
-    pub arcs: Option<ArcGraph>,
-    /// What one unit is, in `unit_name`.
-    /// A cost of c is c · `unit` in it.
-    pub unit: f64,
-    /// The unit that users are told: `m`, `s`, `steps`, `rad²/s³`, that of their table.
-    pub unit_name: String,
-}
-
 impl ArmGraph {
-    /// Points of the cloud.
-    pub fn points(&self) -> usize {
-        self.reachability.points()
-    }
-
     /// In which configuration a point is met: the proven one; in Cartesian mode the cloud's, or one in which the arm
     /// can stand there.
     pub(super) fn configuration(&self, setup: &ArmSetup, row: usize) -> Option<Configuration> {
@@ -100,11 +71,25 @@ pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
     scenario.spec.path.map_or(0.0, |limit| limit.max_mm * 1e-3)
 }
 
-/// The graph of `setup`.
+/// What is in `known`, or else made. Nobody waits for another thread, which might be waiting for this one's work: what
+/// several make at once is the same.
+pub(super) fn once<T>(known: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    if known.get().is_none() {
+        // Another's counts where there is one by now.
+        known.set(make()).ok();
+    }
+    known.get_or_init(|| unreachable!("it was set"))
+}
+
+/// The graph of `setup`, made when it is first asked for.
 ///
 /// # Errors
 /// No point can be met, or a table of costs of another size, in a sentence's part.
-pub fn graph_of(setup: &ArmSetup) -> Result<ArmGraph, String> {
+pub fn graph_of(setup: &ArmSetup) -> Result<Arc<ArmGraph>, String> {
+    once(&setup.graph, || made(setup).map(Arc::new)).clone()
+}
+
+fn made(setup: &ArmSetup) -> Result<ArmGraph, String> {
     let graph = whole_graph(setup)?;
     let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
     let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);

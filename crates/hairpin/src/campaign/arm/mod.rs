@@ -15,6 +15,7 @@
 //! is no point of the cloud.
 
 mod alter;
+mod arm_graph;
 mod assumptions;
 mod build;
 mod cell;
@@ -52,8 +53,9 @@ mod verify;
 mod ways;
 mod written;
 
+pub use arm_graph::ArmGraph;
 pub use clock::ArcClock;
-pub use graph::{ArmGraph, graph_of};
+pub use graph::graph_of;
 pub use points::CellPoint;
 pub use recorded::Shorter;
 pub use regression::RegressionError;

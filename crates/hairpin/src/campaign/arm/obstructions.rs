@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, joint_settings, whole_graph};
+use super::arm_graph::ArmGraph;
+use super::graph::{joint_settings, whole_graph};
 use super::losses::stage_of;
 use super::points::places;
 use crate::campaign::scenario::ArmMode;

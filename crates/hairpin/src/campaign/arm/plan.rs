@@ -51,6 +51,29 @@ impl ArmSetup {
     }
 }
 
+/// How often the joints of a plan are computed for its picture, s.
+const DRAWN: f64 = 0.02;
+
+/// `planned` with `q1_rad` … `q6_rad` at its stamps; as it is where the arm cannot follow its program to the end.
+pub(super) fn posed(setup: &ArmSetup, case: &Case, planned: Track) -> Track {
+    let Ok((times, joints)) = setup.planned_joints(case, DRAWN) else { return planned };
+    let at = |t: f64, axis: usize| {
+        let after = times.partition_point(|time| *time < t).clamp(1, times.len() - 1);
+        let (a, b) = (joints[after - 1][axis], joints[after][axis]);
+        let share = (t - times[after - 1]) / (times[after] - times[after - 1]);
+        a + share.clamp(0.0, 1.0) * (b - a)
+    };
+    if times.len() < 2 {
+        return planned;
+    }
+    let turned = (0..AXES).map(|axis| Channel {
+        name: format!("q{}_rad", axis + 1),
+        values: planned.times().iter().map(|t| at(*t, axis)).collect(),
+    });
+    let channels = planned.channels().iter().cloned().chain(turned).collect();
+    Track::new(planned.times().to_vec(), planned.poses().to_vec(), channels).unwrap_or(planned)
+}
+
 /// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`.
 ///
 /// # Errors

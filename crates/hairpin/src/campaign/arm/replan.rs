@@ -1,9 +1,12 @@
 //! Fewer points for a program, every move still proven by the graph.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, graph_of};
+use super::arm_graph::ArmGraph;
+use super::graph::graph_of;
 use crate::campaign::Case;
 use crate::campaign::kind::{Replanner, Same};
 use crate::trajectory::program::{Motion, Program, Zone};
@@ -13,7 +16,7 @@ use crate::trajectory::program::{Motion, Program, Zone};
 /// A subset of the waypoints is a program again where every move between neighbours of the subset is one of the
 /// graph's: no search, O(points) a trial. Speeds stay, so what is shortened is the same program with points left out.
 pub(super) struct Shortened {
-    graph: ArmGraph,
+    graph: Arc<ArmGraph>,
     case: Case,
     program: Program,
     /// Row of the cloud at every waypoint but the home at both ends.

@@ -8,7 +8,8 @@ use nalgebra::{Isometry3, Point3};
 use rayon::prelude::*;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, allowed};
+use super::arm_graph::ArmGraph;
+use super::graph::allowed;
 use super::written::{build_of, joints_of, moves_of};
 use crate::campaign::scenario::MoveName;
 use crate::campaign::{Case, Evidence};

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::figure::figure;
-use super::{ArmSetup, assumptions};
+use super::{ArmSetup, assumptions, plan};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::digits::number;
 use crate::campaign::kind::{
@@ -108,6 +108,10 @@ impl Say for ArmSetup {
 
     /// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to
     /// the words.
+    fn posed(&self, case: &Case, planned: Track) -> Track {
+        plan::posed(self, case, planned)
+    }
+
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
         let (mut low, mut high) = (Point3::origin(), Point3::origin());
         for place in places {
@@ -136,6 +140,7 @@ impl Say for ArmSetup {
             radius: self.station.tool.radius,
             relief: None,
             figure: Some(figure(&self.station)),
+            done: "moved",
         }
     }
 

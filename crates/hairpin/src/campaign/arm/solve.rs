@@ -5,7 +5,7 @@
 //! to home weigh nothing. Exact where the search ends within its time; a bound where it does not.
 
 use super::ArmSetup;
-use super::graph::ArmGraph;
+use super::arm_graph::ArmGraph;
 use super::program::Met;
 use crate::campaign::graph::Plan;
 use crate::campaign::scenario::ArmMode;

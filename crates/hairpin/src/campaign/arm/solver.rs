@@ -3,12 +3,12 @@
 //! The graph, the ways and the heaviest program are made when they are first asked for and kept, so that the rounds
 //! of a search do not pay for them again.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use nalgebra::Point3;
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, graph_of};
+use super::graph::{graph_of, once};
 use super::program::Met;
 use super::ways::Ways;
 use crate::campaign::graph::{Executions, Outcome, Plan, Wanted};
@@ -23,35 +23,19 @@ const DRAWS: usize = 8;
 /// The search for an arm's programs.
 pub(super) struct ArmSolver<'a> {
     setup: &'a ArmSetup,
-    /// The one graph that there is, once it was asked for.
-    graph: OnceLock<Result<Arc<ArmGraph>, String>>,
     /// What programs are made of that are drawn or changed.
     ways: OnceLock<Result<Ways<'a>, String>>,
     /// The heaviest program that was found to begin with, if there is one.
     heaviest: OnceLock<Option<Plan>>,
 }
 
-/// What is in `known`, or else made. Nobody waits for another thread, which might be waiting for this one's work: what
-/// several make at once is the same.
-fn once<T>(known: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
-    if known.get().is_none() {
-        // Another's counts where there is one by now.
-        known.set(make()).ok();
-    }
-    known.get_or_init(|| unreachable!("it was set"))
-}
-
 impl<'a> ArmSolver<'a> {
     pub(super) fn new(setup: &'a ArmSetup) -> Self {
-        Self { setup, graph: OnceLock::new(), ways: OnceLock::new(), heaviest: OnceLock::new() }
-    }
-
-    fn graph(&self) -> Result<&Arc<ArmGraph>, String> {
-        once(&self.graph, || graph_of(self.setup).map(Arc::new)).as_ref().map_err(Clone::clone)
+        Self { setup, ways: OnceLock::new(), heaviest: OnceLock::new() }
     }
 
     fn ways(&self) -> Result<&Ways<'a>, String> {
-        let made = || self.graph().map(|graph| Ways::new(self.setup, Arc::clone(graph)));
+        let made = || graph_of(self.setup).map(|graph| Ways::new(self.setup, graph));
         once(&self.ways, made).as_ref().map_err(Clone::clone)
     }
 
@@ -59,10 +43,10 @@ impl<'a> ArmSolver<'a> {
     /// has: a good one to begin with, in a time that is bounded.
     fn heaviest(&self, stop: &Stop) -> Option<&Plan> {
         let make = || {
-            let graph = self.graph().ok()?;
-            let found = self.setup.heaviest_of(graph, 1, Some(Method::Local), stop).ok()?;
+            let graph = graph_of(self.setup).ok()?;
+            let found = self.setup.heaviest_of(&graph, 1, Some(Method::Local), stop).ok()?;
             let (cost, rows) = found.paths.first()?;
-            Some(Plan { bound: None, ..self.setup.plan(graph, rows, *cost, &found, 0) })
+            Some(Plan { bound: None, ..self.setup.plan(&graph, rows, *cost, &found, 0) })
         };
         once(&self.heaviest, make).as_ref()
     }
@@ -83,7 +67,8 @@ impl<'a> ArmSolver<'a> {
     /// `way` as a plan; `None` where the virtual controller cannot plan it to its end, so that nothing could be
     /// measured.
     fn planned(&self, way: &[Met]) -> Option<Plan> {
-        let plan = self.setup.planned(self.graph().ok()?, way, 0);
+        let graph = graph_of(self.setup).ok()?;
+        let plan = self.setup.planned(&graph, way, 0);
         (!plan.leg_times.is_empty()).then_some(plan)
     }
 
@@ -103,20 +88,20 @@ impl Solver for ArmSolver<'_> {
     /// The programs of the one graph that there is.
     fn solve(&self, _: u64, _: Executions, _: Wanted, stop: &Stop) -> Outcome {
         let mut outcome = Outcome { graphs: 1, ..Outcome::default() };
-        let graph = match self.graph() {
+        let graph = match graph_of(self.setup) {
             Ok(graph) => graph,
             Err(reason) => return Outcome { reason: Some(reason), ..outcome },
         };
-        match self.setup.heaviest(graph, stop) {
+        match self.setup.heaviest(&graph, stop) {
             Ok(found) => {
                 outcome.expansions = found.nodes;
                 outcome.proven_empty = u64::from(found.paths.is_empty() && found.proven);
-                outcome.reason = found.paths.is_empty().then(|| self.setup.why_none(graph, &found));
+                outcome.reason = found.paths.is_empty().then(|| self.setup.why_none(&graph, &found));
                 let plans = found
                     .paths
                     .iter()
                     .enumerate()
-                    .map(|(number, (cost, rows))| (0, self.setup.plan(graph, rows, *cost, &found, number)));
+                    .map(|(number, (cost, rows))| (0, self.setup.plan(&graph, rows, *cost, &found, number)));
                 outcome.plans = plans.collect();
             }
             Err(reason) => outcome.reason = Some(reason),

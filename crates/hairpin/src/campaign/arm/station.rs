@@ -1,9 +1,10 @@
 //! What a scenario of an arm describes: the arm with its tool, the cell around it, and the points of the cloud.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Vector3};
 
+use super::arm_graph::ArmGraph;
 use super::points::{CellPoint, count};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::kind::Kind;
@@ -46,6 +47,8 @@ pub struct ArmSetup {
     pub simd: Simd,
     /// Who gives the servos their set points, where that is a controller of the caller's.
     pub(super) controller: Option<OwnController<Arm>>,
+    /// Its graph, once it was asked for: search, random programs and proof have the same.
+    pub(super) graph: Arc<OnceLock<Result<Arc<ArmGraph>, String>>>,
 }
 
 impl ArmSetup {
@@ -63,7 +66,9 @@ impl Kind for ArmSetup {
             Some(own) => Some(own.of::<Arm>()?),
             None => None,
         };
-        Some(Arc::new(Self { simd, controller, ..self.clone() }))
+        // What other kernels make is compared with it.
+        let graph = if simd == self.simd { self.graph.clone() } else { Arc::default() };
+        Some(Arc::new(Self { simd, controller, graph, ..self.clone() }))
     }
 }
 

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::ArmSetup;
-use super::graph::{ArmGraph, configuration, joint_settings};
+use super::arm_graph::ArmGraph;
+use super::graph::{configuration, joint_settings};
 use super::program::Met;
 use crate::campaign::scenario::{ArmMode, MoveName};
 use crate::feasibility::reachability::joint::{

@@ -25,6 +25,7 @@ pub(super) fn waters(setup: &BoatSetup) -> Drawing {
         radius: setup.boat.radius,
         relief: None,
         figure: Some(figure(setup.boat.radius)),
+        done: "sailed",
     }
 }
 

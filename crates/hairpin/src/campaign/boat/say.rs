@@ -21,7 +21,7 @@ impl Say for BoatSetup {
             name: &boat.name,
             caveat: &boat.caveat,
             estimated,
-            has_sides: true,
+            has_sides: false,
             unknown_shapes: None,
             loops,
             battery: None,

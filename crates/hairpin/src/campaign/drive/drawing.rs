@@ -56,6 +56,7 @@ pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
         radius: setup.rover.suspension.outer_radius(),
         relief: Some(Relief { low, step, heights }),
         figure: Some(figure(&setup.rover)),
+        done: "driven",
     }
 }
 

@@ -88,6 +88,7 @@ impl Say for FlightSetup {
             radius: self.robot.clearance_radius,
             relief: None,
             figure: Some(figure(&self.robot)),
+            done: "flown",
         }
     }
 

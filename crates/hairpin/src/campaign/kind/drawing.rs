@@ -48,4 +48,6 @@ pub struct Drawing {
     pub relief: Option<Relief>,
     /// The robot; `None` where nothing of its shape is known.
     pub figure: Option<RobotFigure>,
+    /// What a run has done: `flown`, `driven`, `sailed`, `moved`.
+    pub done: &'static str,
 }

@@ -158,6 +158,11 @@ pub(in crate::campaign) trait Say {
     /// What stands around `places`; what only a case's environment has is last of its obstacles.
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing;
 
+    /// The plan of `case` with what the robot is posed by where it is drawn, if places and attitudes are not enough.
+    fn posed(&self, _: &Case, planned: Track) -> Track {
+        planned
+    }
+
     /// How its motion is counted.
     fn motion(&self) -> Motion<'_>;
 

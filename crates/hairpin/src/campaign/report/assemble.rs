@@ -29,7 +29,6 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         logs: BTreeMap::new(),
         folder: None,
         opens: named.filter(is_shown).or_else(|| Some(shown.first()?.result.case)),
-        deviation_limit: pieces.setup.scenario.deviation_limit(),
         results: worst_first(pieces.results).into_iter().cloned().collect(),
         metrics: metrics(&pieces),
         shown,

@@ -6,7 +6,6 @@ use nalgebra::Point3;
 
 use super::length::{Length, length};
 use super::text::{attitude, violation};
-use crate::campaign::digits::number;
 use crate::campaign::judge::reference;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
@@ -49,11 +48,13 @@ pub struct Beside {
     pub runs: &'static str,
     /// Beside the cases in distributions.
     pub cases: &'static str,
+    /// What that run of a case is called.
+    pub shown: &'static str,
 }
 
 impl Default for Beside {
     fn default() -> Self {
-        Self { runs: "other runs", cases: "random feasible cases" }
+        Self { runs: "other runs", cases: "random feasible cases", shown: "this run" }
     }
 }
 
@@ -159,9 +160,7 @@ pub struct ReportData {
     pub facts: Vec<[String; 2]>,
     /// World and robot.
     pub drawing: Drawing,
-    /// Limit of the deviation, m.
-    pub deviation_limit: Option<f64>,
-    /// What lengths of the verdict are told in.
+    /// What lengths of the verdict are told in, with the limit of the deviation.
     pub length: Length,
     /// The case that the verdict names, or else the first that is shown: the page opens with it.
     pub opens: Option<CaseNumber>,
@@ -322,7 +321,7 @@ pub fn shown(
         score: case.score,
         environment: case.environment.as_ref().map_or_else(Vec::new, Environment::words),
         obstacles: own_obstacles(setup, case),
-        planned,
+        planned: setup.kind().posed(case, planned),
         flown,
         distances,
         judged,
@@ -342,7 +341,7 @@ fn moment(result: &CaseResult, length: &Length) -> Option<Moment> {
         return Some(Moment { at: first.at, told: violation(first), mark });
     }
     let measures = result.measures.as_ref()?;
-    let mark = format!("{} {}", number(Some(length.in_metre * measures.max_deviation)), length.unit);
+    let mark = length.told(measures.max_deviation);
     let told = format!("largest deviation {mark} at t={:.2} s", measures.t_worst);
     Some(Moment { at: measures.t_worst, told, mark })
 }

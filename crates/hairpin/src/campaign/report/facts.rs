@@ -3,7 +3,7 @@
 use super::data::{Metric, Pieces, worst_first};
 use super::length::length;
 use super::text::leg;
-use crate::campaign::digits::{self, grouped, number};
+use crate::campaign::digits::{self, grouped};
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::{Asked, SearchMethod};
 use crate::campaign::verdict::{Named, named};
@@ -19,7 +19,6 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     let failed = pieces.results.iter().filter(|r| r.status == Status::Fail).count();
     let mut numbers = Vec::new();
     let told = length(pieces.setup);
-    let long = |metres: f64| format!("{} {}", number(Some(told.in_metre * metres)), told.unit);
     if let Some(Named { case, value, .. }) = named(pieces.setup, pieces.results) {
         let what = format!("worst: {}", value.what.replace('-', " "));
         match value.event() {
@@ -40,7 +39,7 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
             format!("limit {} {}", digits::limit(Some(told.in_metre * metres)), told.unit)
         });
         let place = format!("case {}, t = {:.2} s, {limit}", worst.case, measures.t_worst);
-        numbers.push(of("largest deviation", long(measures.max_deviation), place));
+        numbers.push(of("largest deviation", told.told(measures.max_deviation), place));
     }
     if let Some(random) = &pieces.baseline {
         let setup = pieces.setup;

@@ -1,15 +1,29 @@
-//! The unit of a verdict's lengths, so that all of a report has one.
+//! How a verdict tells its lengths, so that all of a report has one unit and one number of digits.
 
 use crate::campaign::Setup;
-use crate::judgement::Violation;
+use crate::judgement::{Violation, told};
 
-/// The unit that lengths of a verdict are told in.
+/// The unit that lengths of a verdict are told in, and the limit that gives them their digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Length {
     /// `m`, or `mm` of arms.
     pub unit: &'static str,
     /// How many of it a metre has.
     pub in_metre: f64,
+    /// The limit of the deviation, in [`Self::unit`].
+    pub limit: Option<f64>,
+}
+
+impl Length {
+    /// `metres` as a number of [`Self::unit`], with the digits of [`Self::limit`]: `0.018`.
+    pub fn number(&self, metres: f64) -> String {
+        told(self.in_metre * metres, self.limit, self.unit)
+    }
+
+    /// The same with the unit: `0.018 m`.
+    pub fn told(&self, metres: f64) -> String {
+        format!("{} {}", self.number(metres), self.unit)
+    }
 }
 
 /// What lengths are told in of the robot of `setup`.
@@ -17,8 +31,9 @@ pub struct Length {
 /// Asked of the kind itself, by what it makes of a deviation of 1 m.
 pub fn length(setup: &Setup) -> Length {
     let metre = Violation { what: "deviation".into(), value: 1.0, limit: 1.0, unit: "m".into(), at: 0.0, leg: 0 };
-    match setup.kind().programs().map(|programs| programs.in_their_units(metre)) {
-        Some(told) if told.unit == "mm" => Length { unit: "mm", in_metre: told.value },
-        _ => Length { unit: "m", in_metre: 1.0 },
-    }
+    let (unit, in_metre) = match setup.kind().programs().map(|programs| programs.in_their_units(metre)) {
+        Some(told) if told.unit == "mm" => ("mm", told.value),
+        _ => ("m", 1.0),
+    };
+    Length { unit, in_metre, limit: setup.scenario.deviation_limit().map(|metres| in_metre * metres) }
 }

@@ -16,4 +16,4 @@ mod text;
 pub use assemble::{assemble, in_order};
 pub use data::{Beside, Drawn, Metric, Moment, OtherRun, Pieces, ReportData, Shown, shown, surroundings, worst_first};
 pub use length::{Length, length};
-pub use text::{COLUMNS, attitude, cells, cells_in, columns_in, leg, violation};
+pub use text::{COLUMNS, attitude, cells_in, columns_in, leg, violation};

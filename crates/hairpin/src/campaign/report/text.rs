@@ -58,13 +58,6 @@ pub const COLUMNS: [&str; 11] = [
     "ended",
 ];
 
-/// One row of the table of cases, under [`COLUMNS`].
-///
-/// What was not measured is a dash. Cases are numbered with four digits, saturation is a share in percent.
-pub fn cells(result: &CaseResult) -> [String; 11] {
-    cells_in(&Length { unit: "m", in_metre: 1.0 }, result)
-}
-
 /// [`COLUMNS`] where lengths are told in another unit.
 pub fn columns_in(length: &Length) -> [String; 11] {
     COLUMNS.map(|name| match name.strip_suffix(" m") {
@@ -73,17 +66,20 @@ pub fn columns_in(length: &Length) -> [String; 11] {
     })
 }
 
-/// One row under [`columns_in`].
+/// One row of the table of cases, under [`columns_in`].
+///
+/// Lengths have the digits of their limit, as in the verdict. What was not measured is a dash. Cases are numbered with
+/// four digits, saturation is a share in percent.
 pub fn cells_in(length: &Length, result: &CaseResult) -> [String; 11] {
     let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
     let long = |value: fn(&crate::judgement::Measures) -> f64| {
-        number(result.measures.as_ref().map(|measures| length.in_metre * value(measures)))
+        result.measures.as_ref().map_or("–".into(), |measures| length.number(value(measures)))
     };
     [
         result.case.to_string(),
         result.status.word().into(),
         long(|m| m.max_deviation),
-        of(|m| m.t_worst),
+        result.measures.as_ref().map_or("–".into(), |m| format!("{:.2}", m.t_worst)),
         result.measures.as_ref().map_or("–".into(), |m| leg(m.leg_worst)),
         long(|m| m.mean_deviation),
         long(|m| m.max_overshoot()),
