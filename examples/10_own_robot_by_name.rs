@@ -1,5 +1,5 @@
 //! The whole command line with a robot of one's own in it, known by its name wherever a shipped one is:
-//! `cargo run --example 10_own_robot_by_name -- new camera-racer`, or `-- stress demo-quadrotor --set robot='"camera-racer"'`.
+//! `cargo run --example 10_own_robot_by_name -- new camera-racer`, or `-- stress camera-racer`.
 
 use std::process::ExitCode;
 

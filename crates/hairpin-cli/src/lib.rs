@@ -33,10 +33,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 /// What a binary of another crate brings along.
 #[derive(Clone, Default)]
 pub struct Extra {
-    /// Its score, target or controller: it answers wherever a scenario names a file, or of controllers a command, for one.
+    /// Its score, target or controller: it answers wherever a scenario names a file, or of controllers a command, for
+    /// one.
     pub code: CallersCode,
-    /// Its robots, name and text of a robot's file each: they are known wherever a shipped one is, by `robot = "NAME"`,
-    /// `hairpin new NAME` and completions too.
+    /// Its robots, name and text of a robot's file each: known wherever a shipped one is, by `robot = "NAME"`, and to
+    /// `hairpin new NAME` and completions.
     pub robots: Vec<(&'static str, &'static str)>,
 }
 
@@ -47,8 +48,8 @@ impl From<CallersCode> for Extra {
 }
 
 /// The same with what the caller brings: a binary of another crate has the whole command line with its own code and
-/// robots. Of two calls in one process the first one's count. A robot's name that something shipped has, and a text that
-/// is no robot's file, are wrong input (2).
+/// robots. Of two calls in one process the first one's count. A robot's name that something shipped has, and a text
+/// that is no robot's file, are wrong input (2).
 pub fn run_with(arguments: impl IntoIterator<Item = OsString>, extra: impl Into<Extra>) -> u8 {
     let Extra { code, robots } = extra.into();
     settings::bring(code);

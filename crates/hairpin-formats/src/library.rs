@@ -1,5 +1,5 @@
-//! The shipped robots, worlds, scenarios and sheets of experiments, embedded in the binary and found by name; beside them
-//! the robots that a binary of another crate brings along.
+//! The shipped robots, worlds, scenarios and sheets of experiments, embedded in the binary and found by name; beside
+//! them the robots that a binary of another crate brings along.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -21,8 +21,8 @@ pub struct Shipped {
 /// (kind, name, path below `data`, text), sorted by path within each kind.
 const FILES: &[(&str, &str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
-/// Has the robots of `files`, name and text, beside those that are shipped, from now on. Of two calls in one process the
-/// first one's count. What a text says of its robot is read, and wrong where it is, when the robot is asked for.
+/// Has the robots of `files`, name and text, beside those that are shipped, from now on. Of two calls in one process
+/// the first one's count. What a text says of its robot is read, and wrong where it is, when the robot is asked for.
 ///
 /// # Errors
 /// A name that is shipped or comes twice, or is none; a text that is no TOML or without a `kind` that is known.

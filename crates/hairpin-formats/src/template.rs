@@ -1,5 +1,5 @@
-//! What `hairpin new KIND` writes: the shipped scenario of that name, a commented file that runs as it is; of a robot that
-//! a binary brings along that of its kind, with it in it.
+//! What `hairpin new KIND` writes: the shipped scenario of that name, a commented file that runs as it is; of a robot
+//! that a binary brings along that of its kind, with it in it.
 
 use crate::library;
 

@@ -9,9 +9,9 @@ use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{Array, RecordBatchReader};
 use arrow_schema::DataType;
 use hairpin::campaign::CaseNumber;
+use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::parquet::rows::{Only, Rows};
 use hairpin_jobs::Problem;
-use hairpin_jobs::work::open_to_read;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule, PyDict, PyList};
@@ -79,7 +79,7 @@ impl Table {
     fn rows(&self, py: Python<'_>) -> PyResult<Rows> {
         let Self { folder, name, only } = self;
         let found = py.detach(|| -> Result<_, Problem> {
-            let folder = open_to_read(folder)?.folder;
+            let folder = CampaignFolder::open(folder)?;
             Ok(folder.rows(name, *only)?.ok_or(folder.tables()?))
         });
         found.map_err(|problem| raised(py, &problem))?.map_err(|known| {
@@ -126,8 +126,6 @@ fn values<'py>(py: Python<'py>, array: &dyn Array) -> PyResult<Bound<'py, PyList
             }
             Ok(list)
         }
-        other => Err(PyTypeError::new_err(format!(
-            "columns of {other} are none that hairpin writes: take the table by Arrow"
-        ))),
+        other => Err(PyTypeError::new_err(format!("a column of {other}: take the table by Arrow"))),
     }
 }

@@ -50,8 +50,8 @@ struct Groups {
     groups: Vec<usize>,
 }
 
-/// The rows of a table, read while they are asked for. Columns that only some of its files have are empty in the rows of
-/// the others.
+/// The rows of a table, read while they are asked for. Columns that only some of its files have are empty in the rows
+/// of the others.
 pub struct Rows {
     schema: SchemaRef,
     left: VecDeque<Groups>,
