@@ -235,7 +235,8 @@ def test_logs_are_judged_with_the_commands_words_and_numbers(violating, tmp_path
     said = json.loads(command("judge", log, "--campaign", violating.folder, "--json", code=1).stdout)
     assert ours.logs[0].detail == said["logs"][0] and ours.counts == said["counts"] and ours.verdict == said["verdict"]
     one = ours.logs[0]
-    assert (one.status, one.case) == ("fail", "0000") and one.violations[0] in one.verdict
+    assert (one.status, one.case) == ("fail", "0000") and f"{one.measures['max_deviation_m']:.2f} m > 0.50 m" in one.verdict
+    assert one.violations[0].startswith("deviation")
     assert one.measures["max_deviation_m"] == pytest.approx(violating["0000"].max_deviation_m, abs=2e-4)
     mission = tmp_path / "mission.csv"
     points = [",".join(map(repr, point)) for point in violating["0000"].waypoints_m.tolist()]

@@ -6,7 +6,8 @@ use arrow_array::cast::AsArray;
 use arrow_array::ffi::FFI_ArrowSchema;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
-use arrow_array::{Array, RecordBatchReader};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, RecordBatchReader};
+use arrow_cast::cast;
 use arrow_schema::DataType;
 use hairpin::campaign::CaseNumber;
 use hairpin_formats::folder::CampaignFolder;
@@ -60,16 +61,16 @@ impl Table {
         Ok(self.rows(py)?.schema().fields().iter().map(|field| field.name().clone()).collect())
     }
 
-    /// Its columns by name: of `f64` the bytes, `NaN` where there is none; of others a list of numbers, texts, lists,
-    /// `None`.
+    /// Its columns by name: of numbers what NumPy calls their type, and their bytes, `NaN` where there is none; of
+    /// others, and of whole numbers of which some are missing, a list of texts, lists, numbers, `None`.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = self.rows(py)?;
         let (schema, batches) = (rows.schema(), py.detach(|| rows.collect::<Result<Vec<_>, _>>()));
         let batches = batches.map_err(|error| no_table(py, &error))?;
         let columns = PyDict::new(py);
         for (place, field) in schema.fields().iter().enumerate() {
-            let parts = batches.iter().map(|batch| batch.column(place).as_ref());
-            columns.set_item(field.name(), column(py, field.data_type(), parts)?)?;
+            let parts: Vec<_> = batches.iter().map(|batch| batch.column(place)).collect();
+            columns.set_item(field.name(), column(py, field.data_type(), &parts)?)?;
         }
         Ok(columns)
     }
@@ -94,16 +95,32 @@ fn no_table(py: Python<'_>, error: &dyn std::fmt::Display) -> PyErr {
 }
 
 /// A column in parts, as [`Table::columns`] has it.
-fn column<'py, 'a>(
-    py: Python<'py>,
-    kind: &DataType,
-    parts: impl Iterator<Item = &'a dyn Array>,
-) -> PyResult<Bound<'py, PyAny>> {
-    if kind == &DataType::Float64 {
-        let numbers = parts.flat_map(|part| part.as_primitive::<Float64Type>());
-        let bytes: Vec<u8> = numbers.flat_map(|number| number.unwrap_or(f64::NAN).to_ne_bytes()).collect();
-        return Ok(PyBytes::new(py, &bytes).into_any());
-    }
+fn column<'py>(py: Python<'py>, kind: &DataType, parts: &[&ArrayRef]) -> PyResult<Bound<'py, PyAny>> {
+    let plain: Result<Vec<_>, _> = parts.iter().map(|part| cast(part, &plain(kind))).collect();
+    let plain = plain.map_err(|error| no_table(py, &error))?;
+    let full = plain.iter().all(|part| part.null_count() == 0);
+    let (name, bytes): (_, Vec<u8>) = match plain.first().map(|part| part.data_type()) {
+        Some(DataType::Float64) => ("f8", plain.iter().flat_map(floats).collect()),
+        Some(DataType::Int64) if full => ("i8", plain.iter().flat_map(raw::<Int64Type>).copied().collect()),
+        Some(DataType::UInt64) if full => ("u8", plain.iter().flat_map(raw::<UInt64Type>).copied().collect()),
+        None if kind.is_numeric() => ("f8", Vec::new()),
+        _ => return listed(py, &plain),
+    };
+    Ok((name, PyBytes::new(py, &bytes)).into_pyobject(py)?.into_any())
+}
+
+/// The bytes of numbers, `NaN` where there is none.
+fn floats(part: &ArrayRef) -> Vec<u8> {
+    let numbers = part.as_primitive::<Float64Type>();
+    numbers.iter().flat_map(|number| number.unwrap_or(f64::NAN).to_ne_bytes()).collect()
+}
+
+/// The bytes of numbers that are all there.
+fn raw<T: ArrowPrimitiveType>(part: &ArrayRef) -> &[u8] {
+    part.as_primitive::<T>().values().inner().as_slice()
+}
+
+fn listed<'py>(py: Python<'py>, parts: &[ArrayRef]) -> PyResult<Bound<'py, PyAny>> {
     let list = PyList::empty(py);
     for part in parts {
         list.call_method1("extend", (values(py, part)?,))?;
@@ -111,7 +128,19 @@ fn column<'py, 'a>(
     Ok(list.into_any())
 }
 
-/// The values of a column.
+/// The type that stands for those like `kind`.
+fn plain(kind: &DataType) -> DataType {
+    match kind {
+        DataType::Dictionary(_, value) => plain(value),
+        DataType::LargeUtf8 | DataType::Utf8View => DataType::Utf8,
+        DataType::UInt64 => DataType::UInt64,
+        kind if kind.is_floating() => DataType::Float64,
+        kind if kind.is_integer() => DataType::Int64,
+        other => other.clone(),
+    }
+}
+
+/// The values of a column of a plain type.
 fn values<'py>(py: Python<'py>, array: &dyn Array) -> PyResult<Bound<'py, PyList>> {
     match array.data_type() {
         DataType::Float64 => PyList::new(py, array.as_primitive::<Float64Type>()),
@@ -119,10 +148,12 @@ fn values<'py>(py: Python<'py>, array: &dyn Array) -> PyResult<Bound<'py, PyList
         DataType::UInt64 => PyList::new(py, array.as_primitive::<UInt64Type>()),
         DataType::Boolean => PyList::new(py, array.as_boolean()),
         DataType::Utf8 => PyList::new(py, array.as_string::<i32>()),
-        DataType::List(_) => {
+        DataType::List(items) => {
             let list = PyList::empty(py);
-            for items in array.as_list::<i32>().iter() {
-                list.append(items.map(|items| values(py, &items)).transpose()?)?;
+            for own in array.as_list::<i32>().iter() {
+                let own = own.map(|own| cast(&own, &plain(items.data_type()))).transpose();
+                let own = own.map_err(|error| no_table(py, &error))?;
+                list.append(own.map(|own| values(py, &own)).transpose()?)?;
             }
             Ok(list)
         }

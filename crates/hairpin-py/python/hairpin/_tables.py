@@ -50,13 +50,15 @@ class Table:
         return f"Table({self.name!r}: {', '.join(self.column_names)})"
 
 
-def _array(values: bytes | list[Any]) -> npt.NDArray[Any]:
-    if isinstance(values, bytes):
-        return np.frombuffer(values, dtype=np.float64)
+def _array(values: tuple[str, bytes] | list[Any]) -> npt.NDArray[Any]:
+    if isinstance(values, tuple):
+        kind, numbers = values
+        return np.frombuffer(numbers, dtype=kind)
     kinds = {type(value) for value in values}
-    if kinds and kinds <= {int, bool}:
+    if kinds == {bool}:
         return np.asarray(values)
     if kinds and kinds <= {int, type(None)}:
+        # Whole numbers of which some are missing.
         return np.asarray([np.nan if value is None else value for value in values], dtype=np.float64)
     column = np.empty(len(values), dtype=object)
     column[:] = values
