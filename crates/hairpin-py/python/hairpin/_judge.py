@@ -44,9 +44,10 @@ def judge(
 ) -> JudgedLogs: ...
 @overload
 def judge(
+    what: None = None,
+    values: Mapping[str, Any] | None = None,
     *,
     campaign: Campaign | str | os.PathLike[str],
-    values: Mapping[str, Any] | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Campaign: ...
