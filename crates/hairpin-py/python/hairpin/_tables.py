@@ -53,7 +53,7 @@ class Table:
 def _array(values: tuple[str, bytes] | list[Any]) -> npt.NDArray[Any]:
     if isinstance(values, tuple):
         kind, numbers = values
-        return np.frombuffer(numbers, dtype=kind)
+        return np.frombuffer(numbers, dtype=kind).copy()
     kinds = {type(value) for value in values}
     if kinds == {bool}:
         return np.asarray(values)
