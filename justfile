@@ -37,3 +37,12 @@ bench:
 # The kernels, one by one.
 kernels:
     cargo bench -p hairpin
+
+# Wheels into target/wheels for Linux with glibc 2.17 and later; each architecture needs its `rustup target add`.
+wheels *targets="x86_64-unknown-linux-gnu":
+    python3 -m venv target/wheel-tools
+    target/wheel-tools/bin/pip install --quiet 'maturin>=1.9,<2' 'ziglang<0.18' 'auditwheel<7'
+    for target in {{targets}}; do \
+      PATH="$PWD/target/wheel-tools/bin:$PATH" maturin build --release --zig --compatibility manylinux_2_17 --target "$target" --out target/wheels || exit 1; \
+    done
+    for wheel in target/wheels/*.whl; do target/wheel-tools/bin/auditwheel show "$wheel" || exit 1; done

@@ -73,7 +73,9 @@ def test_classes_have_an_object_for_each_run(cases, tmp_path):
 def test_the_command_goes_on_where_the_source_stands_alone(cases, tmp_path):
     own = cases.execute(controller=gentle, out=tmp_path / "out").judge()
     assert (tmp_path / "out/gentle.py").is_file()
-    done = subprocess.run([BIN, "execute", tmp_path / "out"], capture_output=True, text=True)
+    # Files are run by the `python3` that is found first, which need not be one with NumPy.
+    ours = {**os.environ, "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])}
+    done = subprocess.run([BIN, "execute", tmp_path / "out"], capture_output=True, text=True, env=ours)
     assert done.returncode == 0, done.stderr
     assert deviations(hairpin.judge(tmp_path / "out")) == deviations(own)
 

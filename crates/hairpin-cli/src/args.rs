@@ -31,7 +31,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use hairpin_formats::template::KINDS;
+use hairpin_formats::template::{self, KINDS};
 
 pub(crate) use bench::{Bench, BenchCommands, Whole};
 pub(crate) use calibrate::Calibrate;
@@ -216,7 +216,7 @@ pub(crate) struct Demo {
 #[derive(Debug, Args)]
 pub(crate) struct New {
     /// The robot's kind
-    #[arg(value_parser = PossibleValuesParser::new(KINDS))]
+    #[arg(value_parser = PossibleValuesParser::new(template::names()))]
     pub(crate) kind: String,
     /// Overwrite the file
     #[arg(long)]

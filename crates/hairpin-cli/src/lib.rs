@@ -20,21 +20,42 @@ use clap::FromArgMatches;
 use args::{Arguments, Command};
 use exit::{DONE, OUR_MISTAKE, WRONG_INPUT};
 use hairpin::campaign::CallersCode;
-use hairpin_formats::foreign;
+use hairpin_formats::{foreign, library};
 use hairpin_jobs::Problem;
 use terminal::Terminal;
 
 /// Runs the command in `arguments`, whose first is the program's name, and gives its exit code. Results go to stdout,
 /// everything else to stderr.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    run_with(arguments, CallersCode::default())
+    run_with(arguments, Extra::default())
 }
 
-/// The same with code of the caller's: a binary of another crate has the whole command line, in which its score, target
-/// or controller answers wherever a scenario names a file, or of controllers a command, for one. Of two calls in one
-/// process the first one's code counts.
-pub fn run_with(arguments: impl IntoIterator<Item = OsString>, code: CallersCode) -> u8 {
+/// What a binary of another crate brings along.
+#[derive(Clone, Default)]
+pub struct Extra {
+    /// Its score, target or controller: it answers wherever a scenario names a file, or of controllers a command, for
+    /// one.
+    pub code: CallersCode,
+    /// Its robots, name and text of a robot's file each: known wherever a shipped one is, by `robot = "NAME"`, and to
+    /// `hairpin new NAME` and completions.
+    pub robots: Vec<(&'static str, &'static str)>,
+}
+
+impl From<CallersCode> for Extra {
+    fn from(code: CallersCode) -> Self {
+        Self { code, ..Self::default() }
+    }
+}
+
+/// The same with what the caller brings: a binary of another crate has the whole command line with its own code and
+/// robots. Of two calls in one process the first one's count. A robot's name that something shipped has, and a text
+/// that is no robot's file, are wrong input (2).
+pub fn run_with(arguments: impl IntoIterator<Item = OsString>, extra: impl Into<Extra>) -> u8 {
+    let Extra { code, robots } = extra.into();
     settings::bring(code);
+    if let Err(sentence) = library::bring(&robots) {
+        return exit::tell(&Problem::input(sentence), false);
+    }
     apologise_when_panicking();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     if arguments.get(1..).is_some_and(|typed| typed == ["help", "exit-codes"]) {

@@ -1,11 +1,15 @@
-//! The heaviest path through a matrix of costs.
+//! The heaviest path through a matrix of costs, and the heaviest programs of an arm through a cloud of points.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use hairpin::search::heaviest::{Ends, HeaviestSettings, Method, Outcome};
+use hairpin_cli::commands::max_load::cloud::object as said_of;
 use hairpin_formats::atomic;
 use hairpin_jobs::Problem;
-use hairpin_jobs::max_load::MaxLoadSettings;
+use hairpin_jobs::max_load::{CloudAnswer, CloudSettings, MaxLoadSettings, Programs, search_cloud};
+use hairpin_jobs::sets::Set;
+use hairpin_jobs::work::IfThere;
 use pyo3::prelude::*;
 use serde_json::json;
 
@@ -23,6 +27,8 @@ pub(crate) struct Wanted {
     visits: usize,
     method: String,
     seed: u64,
+    nodes: Option<u64>,
+    certificate: Option<PathBuf>,
     time_limit_s: Option<f64>,
 }
 
@@ -62,10 +68,15 @@ pub(crate) fn max_load<'py>(
                 method,
                 programs: wanted.programs,
                 seed: wanted.seed,
+                most_nodes: wanted.nodes,
+                proof: wanted.certificate.is_some(),
                 ..HeaviestSettings::default()
             },
         };
         let answer = hairpin_jobs::max_load::max_load(&settings, watch)?;
+        if let Some(out) = &wanted.certificate {
+            answer.write_certificate(out)?;
+        }
         let (graph, found) = (&answer.graph, &answer.found);
         let path = |(cost, path): &(i64, Vec<usize>)| json!({ "path": path, "cost": graph.value(*cost) });
         Ok(json!({
@@ -81,6 +92,40 @@ pub(crate) fn max_load<'py>(
             "method": found.method.name(),
             "time_s": answer.time.as_secs_f64(),
         }))
+    })?;
+    object(py, &said)
+}
+
+/// Whose programs are searched, and where they go.
+#[derive(FromPyObject)]
+pub(crate) struct Cloud {
+    cell: String,
+    points: PathBuf,
+    sets: Vec<Set>,
+    out: Option<PathBuf>,
+    replaces: bool,
+}
+
+/// The heaviest programs of an arm through the points of a file; gives what `max-load --cloud --json` says.
+#[pyfunction]
+pub(crate) fn max_load_of_cloud(
+    py: Python<'_>,
+    cloud: Cloud,
+    wanted: Wanted,
+    waiting: Waiting,
+) -> PyResult<Bound<'_, PyAny>> {
+    let Wanted { start, end, min_cost, programs, visits, seed, time_limit_s, .. } = wanted;
+    let Cloud { cell, points, sets, out, replaces } = cloud;
+    let min_cost = min_cost.map(|cost| cost.to_string());
+    let programs = Programs { start, end, min_cost, programs, visits, seed };
+    let settings = CloudSettings { cell, points, sets, programs, time_limit_s };
+    let said = waiting.wait(py, |watch| {
+        let answer = search_cloud(&settings, watch)?;
+        if let (CloudAnswer::Searched(searched), Some(out)) = (&answer, &out) {
+            let if_there = if replaces { IfThere::Replace } else { IfThere::Refuse };
+            searched.keep(out, if_there, watch)?;
+        }
+        Ok(said_of(&answer, true, out.as_deref()))
     })?;
     object(py, &said)
 }

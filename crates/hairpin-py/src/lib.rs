@@ -8,10 +8,12 @@ mod campaigns;
 mod command;
 mod folders;
 mod heaviest;
+mod logs;
 mod plain;
 mod problem;
 mod settings;
 mod steering;
+mod tables;
 mod wait;
 
 use pyo3::prelude::*;
@@ -34,6 +36,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(folders::report, module)?)?;
     module.add_function(wrap_pyfunction!(folders::read, module)?)?;
     module.add_function(wrap_pyfunction!(heaviest::max_load, module)?)?;
+    module.add_function(wrap_pyfunction!(heaviest::max_load_of_cloud, module)?)?;
+    module.add_function(wrap_pyfunction!(logs::judge_log, module)?)?;
+    module.add_class::<tables::Table>()?;
     module.add_class::<steering::Vehicle>()?;
     module.add_class::<callables::Code>()?;
     Ok(())

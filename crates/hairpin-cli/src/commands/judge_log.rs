@@ -43,7 +43,7 @@ pub(super) fn run(asked: &Judge, against: Against, watch: &dyn Watch) -> Result<
     if asked.json {
         console::say(&object(&judged).to_string());
     } else {
-        in_words(&judged);
+        lines(&judged).iter().for_each(|line| console::say(line));
     }
     Ok(judged.exit_code())
 }
@@ -69,23 +69,19 @@ fn junit_text(judged: &JudgedLogs) -> String {
     outcomes_text("logs", &verdict.collect::<Vec<_>>(), &outcomes)
 }
 
-fn in_words(judged: &JudgedLogs) {
-    for log in &judged.logs {
-        let lines = log.found.as_ref().map(Found::lines).or_else(|| log.program.as_ref().map(FoundProgram::lines));
-        if let Some(lines) = lines {
-            for [label, value] in lines {
-                console::say(&format!("{label}: {value}"));
-            }
-            console::say("");
-        }
-        console::say(&log.verdict.sentence);
-    }
-    if let Some(count) = &judged.count {
-        console::say(&count.sentence);
-    }
+/// Each log's header, an empty line and its sentence; behind those of a folder the line with counts.
+pub fn lines(judged: &JudgedLogs) -> Vec<String> {
+    let of_log = |log: &JudgedLog| {
+        let found = log.found.as_ref().map(Found::lines).or_else(|| log.program.as_ref().map(FoundProgram::lines));
+        let header = found.map(|lines| lines.into_iter().map(|[label, value]| format!("{label}: {value}")));
+        let header = header.into_iter().flat_map(|lines| lines.chain([String::new()]));
+        header.chain([log.verdict.sentence.clone()]).collect::<Vec<_>>()
+    };
+    judged.logs.iter().flat_map(of_log).chain(judged.count.iter().map(|count| count.sentence.clone())).collect()
 }
 
-fn object(judged: &JudgedLogs) -> Value {
+/// What `judge LOG --json` says.
+pub fn object(judged: &JudgedLogs) -> Value {
     let only = judged.logs.first().map(|log| &log.verdict);
     let whole = judged.count.as_ref().or(only);
     let count = |word: &str| judged.logs.iter().filter(|log| log.outcome.word() == word).count();

@@ -13,7 +13,8 @@ use crate::exit::DONE;
 /// Runs the command.
 pub(crate) fn run(new: &New) -> Result<u8, Problem> {
     let name = &new.kind;
-    let text = template::template(name).ok_or_else(|| Problem::input(format!("no scenario of {name} is shipped")))?;
+    let text = template::template(name).map(str::to_owned).or_else(|| template::of_robot(name));
+    let text = text.ok_or_else(|| Problem::input(format!("no scenario of {name} is shipped")))?;
     let file = format!("{name}.toml");
     let path = Path::new(&file);
     if path.exists() && !new.force {

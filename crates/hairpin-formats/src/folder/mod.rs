@@ -60,6 +60,7 @@ mod rounds;
 mod run_writer;
 mod runs;
 mod scenario;
+mod tables;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};

@@ -12,6 +12,7 @@ pub mod piece;
 pub mod profile;
 pub(crate) mod program;
 pub mod results;
+pub mod rows;
 pub mod runs;
 pub(crate) mod table;
 mod thrift;

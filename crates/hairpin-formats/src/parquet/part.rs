@@ -41,14 +41,7 @@ impl Part {
     /// # Errors
     /// It is none.
     pub(crate) fn open(path: &Path) -> Result<Self, TableError> {
-        let broken = |cause: String| TableError::Broken { path: path.into(), cause };
-        let mut file = open_file(path)?;
-        let load = || {
-            check_footer(&mut file)?;
-            ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).map_err(|error| error.to_string())
-        };
-        let loaded = foreign::call(load).unwrap_or_else(|_| Err("its bytes contradict each other".into()));
-        let metadata = loaded.map_err(broken)?;
+        let metadata = footer(path)?;
         let count = metadata.metadata().num_row_groups();
         let keys: Option<Vec<Key>> = metadata.metadata().row_groups().iter().map(key_of).collect();
         let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
@@ -119,12 +112,7 @@ impl Part {
     }
 
     fn decoded(&self, groups: &[usize]) -> Result<Table, TableError> {
-        let file = open_file(&self.path)?;
-        let packed = groups.iter().map(|group| self.metadata.metadata().row_group(*group).compressed_size());
-        let most = most_decoded(packed.map(|bytes| bytes.max(0) as u64).sum());
-        let decoded = foreign::call(|| decode_groups(file, &self.metadata, groups, most));
-        let decoded = decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into()));
-        Ok(Table::of(&self.path, decoded.map_err(|cause| self.broken(cause))?))
+        decoded(&self.path, &self.metadata, groups)
     }
 
     fn broken(&self, cause: String) -> TableError {
@@ -132,12 +120,33 @@ impl Part {
     }
 }
 
+/// What the file at `path` says of its rows: its footer alone is read.
+pub(super) fn footer(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
+    let mut file = open_file(path)?;
+    let load = || {
+        check_footer(&mut file)?;
+        ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).map_err(|error| error.to_string())
+    };
+    let loaded = foreign::call(load).unwrap_or_else(|_| Err("its bytes contradict each other".into()));
+    loaded.map_err(|cause| TableError::Broken { path: path.into(), cause })
+}
+
+/// The rows of `groups` of the file at `path`.
+pub(super) fn decoded(path: &Path, metadata: &ArrowReaderMetadata, groups: &[usize]) -> Result<Table, TableError> {
+    let file = open_file(path)?;
+    let packed = groups.iter().map(|group| metadata.metadata().row_group(*group).compressed_size());
+    let most = most_decoded(packed.map(|bytes| bytes.max(0) as u64).sum());
+    let decoded = foreign::call(|| decode_groups(file, metadata, groups, most));
+    let decoded = decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into()));
+    Ok(Table::of(path, decoded.map_err(|cause| TableError::Broken { path: path.into(), cause })?))
+}
+
 fn open_file(path: &Path) -> Result<File, TableError> {
     bounds::open(path, MOST_BYTES).map_err(|cause| TableError::Unreadable { path: path.into(), cause })
 }
 
 /// The case and run that a row group is of, if its statistics name one alone.
-fn key_of(group: &RowGroupMetaData) -> Option<Key> {
+pub(super) fn key_of(group: &RowGroupMetaData) -> Option<Key> {
     let column = |name: &str| group.columns().iter().find(|column| column.column_path().string() == name);
     let case = match column(CASE)?.statistics()? {
         Statistics::ByteArray(found) => {

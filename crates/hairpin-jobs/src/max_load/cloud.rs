@@ -24,8 +24,49 @@ pub struct CloudSettings {
     pub points: PathBuf,
     /// Keys of the cell's scenario with other values.
     pub sets: Vec<Set>,
+    /// What is wanted of programs, beside what those say.
+    pub programs: Programs,
     /// Seconds after which the best so far is the answer.
     pub time_limit_s: Option<f64>,
+}
+
+/// What is wanted of an arm's programs.
+#[derive(Debug, Clone)]
+pub struct Programs {
+    /// First point, from 0; any if not given.
+    pub start: Option<usize>,
+    /// Last point, from 0; any if not given.
+    pub end: Option<usize>,
+    /// Programs below this cost are not wanted.
+    pub min_cost: Option<String>,
+    /// How many different ones, the heaviest first.
+    pub programs: usize,
+    /// How often a point may come.
+    pub visits: usize,
+    /// Seed of the local search.
+    pub seed: u64,
+}
+
+impl Default for Programs {
+    fn default() -> Self {
+        Self { start: None, end: None, min_cost: None, programs: 1, visits: 1, seed: 0 }
+    }
+}
+
+impl Programs {
+    /// As keys of the scenario.
+    fn sets(&self) -> Vec<Set> {
+        let Self { start, end, min_cost, programs, visits, seed } = self;
+        let keys = [
+            ("generate.search.start", start.map(|row| row.to_string())),
+            ("generate.search.end", end.map(|row| row.to_string())),
+            ("generate.search.min_cost", min_cost.clone()),
+            ("generate.search.programs", Some(programs.to_string())),
+            ("generate.search.visits", (*visits > 1).then(|| visits.to_string())),
+            ("seed", (*seed > 0).then(|| seed.to_string())),
+        ];
+        keys.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect()
+    }
 }
 
 /// What was found in a cloud.
@@ -64,9 +105,10 @@ pub enum CloudAnswer {
 /// # Errors
 /// A cell or a cloud with mistakes; a cell that is no arm's.
 pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<CloudAnswer, Problem> {
-    let CloudSettings { cell, points, sets, time_limit_s } = settings;
+    let CloudSettings { cell, points, sets, programs, time_limit_s } = settings;
     shadowed(cell).iter().for_each(|note| watch.warn(note));
-    let setup = arm_setup_for(cell, points, sets)?;
+    let sets: Vec<Set> = sets.iter().cloned().chain(programs.sets()).collect();
+    let setup = arm_setup_for(cell, points, &sets)?;
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {

@@ -12,7 +12,7 @@ use hairpin::search::heaviest::{
 };
 
 use crate::{Deadline, Problem, Watch};
-pub use cloud::{CloudAnswer, CloudSearch, CloudSettings, search_cloud};
+pub use cloud::{CloudAnswer, CloudSearch, CloudSettings, Programs, search_cloud};
 pub use graph::Graph;
 pub use proof::verify_certificate;
 

@@ -12,7 +12,7 @@ A test generator: what it finds is stressful by design, and is no safety certifi
 
 from hairpin._call import Progress
 from hairpin._callables import Controller, ControllerLike, vectorised
-from hairpin._campaign import Campaign, Case, Comparison, Judged, Report, Run, Shrunk, Verification, Violation
+from hairpin._campaign import Campaign
 from hairpin._errors import ExecutorError, InputError, Interrupted, WriteError
 from hairpin._executors import adversary, dynamics
 from hairpin._heaviest import MaxLoad, max_load
@@ -23,17 +23,20 @@ from hairpin._jobs import (
     execute,
     explain,
     generate,
-    judge,
     learn,
     open_campaign,
     shrink,
     stress,
     verify,
 )
+from hairpin._judge import judge
 from hairpin._live import live
+from hairpin._logs import Cut, JudgedLog, JudgedLogs
 from hairpin._native import __version__
+from hairpin._results import Case, Comparison, Judged, Report, Run, Shrunk, Verification, Violation
 from hairpin._scenario import Robot, Scenario, World
 from hairpin._steering import STATUSES, Curvature, Drive, Drives, Segment, steer
+from hairpin._tables import Table
 
 __all__ = [
     "STATUSES",
@@ -43,6 +46,7 @@ __all__ = [
     "Controller",
     "ControllerLike",
     "Curvature",
+    "Cut",
     "Drive",
     "Drives",
     "ExecutorError",
@@ -50,6 +54,8 @@ __all__ = [
     "InputError",
     "Interrupted",
     "Judged",
+    "JudgedLog",
+    "JudgedLogs",
     "MaxLoad",
     "Model",
     "Progress",
@@ -59,6 +65,7 @@ __all__ = [
     "Scenario",
     "Segment",
     "Shrunk",
+    "Table",
     "Verification",
     "Violation",
     "World",

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from hairpin import _native
+from hairpin._errors import InputError
 
 _LOG = logging.getLogger("hairpin")
 
@@ -38,8 +39,6 @@ class Brought:
 def waiting(threads: int | None = None, progress: Progress | None = None) -> Any:
     """Who waits: ``threads`` of the machine's, ``progress(what, done, of)`` some twenty times a second."""
     if threads is not None and threads < 1:
-        from hairpin._errors import InputError
-
         raise InputError(f"`threads` = {threads}: must be at least 1", "threads", str(threads), "at least 1")
     return SimpleNamespace(threads=threads, progress=progress, warn=_LOG.warning)
 
@@ -48,3 +47,11 @@ def means(brought: Brought | None, portable: bool, allow_commands: bool) -> Any:
     """What runs, and by which kernels."""
     code = (brought or Brought()).code()
     return SimpleNamespace(portable=portable, allow_commands=allow_commands, code=code)
+
+
+def replaces(if_there: str) -> bool:
+    """Whether what is in a folder is replaced."""
+    if if_there not in ("refuse", "replace"):
+        bound = "refuse or replace"
+        raise InputError(f"`if_there` = {if_there!r}: must be {bound}", "if_there", repr(if_there), bound)
+    return if_there == "replace"

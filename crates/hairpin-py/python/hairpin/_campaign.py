@@ -5,107 +5,21 @@ from __future__ import annotations
 import html
 import os
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from hairpin import _native
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
+from hairpin._picture import picture
+from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation
 from hairpin._scenario import sets_of
+from hairpin._tables import Table
 
-Floats = npt.NDArray[np.float64]
-
-_DATA = '<script type="application/json" id="data">'
 _ORDER = {"executor-failed": 0, "fail": 1, "inconclusive": 2, "pass": 3, "unjudged": 4, "generated": 5}
-
-
-@dataclass(frozen=True)
-class Violation:
-    """A limit that a run breaks: what, the value, the limit (both in the limit's unit), and all of it in words."""
-
-    what: str
-    value: float
-    limit: float
-    told: str
-
-
-@dataclass(frozen=True)
-class Case:
-    """A case and, once judged, its worst run.
-
-    Attributes:
-        id: ``0000`` and on.
-        seed: its own.
-        waypoints_m: shape (n, 3), m, world frame, both ends included.
-        evidence: ``witnessed``, ``hull-feasible``, ``unchecked``, …, as truth has it.
-        score: of the search.
-        status: ``pass``, ``fail``, ``inconclusive``, ``executor-failed``, ``unjudged``, or ``generated``.
-        run: number of the worst run.
-        ended: why that ended.
-        max_deviation_m, mean_deviation_m: from the reference, m.
-        t_worst_s: time of the largest deviation.
-        leg_worst: leg of it, from 0.
-        violations: the gravest first.
-        message: why it was not carried out.
-    """
-
-    id: str
-    seed: int
-    waypoints_m: Floats
-    evidence: str
-    score: float
-    status: str
-    run: int | None
-    ended: str | None
-    max_deviation_m: float | None
-    mean_deviation_m: float | None
-    t_worst_s: float | None
-    leg_worst: int | None
-    violations: tuple[Violation, ...]
-    message: str | None
-
-    @property
-    def number(self) -> int:
-        return int(self.id)
-
-
-@dataclass(frozen=True)
-class Shrunk:
-    """A case reduced to the shortest feasible one that still violates.
-
-    Attributes:
-        case: its id.
-        waypoints_before_m, waypoints_m: shape (n, 3), m.
-        violations_before, violations: sentences, the gravest first.
-        evidence: of the smaller case.
-        simplified: what else was taken away.
-        finished: nothing smaller was found within the budget; else the same call goes on.
-        runs: executions in all.
-        repro: file that `hairpin replay` runs.
-    """
-
-    case: str
-    waypoints_before_m: Floats
-    waypoints_m: Floats
-    violations_before: tuple[str, ...]
-    violations: tuple[str, ...]
-    evidence: str
-    simplified: tuple[str, ...]
-    finished: bool
-    runs: int
-    repro: Path
-
-    def __str__(self) -> str:
-        still = self.violations[0] if self.violations else ""
-        rest = "" if self.finished else "; stopped, the same call goes on"
-        return f"{len(self.waypoints_before_m)} waypoints -> {len(self.waypoints_m)}, still {still} ({self.runs} runs){rest}"
-
-    __repr__ = __str__
 
 
 class Campaign:
@@ -186,84 +100,56 @@ class Campaign:
 
     # Tables.
 
-    def to_arrow(self, table: str = "results", filters: Any = None) -> Any:
-        """A table of the folder as a ``pyarrow.Table``: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, ….
-
-        ``filters`` are as of ``pyarrow.parquet.read_table``: ``[("case", "==", "0001")]`` reads that case alone. Columns:
-        docs/folder.md. Needs pyarrow.
+    def table(self, name: str = "results", *, case: str | int | None = None, run: int | None = None) -> Table:
+        """A table of the folder: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, …, whole or of a case or
+        a run of it alone, as a :class:`Table`, which Polars, DuckDB and whatever else reads Arrow take. Columns: docs/folder.md.
         """
+        return Table(self.folder, name, case=None if case is None else self[case].number, run=run)
+
+    def to_arrow(self, table: str = "results", filters: Any = None) -> Any:
+        """The same as a ``pyarrow.Table``. Needs pyarrow.
+
+        ``filters`` are as of ``pyarrow.parquet.read_table``: ``[("case", "==", "0001")]`` gives that case alone.
+        """
+        rows = self.table(table)
         try:
+            import pyarrow
             import pyarrow.parquet as parquet
         except ImportError as error:
-            raise ImportError("tables need pyarrow: pip install hairpin[arrow]") from error
-        for place in (self.folder / f"{table}.parquet", self.folder / table):
-            if place.exists():
-                return parquet.read_table(place, filters=filters)
-        there = sorted(
-            {path.name for path in self.folder.iterdir() if any(path.glob("*.parquet"))}
-            | {path.stem for path in self.folder.glob("*.parquet")}
-        )
-        raise InputError(f"`table` = {table!r}: must be one of {', '.join(there)}", "table", repr(table), ", ".join(there))
+            raise ImportError("pyarrow's tables need pyarrow: pip install hairpin[arrow]; table() does not") from error
+        whole = pyarrow.table(rows)
+        return whole if filters is None else whole.filter(parquet.filters_to_expression(filters))
 
     def to_pandas(self, table: str = "results") -> Any:
-        """The same as a ``pandas.DataFrame``. Needs pyarrow and pandas."""
-        return self.to_arrow(table).to_pandas()
+        """The same as a ``pandas.DataFrame``. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.table(table).to_numpy())
 
     def to_polars(self, table: str = "results") -> Any:
-        """The same as a ``polars.DataFrame``. Needs pyarrow and polars."""
+        """The same as a ``polars.DataFrame``. Needs polars."""
         import polars
 
-        return polars.from_arrow(self.to_arrow(table))
+        return polars.DataFrame(self.table(table))
 
     def execution(self, case: str | int, run: int | None = None) -> dict[str, Floats]:
-        """What was executed: columns of `executions` by name, shape (n,); of the worst run if none is named. Needs pyarrow.
+        """What was executed: columns of `executions` by name, shape (n,); of the worst run if none is named.
 
         Rows are those where the motion bends, as the folder keeps them.
         """
         one = self[case]
         wanted = (one.run if run is None else run) or 0
-        rows = self.to_arrow("executions", filters=[("case", "==", one.id), ("run", "==", wanted)])
-        return {
-            name: np.asarray(rows[name].to_numpy(), dtype=np.float64)
-            for name in rows.column_names
-            if name not in ("case", "run")
-            and not str(rows.schema.field(name).type).startswith(("string", "large_string", "dictionary"))
-        }
+        rows = self.table("executions", case=case, run=wanted).to_numpy()
+        numbers = {name: values for name, values in rows.items() if values.dtype != object and name not in ("case", "run")}
+        return {name: np.asarray(values, dtype=np.float64) for name, values in numbers.items()}
 
     # Jobs that go on from here.
 
-    def execute(
-        self,
-        *,
-        values: Mapping[str, Any] | None = None,
-        controller: Any = None,
-        executor: Any = None,
-        missions: str | os.PathLike[str] | None = None,
-        out: str | os.PathLike[str] | None = None,
-        if_there: str = "refuse",
-        resume: bool = False,
-        portable: bool = False,
-        allow_commands: bool = False,
-        threads: int | None = None,
-        progress: Progress | None = None,
-    ) -> Campaign:
-        """Executes its cases; see :func:`hairpin.execute`."""
+    def execute(self, **settings: Any) -> Campaign:
+        """Executes its cases; keywords as of :func:`hairpin.execute`."""
         from hairpin._jobs import execute
 
-        return execute(
-            self,
-            values=values,
-            controller=controller,
-            executor=executor,
-            missions=missions,
-            out=out,
-            if_there=if_there,
-            resume=resume,
-            portable=portable,
-            allow_commands=allow_commands,
-            threads=threads,
-            progress=progress,
-        )
+        return execute(self, **settings)
 
     def judge(
         self, values: Mapping[str, Any] | None = None, *, threads: int | None = None, progress: Progress | None = None
@@ -278,12 +164,12 @@ class Campaign:
         Args:
             judge: of a :class:`Run` gives whether it is within what is asked, or by how much (≥ 0 is within), or ``None``: open.
 
-        Needs pyarrow. Nothing is written.
+        Nothing is written.
         """
         found: dict[tuple[str, int], float | None] = {}
         for case in self.cases:
-            runs = self.to_arrow("executions", filters=[("case", "==", case.id)])["run"].unique().to_pylist()
-            for run in sorted(runs):
+            runs = self.table("executions", case=case.number).to_numpy()["run"]
+            for run in sorted(set(runs.tolist())):
                 answer = judge(Run(case, run, self.execution(case.id, run)))
                 found[case.id, run] = (
                     None
@@ -371,7 +257,7 @@ class Campaign:
         axes.plot(*one.waypoints_m[:, :2].T, "o--", color="#999999", label="waypoints")
         try:
             flown = self.execution(one.id)
-        except (ImportError, InputError):
+        except InputError:
             flown = {}
         if len(flown.get("x_m", ())):
             axes.plot(flown["x_m"], flown["y_m"], color="#0072b2", label=f"case {one.id}, run {one.run}")
@@ -388,102 +274,18 @@ class Campaign:
         )
         head = "".join(f"<th>{name}</th>" for name in ("case", "status", "max deviation (m)", "t (s)", "waypoints", "evidence"))
         told = html.escape(self.verdict or f"{len(self)} cases in {self.folder}")
-        picture = _picture(rows[0]) if rows else ""
-        return f"<div><p>{told}</p><div style='display:flex;gap:1em'><table><tr>{head}</tr>{cells}</table>{picture}</div></div>"
+        drawn = self._picture(rows[0]) if rows else ""
+        return f"<div><p>{told}</p><div style='display:flex;gap:1em'><table><tr>{head}</tr>{cells}</table>{drawn}</div></div>"
 
-
-@dataclass(frozen=True)
-class Run:
-    """A run as a judge of this process sees it: its case, its number, and columns of `executions`, shape (n,)."""
-
-    case: Case
-    number: int
-    columns: dict[str, Floats]
-
-    @property
-    def t_s(self) -> Floats:
-        """Stamps, shape (n,)."""
-        return self.columns["t_s"]
-
-    @property
-    def p_m(self) -> Floats:
-        """Places, shape (n, 3), m, world frame."""
-        return np.stack([self.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
-
-
-@dataclass(frozen=True)
-class Judged:
-    """What a judge of this process says: margins by case and run, ≥ 0 is within, ``None`` is open."""
-
-    margins: dict[tuple[str, int], float | None] = field(default_factory=dict)
-
-    @property
-    def failing(self) -> list[tuple[str, int]]:
-        """Case and run of those that are not within, the worst first."""
-        out = [(margin, key) for key, margin in self.margins.items() if margin is not None and not margin >= 0.0]
-        return [key for _, key in sorted(out)]
-
-    @property
-    def exit_code(self) -> int:
-        """0 all within, 1 one is not, 5 one is open."""
-        return 1 if self.failing else (5 if any(margin is None for margin in self.margins.values()) or not self.margins else 0)
-
-    def __bool__(self) -> bool:
-        return self.exit_code == 0
-
-
-@dataclass(frozen=True)
-class Verification:
-    """What independent integration came to: cases checked, those of which something does not hold, the worst of them."""
-
-    checked: int
-    failed: int
-    worst: dict[str, Any] | None
-    exit_code: int
-
-    def __bool__(self) -> bool:
-        return self.exit_code == 0
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Two campaigns paired by case and seed.
-
-    Attributes:
-        verdict: a sentence.
-        newly_failing, newly_passing: case ids.
-        regression: whether a metric is worse.
-        inconclusive: no pair could be compared.
-        detail: all that `compare --json` says.
-    """
-
-    verdict: str
-    newly_failing: tuple[str, ...]
-    newly_passing: tuple[str, ...]
-    regression: bool
-    inconclusive: bool
-    detail: dict[str, Any]
-
-    def __bool__(self) -> bool:
-        return not self.newly_failing and not self.inconclusive
-
-
-@dataclass(frozen=True)
-class Report:
-    """A report as a cell of a notebook shows it, without a server."""
-
-    path: Path
-    case: str | None
-    height: int
-
-    def _repr_html_(self) -> str:
-        text = self.path.read_text(encoding="utf-8")
-        if self.case is not None:
-            # The page's data are no script, so that its policy holds.
-            text = text.replace(_DATA + "{", f'{_DATA}{{"asked":"{self.case}",', 1)
-        page = html.escape(text, quote=True)
-        name = f"case {self.case}" if self.case else "report"
-        return f'<iframe title="{name}" sandbox="allow-scripts" style="width:100%;height:{self.height}px;border:0" srcdoc="{page}"></iframe>'
+    def _picture(self, one: Case) -> str:
+        """The worst run of a case, as far as its motion was kept."""
+        try:
+            flown = self.execution(one.id)
+        except InputError:
+            flown = {}
+        at, deviation = one.t_worst_s, one.max_deviation_m
+        worst = None if at is None or deviation is None else (at, deviation)
+        return picture(f"case {one.id}", one.waypoints_m, flown, worst)
 
 
 def _case(one: Mapping[str, Any]) -> Case:
@@ -516,20 +318,3 @@ def _metres(value: float | None) -> str:
 
 def _told(one: Case) -> str:
     return f"{one.id}: {one.violations[0].told}" if one.violations else f"{one.id}: {one.status}"
-
-
-def _picture(one: Case, size: int = 160) -> str:
-    """The case's waypoints from above."""
-    if not len(one.waypoints_m):
-        return ""
-    plane = one.waypoints_m[:, :2]
-    low, high = plane.min(axis=0), plane.max(axis=0)
-    scale = (size - 20) / max(float((high - low).max()), 1e-9)
-    points = (plane - low) * scale + 10.0
-    points[:, 1] = size - points[:, 1]
-    line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.5" fill="#0072b2"/>' for x, y in points)
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}" role="img" aria-label="case {one.id} from above">'
-        f'<polyline points="{line}" fill="none" stroke="#0072b2" stroke-width="1.2"/>{dots}</svg>'
-    )

@@ -1,16 +1,22 @@
-"""The heaviest path through a matrix of costs."""
+"""The heaviest path through a matrix of costs, or the heaviest programs of an arm through a cloud of points."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from hairpin import _native
-from hairpin._call import Progress, waiting
+from hairpin._call import Progress, replaces, waiting
+from hairpin._campaign import Campaign
+from hairpin._clouds import cell_of, checked, cloud_file, sets_of_cell
 from hairpin._errors import InputError
+from hairpin._scenario import Robot, Scenario
 
 
 @dataclass(frozen=True)
@@ -27,6 +33,10 @@ class MaxLoad:
         paths: all that were asked for, the heaviest first, and their costs.
         method: by which it was found.
         time_s: what it took.
+        reason: of a cloud: why there is no program.
+        unit: of a cloud: of the costs.
+        campaign: of a cloud: the programs as a campaign, where a folder was given and there are any.
+        detail: of a cloud: all that `max-load --cloud --json` says.
     """
 
     path: list[int] | None
@@ -38,11 +48,20 @@ class MaxLoad:
     paths: list[tuple[list[int], float]]
     method: str
     time_s: float
+    reason: str | None = None
+    unit: str | None = None
+    campaign: Campaign | None = None
+    detail: dict[str, Any] = field(default_factory=dict)
 
 
 def max_load(
-    matrix: npt.ArrayLike,
+    matrix: npt.ArrayLike | None = None,
     *,
+    cloud: npt.ArrayLike | str | os.PathLike[str] | None = None,
+    cell: Robot | Scenario | str | None = None,
+    values: Mapping[str, Any] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    if_there: str = "refuse",
     start: int | None = None,
     end: int | None = None,
     min_cost: float | None = None,
@@ -50,27 +69,38 @@ def max_load(
     visits: int = 1,
     method: str = "auto",
     seed: int = 0,
+    nodes: int | None = None,
+    certificate: str | os.PathLike[str] | None = None,
     time_limit_s: float | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> MaxLoad:
-    """The heaviest loop-free path, as the command `max-load --graph` finds it.
+    """The heaviest loop-free path, as the command `max-load` finds it: through a matrix of costs, or of an arm through a cloud.
 
     Args:
         matrix: costs, shape (n, n), row = from, column = to, ≥ 0; NaN: no arc. The diagonal has no meaning. Decimals become whole
             numbers exactly, all times the same power of ten.
+        cloud: an arm's points in its base's frame, shape (n, 3), m, or (n, 7) with the tool's orientation as a unit quaternion w, x,
+            y, z; or a file as `--cloud` takes it (CSV in mm, a RAPID module). Decimals become those of millimetres exactly.
+        cell: with `cloud`: the arm, or the scenario around it.
+        values: with `cloud`: dotted keys of the cell's scenario with other values.
+        out: with `cloud`: campaign folder for the programs.
+        if_there: of `out`: ``refuse`` or ``replace``.
         start, end: fixed ends, from 0.
         min_cost: paths below are not wanted.
         programs: how many different paths, the heaviest first.
         visits: how often a point may come; with more than once no move is used twice.
-        method: ``auto``, ``subsets``, ``branch``, ``local`` or ``dfs``.
+        method: of a matrix: ``auto``, ``subsets``, ``branch``, ``local`` or ``dfs``.
         seed: of the local search.
+        nodes: of a matrix: problems that each of up to 32 parts of branch and bound looks at.
+        certificate: of a matrix: file for the proof of the answer.
         time_limit_s: seconds after which the best so far is the answer.
         threads: as many as the machine has if not given.
         progress: called with what, done, of.
 
     Raises:
-        InputError: a matrix that is not square, a negative cost (``field`` is ``matrix[i, j]``), an end that is no point.
+        InputError: a matrix that is not square, a negative cost (``field`` is ``matrix[i, j]``), an end that is no point; a cloud of
+            another shape, a cell that is no arm's; what does not go together.
 
     Source: docs/heaviest-paths.md.
 
@@ -78,23 +108,7 @@ def max_load(
     >>> hairpin.max_load(np.array([[np.nan, 1.5, 9], [2, np.nan, 3], [4, 8, np.nan]])).path
     [0, 2, 1]
     """
-    bound = "a square array of numbers"
-    try:
-        costs = np.ascontiguousarray(matrix, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"`matrix`: must be {bound}", "matrix", type(matrix).__name__, bound) from None
-    if costs.ndim != 2 or costs.shape[0] != costs.shape[1] or costs.shape[0] == 0:
-        raise InputError(f"`matrix` of shape {costs.shape}: must be {bound}", "matrix", str(costs.shape), bound)
-    costs = costs.copy()
-    np.fill_diagonal(costs, np.nan)
-    for name, point in (("start", start), ("end", end)):
-        if point is not None and not 0 <= point < len(costs):
-            raise InputError(
-                f"`{name}` = {point}: must be from 0 to {len(costs) - 1}", name, str(point), f"from 0 to {len(costs) - 1}"
-            )
-    for name, least, value in (("programs", 1, programs), ("visits", 1, visits), ("seed", 0, seed)):
-        if value < least:
-            raise InputError(f"`{name}` = {value}: must be at least {least}", name, str(value), f"at least {least}")
+    checked(programs=(1, programs), visits=(1, visits), seed=(0, seed), nodes=(0, nodes or 0))
     if min_cost is not None and not 0 <= min_cost < np.inf:
         raise InputError(f"`min_cost` = {min_cost}: must be a number ≥ 0", "min_cost", str(min_cost), "a number ≥ 0")
     wanted = SimpleNamespace(
@@ -105,18 +119,64 @@ def max_load(
         visits=visits,
         method=method,
         seed=seed,
+        nodes=nodes,
+        certificate=certificate,
         time_limit_s=time_limit_s,
     )
-    found = _native.max_load(costs.tobytes(), len(costs), wanted, waiting(threads, progress))
+    who = waiting(threads, progress)
+    if cloud is not None:
+        _only_of("matrix", matrix=matrix, nodes=nodes, certificate=certificate, method=None if method == "auto" else method)
+        asked = SimpleNamespace(
+            cell=cell_of(cell),
+            points=cloud_file(cloud),
+            sets=sets_of_cell(cell, values),
+            out=out,
+            replaces=replaces(if_there),
+        )
+        return _of_cloud(_native.max_load_of_cloud(asked, wanted, who))
+    _only_of("cloud", cell=cell, values=values, out=out)
+    return _of_matrix(_native.max_load(*_table(matrix, start=start, end=end), wanted, who))
+
+
+def _only_of(whose: str, **given: Any) -> None:
+    for name, value in given.items():
+        if value is not None:
+            bound = f"given with a {whose} alone" if name != whose else "left out where there is a cloud"
+            raise InputError(f"`{name}`: must be {bound}", name, "", bound)
+
+
+def _table(matrix: Any, **ends: int | None) -> tuple[bytes, int]:
+    """A matrix as bytes, and its points."""
+    bound = "a square array of numbers"
+    try:
+        costs = np.array(matrix, dtype=np.float64, order="C")
+    except (TypeError, ValueError):
+        raise InputError(f"`matrix`: must be {bound}", "matrix", type(matrix).__name__, bound) from None
+    if costs.ndim != 2 or costs.shape[0] != costs.shape[1] or costs.shape[0] == 0:
+        raise InputError(f"`matrix` of shape {costs.shape}: must be {bound}", "matrix", str(costs.shape), bound)
+    np.fill_diagonal(costs, np.nan)
+    for name, point in ends.items():
+        if point is not None and not 0 <= point < len(costs):
+            bound = f"from 0 to {len(costs) - 1}"
+            raise InputError(f"`{name}` = {point}: must be {bound}", name, str(point), bound)
+    return costs.tobytes(), len(costs)
+
+
+def _of_matrix(found: dict[str, Any]) -> MaxLoad:
     paths = [(one["path"], one["cost"]) for one in found["paths"]]
+    names = ("bound", "gap_percent", "proven", "feasible", "method", "time_s")
+    best = paths[0] if paths else (None, None)
+    return MaxLoad(path=best[0], cost=best[1], paths=paths, **{name: found[name] for name in names})
+
+
+def _of_cloud(found: dict[str, Any]) -> MaxLoad:
+    names = ("path", "cost", "bound", "gap_percent", "proven", "method", "time_s")
     return MaxLoad(
-        path=paths[0][0] if paths else None,
-        cost=paths[0][1] if paths else None,
-        bound=found["bound"],
-        gap_percent=found["gap_percent"],
-        proven=found["proven"],
-        feasible=found["feasible"],
-        paths=paths,
-        method=found["method"],
-        time_s=found["time_s"],
+        **{name: found[name] for name in names},
+        feasible={0: True, 3: False}.get(found["exit_code"]),
+        paths=[(one["path"], one["cost"]) for one in found.get("paths", ())],
+        reason=found.get("reason"),
+        unit=found.get("unit"),
+        campaign=Campaign(found["folder"]) if found.get("folder") else None,
+        detail=found,
     )

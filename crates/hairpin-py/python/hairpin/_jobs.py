@@ -11,10 +11,11 @@ from typing import Any
 
 from hairpin import _native
 from hairpin._bridge import serving
-from hairpin._call import Brought, Progress, means, waiting
+from hairpin._call import Brought, Progress, means, replaces, waiting
 from hairpin._callables import ControllerLike, bring
-from hairpin._campaign import Campaign, Comparison, Shrunk, Verification
+from hairpin._campaign import Campaign
 from hairpin._errors import InputError
+from hairpin._results import Comparison, Shrunk, Verification
 from hairpin._scenario import Scenario, Source, scenario, sets_of, toml_value
 
 
@@ -166,14 +167,12 @@ def execute(
     brought = bring(controller)
     if controller is None and executor is None and opened is not None and opened._brought is not None:
         brought = opened._brought
-    if if_there not in ("refuse", "replace"):
-        raise InputError(f"`if_there` = {if_there!r}: must be refuse or replace", "if_there", repr(if_there), "refuse or replace")
     with serving(executor) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
         flights = SimpleNamespace(
             folder=folder,
             out=_path(out),
-            replaces=if_there == "replace",
+            replaces=replaces(if_there),
             sets=sets,
             missions=_path(missions),
             repro=_path(repro),
@@ -190,21 +189,6 @@ def execute(
         else f"EXECUTED {said['runs']} runs of {said['cases']} cases"
     )
     return Campaign(said["folder"], brought=brought, said=said)
-
-
-def judge(
-    campaign: Campaign | str | os.PathLike[str],
-    values: Mapping[str, Any] | None = None,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
-) -> Campaign:
-    """Judges an executed folder, with other values for keys of `spec`; the folder keeps them.
-
-    Raises:
-        InputError: keys of other tables, cases that were not executed.
-    """
-    return open_campaign(campaign).judge(values, threads=threads, progress=progress)
 
 
 def verify(
@@ -288,7 +272,7 @@ def compare(
     Raises:
         InputError: folders that are not judged, of other kinds of robots, or without a case in common.
     """
-    found = _native.compare((_folder(a), _folder(b)), tolerance_m, waiting())
+    found = _native.compare((folder_of(a), folder_of(b)), tolerance_m, waiting())
     failing, passing = (tuple(str(case) for case in found[name]) for name in ("newly_failing", "newly_passing"))
     return Comparison(found["verdict"], failing, passing, found["regression"], found["inconclusive"], found)
 
@@ -331,7 +315,7 @@ def learn(
         InputError: too little to learn from; folders of different robots or controllers.
     """
     many = [campaigns] if isinstance(campaigns, Campaign | str | os.PathLike) else list(campaigns)
-    found = _native.learn(([_folder(one) for one in many], os.fspath(out)), stress, waiting(threads, progress))
+    found = _native.learn(([folder_of(one) for one in many], os.fspath(out)), stress, waiting(threads, progress))
     names = ("score_key", "unit", "trajectories", "legs", "validation", "held_out")
     return Model(Path(found["model"]), **{name: found[name] for name in names})
 
@@ -397,5 +381,5 @@ def _path(path: str | os.PathLike[str] | None) -> str | None:
     return None if path is None else os.fspath(path)
 
 
-def _folder(campaign: Campaign | str | os.PathLike[str]) -> str:
+def folder_of(campaign: Campaign | str | os.PathLike[str]) -> str:
     return os.fspath(campaign.folder if isinstance(campaign, Campaign) else campaign)

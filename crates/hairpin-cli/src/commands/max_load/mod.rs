@@ -2,7 +2,7 @@
 
 mod answer;
 mod certificate;
-mod cloud;
+pub mod cloud;
 
 use hairpin::search::heaviest::{Ends, HeaviestSettings, Method};
 use hairpin_jobs::max_load::{MaxLoadSettings, max_load};

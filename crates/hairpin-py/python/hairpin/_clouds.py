@@ -1,0 +1,63 @@
+"""Clouds of an arm's points, as files that the command reads."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hairpin._errors import InputError
+from hairpin._scenario import Robot, Scenario, sets_of, texts
+
+_HEADS = {3: "x_mm,y_mm,z_mm", 7: "x_mm,y_mm,z_mm,q1,q2,q3,q4"}
+
+
+def cloud_file(cloud: Any) -> Path:
+    """The file of a cloud; of points in metres one that goes with Python.
+
+    >>> cloud_file([[0.3, 0, 0.3], [0.35, 0.1, 0.3]]).read_text().splitlines()
+    ['x_mm,y_mm,z_mm', '300,0,300', '350,100,300']
+    """
+    if isinstance(cloud, str | os.PathLike):
+        return Path(cloud)
+    bound = "an array (n, 3) or (n, 7) of finite numbers"
+    try:
+        points = np.asarray(cloud, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"`cloud`: must be {bound}", "cloud", type(cloud).__name__, bound) from None
+    if points.ndim != 2 or points.shape[1] not in _HEADS or not np.isfinite(points).all():
+        raise InputError(f"`cloud` of shape {points.shape}: must be {bound}", "cloud", str(points.shape), bound)
+    lines = [",".join([*map(_millimetres, row[:3]), *map(repr, row[3:])]) for row in points.tolist()]
+    path = Path(tempfile.mkdtemp(dir=texts())) / "cloud.csv"
+    path.write_text("\n".join([_HEADS[points.shape[1]], *lines]) + "\n", encoding="utf-8")
+    return path
+
+
+def _millimetres(metres: float) -> str:
+    """The same decimals, three places on: 0.1 m are 100 mm, not 100.00000000000001."""
+    text = format(Decimal(repr(metres)).scaleb(3), "f")
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def cell_of(cell: Robot | Scenario | str | None) -> str:
+    """An arm or the scenario around it, as jobs know it."""
+    if cell is None:
+        raise InputError("`cell`: must be an arm, or a scenario around it", "cell", "", "an arm, or a scenario around it")
+    return cell if isinstance(cell, str) else cell.path()
+
+
+def sets_of_cell(cell: Any, values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Keys of the cell's scenario with other values."""
+    return (cell.sets() if isinstance(cell, Scenario) else []) + sets_of(values)
+
+
+def checked(**numbers: tuple[int, int]) -> None:
+    """Whole numbers, each with the least that it may be."""
+    for name, (least, value) in numbers.items():
+        if value < least:
+            raise InputError(f"`{name}` = {value}: must be at least {least}", name, str(value), f"at least {least}")
