@@ -6,7 +6,7 @@ use hairpin_formats::library;
 use hairpin_formats::scenario::setup_for;
 
 /// Cases asked for here; the files ask for more.
-const CASES: u64 = 5;
+const CASES: u64 = 3;
 /// Executions a case, where the search executes: they decide which cases are found, not how many.
 const EXECUTIONS: u64 = 10;
 
