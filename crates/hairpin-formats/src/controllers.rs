@@ -24,21 +24,17 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::UserCode;
-use hairpin::campaign::convoy::Convoy;
 use hairpin::campaign::user_controller::{Turns, UserSteering};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use self::together::Together;
+use self::together::{Crew, Fleet, QUOTED, Together, table};
 use crate::executor::{Command, excerpt};
 use crate::lockstep::{Lockstep, Silence};
 use crate::scenario::{driver, held};
 
 /// So many runs in a row that were left without an answer are the end: what hangs costs three times its limit.
 const MOST_LATE: usize = 3;
-
-/// Longest piece of an answer that is quoted, characters.
-const QUOTED: usize = 120;
 
 /// What answers.
 #[derive(Debug, Clone)]
@@ -66,9 +62,7 @@ pub(crate) struct Steersman {
     idle: Mutex<Vec<Lockstep>>,
     /// Whether one process steers all runs, which it says itself.
     takes_many: OnceLock<bool>,
-    convoy: Convoy,
-    /// The process of them all.
-    shared: Mutex<Option<Lockstep>>,
+    fleet: Arc<Fleet>,
     late: AtomicUsize,
     trouble: Mutex<Option<String>>,
     stopped: AtomicBool,
@@ -77,9 +71,8 @@ pub(crate) struct Steersman {
 impl Steersman {
     /// Called `name` in reports, with `period` s from turn to turn and `limit` for a run.
     pub(crate) fn new(source: Source, name: &str, period: f64, limit: Duration) -> Self {
-        let (idle, takes_many, convoy, shared) = Default::default();
-        let (late, trouble, stopped) = Default::default();
-        Self { source, name: name.to_owned(), limit, period, idle, takes_many, convoy, shared, late, trouble, stopped }
+        let (idle, takes_many, fleet, late, trouble, stopped) = Default::default();
+        Self { source, name: name.to_owned(), limit, period, idle, takes_many, fleet, late, trouble, stopped }
     }
 
     /// Whether it is told the waypoints once a run; a program is told them every time.
@@ -152,6 +145,24 @@ impl Steersman {
     }
 }
 
+impl Crew for Steersman {
+    fn process(&self) -> Result<Lockstep, String> {
+        self.process()
+    }
+
+    fn complaint(&self, process: &Lockstep, why: Silence) -> String {
+        self.complaint(process, why)
+    }
+
+    fn stopped(&self) -> &AtomicBool {
+        &self.stopped
+    }
+
+    fn came_home(&self) {
+        self.late.store(0, Ordering::Relaxed);
+    }
+}
+
 impl UserCode for Steersman {
     fn trouble(&self) -> Option<String> {
         held(&self.trouble).clone()
@@ -176,7 +187,8 @@ impl UserSteering for Steersman {
     fn begin(self: Arc<Self>, mission: Value) -> Result<Box<dyn Turns>, String> {
         let until = Instant::now().checked_add(self.limit);
         if self.takes_many.get() == Some(&true) {
-            return Ok(Box::new(Together::begin(self, &mission, until)?));
+            let fleet = self.fleet.clone();
+            return Ok(Box::new(Together::begin(self, fleet, &mission, until)?));
         }
         let process = self.process()?;
         let waypoints = mission.get("waypoints_m").cloned().filter(|_| !self.remembers());
@@ -211,17 +223,6 @@ impl Run {
         keys.remove("type");
         Ok(keys)
     }
-}
-
-/// What a line says.
-///
-/// # Errors
-/// That it is no table.
-fn table(line: &[u8]) -> Result<Map<String, Value>, String> {
-    serde_json::from_slice(line).map_err(|error| {
-        let said = excerpt(&String::from_utf8_lossy(line), QUOTED);
-        format!("it answered `{said}`: must be a line of JSON, a table of finite numbers ({error})")
-    })
 }
 
 /// What is said at a turn.

@@ -9,21 +9,50 @@
 //! What is wrong with one row costs its run; where the process fails, all that were asked with it fail, and the
 //! next run has a new one.
 
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-use hairpin::campaign::convoy::{Commands, Turn, columns, commands};
+use hairpin::campaign::convoy::{Commands, Convoy, Turn, columns, commands};
 use hairpin::campaign::user_controller::Turns;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{Steersman, table};
-use crate::lockstep::Lockstep;
+use crate::executor::excerpt;
+use crate::lockstep::{Lockstep, Silence};
 use crate::scenario::held;
+
+/// Longest piece of an answer that is quoted, characters.
+pub(super) const QUOTED: usize = 120;
+
+/// Whose runs they are.
+pub(super) trait Crew: Send + Sync {
+    /// A new process.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn process(&self) -> Result<Lockstep, String>;
+
+    /// Why `process`, which goes, did not answer.
+    fn complaint(&self, process: &Lockstep, why: Silence) -> String;
+
+    /// Whether nobody waits for an answer any more.
+    fn stopped(&self) -> &AtomicBool;
+
+    /// A run has ended well.
+    fn came_home(&self);
+}
+
+/// All runs that are under way, and the process that steers them.
+#[derive(Default)]
+pub(super) struct Fleet {
+    convoy: Convoy,
+    shared: Mutex<Option<Lockstep>>,
+}
 
 /// See the file's first line.
 pub(super) struct Together {
-    steersman: Arc<Steersman>,
+    crew: Arc<dyn Crew>,
+    fleet: Arc<Fleet>,
     run: u64,
     /// It has to be over by then.
     until: Option<Instant>,
@@ -32,57 +61,73 @@ pub(super) struct Together {
 impl Together {
     /// # Errors
     /// Why there is no process.
-    pub(super) fn begin(steersman: Arc<Steersman>, mission: &Value, until: Option<Instant>) -> Result<Self, String> {
-        let run = steersman.convoy.join(|run| steersman.welcome(run, mission))?;
-        Ok(Self { steersman, run, until })
+    pub(super) fn begin(
+        crew: Arc<dyn Crew>,
+        fleet: Arc<Fleet>,
+        mission: &Value,
+        until: Option<Instant>,
+    ) -> Result<Self, String> {
+        let run = fleet.convoy.join(|run| fleet.welcome(&*crew, run, mission))?;
+        Ok(Self { crew, fleet, run, until })
     }
 }
 
 impl Turns for Together {
     fn turn(&mut self, t_s: f64, state: &Value, reference: &Value) -> Result<Value, String> {
         let turn = Turn { run: self.run, t_s, state: state.clone(), reference: reference.clone() };
-        self.steersman.convoy.turn(turn, |asked| self.steersman.ask(asked, self.until))
+        self.fleet.convoy.turn(turn, |asked| self.fleet.ask(&*self.crew, asked, self.until))
     }
 
     fn finish(self: Box<Self>) {
-        self.steersman.late.store(0, Ordering::Relaxed);
+        self.crew.came_home();
     }
 }
 
 impl Drop for Together {
     fn drop(&mut self) {
-        self.steersman.convoy.leave();
+        self.fleet.convoy.leave();
     }
 }
 
-impl Steersman {
+impl Fleet {
     /// Tells the process of a run that sets out.
-    fn welcome(&self, run: u64, mission: &Value) -> Result<(), String> {
+    fn welcome(&self, crew: &dyn Crew, run: u64, mission: &Value) -> Result<(), String> {
         let mut shared = held(&self.shared);
         let process = match &mut *shared {
             Some(process) => process,
-            none => none.insert(self.process()?),
+            none => none.insert(crew.process()?),
         };
         let told = process.tell(&json!({ "type": "join", "run": run, "mission": mission }));
-        told.map_err(|why| self.complaint(process, why))
+        told.map_err(|why| crew.complaint(process, why))
     }
 
     /// The commands of all that are under way.
-    fn ask(&self, asked: &[Turn], until: Option<Instant>) -> Result<Commands, String> {
+    fn ask(&self, crew: &dyn Crew, asked: &[Turn], until: Option<Instant>) -> Result<Commands, String> {
         let mut shared = held(&self.shared);
         let mut process = shared.take().ok_or("it steers no more")?;
-        let found = self.answer(&mut process, asked, until)?;
+        let found = answer(crew, &mut process, asked, until)?;
         *shared = Some(process);
         Ok(found)
     }
+}
 
-    fn answer(&self, process: &mut Lockstep, asked: &[Turn], until: Option<Instant>) -> Result<Commands, String> {
-        if process.unasked().is_some() {
-            return Err("it said a line where nothing was asked: must be one line for each \"control\"".into());
-        }
-        let mut question = columns(asked);
-        question["type"] = "control".into();
-        let heard = process.tell(&question).and_then(|()| process.hear(&self.stopped, until));
-        commands(&table(&heard.map_err(|why| self.complaint(process, why))?)?, asked.len())
+fn answer(crew: &dyn Crew, process: &mut Lockstep, asked: &[Turn], until: Option<Instant>) -> Result<Commands, String> {
+    if process.unasked().is_some() {
+        return Err("it said a line where nothing was asked: must be one line for each \"control\"".into());
     }
+    let mut question = columns(asked);
+    question["type"] = "control".into();
+    let heard = process.tell(&question).and_then(|()| process.hear(crew.stopped(), until));
+    commands(&table(&heard.map_err(|why| crew.complaint(process, why))?)?, asked.len())
+}
+
+/// What a line says.
+///
+/// # Errors
+/// That it is no table.
+pub(super) fn table(line: &[u8]) -> Result<Map<String, Value>, String> {
+    serde_json::from_slice(line).map_err(|error| {
+        let said = excerpt(&String::from_utf8_lossy(line), QUOTED);
+        format!("it answered `{said}`: must be a line of JSON, a table of finite numbers ({error})")
+    })
 }

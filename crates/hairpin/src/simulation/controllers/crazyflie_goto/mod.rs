@@ -150,7 +150,7 @@ mod tests {
             assert!((at.x - 1.3).min(0.0) * (at.y - 1.0) == 0.0 && at.x < 1.3 + 1e-9, "{turn}: {at}");
             let now = FlightState {
                 t: 0.01 * turn as f64,
-                position: at.into(),
+                position: at,
                 velocity: Vector3::zeros(),
                 attitude: UnitQuaternion::identity(),
                 rates: Vector3::zeros(),
