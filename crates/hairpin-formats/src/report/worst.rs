@@ -176,10 +176,13 @@ fn figure(data: &ReportData, shown: &Shown) -> String {
 fn statistics(found: Option<&Statistics>, length: &Length) -> String {
     let Some(s) = found else { return String::new() };
     let names = ["max", "mean", "median", "min", "rmse", "sse", "std"];
-    // A sum of squares has a factor more.
-    let values = [s.max, s.mean, s.median, s.min, s.rmse, length.in_metre * s.sse, s.std];
+    // A sum of squares has a factor more, and digits of its own.
+    let sse = number(Some(length.in_metre * length.in_metre * s.sse));
+    let [max, mean, median, min, rmse, std] =
+        [s.max, s.mean, s.median, s.min, s.rmse, s.std].map(|value| length.number(value));
+    let values = [max, mean, median, min, rmse, sse, std];
     let head: String = names.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
-    let row: String = values.iter().map(|value| format!("<td>{}</td>", length.number(*value))).collect();
+    let row: String = values.iter().map(|value| format!("<td>{value}</td>")).collect();
     format!(
         "<table class=\"statistics\"><caption>deviation of this run, {unit} (sse {unit}²), over its judged samples, not aligned</caption>\
          <thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>",
