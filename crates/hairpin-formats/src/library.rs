@@ -29,8 +29,8 @@ const FILES: &[(&str, &str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/s
 pub fn bring(files: &[(&'static str, &'static str)]) -> Result<(), String> {
     let mut brought: Vec<Shipped> = Vec::new();
     for &(name, text) in files {
-        let taken = of_kind("robots").chain(of_kind("scenarios")).chain(brought.iter().copied());
-        if name.is_empty() || taken.into_iter().any(|known| known.name == name) {
+        let mut taken = of_kind("robots").chain(of_kind("scenarios")).chain(brought.iter().copied());
+        if name.is_empty() || taken.any(|known| known.name == name) {
             return Err(format!("robot `{name}`: must have a name of its own, which nothing shipped has"));
         }
         let Some(folder) = kind_of(text).and_then(|kind| folder_of(&kind)) else {
