@@ -138,7 +138,7 @@ fn where_every_move_is_possible_all_orders_come_alike() {
     let arm = own(&setup);
     let graph = super::graph_of(arm).unwrap();
     assert_eq!(graph.costs.iter().filter(|cost| cost.is_some()).count(), 12);
-    let ways = Ways::new(arm, graph.into());
+    let ways = Ways::new(arm, graph);
     let own = ways.standings(0).next().map(|at| ways.configuration(at)).unwrap();
     let (mut random, mut counts, mut moves) = (stream(5), BTreeMap::<Vec<usize>, u32>::new(), [0, 0]);
     for _ in 0..6000 {
