@@ -8,19 +8,19 @@ use hairpin::math::random::Stream;
 use hairpin::trajectory::SpeedProfile;
 use rand::RngExt;
 
-pub(super) const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
+pub(crate) const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
 
 /// A curve: κ over the share of its metres, κ at the ends exactly, metres.
-pub(super) struct Made {
-    pub(super) curvature: Vec<f64>,
-    pub(super) length: f64,
+pub(crate) struct Made {
+    pub(crate) curvature: Vec<f64>,
+    pub(crate) length: f64,
 }
 
 const SAMPLES: usize = 4001;
 
 impl Made {
     /// κ = `shape` over the share σ of the metres, scaled so that the bounds hold with some room.
-    pub(super) fn new(random: &mut Stream, length: f64, shape: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn new(random: &mut Stream, length: f64, shape: impl Fn(f64) -> f64) -> Self {
         let raw: Vec<f64> = (0..SAMPLES).map(|i| shape(i as f64 / (SAMPLES - 1) as f64)).collect();
         let h = length / (SAMPLES - 1) as f64;
         let rate = raw.windows(2).map(|pair| (pair[1] - pair[0]).abs() / h).fold(0.0, f64::max);
@@ -30,7 +30,7 @@ impl Made {
     }
 
     /// Where it ends, x, y, ψ, with a direction of travel that turns evenly from 0 to `swing`: Simpson's rule.
-    pub(super) fn end(&self, swing: f64) -> [f64; 3] {
+    pub(crate) fn end(&self, swing: f64) -> [f64; 3] {
         let h = 2.0 * self.length / (SAMPLES - 1) as f64;
         let [mut x, mut y, mut yaw] = [0.0; 3];
         for (i, k) in self.curvature.windows(3).step_by(2).enumerate() {
@@ -46,7 +46,7 @@ impl Made {
         [x, y, yaw]
     }
 
-    pub(super) fn problem(&self, speed: SpeedProfile, swing: f64) -> Problem {
+    pub(crate) fn problem(&self, speed: SpeedProfile, swing: f64) -> Problem {
         let [x, y, yaw] = self.end(swing);
         let goal = Goal { x, y, yaw: yaw.rem_euclid(TAU), curvature: self.curvature[SAMPLES - 1] };
         let query = Query::new(self.curvature[0], goal, &BOUNDS).unwrap();
@@ -55,7 +55,7 @@ impl Made {
 }
 
 /// A sum of Chebyshev polynomials up to `order`, of u in [0, 1].
-pub(super) fn polynomial(random: &mut Stream, order: usize) -> impl Fn(f64) -> f64 + use<> {
+pub(crate) fn polynomial(random: &mut Stream, order: usize) -> impl Fn(f64) -> f64 + use<> {
     let a: Vec<f64> = (0..=order).map(|_| random.random_range(-1.0..1.0)).collect();
     move |u: f64| {
         let angle = (2.0 * u - 1.0).clamp(-1.0, 1.0).acos();
@@ -64,7 +64,7 @@ pub(super) fn polynomial(random: &mut Stream, order: usize) -> impl Fn(f64) -> f
 }
 
 /// The natural cubic spline through `y` at even places of [0, 1], by dense elimination of its bends.
-pub(super) fn spline(y: &[f64]) -> impl Fn(f64) -> f64 + use<> {
+pub(crate) fn spline(y: &[f64]) -> impl Fn(f64) -> f64 + use<> {
     let n = y.len() - 1;
     let h = 1.0 / n as f64;
     let mut rows = vec![vec![0.0; n + 2]; n + 1];
@@ -92,6 +92,6 @@ pub(super) fn spline(y: &[f64]) -> impl Fn(f64) -> f64 + use<> {
 }
 
 /// The share of the time at a share of the metres where v² = v0² + (vf² − v0²) σ.
-pub(super) fn time_share(start: f64, end: f64) -> impl Fn(f64) -> f64 {
+pub(crate) fn time_share(start: f64, end: f64) -> impl Fn(f64) -> f64 {
     move |share| share * (start + end) / (start + f64::sqrt(start * start + (end * end - start * start) * share))
 }

@@ -14,14 +14,14 @@ use hairpin::trajectory::{Direction, Drive, DriveLeg, Flight};
 use hairpin::world::terrain::{ElevationMap, Grid, HoleRule, KeepOuts};
 use nalgebra::Point3;
 
-pub(super) fn shipped(name: &str) -> Rover {
+pub(crate) fn shipped(name: &str) -> Rover {
     let path = format!("{}/../../data/robots/rover/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a shipped rover");
     toml::from_str::<RoverDescription>(&text).expect("its keys").build().expect("its numbers")
 }
 
 /// h = a x + b y on ±20 m.
-pub(super) fn plane(a: f64, b: f64) -> ElevationMap {
+pub(crate) fn plane(a: f64, b: f64) -> ElevationMap {
     let grid = Grid { columns: 81, rows: 81, first_center: [-20.0, -20.0], cell: [0.5, 0.5] };
     let heights: Vec<f32> = (0..81 * 81)
         .map(|i| {
@@ -32,17 +32,17 @@ pub(super) fn plane(a: f64, b: f64) -> ElevationMap {
     ElevationMap::new(grid, &heights, HoleRule::Error).expect("a map")
 }
 
-pub(super) fn robot_file(name: &str) -> String {
+pub(crate) fn robot_file(name: &str) -> String {
     let path = format!("{}/../../data/robots/ground/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).expect("a shipped robot")
 }
 
-pub(super) fn car() -> Rover {
+pub(crate) fn car() -> Rover {
     toml::from_str::<CarDescription>(&robot_file("car")).expect("its keys").build().expect("its numbers").vehicle()
 }
 
 /// One leg a list of segments, from the origin; the legs' ends are where flat geometry leads.
-pub(super) fn plan(legs: &[Vec<Segment>], speed: f64) -> Drive {
+pub(crate) fn plan(legs: &[Vec<Segment>], speed: f64) -> Drive {
     let mut at = Planar { curvature: legs[0][0].curvature_at(0.0), ..Planar::default() };
     let legs = legs
         .iter()
@@ -77,11 +77,11 @@ fn after(from: &Planar, segment: &Segment) -> Planar {
 }
 
 /// An answer of the flat solver within |κ| ≤ 1, |κ'| ≤ 1.
-pub(super) fn flat_answer(from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
+pub(crate) fn flat_answer(from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     flat_answer_within(Curvatures { most: 1.0, most_rate: 1.0 }, from, to, gear, direction)
 }
 
-pub(super) fn flat_answer_within(
+pub(crate) fn flat_answer_within(
     bounds: Curvatures,
     from: &Planar,
     to: &Planar,
@@ -103,26 +103,26 @@ pub(super) fn flat_answer_within(
     (solution.outcome == Outcome::Solved).then_some(solution.segments)
 }
 
-pub(super) const CONTROLLERS: [(&str, GroundController<'static>); 3] = [
+pub(crate) const CONTROLLERS: [(&str, GroundController<'static>); 3] = [
     ("pure-pursuit", GroundController::PurePursuit),
     ("stanley", GroundController::Stanley),
     ("predictive", GroundController::Predictive(&flat_answer)),
 ];
 
-pub(super) struct Site {
-    pub(super) vehicle: Rover,
-    pub(super) nominal: Rover,
-    pub(super) map: ElevationMap,
-    pub(super) conditions: GroundConditions,
+pub(crate) struct Site {
+    pub(crate) vehicle: Rover,
+    pub(crate) nominal: Rover,
+    pub(crate) map: ElevationMap,
+    pub(crate) conditions: GroundConditions,
 }
 
 impl Site {
-    pub(super) fn new(rover: &str, map: ElevationMap) -> Self {
+    pub(crate) fn new(rover: &str, map: ElevationMap) -> Self {
         let rover = shipped(rover);
         Self { vehicle: rover.clone(), nominal: rover, map, conditions: GroundConditions::default() }
     }
 
-    pub(super) fn run(&self, plan: &Drive, controller: &GroundController, seed: u64) -> (Flight, Measures) {
+    pub(crate) fn run(&self, plan: &Drive, controller: &GroundController, seed: u64) -> (Flight, Measures) {
         let none = KeepOuts::new(vec![]).expect("none");
         let sortie = GroundSortie {
             vehicle: &self.vehicle,
