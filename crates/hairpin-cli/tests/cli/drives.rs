@@ -74,7 +74,7 @@ fn exact_kinematics_go_through_the_campaign_and_are_told_from_the_sources() {
     assert_eq!(object["exit_code"], 0, "{object}");
     let verified = json(at, &["verify", "a"]);
     assert_eq!((&verified["checked"], &verified["failed"]), (&Value::from(2), &Value::from(0)), "{verified}");
-    assert!(fs::read_to_string(at.join("a/report.html")).unwrap().contains("Kinematics `exact`"));
+    assert!(fs::read_to_string(at.join("a/report.html")).unwrap().contains("Kinematics <code>exact</code>"));
     let resolved = fs::read_to_string(at.join("a/scenario.toml")).unwrap();
     assert!(resolved.contains("kinematics = \"exact\""), "{resolved}");
     fs::write(at.join("a/scenario.toml"), resolved.replace("kinematics = \"exact\"", "kinematics = \"source\""))

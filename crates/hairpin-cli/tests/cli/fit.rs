@@ -20,7 +20,7 @@ length = 8
 [generate]
 reach = "sphere"
 timing = { step_s = 0.4 }
-search = { method = "uniform", waypoints = 200, cases = 3 }
+search = { method = "uniform", waypoints = 200, cases = 5 }
 [execute]
 controller = "stable-waypoint"
 "#;
@@ -48,12 +48,12 @@ fn a_fit_helps_on_logs_that_it_has_not_seen() {
         .filter(|path| path.ends_with("-0.csv"))
         .collect();
     logs.sort();
-    assert_eq!(logs.len(), 3);
+    assert_eq!(logs.len(), 5);
     let logs: Vec<&str> = logs.iter().map(String::as_str).collect();
     let asked = [
         &["fit"][..],
         &logs,
-        &["--robot", "flightgoggles", "--campaign", "plan", "--out", "mine.toml", "--holdout", "0.34", "--json"],
+        &["--robot", "flightgoggles", "--campaign", "plan", "--out", "mine.toml", "--holdout", "0.2", "--json"],
     ]
     .concat();
     let (code, answer, errors) = run(here, &asked);

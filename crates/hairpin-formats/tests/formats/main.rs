@@ -1,4 +1,5 @@
-//! What goes in and out of files: read back by what wrote it and by equations of the tests' own, spoiled, cut and killed.
+//! What goes in and out of files: read back by what wrote it and by equations of the tests' own, spoiled, cut and
+//! killed.
 
 mod fuzz;
 mod mars_yard;

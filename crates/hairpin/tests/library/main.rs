@@ -1,4 +1,5 @@
-//! What the library promises, from the outside: each claim checked by equations, integrators or counts of the tests' own.
+//! What the library promises, from the outside: each claim checked by equations, integrators or counts of the tests'
+//! own.
 
 mod campaign;
 mod campaigns;

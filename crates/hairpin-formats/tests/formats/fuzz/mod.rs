@@ -338,7 +338,7 @@ fn files_are_opened_in_one_place() {
 /// What broke a reader once.
 #[test]
 fn findings_stay_mended() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/found");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/fuzz/found");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -43,8 +43,8 @@ fn near_tangent(random: &mut Stream, centre: &Place, radius: i128, most: i128) -
     (a, b)
 }
 
-/// Two hundred thousand segments, random and nearly touching: what is proven is never otherwise in exact arithmetic, and nearly
-/// all is proven.
+/// Two hundred thousand segments, random and nearly touching: what is proven is never otherwise in exact arithmetic,
+/// and nearly all is proven.
 #[test]
 fn proofs_never_contradict_exact_arithmetic() {
     let mut random = stream(named_seed(7, "segments", 0));

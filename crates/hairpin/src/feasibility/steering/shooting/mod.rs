@@ -47,8 +47,8 @@
 //! | [`nearest`] | the nearest goal that can be reached | bisection |
 //!
 //! Flat and rough solving take nothing from the heap and read no clock; work is bounded in counts
-//! (`tests/library/flight_software.rs`). After T. Howard and A. Kelly, IJRR 26(2), 2007, whose optimisation over control
-//! parameters this is, with the start value, the step control and the bounds done otherwise.
+//! (`tests/library/flight_software.rs`). After T. Howard and A. Kelly, IJRR 26(2), 2007, whose optimisation over
+//! control parameters this is, with the start value, the step control and the bounds done otherwise.
 
 pub mod cc;
 mod control;
