@@ -98,16 +98,27 @@ fn conditions(setup: &FlightSetup) -> Conditions {
     }
 }
 
-/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's.
+/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's, but for a controller
+/// that takes its time.
 fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
     let execute = &setup.scenario.execute;
     FlySettings {
         step: execute.step_s,
         accept: order.accept,
-        time_limit: order.time_limit,
+        time_limit: order.time_limit.max(slowest(setup, order)),
         walls: execute.walls,
         latency: execute.latency_s.unwrap_or(0.0),
         simd: setup.simd,
         ..FlySettings::default()
     }
+}
+
+/// What legs across the whole world would take a controller with a pace of its own, s; 0 where the user says how long a
+/// flight may take, or a controller of his flies.
+fn slowest(setup: &FlightSetup, order: &Order) -> f64 {
+    if setup.scenario.execute.time_limit_s.is_some() || setup.controller.is_some() {
+        return 0.0;
+    }
+    let legs = order.waypoints.len().max(setup.scenario.task.length as usize);
+    legs as f64 * controller(setup).own_pace(&setup.robot, setup.world.size().norm())
 }

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::curve::SegmentTimes;
-use super::px4_mission;
+use super::{crazyflie_goto, px4_mission};
+use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::controller::Acceptance;
 
 /// The eight controllers.
@@ -102,6 +103,17 @@ pub struct ControllerSettings {
     /// How much faster than its own the loops of position and velocity are: gains of 1/s times this, of 1/s² times its
     /// square, the same motion in another time where nothing limits it.
     pub bandwidth: f64,
+}
+
+impl ControllerSettings {
+    /// The time that a straight leg of `length` m takes where the controller has a pace of its own, whatever the robot
+    /// could do, s; 0 where it flies as fast as it can.
+    pub fn own_pace(&self, robot: &Quadrotor, length: f64) -> f64 {
+        match self.kind {
+            ControllerKind::CrazyflieGoto => length / crazyflie_goto::mean_speed(robot, self.goto_speed),
+            _ => 0.0,
+        }
+    }
 }
 
 impl Default for ControllerSettings {

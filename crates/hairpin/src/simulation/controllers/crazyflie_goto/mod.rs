@@ -57,10 +57,15 @@ struct Plan {
     tau: f64,
 }
 
+/// Of a `go_to`, m/s: `given`, or a tenth of the robot's top speed; never more than that.
+pub(super) fn mean_speed(robot: &Quadrotor, given: Option<f64>) -> f64 {
+    given.unwrap_or(SHARE_OF_TOP_SPEED * robot.max_speed).min(robot.max_speed)
+}
+
 impl CrazyflieGoto {
     /// At a mean speed of `speed` m/s, or a tenth of the robot's top speed.
     pub(crate) fn new(robot: &Quadrotor, speed: Option<f64>, bandwidth: f64) -> Self {
-        let speed = speed.unwrap_or(SHARE_OF_TOP_SPEED * robot.max_speed).min(robot.max_speed);
+        let speed = mean_speed(robot, speed);
         let pid = Pid::new(robot.mass * robot.gravity, MAX_VELOCITY.max(PEAK * speed), bandwidth);
         Self { speed, pid, plan: None }
     }
