@@ -21,7 +21,7 @@ quick:
 
 # A hundred thousand spoiled inputs for each reader; HAIRPIN_FUZZ_SEED makes them others.
 fuzz:
-    HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test formats -p hairpin-jobs --test fuzz_certificates fuzz
+    HAIRPIN_FUZZ=100000 cargo test --release -p hairpin-formats --test fuzz -p hairpin-jobs --test fuzz_certificates
 
 # The pages of every kind of robot, of logs and of comparisons as pictures in FOLDER, to look at.
 pictures FOLDER:

@@ -1,6 +1,6 @@
 //! Certificates of heaviest paths, spoiled byte by byte: a finding or a refusal, soon and within bounds.
 
-#[path = "../../hairpin-formats/tests/formats/fuzz/mutate.rs"]
+#[path = "../../hairpin-formats/tests/fuzz/mutate.rs"]
 mod mutate;
 
 use hairpin::search::heaviest::{HeaviestSettings, Method};

@@ -1,11 +1,14 @@
 //! Tables from other writers are understood, and broken ones answered with file, column, row and value.
 
+#[allow(dead_code)]
+#[path = "formats/out_campaign/mod.rs"]
+mod out_campaign;
+
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::out_campaign::campaign;
 use arrow_array::cast::AsArray;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_cast::cast;
@@ -15,6 +18,7 @@ use hairpin::math::random::case_seed;
 use hairpin_formats::folder::{CampaignFolder, Existing, Landed};
 use hairpin_formats::parquet::part_writer::write_one;
 use hairpin_formats::parquet::{TableError, profile, results, runs, track};
+use out_campaign::campaign;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::basic::{Compression, ZstdLevel};

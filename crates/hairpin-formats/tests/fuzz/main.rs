@@ -2,12 +2,14 @@
 //! Two thousand inputs each here, a hundred thousand by `just fuzz`. What was found stays under `found/`.
 
 mod mutate;
+#[allow(dead_code)]
+#[path = "../formats/out_campaign/mod.rs"]
+mod out_campaign;
 mod samples;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crate::out_campaign::campaign;
 use hairpin::campaign::bounds::FARTHEST_M;
 use hairpin::campaign::{Case, Run};
 use hairpin_formats::executor::FromExecutor;
@@ -20,6 +22,7 @@ use hairpin_formats::steering::{parse as parse_queries, read_start_table, start_
 use hairpin_formats::terrain::{Georeference, Sidecars, read_keep_outs, read_terrain};
 use hairpin_formats::{arcs, cloud, controller_log, costs, logs, mesh, missions, rapid, rotor_speeds, urdf, waypoints};
 use mutate::{fuzz, stand};
+use out_campaign::campaign;
 use samples::{AUX, PRJ, collada, fixtures, meshes, modules, numpy, picture, srdf, texts, urdf as urdf_sample};
 
 const GIVEN: Georeference = Georeference {
@@ -195,8 +198,8 @@ fn tables_of_text() {
 fn missions_of_ground_stations() {
     let scenario = &setup_for("demo-quadrotor", &[]).unwrap().scenario;
     let read = |path: &Path| drop(missions::read(path, scenario, FARTHEST_M));
-    fuzz_file("a.plan", &texts(&[include_str!("../../fixtures/missions/cage.plan")]), read);
-    fuzz_file("a.waypoints", &texts(&[include_str!("../../fixtures/missions/cage.waypoints")]), read);
+    fuzz_file("a.plan", &texts(&[include_str!("../fixtures/missions/cage.plan")]), read);
+    fuzz_file("a.waypoints", &texts(&[include_str!("../fixtures/missions/cage.waypoints")]), read);
 }
 
 #[test]
@@ -338,7 +341,7 @@ fn files_are_opened_in_one_place() {
 /// What broke a reader once.
 #[test]
 fn findings_stay_mended() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/fuzz/found");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/found");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
