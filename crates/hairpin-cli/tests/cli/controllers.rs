@@ -181,12 +181,14 @@ fn programs_that_fall_out_of_step_are_told() {
     let good = fs::read_to_string(Path::new(EXAMPLES).join("pd_program.py")).unwrap();
     let answer = "    print(json.dumps({\"a_m_s2\": command}), flush=True)\n";
     let (late, unasked) = ("its run was not over after 0.3 s", "where nothing was asked");
+    // Whose answer comes first is chance, and so is whether the other's comes amid it.
+    let torn = "where nothing was asked|must be a line of JSON";
     for (limit, does, words) in [
         ("0.3", "    __import__('time').sleep(600)\n", late),
         ("0.3", "    __import__('time').sleep(0.01)\n", late),
         ("20.0", answer, unasked),
         ("20.0", &format!("    while True:\n    {answer}"), unasked),
-        ("20.0", "    if asked[\"t_s\"] == 0.0:\n        __import__('os').fork()\n", unasked),
+        ("20.0", "    if asked[\"t_s\"] == 0.0:\n        __import__('os').fork()\n", torn),
         ("20.0", "    sys.exit('no thrust left')\n", "no thrust left"),
         ("20.0", "    command[0] = float('nan')\n", "NaN"),
     ] {
@@ -198,7 +200,8 @@ fn programs_that_fall_out_of_step_are_told() {
         let told = json(here, &[&["stress", "q.toml", "--out", "a", "--force"], &one[..]].concat());
         let verdict = told["verdict"].as_str().unwrap();
         assert_eq!(told["exit_code"], 4, "{does}: {told}");
-        assert!(verdict.starts_with("EXECUTOR FAILED 1/1") && verdict.contains(words), "{does}: {verdict}");
+        assert!(verdict.starts_with("EXECUTOR FAILED 1/1"), "{does}: {verdict}");
+        assert!(words.split('|').any(|words| verdict.contains(words)), "{does}: {verdict}");
     }
 }
 
