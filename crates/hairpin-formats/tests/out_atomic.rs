@@ -65,7 +65,7 @@ fn a_killed_writer_leaves_the_old_file_or_the_new_one() {
         let written = || fs::metadata(&path).unwrap().modified().unwrap();
         let before = written();
         let mut writer = Command::new(std::env::current_exe().unwrap())
-            .args(["--ignored", "--exact", "out_atomic::writer_to_be_killed", "--nocapture"])
+            .args(["--ignored", "--exact", "writer_to_be_killed", "--nocapture"])
             .env("HAIRPIN_TEST_WRITE_TO", &path)
             .stdout(Stdio::null())
             .spawn()
