@@ -79,7 +79,8 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let timed = if case.leg_times.is_empty() { Vec::new() } else { setup.kind().timed(case) };
     let yaws = setup.kind().headings(case);
     let executor = varied.scenario.executor();
-    let time_limit = executor.patience.time_limit(case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
+    let (waypoints, planned) = (case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
+    let time_limit = executor.patience.time_limit(waypoints, planned, varied.kind().slowest(waypoints));
     let accept = executor.accept;
     Ok(Mission {
         case: case.id(),

@@ -177,7 +177,7 @@ impl Trials<'_> {
                 let order = Order {
                     waypoints: &case.waypoints,
                     accept: executor.accept,
-                    time_limit: executor.patience.time_limit(length, 0.0),
+                    time_limit: executor.patience.time_limit(length, 0.0, setup.kind().slowest(length)),
                     seed: run_seed(case.seed, 0),
                 };
                 flying.at_start(&order).map_err(|_| legs)?

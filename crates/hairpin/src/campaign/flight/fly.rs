@@ -24,6 +24,12 @@ impl Act for FlightSetup {
         }
     }
 
+    /// Legs across the whole world, at the pace of our controller.
+    fn slowest(&self, waypoints: usize) -> f64 {
+        let pace = |legs: usize| legs as f64 * controller(self).own_pace(&self.robot, self.world.size().norm());
+        if self.controller.is_some() { 0.0 } else { pace(waypoints) }
+    }
+
     /// Of a stranger's controller nobody knows how far it looks ahead.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         (self.controller.is_none() && !controller(self).kind.plans_ahead()).then_some(self)
@@ -98,27 +104,16 @@ fn conditions(setup: &FlightSetup) -> Conditions {
     }
 }
 
-/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's, but for a controller
-/// that takes its time.
+/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's.
 fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
     let execute = &setup.scenario.execute;
     FlySettings {
         step: execute.step_s,
         accept: order.accept,
-        time_limit: order.time_limit.max(slowest(setup, order)),
+        time_limit: order.time_limit,
         walls: execute.walls,
         latency: execute.latency_s.unwrap_or(0.0),
         simd: setup.simd,
         ..FlySettings::default()
     }
-}
-
-/// What legs across the whole world would take a controller with a pace of its own, s; 0 where the user says how long a
-/// flight may take, or a controller of his flies.
-fn slowest(setup: &FlightSetup, order: &Order) -> f64 {
-    if setup.scenario.execute.time_limit_s.is_some() || setup.controller.is_some() {
-        return 0.0;
-    }
-    let legs = order.waypoints.len().max(setup.scenario.task.length as usize);
-    legs as f64 * controller(setup).own_pace(&setup.robot, setup.world.size().norm())
 }

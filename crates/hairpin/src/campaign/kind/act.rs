@@ -41,6 +41,12 @@ pub(in crate::campaign) trait Act {
     /// arguments.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
 
+    /// The longest (s) that a sound run over so many waypoints may take where its controller has a pace of its own,
+    /// whatever the robot could do; 0 where it has none.
+    fn slowest(&self, _waypoints: usize) -> f64 {
+        0.0
+    }
+
     /// Partial trajectories that go on from where their beginning has led: where controllers know of one waypoint at a
     /// time.
     ///

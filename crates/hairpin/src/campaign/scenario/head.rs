@@ -53,9 +53,10 @@ pub struct Patience {
 }
 
 impl Patience {
-    /// Time limit (s) of a run over so many waypoints that is planned to take `planned` s.
-    pub fn time_limit(&self, waypoints: usize, planned: f64) -> f64 {
-        self.given.unwrap_or(self.per_waypoint * waypoints as f64 + self.of_plan * planned + self.spare)
+    /// Time limit (s) of a run over so many waypoints that is planned to take `planned` s, and may take `slowest` s.
+    pub fn time_limit(&self, waypoints: usize, planned: f64, slowest: f64) -> f64 {
+        let expected = self.per_waypoint * waypoints as f64 + self.of_plan * planned + self.spare;
+        self.given.unwrap_or(expected.max(slowest))
     }
 }
 
