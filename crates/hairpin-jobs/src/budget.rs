@@ -160,7 +160,10 @@ fn search_words(scenario: &Scenario, cases: &[Case], tally: &Tally) -> String {
             format!("the search after {} of {} executions", grouped(executed), grouped(all))
         }
         SearchMethod::Worst => format!("the search after {} executions", grouped(executed)),
-        _ => format!("the search after {} graphs with {} of {} cases", tally.graphs, cases.len(), search.cases),
+        _ => {
+            let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+            format!("the search after {} graphs with {} of {} cases{why}", tally.graphs, cases.len(), search.cases)
+        }
     }
 }
 

@@ -65,7 +65,6 @@ fn wrong_input_is_2_and_says_what_to_do() {
         (vec!["replay", "broken.toml"], "no repro file"),
         (vec!["export", "nowhere", "--to", "waypoints,plan9"], "plan9"),
         (vec!["bench", "no-such"], "beam-expansions"),
-        (vec!["demo", "car"], "no demo of its own"),
         (vec!["simulate", "anafi", "--rotor-speeds", "none.csv"], "none.csv"),
     ] {
         let (code, out, error) = run(folder.path(), &arguments);

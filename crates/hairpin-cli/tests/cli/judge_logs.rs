@@ -100,7 +100,7 @@ fn words_and_codes_of_logs() {
         "deviation: max ",
         ", rmse ",
         "gap: flown ",
-        "\nPASS 0001 (flown, 0001.csv, source not told without accuracy): ",
+        "\nPASS 0001 (flown, 0001.csv, neither source nor accuracy told): ",
         " at most ",
     ] {
         assert!(said.contains(words), "{words}: {said}");

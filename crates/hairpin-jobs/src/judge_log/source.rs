@@ -88,8 +88,11 @@ impl SourceTold {
 
     /// As it stands in the sentence: an estimate that does not say how good it is is named there.
     pub(super) fn in_sentence(&self) -> String {
-        let estimated = self.words.contains("estimate") || self.words == "source not told";
-        let without = if estimated && !self.has_accuracy { " without accuracy" } else { "" };
-        format!("{}{without}", self.words)
+        match self.words {
+            words if self.has_accuracy => words.into(),
+            "source not told" => "neither source nor accuracy told".into(),
+            words if words.contains("estimate") => format!("{words} without accuracy"),
+            words => words.into(),
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::arm::{ArmGraph, graph_of};
+use hairpin::campaign::arm::{ArmGraph, graph_until};
 use hairpin::campaign::{Setup, Stop, Tally};
 use hairpin::search::heaviest::Heaviest;
 use hairpin_formats::scenario::{arm_setup_for, shadowed};
@@ -112,7 +112,7 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {
-        let graph = graph_of(arm)?;
+        let graph = graph_until(arm, stop)?;
         let found = arm.heaviest(&graph, stop)?;
         let why_none = found.paths.is_empty().then(|| arm.why_none(&graph, &found));
         Ok((graph, found, why_none))
@@ -122,7 +122,11 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
         Ok((graph, found, why_none)) => {
             CloudAnswer::Searched(Box::new(CloudSearch { setup, graph, found, why_none, time, deadline, begun }))
         }
-        Err(reason) => CloudAnswer::Nothing { reason, open: arm.open_for_estimates(), time },
+        Err(reason) => {
+            let stopped = watch.stopped() || deadline.passed();
+            let open = if stopped { None } else { arm.open_for_estimates() };
+            CloudAnswer::Nothing { reason, open, time }
+        }
     })
 }
 

@@ -202,7 +202,9 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
 fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let searched = format!("{} graphs searched", tally.graphs);
     let how = [searched.as_str(), setup.scenario.reach()];
-    judgement::inconclusive(&format!("0/{asked}"), &how, "stopped before the first trajectory was found")
+    let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    let what = format!("stopped before the first trajectory was found{why}");
+    judgement::inconclusive(&format!("0/{asked}"), &how, &what)
 }
 
 /// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change

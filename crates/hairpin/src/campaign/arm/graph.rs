@@ -16,9 +16,11 @@ use nalgebra::{Isometry3, Point3};
 use super::arm_graph::ArmGraph;
 use super::points::DRAWS;
 use super::{ArmSetup, Station};
+use crate::campaign::Stop;
+use crate::campaign::digits::grouped;
 use crate::campaign::scenario::{ArmMode, ArmScenario, CostName, CostSection, MoveName};
 use crate::feasibility::reachability::joint::{
-    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs, joint,
+    Bodies, Cost, FollowSettings, JointGraph, JointSettings, MoveKind, Station as Stand, arcs_until, joint, joint_until,
 };
 use crate::feasibility::reachability::{CartesianSettings, Level, Obstacle, Refusal, Verdict, cartesian};
 use crate::robot::arm::{Branch, Configuration, Joints};
@@ -86,11 +88,19 @@ pub(super) fn once<T>(known: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
 /// # Errors
 /// No point can be met, or a table of costs of another size, in a sentence's part.
 pub fn graph_of(setup: &ArmSetup) -> Result<Arc<ArmGraph>, String> {
-    once(&setup.graph, || made(setup).map(Arc::new)).clone()
+    graph_until(setup, &Stop::never())
 }
 
-fn made(setup: &ArmSetup) -> Result<ArmGraph, String> {
-    let graph = whole_graph(setup)?;
+/// The same, made until `stop` says so: then this setup has none, whoever asks, and one that is built anew may.
+///
+/// # Errors
+/// As of [`graph_of`]; how much of it was looked at when it was stopped.
+pub fn graph_until(setup: &ArmSetup, stop: &Stop) -> Result<Arc<ArmGraph>, String> {
+    once(&setup.graph, || made(setup, stop).map(Arc::new)).clone()
+}
+
+fn made(setup: &ArmSetup, stop: &Stop) -> Result<ArmGraph, String> {
+    let graph = whole_graph(setup, stop)?;
     let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
     let joined = graph.from_home.contains(&true) && graph.to_home.contains(&true);
     match (met, joined) {
@@ -108,7 +118,7 @@ fn made(setup: &ArmSetup) -> Result<ArmGraph, String> {
 ///
 /// # Errors
 /// No point could be drawn, or a table of costs of another size, in a sentence's part.
-pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
+pub(super) fn whole_graph(setup: &ArmSetup, stop: &Stop) -> Result<ArmGraph, String> {
     let (station, scenario) = (&setup.station, &setup.scenario);
     if station.points.is_empty() {
         return Err(nowhere(setup));
@@ -118,10 +128,10 @@ pub(super) fn whole_graph(setup: &ArmSetup) -> Result<ArmGraph, String> {
     if scenario.generate.mode == ArmMode::Cartesian && (learned || !matches!(cost, Cost::Distance | Cost::Table(_))) {
         return Err(format!("cost `{}` needs joints: mode = \"joint\"", scenario.generate.cost.word()));
     }
-    Ok(match scenario.generate.mode {
-        ArmMode::Cartesian => in_space(setup, &cost),
-        ArmMode::Joint => in_joints(setup, &cost),
-    })
+    match scenario.generate.mode {
+        ArmMode::Cartesian => Ok(in_space(setup, &cost)),
+        ArmMode::Joint => in_joints(setup, &cost, stop),
+    }
 }
 
 impl ArmSetup {
@@ -181,21 +191,30 @@ fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     }
 }
 
-fn in_joints(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
+/// What stands in place of a graph that was stopped.
+fn cut(looked_at: usize, all: usize, what: &str) -> String {
+    let (looked_at, all) = (grouped(looked_at as u64), grouped(all as u64));
+    format!("its graph was stopped after {looked_at} of {all} {what}")
+}
+
+fn in_joints(setup: &ArmSetup, cost: &Cost, stop: &Stop) -> Result<ArmGraph, String> {
     let (station, scenario) = (&setup.station, &setup.scenario);
     let stands: Vec<Stand> = (station.points.iter())
         .map(|point| Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) })
         .collect();
-    let (arm, tool, cell, settings) = (&station.arm, &station.tool, &station.cell, joint_settings(station, scenario));
-    let graph = with_learned(setup, joint(arm, tool, cell, &stands, &settings, cost));
-    let wanted = scenario.generate.moves.arcs;
-    let arcs = wanted.then(|| arcs(arm, tool, cell, &stands, &graph.joints, &settings, cost));
+    let (within, settings) = ((&station.arm, &station.tool, &station.cell), joint_settings(station, scenario));
+    let (n, over) = (stands.len(), stop.cancelled);
+    let graph = joint_until(within, &stands, &settings, cost, over);
+    let graph = with_learned(setup, graph.map_err(|done| cut(done, n * (n - 1), "moves"))?);
+    let arcs = || arcs_until(within, &stands, &graph.joints, (&settings, cost), over);
+    let arcs = scenario.generate.moves.arcs.then(arcs).transpose();
+    let arcs = arcs.map_err(|done| cut(done, n * (n - 1) * n.saturating_sub(2), "arcs"))?;
     let costs = masked(graph.graph.matrix(), setup);
     let free = |refusals: &[Option<Refusal>]| refusals.iter().map(Option::is_none).collect();
     let (from_home, to_home) = (free(&graph.from_home), free(&graph.to_home));
     let (unit, unit_name) = unit_of(cost, setup);
     let (reachability, postures) = (graph.graph, Some(graph.joints));
-    ArmGraph { reachability, postures, costs, from_home, to_home, arcs, unit, unit_name }
+    Ok(ArmGraph { reachability, postures, costs, from_home, to_home, arcs, unit, unit_name })
 }
 
 /// With what a learned model expects in place of the costs, where one is asked for.

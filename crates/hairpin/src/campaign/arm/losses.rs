@@ -2,6 +2,7 @@
 
 use super::ArmSetup;
 use super::graph::whole_graph;
+use crate::campaign::Stop;
 use crate::campaign::graph::{Counter, Losses, Stage};
 use crate::feasibility::reachability::Refusal;
 
@@ -11,7 +12,7 @@ use crate::feasibility::reachability::Refusal;
 /// that fails nothing is counted.
 pub(super) fn losses(setup: &ArmSetup) -> Losses {
     let mut counter = Counter::default();
-    if let Ok(graph) = whole_graph(setup) {
+    if let Ok(graph) = whole_graph(setup, &Stop::never()) {
         let (n, names) = (graph.points(), setup.part_names());
         let pairs = (0..n).flat_map(|from| (0..n).map(move |to| (from, to))).filter(|(from, to)| from != to);
         for (from, to) in pairs {

@@ -55,7 +55,7 @@ mod written;
 
 pub use arm_graph::ArmGraph;
 pub use clock::ArcClock;
-pub use graph::graph_of;
+pub use graph::{graph_of, graph_until};
 pub use points::CellPoint;
 pub use recorded::Shorter;
 pub use regression::RegressionError;

@@ -9,6 +9,7 @@ use super::arm_graph::ArmGraph;
 use super::graph::{joint_settings, whole_graph};
 use super::losses::stage_of;
 use super::points::places;
+use crate::campaign::Stop;
 use crate::campaign::scenario::ArmMode;
 use crate::feasibility::reachability::Refusal;
 use crate::feasibility::reachability::joint::{
@@ -92,7 +93,7 @@ impl ArmSetup {
 /// from home and back, then the moves; the most frequent reason of each first. Builds the graph again.
 pub(super) fn in_the_way(setup: &ArmSetup) -> Vec<String> {
     let mut said: Vec<String> = setup.home_meets().into_iter().map(|meets| format!("at home {meets}")).collect();
-    match whole_graph(setup) {
+    match whole_graph(setup, &Stop::never()) {
         Ok(graph) => {
             said.extend(of_points(setup, &graph));
             if said.is_empty() {

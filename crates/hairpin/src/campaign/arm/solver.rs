@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use nalgebra::Point3;
 
 use super::ArmSetup;
-use super::graph::{graph_of, once};
+use super::graph::{graph_of, graph_until, once};
 use super::program::Met;
 use super::ways::Ways;
 use crate::campaign::graph::{Executions, Outcome, Plan, Wanted};
@@ -43,7 +43,7 @@ impl<'a> ArmSolver<'a> {
     /// has: a good one to begin with, in a time that is bounded.
     fn heaviest(&self, stop: &Stop) -> Option<&Plan> {
         let make = || {
-            let graph = graph_of(self.setup).ok()?;
+            let graph = graph_until(self.setup, stop).ok()?;
             let found = self.setup.heaviest_of(&graph, 1, Some(Method::Local), stop).ok()?;
             let (cost, rows) = found.paths.first()?;
             Some(Plan { bound: None, ..self.setup.plan(&graph, rows, *cost, &found, 0) })
@@ -88,7 +88,7 @@ impl Solver for ArmSolver<'_> {
     /// The programs of the one graph that there is.
     fn solve(&self, _: u64, _: Executions, _: Wanted, stop: &Stop) -> Outcome {
         let mut outcome = Outcome { graphs: 1, ..Outcome::default() };
-        let graph = match graph_of(self.setup) {
+        let graph = match graph_until(self.setup, stop) {
             Ok(graph) => graph,
             Err(reason) => return Outcome { reason: Some(reason), ..outcome },
         };

@@ -42,6 +42,21 @@ pub fn arcs(
     settings: &JointSettings,
     cost: &Cost,
 ) -> ArcGraph {
+    let graph = arcs_until((arm, tool, cell), stations, joints, (settings, cost), &|| false);
+    graph.unwrap_or_else(|_| unreachable!("nothing stops it"))
+}
+
+/// The same until `over` says so, which is asked before every arc from any thread.
+///
+/// # Errors
+/// How many of the n(n − 1)(n − 2) arcs were looked at by then.
+pub fn arcs_until(
+    (arm, tool, cell): (&Arm, &Tool, &Cell),
+    stations: &[Station],
+    joints: &[Result<Joints, Refusal>],
+    (settings, cost): (&JointSettings, &Cost),
+    over: &(dyn Fn() -> bool + Sync),
+) -> Result<ArcGraph, usize> {
     let bodies = Bodies::new(arm, tool, cell, settings.clearance);
     let n = stations.len();
     let one = |[start, via, end]: [usize; 3]| -> Result<i64, Refusal> {
@@ -64,6 +79,9 @@ pub fn arcs(
         let mut graph = ArcGraph::default();
         for via in (0..n).filter(|via| *via != start) {
             for end in (0..n).filter(|end| *end != start && *end != via) {
+                if over() {
+                    return graph;
+                }
                 let triple = [start, via, end];
                 match one(triple) {
                     Ok(cost) => graph.free.push((triple, cost)),
@@ -74,9 +92,13 @@ pub fn arcs(
         graph
     };
     let parts: Vec<ArcGraph> = (0..n).into_par_iter().map(from).collect();
-    parts.into_iter().fold(ArcGraph::default(), |mut all, mut part| {
+    let all = parts.into_iter().fold(ArcGraph::default(), |mut all, mut part| {
         all.free.append(&mut part.free);
         all.refused.append(&mut part.refused);
         all
-    })
+    });
+    match all.free.len() + all.refused.len() {
+        looked_at if looked_at < n * n.saturating_sub(1) * n.saturating_sub(2) => Err(looked_at),
+        _ => Ok(all),
+    }
 }

@@ -23,11 +23,11 @@ mod worth;
 #[cfg(test)]
 mod tests;
 
-pub use arcs::{ArcGraph, arcs};
+pub use arcs::{ArcGraph, arcs, arcs_until};
 pub use bodies::{Bodies, TOOL};
 pub use circle::{Circle, CircleError};
 pub use costs::{Cost, Trapezoid, time_law};
 pub use follow::{FollowSettings, Followed, follow};
 pub use motion::Motion;
-pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, moved, postures};
+pub use stations::{Alternative, JointGraph, JointSettings, MoveKind, Station, joint, joint_until, moved, postures};
 pub use worth::{Worth, is_known};

@@ -97,6 +97,21 @@ pub fn joint(
     settings: &JointSettings,
     cost: &Cost,
 ) -> JointGraph {
+    let graph = joint_until((arm, tool, cell), stations, settings, cost, &|| false);
+    graph.unwrap_or_else(|_| unreachable!("nothing stops it"))
+}
+
+/// The same until `over` says so, which is asked before every move.
+///
+/// # Errors
+/// How many of the n(n − 1) moves were looked at by then: a graph of some of the moves is none.
+pub fn joint_until(
+    (arm, tool, cell): (&Arm, &Tool, &Cell),
+    stations: &[Station],
+    settings: &JointSettings,
+    cost: &Cost,
+    over: &dyn Fn() -> bool,
+) -> Result<JointGraph, usize> {
     let bodies = Bodies::new(arm, tool, cell, settings.clearance);
     let joints = configurations(arm, tool, &bodies, stations, settings);
     let n = stations.len();
@@ -105,6 +120,9 @@ pub fn joint(
     let (mut queries, mut pieces) = (0, 0u64);
     for i in 0..n {
         for j in (0..n).filter(|&j| j != i) {
+            if over() {
+                return Err(i * (n - 1) + j - usize::from(j > i));
+            }
             let outcome = match (&joints[i], &joints[j]) {
                 (Err(refusal), _) => Err(*refusal),
                 // A point that cannot be stood at cannot be arrived at.
@@ -138,7 +156,7 @@ pub fn joint(
     let to_home = joints.iter().map(|q| q.as_ref().map_or_else(|e| Some(*e), |q| home(q, &settings.home))).collect();
     let graph = ReachabilityGraph::new(n, reasons, refusals, queries);
     let graph = graph.with_costs(cost.unit(), |i, j| costs[i * n + j]);
-    JointGraph { graph, joints, from_home, to_home, pieces }
+    Ok(JointGraph { graph, joints, from_home, to_home, pieces })
 }
 
 /// Follows `motion` between the angles of its ends, clear of `bodies`; `queries` counts as [`follow`] does.
