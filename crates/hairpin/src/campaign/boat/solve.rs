@@ -130,11 +130,12 @@ impl<'a> BoatSolver<'a> {
 }
 
 impl Solver for BoatSolver<'_> {
-    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome {
         match self.sample(graph) {
             Ok(points) => {
                 let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(plan, points);
-                self.search(graph, &points, Looped { executions, surroundings: None, moved: &moved, wanted })
+                let over = stop.cancelled;
+                self.search(graph, &points, Looped { executions, surroundings: None, moved: &moved, wanted, over })
             }
             Err(reason) => Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         }

@@ -72,7 +72,7 @@ where
             also,
             looped,
         };
-        return Outcome::of(graph, search(&question, may_arrive));
+        return Outcome::of(graph, search(question, may_arrive));
     }
     let open = OpenEnd::new(reach, points);
     let question = Question {
@@ -89,7 +89,7 @@ where
         also: also.iter().map(|score| open.score(score, section.aggregate)).collect(),
         looped,
     };
-    Outcome::of(graph, search(&question, &OpenEnd::<&dyn Reach<N>>::may_arrive))
+    Outcome::of(graph, search(question, &OpenEnd::<&dyn Reach<N>>::may_arrive))
 }
 
 /// A round's other models.

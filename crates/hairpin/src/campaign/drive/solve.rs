@@ -197,7 +197,7 @@ impl<'a> DriveSolver<'a> {
 }
 
 impl Solver for DriveSolver<'_> {
-    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome {
         let points = match self.sample(self.seeds_of(graph)[0]) {
             Ok(points) => points,
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
@@ -211,7 +211,7 @@ impl Solver for DriveSolver<'_> {
             put: &put,
             obstacles: asked.obstacles.is_some(),
         });
-        let looped = Looped { executions, surroundings, moved: &moved, wanted };
+        let looped = Looped { executions, surroundings, moved: &moved, wanted, over: stop.cancelled };
         let asked = Graph { search: &self.search, graph, points: &points, looped };
         match &self.stepwise {
             Some(stepwise) => stepwise.solve(&self.settings, asked),

@@ -104,7 +104,7 @@ impl<'a> FlightSolver<'a> {
 }
 
 impl Solver for FlightSolver<'_> {
-    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, _: &Stop) -> Outcome {
+    fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome {
         let points = match graph::sample(self.setup, graph) {
             Ok(points) => points,
             Err(error) => return Outcome { graphs: 1, reason: Some(error.to_string()), ..Outcome::default() },
@@ -124,7 +124,8 @@ impl Solver for FlightSolver<'_> {
         // A witness leaves its straight legs: obstacles are placed beside what the case will claim.
         let furnish = |plan: &Plan| (executions.furnish)(&self.certified(plan.clone()));
         let executions = Executions { furnish: &furnish, ..executions };
-        let looped = Looped { executions, surroundings, moved: &|plan, points| self.moved_whole(plan, points), wanted };
+        let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved_whole(plan, points);
+        let looped = Looped { executions, surroundings, moved: &moved, wanted, over: stop.cancelled };
         let mut outcome = match &self.set {
             Set::Stepwise(set) => set.solve(graph, &points, looped),
             Set::Witness(set) => set.solve(graph, &points, looped),

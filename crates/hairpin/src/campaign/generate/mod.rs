@@ -153,9 +153,9 @@ fn search_units(
                 let outcome = begins.then(|| {
                     if varied { drawn_case(graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
                 });
-                // Where executions or the user's scores were denied, a graph was searched in part, and is searched
-                // again by whoever goes on.
-                outcome.filter(|_| !(cut_short && (stop.cancelled)()))
+                // Where legs, executions or the user's scores were denied, a graph was searched in part, and is
+                // searched again by whoever goes on.
+                outcome.filter(|outcome| !outcome.stopped && !(cut_short && (stop.cancelled)()))
             })
             .collect();
         for outcome in outcomes {
@@ -211,7 +211,7 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
     let mut total = Outcome::default();
     for attempt in 0..GRAPHS_PER_CASE {
         let outcome = graphs.solve(case * GRAPHS_PER_CASE + attempt, Wanted::Cases, stop);
-        let done = !outcome.plans.is_empty();
+        let done = !outcome.plans.is_empty() || outcome.stopped;
         total.add(outcome);
         if done {
             break;

@@ -29,4 +29,13 @@ pub(in crate::campaign) struct Answer {
     pub(in crate::campaign) best_so_far: Vec<f64>,
     /// Why nothing was found.
     pub(in crate::campaign) reason: Option<String>,
+    /// The search was ended from outside before it knew: nothing else in here says anything of the graph.
+    pub(in crate::campaign) stopped: bool,
+}
+
+impl Answer {
+    /// Of a graph that nobody waited for.
+    pub(super) fn stopped() -> Self {
+        Self { stopped: true, reason: Some("the search was stopped".into()), ..Self::default() }
+    }
 }

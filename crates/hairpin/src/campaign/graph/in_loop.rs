@@ -43,7 +43,7 @@ const LARGEST_STEP: f64 = 0.3;
 /// Obstacles come last, two executions for each trajectory that is kept.
 pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
-    let graph = question.leg_graph();
+    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let first = first(question, &graph);
     if first.is_empty() {
         let reason = Some(format!("none among the {} feasible legs of the last graph", graph.legs()));

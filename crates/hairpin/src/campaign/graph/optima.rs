@@ -11,7 +11,7 @@ pub(in crate::campaign) const AGGREGATES: [Aggregate; 2] = [Aggregate::Max, Aggr
 
 /// Of every score of the question, its own first, the optimum under each of [`AGGREGATES`].
 ///
-/// Each at most one trajectory, with its bound.
+/// Each at most one trajectory, with its bound. Ends early once nobody waits for them.
 pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &'q Question<N, O>,
     graph: &'q LegGraph<'_, N>,
@@ -23,14 +23,14 @@ pub(super) fn optima<'q, N: Copy + Eq + Ord + Hash, O: Additive>(
         ..ExactSettings::default()
     };
     let search = ExactSearch::new(graph, settings);
-    let scores = std::iter::once(&question.score).chain(&question.also);
+    let scores = std::iter::once(&question.score).chain(&question.also).take_while(|_| !(question.looped.over)());
     scores.flat_map(move |score| search.best(score, AGGREGATES))
 }
 
 /// The plans of [`optima`] in their order; none at all where one is missing, so that no score has graphs that another
 /// has not.
 pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
-    let graph = question.leg_graph();
+    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let mut all = Answer::default();
     for outcome in optima(question, &graph) {
         let proven_empty = outcome.found.is_empty() && outcome.bound.is_none();
@@ -43,5 +43,5 @@ pub(super) fn by_optima<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
         };
         all.plans.push(plan);
     }
-    all
+    if all.plans.len() < AGGREGATES.len() * (1 + question.also.len()) { Answer::stopped() } else { all }
 }

@@ -29,6 +29,8 @@ pub(in crate::campaign) struct Outcome {
     pub(in crate::campaign) curves: Vec<Curve>,
     /// Why there is no plan.
     pub(in crate::campaign) reason: Option<String>,
+    /// As in [`Answer`]: the graph is to be searched again.
+    pub(in crate::campaign) stopped: bool,
 }
 
 impl Outcome {
@@ -50,6 +52,7 @@ impl Outcome {
                 .into_iter()
                 .collect(),
             reason: answer.reason.or(too_long),
+            stopped: answer.stopped,
         }
     }
 
@@ -63,5 +66,6 @@ impl Outcome {
         self.duplicates += other.duplicates;
         self.curves.extend(other.curves);
         self.reason = other.reason;
+        self.stopped |= other.stopped;
     }
 }

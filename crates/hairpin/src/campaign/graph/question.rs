@@ -52,6 +52,8 @@ pub(in crate::campaign) struct Looped<'a> {
     /// A plan with other waypoints, as many; `None` where they are not feasible.
     pub(in crate::campaign) moved: Move<'a>,
     pub(in crate::campaign) wanted: Wanted<'a>,
+    /// Whether nobody waits for the answer any longer.
+    pub(in crate::campaign) over: &'a dyn Fn() -> bool,
 }
 
 /// What is wanted of a graph.
@@ -171,8 +173,11 @@ impl<N: Copy + Eq + Ord + Hash, O: Additive> Question<'_, N, O> {
 
     /// All legs of the graph that are on some way of the right length; without revisits, if there are to be none, those
     /// that no such way has.
-    pub(super) fn leg_graph(&self) -> LegGraph<'_, N> {
+    ///
+    /// `None` once nobody waits for them.
+    pub(super) fn leg_graph(&self) -> Option<LegGraph<'_, N>> {
         let graph = LegGraph::explore(self.start, self.points, self.reach, self.length);
-        if self.search.revisits { graph } else { graph.into_without_returns(self.length) }
+        let graph = (!(self.looped.over)()).then_some(graph)?;
+        Some(if self.search.revisits { graph } else { graph.into_without_returns(self.length) })
     }
 }

@@ -28,7 +28,7 @@ const REDRAWS: u32 = 6;
 /// Models share the optima wanted evenly, the first ones one more; scores by hand take turns over rounds and graphs,
 /// each under both aggregates.
 pub(super) fn by_round<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>, round: &Round) -> Answer {
-    let graph = question.leg_graph();
+    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let settings =
         ExactSettings { length: question.length, revisits: question.search.revisits, ..ExactSettings::default() };
     // A first round only draws.

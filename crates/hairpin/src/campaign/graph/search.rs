@@ -9,18 +9,24 @@ use super::partial::by_partials;
 use super::question::{Question, Wanted};
 use super::rounds::by_round;
 use crate::campaign::scenario::SearchMethod;
+use crate::feasibility::reach::Until;
 use crate::search::{Additive, ExactSettings, Task, UniformSettings, beam, exact, uniform};
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
+///
+/// What is over before its legs are known is stopped, whatever the method: of legs kept back nothing follows.
 pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, O: Additive>(
-    question: &Question<N, O>,
+    question: Question<N, O>,
     may_arrive: &dyn Fn(&N, usize) -> bool,
 ) -> Answer {
-    match question.looped.wanted {
-        Wanted::Cases => by_method(question, may_arrive),
-        Wanted::Round(round) => by_round(question, round),
-        Wanted::Optima(_) => by_optima(question),
-    }
+    let until = Until::new(question.reach, question.looped.over);
+    let question = Question { reach: &until, ..question };
+    let answer = match question.looped.wanted {
+        Wanted::Cases => by_method(&question, may_arrive),
+        Wanted::Round(round) => by_round(&question, round),
+        Wanted::Optima(_) => by_optima(&question),
+    };
+    if until.cut() { Answer::stopped() } else { answer }
 }
 
 /// Optima of the method `exact` are proven, its bound holds for the graph; the others find what they find.
@@ -54,7 +60,7 @@ fn by_beam<N: Copy + Eq + Ord + Hash, O: Additive>(
 
 fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
-    let graph = question.leg_graph();
+    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let settings = ExactSettings {
         length: question.length,
         best: search.per_graph as usize,
@@ -75,7 +81,7 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Questio
 /// Proven empty where no walk of the length leads from start to end.
 fn by_uniform_draws<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
-    let graph = question.leg_graph();
+    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let settings = UniformSettings {
         length: question.length,
         wanted: search.per_graph as usize,

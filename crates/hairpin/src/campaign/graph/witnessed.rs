@@ -73,7 +73,7 @@ impl Witnessed<'_> {
             also,
             looped,
         };
-        Outcome::of(graph, search(&question, roads.may_arrive))
+        Outcome::of(graph, search(question, roads.may_arrive))
     }
 }
 

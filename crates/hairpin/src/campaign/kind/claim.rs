@@ -133,11 +133,11 @@ pub(in crate::campaign) trait Claim {
 ///
 /// Plans that it gives are feasible as the scenario's reach says, and have the evidence of that reach.
 pub(in crate::campaign) trait Solver: Sync {
-    /// Searches graph number `graph` for what is `wanted`; `executions` are for searches in the loop, `stop` ends what
-    /// has no bound in counts.
+    /// Searches graph number `graph` for what is `wanted`; `executions` are for searches in the loop, `stop` ends it
+    /// early.
     ///
     /// Scores of the result are those of the scenario's objective, or the executed stress where the search executes.
-    /// What `stop` cut off is what was found until then.
+    /// What `stop` cut off is what was found until then, or nothing that is [`Outcome::stopped`].
     fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome;
 
     /// Whether its legs can be asked for the optimum of other scores, by their names, than the scenario's.

@@ -11,7 +11,8 @@
 //! | [`drive`] | a boundary-value drive is solved on the map | yes, for the prediction | a leg solved once |
 //!
 //! To a search all are one trait, [`Reach`]. Step-wise sets are a [`StepSet`] bound to a graph's points by
-//! [`StepReach`]; what forbids single legs (obstacles) is put around any of them by [`Filtered`].
+//! [`StepReach`]; what forbids single legs (obstacles) is put around any of them by [`Filtered`], and
+//! what ends them early by [`Until`].
 //!
 //! With a convex K and average velocities a trajectory w is feasible iff w_{k+1} − 2w_k + w_{k−1} ∈ K for all k:
 //! feasibility is a second difference, states are pairs of waypoints, and exact search is a dynamic program over
@@ -39,6 +40,7 @@ pub(in crate::feasibility) mod states;
 pub mod step;
 #[cfg(test)]
 mod tests;
+mod until;
 pub mod wander;
 pub mod witness;
 
@@ -55,6 +57,7 @@ pub use polytope::{NoPolytope, Polytope};
 pub use proven_legs::{WitnessLegs, WitnessNode};
 pub use sphere::Sphere;
 pub use step::{StepReach, StepSet, StepSettings};
+pub use until::Until;
 pub use witness::{Roadmap, RoadmapLeg, RoadmapSettings};
 
 /// What a score sees of a leg, from its first waypoint. For step-wise sets speeds are leg ÷ step, for `witness`
