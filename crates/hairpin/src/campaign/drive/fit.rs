@@ -81,7 +81,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         outputs: &OUTPUTS,
         axes: 2,
         unit: ("m", 1.0),
-        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
+        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, anew: Some(2.0), start_m: None },
         acceptance: Acceptance::Cylinder { height: f64::INFINITY },
         timed: false,
     })
