@@ -13,7 +13,7 @@ use crate::feasibility::steering::shooting::{Control, Query, generate, rough};
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
 use crate::simulation::ground::{
-    self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie,
+    self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie, Place,
 };
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 use crate::trajectory::{Direction, Flight, Track};
@@ -21,8 +21,44 @@ use crate::trajectory::{Direction, Flight, Track};
 impl Act for DriveSetup {
     /// Drives the plan, which was made with `nominal`, as this setup has vehicle and latency.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
-        let (nominal, execute): (&Self, _) = (nominal.setup(), &self.scenario.execute);
-        let plan = drive_of(nominal, case);
+        let settings =
+            DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
+        self.on_its_way(nominal.setup(), case, |sortie, conditions, ours| match &self.controller {
+            Some(controller) => ground::drive_with(sortie, controller, conditions, &settings, order.seed),
+            None => ground::drive(sortie, ours, conditions, &settings, order.seed),
+        })
+    }
+
+    fn run_beside(
+        &self,
+        nominal: Same,
+        case: &Case,
+        order: &Order,
+        places: &[Place],
+    ) -> Result<Track, SimulationError> {
+        self.on_its_way(nominal.setup(), case, |sortie, conditions, ours| {
+            ground::drive_beside(sortie, ours, conditions, places, order.time_limit)
+        })
+    }
+
+    fn fittable(&self) -> Result<Fittable, String> {
+        fit::fittable(self)
+    }
+
+    fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
+        place(self, case, track, self.scenario.generate.environment?.obstacles?)
+    }
+}
+
+impl DriveSetup {
+    /// What drives where under which conditions, and which of our controllers drives.
+    fn on_its_way<T>(
+        &self,
+        nominal: &Self,
+        case: &Case,
+        drives: impl FnOnce(&GroundSortie, &GroundConditions, &GroundController) -> T,
+    ) -> T {
+        let (execute, plan) = (&self.scenario.execute, drive_of(nominal, case));
         // The scenario's latency takes the place of the robot's.
         let own = if execute.latency_s.is_some() { 0.0 } else { self.rover.response.latency };
         let vehicle =
@@ -41,26 +77,13 @@ impl Act for DriveSetup {
             external_force: execute.external_force_n.unwrap_or_default(),
             ..GroundConditions::default()
         };
-        let settings =
-            DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
-        if let Some(controller) = &self.controller {
-            return ground::drive_with(&sortie, controller, &conditions, &settings, order.seed);
-        }
         let resolve = |from: &Planar, to: &Planar, gear: Gear, direction| solve(nominal, from, to, gear, direction);
         let controller = match execute.controller_in_force().unwrap_or(GroundControllerKind::Predictive) {
             GroundControllerKind::PurePursuit => GroundController::PurePursuit,
             GroundControllerKind::Stanley => GroundController::Stanley,
             GroundControllerKind::Predictive => GroundController::Predictive(&resolve),
         };
-        ground::drive(&sortie, &controller, &conditions, &settings, order.seed)
-    }
-
-    fn fittable(&self) -> Result<Fittable, String> {
-        fit::fittable(self)
-    }
-
-    fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
-        place(self, case, track, self.scenario.generate.environment?.obstacles?)
+        drives(&sortie, &conditions, &controller)
     }
 }
 

@@ -7,6 +7,7 @@ use super::passages::{Missed, passages};
 use crate::campaign::Case;
 use crate::campaign::kind::{Output, Sampling};
 use crate::simulation::Acceptance;
+use crate::simulation::ground::Place;
 use crate::trajectory::Track;
 
 /// A log of a flight, and the mission that was flown.
@@ -50,6 +51,8 @@ impl Rule {
     }
 }
 
+/// Half of the time around a place that the simulation is put at, s.
+const PLACED: f64 = 0.1;
 /// After the last waypoint so much is compared, s: what a simulation lingers.
 const AFTER: f64 = 2.0;
 
@@ -144,6 +147,40 @@ impl Compared {
         let mut compared = Self { samples, logged: Vec::new(), outputs, end: found, begun, which };
         compared.logged = compared.outputs_of(track, &compared.begun, &compared.which, rule);
         Ok(compared)
+    }
+
+    /// The same of stretches of `anew` s, by the clock: from the first leg that is compared until the last sample of
+    /// the last one.
+    pub(super) fn anew(&self, track: &Track, rule: &Rule, anew: f64) -> Self {
+        let at = |sample: Option<&(usize, f64)>| sample.map_or(0.0, |(leg, tau)| self.begun[*leg] + tau);
+        let (from, to) = (at(self.samples.first()), at(self.samples.last()));
+        let (period, start) = (rule.sampling.period, track.times()[0]);
+        let begun: Vec<f64> = (0..((to - start) / anew).ceil() as usize).map(|k| start + k as f64 * anew).collect();
+        let count = (anew / period).round() as usize;
+        let samples = (0..begun.len()).flat_map(|k| (0..count).map(move |i| (k, (i as f64 + 0.5) * period)));
+        let samples = samples.filter(|(k, tau)| (from..=to).contains(&(begun[*k] + tau))).collect();
+        let mut compared = Self { samples, begun, ..self.clone() };
+        compared.logged = compared.outputs_of(track, &compared.begun, &compared.which, rule);
+        compared
+    }
+
+    /// Where the log is at the begin of each stretch: by a line through what lies within [`PLACED`] s.
+    pub(super) fn places(&self, track: &Track) -> Vec<Place> {
+        let outputs = [Output::Position(0), Output::Position(1), Output::Axis(0, 0), Output::Axis(0, 1)];
+        let turned = has(track, outputs[2]);
+        let place = |t: &f64| {
+            let line = outputs_at(track, &outputs, *t, 2.0 * PLACED);
+            let yaw = turned.then(|| libm::atan2(line[3], line[2]));
+            Place { t: t - track.times()[0], at: [line[0], line[1]], yaw }
+        };
+        self.begun.iter().map(place).collect()
+    }
+
+    /// What a simulation that was put where the log is says in its place: between its own samples, which jump.
+    pub(super) fn beside(&self, driven: &Track, track: &Track) -> Vec<Vec<f64>> {
+        let start = track.times()[0];
+        let at = |(k, tau): &(usize, f64)| outputs_at(driven, &self.which, self.begun[*k] - start + tau, 0.0);
+        self.samples.iter().map(at).collect()
     }
 
     /// What `flown` says in the place of the log, sample by sample; `None` where it passes not all waypoints.

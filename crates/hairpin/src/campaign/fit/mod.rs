@@ -3,7 +3,8 @@
 //!
 //! What is measured of a log is its motion leg by leg: who flies from waypoint to waypoint begins each leg when it has
 //! reached the last one, so both motions are counted from there. A gust that made the vehicle late on one leg is then
-//! not an error on all that follow.
+//! not an error on all that follow. Drives are put where the log is every few seconds (`Sampling::anew`) instead, as
+//! loops that swing end in other swings.
 //!
 //! ```text
 //! missions, logs ─▶ Compared: legs, samples (k + ½) · period, outputs y by a line through the samples around

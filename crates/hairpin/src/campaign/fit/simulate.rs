@@ -17,7 +17,10 @@ pub(super) struct Loops<'a> {
     setup: Setup,
     pub(super) numbers: Vec<Adjustable>,
     pub(super) flown: Vec<&'a Flown>,
+    /// What residuals are of.
     pub(super) compared: Vec<Compared>,
+    /// What gaps are of: leg by leg.
+    legs: Vec<Compared>,
     pub(super) rule: Rule,
     /// Keys of the robot that were written out for it.
     pub(super) spelt: Vec<(String, Value)>,
@@ -38,8 +41,12 @@ impl<'a> Loops<'a> {
         let setup = setup.drawn(&keys).map_err(|mistake| FitError::NotFittable(mistake.to_string()))?;
         let radius = setup.scenario.executor().accept;
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
-        let compared: Result<Vec<Compared>, FitError> = flown.iter().map(|one| Compared::of(one, &rule)).collect();
-        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared: compared?, rule, spelt, derives, unit })
+        let legs: Vec<Compared> = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
+        let compared = match sampling.anew {
+            Some(anew) => flown.iter().zip(&legs).map(|(one, legs)| legs.anew(&one.track, &rule, anew)).collect(),
+            None => legs.clone(),
+        };
+        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, legs, rule, spelt, derives, unit })
     }
 
     /// The keys of the scenario with `theta` in them.
@@ -62,8 +69,7 @@ impl<'a> Loops<'a> {
     fn fly(&self, setup: &Setup, at: usize) -> Result<Track, String> {
         let case = &self.flown[at].case;
         let around = setup.around(case).map_err(|mistake| mistake.to_string())?;
-        let time_limit = self.compared[at].end + PATIENCE;
-        let order = Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed };
+        let order = self.order(at);
         // Who made the plan, and who steers, know the robot as it was given.
         let flight = around.kind().run(self.setup.kind().same(), case, &order).map_err(|error| error.to_string())?;
         match flight.ended.is_crash() {
@@ -79,19 +85,39 @@ impl<'a> Loops<'a> {
         which
             .par_iter()
             .map(|&at| {
-                let (compared, track) = (&self.compared[at], self.fly(&setup, at).ok()?);
-                let simulated = compared.simulated(&track, &self.flown[at].case.waypoints, &self.rule)?;
+                let compared = &self.compared[at];
+                let simulated = self.simulated(&setup, at)?;
                 let differences = compared.logged.iter().zip(&simulated);
                 Some(differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect())
             })
             .collect()
     }
 
+    /// What is compared of mission number `at`, which is flown freely, or anew from where the log is.
+    fn simulated(&self, setup: &Setup, at: usize) -> Option<Vec<Vec<f64>>> {
+        let (compared, flown) = (&self.compared[at], self.flown[at]);
+        if self.rule.sampling.anew.is_none() {
+            return compared.simulated(&self.fly(setup, at).ok()?, &flown.case.waypoints, &self.rule);
+        }
+        let around = setup.around(&flown.case).ok()?;
+        let order = Order { time_limit: compared.end, ..self.order(at) };
+        let places = compared.places(&flown.track);
+        let driven = around.kind().run_beside(self.setup.kind().same(), &flown.case, &order, &places).ok()?;
+        Some(compared.beside(&driven, &flown.track))
+    }
+
+    /// How mission number `at` is flown: somewhat longer than the log.
+    fn order(&self, at: usize) -> Order<'_> {
+        let case = &self.flown[at].case;
+        let time_limit = self.compared[at].end + PATIENCE;
+        Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed }
+    }
+
     /// How far the motion with these numbers is from log number `at`, sample by sample, m.
     pub(super) fn distances(&self, theta: &[f64], at: usize) -> Option<Vec<f64>> {
         let (setup, flown) = (self.with(theta).ok()?, self.flown[at]);
         let track = self.fly(&setup, at).ok()?;
-        self.compared[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
+        self.legs[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
     }
 
     /// Why the first mission that is not simulated with `theta` is not.
@@ -105,7 +131,7 @@ impl<'a> Loops<'a> {
         (0..self.flown.len()).find_map(|at| match self.fly(&setup, at) {
             Err(why) => Some(told(at, why)),
             Ok(track) => {
-                let passed = self.compared[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
+                let passed = self.legs[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
                 passed.is_none().then(|| told(at, "it misses a waypoint".into()))
             }
         })

@@ -7,6 +7,7 @@ use nalgebra::Point3;
 use super::{Fittable, Same};
 use crate::campaign::Case;
 use crate::campaign::placement::Placement;
+use crate::simulation::ground::Place;
 use crate::simulation::{Airborne, SimulationError};
 use crate::trajectory::{Flight, Track};
 
@@ -40,6 +41,21 @@ pub(in crate::campaign) trait Act {
     /// A crash, a time-out or a way out of the world is a [`Flight`] that says so, not an error. Deterministic in all
     /// arguments.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
+
+    /// [`Self::run`] put where a log is at each of `places`, and left to itself in between, until `time_limit`; a kind
+    /// that has no such runs goes its own way all along.
+    ///
+    /// # Errors
+    /// As of [`Self::run`].
+    fn run_beside(
+        &self,
+        nominal: Same,
+        case: &Case,
+        order: &Order,
+        _places: &[Place],
+    ) -> Result<Track, SimulationError> {
+        self.run(nominal, case, order).map(|flight| flight.track)
+    }
 
     /// The longest (s) that a sound run over so many waypoints may take where its controller has a pace of its own,
     /// whatever the robot could do; 0 where it has none.

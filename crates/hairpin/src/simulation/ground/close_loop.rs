@@ -65,13 +65,7 @@ pub fn drive(
     seed: u64,
 ) -> Result<Flight, SimulationError> {
     let run = Checked::new(sortie, conditions, settings, seed)?;
-    let (plan, latency) = (&run.plan, run.latency);
-    let speeds = [sortie.drive.speed, sortie.drive.turn_rate];
-    let mut guided = Guided {
-        guide: Guide::new(plan, sortie.nominal, latency, speeds),
-        driver: Driver::new(controller, sortie.nominal, latency),
-    };
-    run.carry_out(controller.word(), &mut guided)
+    run.carry_out(controller.word(), &mut run.guided(controller))
 }
 
 /// [`drive`] by a controller of the caller's own, made afresh for the run; as reproducible as that is.
@@ -95,7 +89,7 @@ pub fn drive_with(
 /// A run whose settings are within bounds, and its plan.
 ///
 /// `settings` have their time limit and patience filled in.
-struct Checked<'a> {
+pub(super) struct Checked<'a> {
     sortie: &'a GroundSortie<'a>,
     conditions: &'a GroundConditions,
     settings: DriveSettings,
@@ -109,7 +103,7 @@ struct Checked<'a> {
 impl<'a> Checked<'a> {
     /// Errors name `latency`, `start_offset`, `external_force`, `clearance_radius`, or what of the drive cannot be
     /// planned.
-    fn new(
+    pub(super) fn new(
         sortie: &'a GroundSortie,
         conditions: &'a GroundConditions,
         settings: &DriveSettings,
@@ -133,6 +127,15 @@ impl<'a> Checked<'a> {
         let time_limit = settings.time_limit.unwrap_or(2.0 * plan.duration + 60.0);
         let settings = DriveSettings { patience, time_limit: Some(time_limit), ..*settings };
         Ok(Self { sortie, conditions, settings, plan, latency, pull, seed })
+    }
+
+    /// One of our controllers, at the plan's begin.
+    pub(super) fn guided<'b>(&'b self, controller: &GroundController<'b>) -> Guided<'b> {
+        let Self { sortie: GroundSortie { nominal, drive, .. }, plan, latency, .. } = self;
+        Guided {
+            guide: Guide::new(plan, nominal, *latency, [drive.speed, drive.turn_rate]),
+            driver: Driver::new(controller, nominal, *latency),
+        }
     }
 
     /// Drives to the end.
@@ -196,23 +199,23 @@ fn word(lost: Lost) -> Ended {
 /// Plant, controller and commands of one run.
 ///
 /// `coming` holds commands that do not act yet, in the order in which they do.
-struct Run<'a> {
-    plant: Plant<'a>,
+pub(super) struct Run<'a> {
+    pub(super) plant: Plant<'a>,
     name: &'a str,
     controller: &'a mut dyn Controller<Rover>,
     watch: Watch<'a>,
     noise: Option<Stream>,
     latency: f64,
-    period: f64,
+    pub(super) period: f64,
     /// What acts, and what will: when it does, s.
     acting: DriveCommand,
     coming: VecDeque<(f64, DriveCommand)>,
-    lost: Option<Lost>,
+    pub(super) lost: Option<Lost>,
 }
 
 impl<'a> Run<'a> {
     /// Errors name the leg's start where the vehicle cannot stand there, and periods out of 0.001 … 1 s.
-    fn new(
+    pub(super) fn new(
         checked: &'a Checked,
         name: &'a str,
         controller: &'a mut dyn Controller<Rover>,
@@ -259,7 +262,7 @@ impl<'a> Run<'a> {
     ///
     /// A command acts `latency` s after it was given, also between turns: the plant is advanced from one such moment to
     /// the next.
-    fn turn(&mut self, t: f64) -> Result<(), SimulationError> {
+    pub(super) fn turn(&mut self, t: f64) -> Result<(), SimulationError> {
         let measured = self.measure(t);
         let asked = self.controller.control(self.period, &measured, &self.watch.reference());
         let command = asked.map_err(|fault| self.failed(t, fault))?;

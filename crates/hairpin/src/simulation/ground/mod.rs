@@ -18,6 +18,7 @@
 //! | `plant` | suspension at every step, slip, lags, torque |
 //! | `watch`, `recorder` | what ends a run, and its log |
 
+mod beside;
 mod close_loop;
 mod command;
 mod controllers;
@@ -32,6 +33,7 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
+pub use beside::{Place, drive_beside};
 pub use close_loop::{drive, drive_with};
 pub use command::{DriveCommand, DriveState};
 pub use controllers::{GroundController, GroundControllerKind, Resolve};
