@@ -133,7 +133,8 @@ impl<'a> Stepwise<'a> {
         let known = HashSet::new();
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
         let wanted = Wanted::Round(&round);
-        let looped = Looped { executions: Executions::none(), surroundings: None, moved: &|_, _| None, wanted, over: &|| false };
+        let looped =
+            Looped { executions: Executions::none(), surroundings: None, moved: &|_, _| None, wanted, over: &|| false };
         let Outcome { plans, reason, .. } = self.solve(graph, points, looped);
         let drawn = plans.into_iter().next().map(|(_, plan)| plan);
         drawn.ok_or_else(|| reason.unwrap_or_else(|| "no feasible trajectory was drawn".into()))
