@@ -180,7 +180,7 @@ impl<'a> DriveSolver<'a> {
         let (reach, start) = (&roadmap, roadmap.start());
         let asked = Asked { scenario: &self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
         let mut outcome = ask(asked, &|node, steps| roadmap.may_arrive(node, steps), plan);
-        if outcome.plans.is_empty() {
+        if outcome.plans.is_empty() && !outcome.stopped {
             outcome.reason = Some(roadmap.tally().to_string());
         }
         if again {

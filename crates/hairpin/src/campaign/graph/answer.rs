@@ -36,6 +36,6 @@ pub(in crate::campaign) struct Answer {
 impl Answer {
     /// Of a graph that nobody waited for.
     pub(super) fn stopped() -> Self {
-        Self { stopped: true, reason: Some("the search was stopped".into()), ..Self::default() }
+        Self { stopped: true, ..Self::default() }
     }
 }

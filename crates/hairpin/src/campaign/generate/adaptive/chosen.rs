@@ -34,6 +34,9 @@ impl Campaign<'_> {
                 if self.graphs.len() == wanted {
                     break;
                 }
+                if outcome.stopped {
+                    break;
+                }
                 self.tally.units += 1;
                 self.tally.graphs += outcome.graphs;
                 self.tally.proven_empty += outcome.proven_empty;

@@ -193,7 +193,7 @@ impl Campaign<'_> {
         self.tally.complete = !self.tally.stopped && cases.len() >= wanted;
         if !cases.is_empty() {
             self.tally.nothing = None;
-        } else if self.tally.solved > 0 {
+        } else if self.tally.solved > 0 && !self.tally.stopped {
             self.tally.nothing = Some("no execution of what was drawn ended with a measure of its stress".into());
         }
         sink(&cases, &self.tally);
