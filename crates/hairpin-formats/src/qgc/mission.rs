@@ -56,6 +56,8 @@ pub enum Step {
     },
     /// Goes on at this speed over ground, m/s.
     Speed(f64),
+    /// Goes on in this gear: backwards, or forwards.
+    Reverse(bool),
     /// Goes to a place and on from there.
     Waypoint {
         /// The place.
@@ -129,6 +131,12 @@ impl Mission {
                 command: 178,
                 frame: MISSION,
                 numbers: [Some(1.0), Some(*speed), Some(-1.0), Some(0.0)],
+                place: None,
+            },
+            Step::Reverse(backwards) => Item {
+                command: 194,
+                frame: MISSION,
+                numbers: [Some(f64::from(u8::from(*backwards))), Some(0.0), Some(0.0), Some(0.0)],
                 place: None,
             },
             // No time to hold, and nothing to pass beside.

@@ -10,6 +10,7 @@ use hairpin_formats::qgc::mission::{Autopilot, Mission, Step, Vehicle};
 use hairpin_formats::qgc::{parameters, plan, wpl};
 use nalgebra::Point3;
 
+use super::gears;
 use super::hardware::{Hardware, home, note};
 use super::limits::Limits;
 use super::placed::placed;
@@ -59,6 +60,7 @@ pub(super) fn write(
         let made = Maker { work, case, cleared, home: &home, hardware, autopilot }.make(1.0)?;
         written.told.extend(hardware.obstacle_met(case));
         written.told.extend(made.limits.told(&case.id(), flies));
+        written.told.extend(made.gears.iter().map(|words| format!("case {}: {words}", case.id())));
         let ending = match file {
             MissionFile::Plan => plan::ENDING,
             MissionFile::Wpl => wpl::ENDING,
@@ -89,6 +91,8 @@ pub(super) fn write_slow(
 struct Made {
     mission: Mission,
     limits: Limits,
+    /// What is to be said of legs that are not driven forwards.
+    gears: Option<String>,
 }
 
 impl Made {
@@ -125,15 +129,23 @@ impl Maker<'_> {
         if room.flies {
             steps.push(Step::TakeOff { place: self.on_earth(&case.waypoints[0])?, yaw: heading(0) });
         }
-        let mut speed = None;
+        let gears = self.gears()?;
+        let (mut speed, mut backwards) = (None, false);
         for (number, waypoint) in case.waypoints.iter().enumerate() {
             let asked = number.checked_sub(1).and_then(|leg| speeds.get(leg).copied().flatten());
             if asked.is_some() && asked != speed {
                 steps.extend(asked.map(Step::Speed));
                 speed = asked;
             }
+            let gear = number.checked_sub(1).and_then(|leg| gears.get(leg).copied().flatten());
+            if *autopilot == Autopilot::ArduPilot && gear.is_some_and(|gear| gear != backwards) {
+                backwards = !backwards;
+                steps.push(Step::Reverse(backwards));
+            }
             steps.push(Step::Waypoint { place: self.on_earth(waypoint)?, accept, yaw: heading(number) });
         }
+        // The next mission begins forwards.
+        steps.extend(backwards.then_some(Step::Reverse(false)));
         if let Some(land) = way.land {
             steps.extend(speed.filter(|speed| *speed > HOMEWARD).map(|_| Step::Speed(HOMEWARD)));
             for place in &way.back {
@@ -155,6 +167,8 @@ impl Maker<'_> {
         note.extend(
             (share < 1.0).then(|| ("speed", format!("{:.0} % of the plan's speeds, for a first run", 100.0 * share))),
         );
+        let gears = gears::told(&gears, *autopilot);
+        note.extend(gears.clone().map(|words| ("gear", words)));
         let mission = Mission {
             autopilot: *autopilot,
             vehicle: if room.flies { Vehicle::Multirotor } else { Vehicle::Ground },
@@ -164,7 +178,7 @@ impl Maker<'_> {
             speed: speeds.iter().copied().flatten().reduce(f64::max),
             note,
         };
-        Ok(Made { mission, limits })
+        Ok(Made { mission, limits, gears })
     }
 
     fn on_earth(&self, place: &Point3<f64>) -> Result<Geodetic, Problem> {
@@ -189,6 +203,15 @@ impl Maker<'_> {
             }
         }
         Ok(speeds)
+    }
+
+    /// Of each leg of a drive whether it is planned backwards, as far as it is one thing or the other.
+    fn gears(&self) -> Result<Vec<Option<bool>>, Problem> {
+        let Self { work, case, hardware, .. } = self;
+        if hardware.room.flies || case.leg_times.is_empty() {
+            return Ok(Vec::new());
+        }
+        Ok(gears::backwards(&work.folder.read_planned(case.number)?, case.waypoints.len() - 1))
     }
 
     fn way(&self) -> String {

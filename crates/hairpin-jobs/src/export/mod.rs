@@ -2,6 +2,7 @@
 
 mod chosen;
 mod flights;
+mod gears;
 mod hardware;
 mod limits;
 mod mcap;
