@@ -155,7 +155,7 @@ fn search_units(
                 });
                 // Where legs, executions or the user's scores were denied, a graph was searched in part, and is
                 // searched again by whoever goes on.
-                outcome.filter(|outcome| !outcome.stopped && !(cut_short && (stop.cancelled)()))
+                outcome.filter(|outcome| !(outcome.stopped || cut_short && (stop.cancelled)()))
             })
             .collect();
         for outcome in outcomes {
