@@ -98,7 +98,11 @@ def test_the_example_that_is_a_test_runs():
     assert code == 0 and "1 passed" in said, said
 
 
-@pytest.mark.parametrize("guide", ["stress", "own-controllers", "campaigns", "rover-generator", "heaviest-paths"])
+GUIDES = ["stress", "own-controllers", "campaigns", "rover-generator", "heaviest-paths"]
+GUIDES += [f"guide/{robot}" for robot in ("drone", "rover", "car", "arm", "own-simulator")]
+
+
+@pytest.mark.parametrize("guide", GUIDES)
 def test_guides_say_what_runs(guide, tmp_path, monkeypatch, capsys):
     text = (ROOT / "docs" / f"{guide}.md").read_text().split("## From Python")[1]
     code = text.split("```python\n")[1].split("```")[0]
