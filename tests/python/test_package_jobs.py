@@ -180,7 +180,7 @@ def test_explain_and_learn(tmp_path):
 
 
 def test_ctrl_c_keeps_what_is_done_and_resume_goes_on(tmp_path):
-    values = {"generate.search.cases": 4, "execute.repeat": 40, "execute.baseline": 0}
+    values = {"generate.search.cases": 4, "execute.repeat": 12, "execute.baseline": 0}
     seen = []
 
     def progress(what, done, of):
@@ -188,11 +188,16 @@ def test_ctrl_c_keeps_what_is_done_and_resume_goes_on(tmp_path):
             seen.append(what)
             os.kill(os.getpid(), signal.SIGINT)
 
-    with pytest.raises(KeyboardInterrupt) as stopped:
-        hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, threads=1, progress=progress)
+    # What a shell starts in the background ignores Ctrl-C from the start, and so do these tests there.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt) as stopped:
+            hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, threads=1, progress=progress)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert seen and any("resume" in note for note in getattr(stopped.value, "__notes__", ["resume"]))
     left = hairpin.Campaign(tmp_path / "out")
-    assert len(left) == 4 and left.to_arrow("runs").num_rows < 160
+    assert len(left) == 4 and left.to_arrow("runs").num_rows < 48
     done = hairpin.stress("demo-quadrotor", out=tmp_path / "out", values=values, if_there="resume")
     whole = hairpin.stress("demo-quadrotor", out=tmp_path / "whole", values=values)
     assert contents(done.folder) == contents(whole.folder)
