@@ -85,15 +85,18 @@ pub struct CloudSearch {
     begun: Instant,
 }
 
+/// What a graph that was stopped leaves open.
+const UNKNOWN: &str = "whether the rest has a program was not found out";
+
 /// What came of a cloud.
 pub enum CloudAnswer {
     /// Its graph was searched.
     Searched(Box<CloudSearch>),
-    /// No program, because no point or no move is possible.
+    /// No program, because no point or no move is possible, or nobody waited to see.
     Nothing {
         /// Why.
         reason: String,
-        /// Why that is not found out, where it rests on estimates alone.
+        /// Why that is not found out, where it rests on estimates alone or was stopped.
         open: Option<String>,
         /// What it took, s.
         time: Duration,
@@ -124,7 +127,8 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
         }
         Err(reason) => {
             let stopped = watch.stopped() || deadline.passed();
-            let open = if stopped { None } else { arm.open_for_estimates() };
+            // A graph that was stopped proves nothing, and another one of estimates would take as long.
+            let open = if stopped { Some(UNKNOWN.into()) } else { arm.open_for_estimates() };
             CloudAnswer::Nothing { reason, open, time }
         }
     })
@@ -190,6 +194,20 @@ mod tests {
         assert_eq!((searched.found.outcome, searched.found.paths.len()), (Outcome::Infeasible, 0));
         assert_eq!(searched.why_none.unwrap(), "no move from one point of the cloud to another is possible");
         std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
-        assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { .. }));
+        assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { open: None, .. }));
+    }
+
+    /// A graph that was not whole in time is no proof that there is nothing in it.
+    #[test]
+    fn a_cloud_that_nobody_waits_for_is_not_known_to_have_nothing() {
+        let place = tempfile::tempdir().unwrap();
+        let points = place.path().join("points.csv");
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n350,0,350\n").unwrap();
+        let settings =
+            CloudSettings { cell: "irb120".into(), points, time_limit_s: Some(0.0), ..CloudSettings::default() };
+        let CloudAnswer::Nothing { reason, open, .. } = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("no move was looked at")
+        };
+        assert!(open.is_some() && reason == "its graph was stopped after 0 of 6 moves", "{reason}");
     }
 }
