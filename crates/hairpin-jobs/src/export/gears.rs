@@ -1,25 +1,18 @@
 //! In which gear the legs of a drive are planned, and what a mission says of it.
 
-use hairpin::trajectory::Track;
+use hairpin::trajectory::drive::{Gear, Motion, Segment};
 use hairpin_formats::qgc::mission::Autopilot;
-use nalgebra::Vector3;
 
-/// Slower than this nothing is told of the direction, m/s.
-const STANDS: f64 = 0.01;
-
-/// Of each leg whether it is planned backwards; `None` where both occur on it. Empty where the plan has no velocities.
-pub(super) fn backwards(planned: &Track, legs: usize) -> Vec<Option<bool>> {
-    let mut seen = vec![[false; 2]; legs];
-    let columns = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"].map(|name| planned.channel(name));
-    let [Some(leg), Some(vx), Some(vy), Some(vz)] = columns else { return Vec::new() };
-    for (i, pose) in planned.poses().iter().enumerate() {
-        let ahead = Vector3::new(vx[i], vy[i], vz[i]).dot(&(pose.rotation * Vector3::x()));
-        if let Some(seen) = seen.get_mut(leg[i] as usize).filter(|_| ahead.abs() > STANDS) {
-            seen[usize::from(ahead < 0.0)] = true;
-        }
-    }
-    let one = |[ahead, back]: [bool; 2]| (!(ahead && back)).then_some(back);
-    seen.into_iter().map(one).collect()
+/// Of each leg whether it is planned backwards; `None` where both occur on it.
+pub(super) fn backwards<'a>(legs: impl Iterator<Item = &'a [Segment]>) -> Vec<Option<bool>> {
+    let has = |leg: &[Segment], gear: Gear| {
+        leg.iter().any(|segment| segment.gear == gear && matches!(segment.motion, Motion::Arc { .. }))
+    };
+    let one = |leg: &[Segment]| {
+        let back = has(leg, Gear::Reverse);
+        (!(back && has(leg, Gear::Forward))).then_some(back)
+    };
+    legs.map(one).collect()
 }
 
 /// What the user has to know of legs that are not driven forwards; `None` where there are none.
@@ -45,26 +38,15 @@ pub(super) fn told(backwards: &[Option<bool>], autopilot: Autopilot) -> Option<S
 
 #[cfg(test)]
 mod tests {
-    use hairpin::trajectory::Channel;
-    use nalgebra::Isometry3;
-
     use super::*;
 
     #[test]
     fn legs_have_the_gear_that_they_are_driven_in() {
-        // Heads along x all the time: forwards, backwards, both, and standing.
-        let (legs, vx) = ([0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0], [1.0, 0.0, -1.0, -0.5, 1.0, -1.0, 0.001]);
-        let channel = |name: &str, values: Vec<f64>| Channel { name: name.into(), values };
-        let still = vec![0.0; legs.len()];
-        let columns = vec![
-            channel("leg", legs.to_vec()),
-            channel("vx_m_s", vx.to_vec()),
-            channel("vy_m_s", still.clone()),
-            channel("vz_m_s", still),
-        ];
-        let times = (0..legs.len()).map(|i| i as f64).collect();
-        let track = Track::new(times, vec![Isometry3::identity(); legs.len()], columns).expect("a track");
-        let gears = backwards(&track, 4);
+        let arc = |gear: Gear| Segment { motion: Motion::Arc { length_m: 1.0, curvature: [0.0; 6] }, gear };
+        let turn = Segment { motion: Motion::Turn { angle_rad: 1.0 }, gear: Gear::Forward };
+        let (ahead, back) = (arc(Gear::Forward), arc(Gear::Reverse));
+        let legs = [&[ahead][..], &[turn, back], &[ahead, back], &[turn]];
+        let gears = backwards(legs.into_iter());
         assert_eq!(gears, [Some(false), Some(true), None, Some(false)]);
         let words = told(&gears[..3], Autopilot::ArduPilot).expect("backwards");
         assert!(words.starts_with("legs planned 1→2 backwards; 2→3 in both gears: DO_SET_REVERSE"), "{words}");

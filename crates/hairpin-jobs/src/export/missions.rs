@@ -129,7 +129,10 @@ impl Maker<'_> {
         if room.flies {
             steps.push(Step::TakeOff { place: self.on_earth(&case.waypoints[0])?, yaw: heading(0) });
         }
-        let gears = self.gears()?;
+        // Of what flies, and of legs that nobody claims to drive, nothing is known.
+        let gears = case
+            .commands()
+            .map_or_else(Vec::new, |drive| gears::backwards(drive.legs.iter().map(|leg| &*leg.segments)));
         let (mut speed, mut backwards) = (None, false);
         for (number, waypoint) in case.waypoints.iter().enumerate() {
             let asked = number.checked_sub(1).and_then(|leg| speeds.get(leg).copied().flatten());
@@ -203,15 +206,6 @@ impl Maker<'_> {
             }
         }
         Ok(speeds)
-    }
-
-    /// Of each leg of a drive whether it is planned backwards, as far as it is one thing or the other.
-    fn gears(&self) -> Result<Vec<Option<bool>>, Problem> {
-        let Self { work, case, hardware, .. } = self;
-        if hardware.room.flies || case.leg_times.is_empty() {
-            return Ok(Vec::new());
-        }
-        Ok(gears::backwards(&work.folder.read_planned(case.number)?, case.waypoints.len() - 1))
     }
 
     fn way(&self) -> String {
