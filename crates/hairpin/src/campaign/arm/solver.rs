@@ -34,8 +34,8 @@ impl<'a> ArmSolver<'a> {
         Self { setup, ways: OnceLock::new(), heaviest: OnceLock::new() }
     }
 
-    fn ways(&self) -> Result<&Ways<'a>, String> {
-        let made = || graph_of(self.setup).map(|graph| Ways::new(self.setup, graph));
+    fn ways(&self, stop: &Stop) -> Result<&Ways<'a>, String> {
+        let made = || graph_until(self.setup, stop).map(|graph| Ways::new(self.setup, graph));
         once(&self.ways, made).as_ref().map_err(Clone::clone)
     }
 
@@ -54,12 +54,11 @@ impl<'a> ArmSolver<'a> {
     /// Points of programs that are drawn.
     ///
     /// `generate.search.points`, or where that is not given as many as the heaviest path has.
-    fn length(&self) -> Result<usize, String> {
+    fn length(&self, stop: &Stop) -> Result<usize, String> {
         if let Some(points) = self.setup.scenario.generate.search.points {
             return Ok(points as usize);
         }
-        let heaviest =
-            self.heaviest(&Stop::never()).ok_or("there is no heaviest path whose points to take as many of")?;
+        let heaviest = self.heaviest(stop).ok_or("there is no heaviest path whose points to take as many of")?;
         let way = heaviest.witness.as_ref().and_then(Witness::program).and_then(|program| self.setup.way_of(program));
         way.map(|way| way.len()).ok_or_else(|| "the heaviest program is no way through the cloud".into())
     }
@@ -111,9 +110,9 @@ impl Solver for ArmSolver<'_> {
 
     /// Program `number` of the stream `drawn program`: the same whoever asks, and in whatever order. Up to [`DRAWS`]
     /// walks.
-    fn draw(&self, number: u64) -> Result<Plan, String> {
-        let ways = self.ways()?;
-        let length = self.length()?;
+    fn draw(&self, number: u64, stop: &Stop) -> Result<Plan, String> {
+        let ways = self.ways(stop)?;
+        let length = self.length(stop)?;
         let mut random = stream(named_seed(self.setup.scenario.seed, "drawn program", number));
         let mut reason = String::new();
         for _ in 0..DRAWS {
@@ -153,12 +152,12 @@ impl Solver for ArmSolver<'_> {
 
     fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let way = self.way_of(plan)?;
-        let child = self.ways().ok()?.altered(&way, leg, random)?;
+        let child = self.ways(&Stop::never()).ok()?.altered(&way, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))
     }
 
     fn crossed(&self, _: u64, plan: &Plan, other: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
-        let child = self.ways().ok()?.crossed(&self.way_of(plan)?, &self.way_of(other)?, leg, random)?;
+        let child = self.ways(&Stop::never()).ok()?.crossed(&self.way_of(plan)?, &self.way_of(other)?, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))
     }
 }

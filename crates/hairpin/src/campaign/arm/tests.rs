@@ -103,7 +103,7 @@ fn programs_are_drawn_by_numbers_and_are_possible() {
         let setup = setup(&changes);
         let solver = ArmSolver::new(own(&setup));
         let points = own(&setup).scenario.generate.search.points.unwrap() as usize;
-        let drawn: Vec<Plan> = (0..6).map(|number| solver.draw(number).unwrap()).collect();
+        let drawn: Vec<Plan> = (0..6).map(|number| solver.draw(number, &Stop::never()).unwrap()).collect();
         let mut told = BTreeSet::new();
         for (number, plan) in drawn.iter().enumerate() {
             hold(&setup, plan, &format!("{name}, draw {number}"));
@@ -121,7 +121,10 @@ fn programs_are_drawn_by_numbers_and_are_possible() {
             }
         }
         assert_eq!(told.len(), drawn.len(), "{name}: draws differ");
-        assert!(program(&solver.draw(3).unwrap()) == program(&drawn[3]), "{name}: a number is a program");
+        assert!(
+            program(&solver.draw(3, &Stop::never()).unwrap()) == program(&drawn[3]),
+            "{name}: a number is a program"
+        );
         let branch = |plan: &Plan| way(&setup, plan)[0].configuration.map(|configuration| configuration.cfx);
         let branches: BTreeSet<_> = drawn.iter().map(branch).collect();
         assert!(branches.len() > 1 || !matches!(name, "in joints" | "wrists"), "{name}: drawn in {branches:?} alone");
@@ -175,7 +178,7 @@ fn changed_programs_are_possible_and_everything_that_may_change_does() {
             "arcs" => &["order", "points", "speed", "zone", "arc"],
             _ => &["order", "points", "speed", "zone"],
         };
-        let mut plan = solver.draw(0).unwrap();
+        let mut plan = solver.draw(0, &Stop::never()).unwrap();
         for turn in 0..70 {
             if found >= 20 && all.iter().all(|what| seen.get(what).is_some_and(|times| *times > 0)) {
                 break;
@@ -219,7 +222,7 @@ fn a_child_of_two_begins_as_one_and_goes_on_in_the_order_of_the_other() {
     for (name, changes) in kinds() {
         let setup = setup(&changes);
         let solver = ArmSolver::new(own(&setup));
-        let plans: Vec<Plan> = (0..5).map(|number| solver.draw(number).unwrap()).collect();
+        let plans: Vec<Plan> = (0..5).map(|number| solver.draw(number, &Stop::never()).unwrap()).collect();
         let (mut random, mut found) = (stream(2), 0);
         for a in &plans {
             for b in &plans {
@@ -251,7 +254,7 @@ fn the_heaviest_program_is_a_seed_and_says_how_many_points_there_are() {
     let heaviest = solver.solve(0, nothing, Wanted::Cases, &Stop::never());
     let most = heaviest.plans[0].1.score;
     assert!(seeds[0].score > 0.9 * most && seeds[0].score <= most, "{} of {most}", seeds[0].score);
-    assert_eq!(way(&setup, &solver.draw(0).unwrap()).len(), way(&setup, &seeds[0]).len());
+    assert_eq!(way(&setup, &solver.draw(0, &Stop::never()).unwrap()).len(), way(&setup, &seeds[0]).len());
 }
 
 #[test]
@@ -259,7 +262,7 @@ fn programs_execute_for_the_stresses_of_arms() {
     let slow = json!({ "axis": 1, "slower": 0.4 });
     let setup = setup(&[("execute.faults", slow)]);
     let solver = ArmSolver::new(own(&setup));
-    let plan = solver.draw(0).unwrap();
+    let plan = solver.draw(0, &Stop::never()).unwrap();
     let stresses = [Stress::MaxDeviation, Stress::Time, Stress::Lateness, Stress::JointEffort];
     let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
     let run = || trials.execute_for((&plan, 0), &stresses.map(Sought::Measured), &[f64::INFINITY; 4]).unwrap().trials;

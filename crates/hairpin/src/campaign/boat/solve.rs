@@ -145,7 +145,7 @@ impl Solver for BoatSolver<'_> {
         true
     }
 
-    fn draw(&self, graph: u64) -> Result<Plan, String> {
+    fn draw(&self, graph: u64, _: &Stop) -> Result<Plan, String> {
         let points = self.sample(graph)?;
         let mut random = stream(named_seed(self.setup.scenario.seed, "wander", graph));
         let length = self.setup.scenario.task.length as usize;

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::solve::DriveSolver;
 use super::walking::Walking;
 use crate::campaign::graph::Plan;
-use crate::campaign::{Evidence, SeenLeg};
+use crate::campaign::{Evidence, SeenLeg, Stop};
 use crate::feasibility::reach::DriveNode;
 use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::search::{NoWalk, stroll};
@@ -27,10 +27,13 @@ impl DriveSolver<'_> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
-    pub(super) fn drawn(&self, number: u64) -> Result<Plan, String> {
+    pub(super) fn drawn(&self, number: u64, stop: &Stop) -> Result<Plan, String> {
         let (task, root) = (&self.setup.scenario.task, self.setup.scenario.seed);
         let mut reason = String::new();
         for set in number.wrapping_mul(SETS)..number.wrapping_mul(SETS).wrapping_add(SETS) {
+            if (stop.cancelled)() {
+                return Err("the drawing was stopped".into());
+            }
             let seed = |label| named_seed(root, label, set);
             let points = self.sample(seed(WAYPOINTS))?;
             let walking = Walking {
@@ -41,7 +44,7 @@ impl DriveSolver<'_> {
             let mut random = stream(seed("drawn drive"));
             let found = match &self.stepwise {
                 Some(stepwise) => stepwise.drawn(&points, &walking, &mut random),
-                None => self.driven(seed("drawn headings"), &points, &walking, &mut random),
+                None => self.driven(seed("drawn headings"), &points, &walking, &mut random, stop),
             };
             match found {
                 Ok(plan) => return Ok(plan),
@@ -72,6 +75,7 @@ impl DriveSolver<'_> {
         points: &[Point3<f64>],
         walking: &Walking,
         random: &mut Stream,
+        stop: &Stop,
     ) -> Result<Plan, String> {
         let roadmap = self.roadmap(seed, points);
         let next = |walk: &[DriveNode]| {
@@ -83,7 +87,7 @@ impl DriveSolver<'_> {
             };
             roadmap.near(here).into_iter().filter(may_follow).collect()
         };
-        let step = |from: &DriveNode, to: &DriveNode| roadmap.leg(from, to).is_some();
+        let step = |from: &DriveNode, to: &DriveNode| !(stop.cancelled)() && roadmap.leg(from, to).is_some();
         let why = |none| match none {
             NoWalk::None => format!("every walk ends too early, {}", roadmap.tally()),
             NoWalk::Asked(most) => format!("{most} legs asked for, {}", roadmap.tally()),

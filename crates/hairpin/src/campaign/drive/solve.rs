@@ -219,8 +219,8 @@ impl Solver for DriveSolver<'_> {
         }
     }
 
-    fn draw(&self, graph: u64) -> Result<Plan, String> {
-        self.drawn(graph)
+    fn draw(&self, graph: u64, stop: &Stop) -> Result<Plan, String> {
+        self.drawn(graph, stop)
     }
 
     fn drawn_how(&self) -> &'static str {

@@ -10,7 +10,7 @@ use crate::campaign::graph::Plan;
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::trial::{Sought, Trials};
-use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, verify};
+use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
 use crate::trajectory::drive::Gear;
@@ -93,7 +93,7 @@ fn drives_are_drawn_by_numbers_and_are_feasible() {
     for (value, length) in [(car(), 6), (rover(), 5)] {
         let setup = setup(value, &[]);
         let solver = solver(&setup);
-        let drawn: Vec<Plan> = (0..4).map(|number| solver.draw(number).unwrap()).collect();
+        let drawn: Vec<Plan> = (0..4).map(|number| solver.draw(number, &Stop::never()).unwrap()).collect();
         for (number, plan) in drawn.iter().enumerate() {
             hold(&setup, plan, &format!("draw {number}"));
             assert_eq!((plan.waypoints.len(), plan.seen.len()), (length, length - 1));
@@ -102,7 +102,7 @@ fn drives_are_drawn_by_numbers_and_are_feasible() {
             assert!(!(0..length).any(twice), "no waypoint comes twice");
             assert!(drawn[..number].iter().all(|other| other.waypoints[1..] != plan.waypoints[1..]), "draws differ");
         }
-        assert!(drive(&solver.draw(2).unwrap()) == drive(&drawn[2]), "a number is a drive");
+        assert!(drive(&solver.draw(2, &Stop::never()).unwrap()) == drive(&drawn[2]), "a number is a drive");
     }
 }
 
@@ -119,7 +119,7 @@ fn what_goes_backwards_is_told() {
         ("forward", None, Some("legs 0, 1, 2, 3, 4, where the plan goes forward;")),
     ] {
         let setup = setup(car(), &[("generate.manoeuvres", json!([gear]))]);
-        let case = solver(&setup).draw(0).unwrap().case(7, 0, 0);
+        let case = solver(&setup).draw(0, &Stop::never()).unwrap().case(7, 0, 0);
         let track = super::plan::track(setup.own().unwrap(), &case).unwrap();
         for (track, wanted) in [(track.clone(), as_it_is), (turned(&track), nose_behind)] {
             let told = setup.backwards(&case, &track);
@@ -132,11 +132,11 @@ fn what_goes_backwards_is_told() {
 #[test]
 fn draws_end_where_the_task_does_and_say_why_there_are_none() {
     let at_the_end = setup(car(), &[("task.end_m", json!([26.0, 26.0]))]);
-    let plan = solver(&at_the_end).draw(0).unwrap();
+    let plan = solver(&at_the_end).draw(0, &Stop::never()).unwrap();
     hold(&at_the_end, &plan, "to an end");
     assert_eq!([plan.waypoints[5].x, plan.waypoints[5].y], [26.0, 26.0]);
     let too_far = setup(car(), &[("task.end_m", json!([35.0, 35.0])), ("task.length", json!(3))]);
-    let why = solver(&too_far).draw(0).unwrap_err();
+    let why = solver(&too_far).draw(0, &Stop::never()).unwrap_err();
     assert!(why.contains("none in 6 draws of 40 waypoints: every walk ends too early"), "{why}");
 }
 
@@ -147,7 +147,7 @@ fn what_has_no_commands_is_drawn_by_its_own_reach_set() {
     {
         let setup = setup(car(), &[("generate.reach", json!(reach)), ("generate.step_s", json!(3.0))]);
         let solver = solver(&setup);
-        let plans = [0, 1].map(|number| solver.draw(number).unwrap());
+        let plans = [0, 1].map(|number| solver.draw(number, &Stop::never()).unwrap());
         assert_ne!(plans[0].waypoints, plans[1].waypoints, "{reach}");
         for plan in &plans {
             assert_eq!((plan.evidence, plan.waypoints.len(), &plan.leg_times[..]), (evidence, 6, &[3.0; 5][..]));
@@ -163,7 +163,7 @@ fn a_changed_waypoint_costs_the_legs_beside_it() {
         let setup = setup(value, &[]);
         let solver = solver(&setup);
         let (mut random, mut found) = (stream(3), 0);
-        let mut plan = solver.draw(0).unwrap();
+        let mut plan = solver.draw(0, &Stop::never()).unwrap();
         let (mut speeds, mut headings, mut gears) = (0, 0, 0);
         for turn in 0..60 {
             let leg = turn % (plan.waypoints.len() - 1);
@@ -196,7 +196,7 @@ fn a_changed_waypoint_costs_the_legs_beside_it() {
 fn what_is_not_moved_is_not_solved_again_and_comes_to_the_same() {
     let setup = setup(rover(), &[]);
     let solver = solver(&setup);
-    let plan = solver.draw(1).unwrap();
+    let plan = solver.draw(1, &Stop::never()).unwrap();
     let mut tried = 0;
     for index in 1..plan.waypoints.len() {
         let mut points = plan.waypoints.clone();
@@ -218,7 +218,7 @@ fn what_is_not_moved_is_not_solved_again_and_comes_to_the_same() {
 fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
     let setup = setup(car(), &[]);
     let solver = solver(&setup);
-    let plans: Vec<Plan> = (0..8).map(|number| solver.draw(number).unwrap()).collect();
+    let plans: Vec<Plan> = (0..8).map(|number| solver.draw(number, &Stop::never()).unwrap()).collect();
     let (mut random, mut found) = (stream(1), 0);
     for a in &plans {
         for b in &plans {
@@ -242,7 +242,7 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
 fn what_is_kept_is_confirmed_under_what_varies() {
     let stress = |changes: &[(&str, Value)]| {
         let setup = setup(car(), changes);
-        let plan = solver(&setup).draw(0).unwrap();
+        let plan = solver(&setup).draw(0, &Stop::never()).unwrap();
         let trials = Trials { setup: &setup, executor: &OwnSimulator, graph: 0, seed: None };
         let ran = trials.execute_for((&plan, 0), &[Sought::Measured(Stress::MaxDeviation)], &[0.0]).unwrap();
         (ran.trials[0].executions, ran.trials[0].stress)

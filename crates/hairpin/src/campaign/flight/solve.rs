@@ -138,10 +138,10 @@ impl Solver for FlightSolver<'_> {
         true
     }
 
-    fn draw(&self, graph: u64) -> Result<Plan, String> {
+    fn draw(&self, graph: u64, stop: &Stop) -> Result<Plan, String> {
         let points = graph::sample(self.setup, graph).map_err(|error| error.to_string())?;
         match &self.set {
-            Set::Stepwise(set) => set.draw(graph, &points),
+            Set::Stepwise(set) => set.draw(graph, &points, stop),
             Set::Witness(set) => set.draw(graph, &points),
         }
     }

@@ -17,7 +17,7 @@ use crate::campaign::graph::{
     Counter, Executions, Explored, Looped, Outcome, Plan, Question, Round, Stage, Wanted, in_order, search,
 };
 use crate::campaign::scenario::{EstimatedAttitude, EstimatedRates, EstimatedVelocity, ReachName};
-use crate::campaign::{Evidence, SeenLeg};
+use crate::campaign::{Evidence, SeenLeg, Stop};
 use crate::feasibility::reach::{
     BruteForce, BruteForceSettings, CarriedNode, Everywhere, Filtered, Hull, HullSettings, Leg, PairMask, Reach,
     Sphere, StepNode, StepReach, StepSet, StepSettings,
@@ -129,12 +129,12 @@ impl<'a> Stepwise<'a> {
     /// Why there is none, in a sentence's part.
     ///
     /// Exactly uniform: by counting walks, as the method `uniform` does.
-    pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>]) -> Result<Plan, String> {
+    pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>], stop: &Stop) -> Result<Plan, String> {
         let known = HashSet::new();
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
         let wanted = Wanted::Round(&round);
-        let looped =
-            Looped { executions: Executions::none(), surroundings: None, moved: &|_, _| None, wanted, over: &|| false };
+        let (executions, over) = (Executions::none(), stop.cancelled);
+        let looped = Looped { executions, surroundings: None, moved: &|_, _| None, wanted, over };
         let Outcome { plans, reason, .. } = self.solve(graph, points, looped);
         let drawn = plans.into_iter().next().map(|(_, plan)| plan);
         drawn.ok_or_else(|| reason.unwrap_or_else(|| "no feasible trajectory was drawn".into()))

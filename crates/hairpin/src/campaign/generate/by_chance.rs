@@ -112,12 +112,15 @@ fn draw(graphs: &Graphs, graph: u64, stop: &Stop) -> Result<(u64, Plan), Option<
     if (stop.cancelled)() {
         return Err(None);
     }
-    graphs.solver.draw(graph).map(|plan| (graph, graphs.solver.finished(plan))).map_err(Some)
+    let drawn = graphs.solver.draw(graph, stop).map(|plan| (graph, graphs.solver.finished(plan)));
+    // What a draw that was stopped says is no reason.
+    drawn.map_err(|reason| (!(stop.cancelled)()).then_some(reason))
 }
 
 #[cfg(test)]
 mod tests {
     use std::collections::HashSet;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     use serde_json::json;
 
@@ -182,6 +185,15 @@ mod tests {
         let none = by_chance(&far, (Purpose::Baseline, 2), &stop(&|| false));
         assert!(none.cases.is_empty() && none.reason.is_some(), "{none:?}");
         let stopped = by_chance(&setup(json!({})), (Purpose::Baseline, 2), &stop(&|| true));
+        assert_eq!((stopped.cases.len(), stopped.reason), (0, None));
+    }
+
+    #[test]
+    fn a_draw_is_stopped_within_its_graph() {
+        let looks = AtomicUsize::new(0);
+        // Before the graph is asked for all its legs, and long after the draw has begun.
+        let cancelled = || looks.fetch_add(1, Ordering::Relaxed) >= 10;
+        let stopped = by_chance(&setup(json!({})), (Purpose::Baseline, 1), &stop(&cancelled));
         assert_eq!((stopped.cases.len(), stopped.reason), (0, None));
     }
 }

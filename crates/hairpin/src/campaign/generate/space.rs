@@ -7,7 +7,7 @@ use nalgebra::Point3;
 
 use super::graphs::Graphs;
 use crate::campaign::graph::Plan;
-use crate::campaign::{Case, OwnSimulator, Setup};
+use crate::campaign::{Case, OwnSimulator, Setup, Stop};
 
 /// The feasible trajectories of one setup.
 ///
@@ -31,7 +31,7 @@ impl<'a> Space<'a> {
     ///
     /// Number and graph are independent: the same trajectory may be several cases, with seeds of their own.
     pub fn draw(&self, graph: u64, number: usize) -> Result<Case, String> {
-        Ok(self.graphs.solver.draw(graph)?.case(self.graphs.setup.scenario.seed(), graph, number))
+        Ok(self.graphs.solver.draw(graph, &Stop::never())?.case(self.graphs.setup.scenario.seed(), graph, number))
     }
 
     /// How [`draw`](Self::draw) draws, in a sentence's part.

@@ -57,7 +57,7 @@ impl Field for Plans<'_> {
 
     fn draw(&self, number: u64) -> Result<Drawn, String> {
         let graph = self.first + number;
-        self.graphs.solver.draw(graph).map(|plan| Drawn { graph, plan })
+        self.graphs.solver.draw(graph, self.stop).map(|plan| Drawn { graph, plan })
     }
 
     fn seeds(&self) -> Vec<Drawn> {

@@ -148,13 +148,14 @@ pub(in crate::campaign) trait Solver: Sync {
         false
     }
 
-    /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for.
+    /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for, unless `stop` ends
+    /// the drawing first.
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
     ///
     /// The baseline of every comparison, so that it must not favour what a score favours.
-    fn draw(&self, graph: u64) -> Result<Plan, String>;
+    fn draw(&self, graph: u64, stop: &Stop) -> Result<Plan, String>;
 
     /// How [`draw`](Self::draw) draws, in a sentence's part.
     fn drawn_how(&self) -> &'static str;

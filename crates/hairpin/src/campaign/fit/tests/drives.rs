@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::super::Flown;
 use super::draws::Truth;
 use crate::campaign::kind::{Adjustable, Order};
-use crate::campaign::{Scenario, Setup};
+use crate::campaign::{Scenario, Setup, Stop};
 use crate::math::random::{named_seed, standard_normals, stream};
 use crate::trajectory::Track;
 
@@ -52,7 +52,7 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, (count, bumps_m): (
     let vehicle = truth.setup(setup, &disturbed);
     let solver = setup.kind().solver().unwrap();
     let drive = |number: usize| {
-        let plan = solver.draw(100 * seed + number as u64).unwrap();
+        let plan = solver.draw(100 * seed + number as u64, &Stop::never()).unwrap();
         let case = plan.case(seed, 0, number);
         let order = Order { waypoints: &case.waypoints, accept: 0.5, time_limit: 240.0, seed: case.seed };
         let track = vehicle.kind().run(setup.kind().same(), &case, &order).unwrap().track;

@@ -31,10 +31,7 @@ impl Campaign<'_> {
                 .map(|graph| self.sampled.solve(graph, Wanted::Round(&round), self.stop))
                 .collect();
             for (outcome, number) in outcomes.into_iter().zip(first..) {
-                if self.graphs.len() == wanted {
-                    break;
-                }
-                if outcome.stopped {
+                if outcome.stopped || self.graphs.len() == wanted {
                     break;
                 }
                 self.tally.units += 1;
