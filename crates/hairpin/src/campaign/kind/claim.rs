@@ -148,8 +148,8 @@ pub(in crate::campaign) trait Solver: Sync {
         false
     }
 
-    /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for, unless `stop` ends
-    /// the drawing first.
+    /// One feasible plan of graph number `graph`, drawn at random; the same whenever it is asked for, unless `stop`
+    /// ends the drawing first.
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
