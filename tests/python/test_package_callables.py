@@ -215,6 +215,93 @@ def test_own_dynamics_are_unchecked_where_nothing_is_planned(tmp_path):
     assert {case.evidence for case in found} == {"unchecked"} and found.exit_code in (0, 1)
 
 
+@hairpin.vectorised
+def chase(t_s, state, control):
+    return control
+
+
+def chasing(derivative):
+    return hairpin.dynamics(
+        derivative,
+        lambda t, x, to: np.clip(to["target_m"] - x, -2.0, 2.0),
+        start=lambda given: [one["waypoints_m"][0] for one in given] if isinstance(given, list) else given["waypoints_m"][0],
+        pose=lambda x: {"p_m": x, "q_wxyz": np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*x.shape[:-1], 4)), "v_m_s": x},
+        step_s=0.05,
+    )
+
+
+def test_many_missions_are_integrated_as_each_by_itself():
+    ways = [[[0, 0, 0], [2, 0, 0]], [[1, 1, 1], [1, 4, 1], [5, 4, 1]], [[0, 0, 0], [900, 0, 0]], [[3, 3, 3]]]
+    missions = [{"waypoints_m": way, "accept_m": 0.1, "time_limit_s": 20.0} for way in ways]
+    many, one = chasing(chase), chasing(lambda t, x, u: u)
+    for together, alone in zip(many(missions), map(one, missions), strict=True):
+        assert together.keys() == alone.keys() and together["ended"] == alone["ended"]
+        for key in ("t_s", "p_m", "q_wxyz", "v_m_s", "leg"):
+            np.testing.assert_array_equal(together[key], alone[key], err_msg=key)
+    assert [flown["ended"] for flown in many(missions)] == ["done", "done", "time", "done"]
+    adrift = hairpin.dynamics(chase, lambda t, x, to: np.where(x > 0.5, np.nan, 1.0), lambda given: np.zeros((len(given), 3)), lambda x: x)
+    assert [flown["ended"] for flown in adrift(missions)] == ["crash", "crash", "crash", "done"]
+    with pytest.raises(ValueError, match="a row for each of 4 missions"):
+        hairpin.dynamics(chase, lambda t, x, to: x, lambda given: np.zeros((3, 3)), lambda x: x)(missions)
+
+
+def test_executors_that_take_many_fly_as_single_ones(tmp_path):
+    sizes = []
+
+    @hairpin.vectorised
+    def straight_many(missions):
+        sizes.append(len(missions))
+        return [straight(mission) for mission in missions]
+
+    values = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 12}, "execute.repeat": 1, "execute.baseline": 0}
+    cases = hairpin.generate("demo-quadrotor", out=tmp_path / "cases", values=values)
+    many = cases.execute(executor=straight_many, out=tmp_path / "many").judge()
+    alone = cases.execute(executor=straight, out=tmp_path / "alone").judge()
+    assert deviations(many) == deviations(alone) and many.exit_code == 0
+    assert sum(sizes) == 12 and max(sizes) > 2
+    assert "processes = 16" in (tmp_path / "many/scenario.toml").read_text()
+    sizes.clear()
+    cases.execute(executor=straight_many, out=tmp_path / "two", values={"execute.processes": 2})
+    assert sum(sizes) == 12 and max(sizes) <= 2
+
+
+def test_a_mission_that_cannot_be_carried_out_costs_no_other(tmp_path):
+    values = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 4}, "execute.repeat": 1, "execute.baseline": 0}
+    cases = hairpin.generate("demo-quadrotor", out=tmp_path / "cases", values=values)
+
+    @hairpin.vectorised
+    def loses_one(missions):
+        if any(mission["case"] == "0002" for mission in missions):
+            raise OSError("rotor lost")
+        return [straight(mission) for mission in missions]
+
+    judged = cases.execute(executor=loses_one, out=tmp_path / "one").judge()
+    assert [case.status for case in judged] == ["pass", "pass", "executor-failed", "pass"] and "rotor lost" in judged["0002"].message
+    few = cases.execute(executor=hairpin.vectorised(lambda missions: []), out=tmp_path / "few")
+    assert few.exit_code == 4 and "0 flights of" in few.verdict
+
+
+def test_the_search_flies_many_at_once(tmp_path):
+    values = {"execute.baseline": 2, "execute.repeat": 1, "generate.search": {"method": "worst", "waypoints": 60, "executions": 24, "cases": 2}}
+    found = [
+        hairpin.stress("demo-quadrotor", executor=chasing(f), out=tmp_path / name, values={**values, "generate.reach": "hull"})
+        for name, f in (("many", chase), ("alone", lambda t, x, u: u))
+    ]
+    assert deviations(found[0]) == deviations(found[1]) and len(found[0]) == 2
+
+
+def test_judges_that_take_many_say_what_single_ones_say(cases, tmp_path):
+    flown = cases.execute(executor=straight, out=tmp_path / "out", values={"execute.repeat": 2})
+    low = hairpin.vectorised(lambda runs: np.array([4.0 - run.p_m[:, 2].max() for run in runs]))
+    assert flown.judge_by(low).margins == flown.judge_by(lambda run: 4.0 - run.p_m[:, 2].max()).margins
+    assert len(flown.judge_by(low).margins) == 4
+    assert flown.judge_by(hairpin.vectorised(lambda runs: [np.nan] * len(runs))).exit_code == 5
+    with pytest.raises(ValueError, match="0 answers of 4 runs"):
+        flown.judge_by(hairpin.vectorised(lambda runs: []))
+    with pytest.raises(hairpin.InputError, match="no vectorised form"):
+        hairpin.stress("demo-quadrotor", target=low, out=tmp_path / "target")
+
+
 def test_the_console_command_is_the_command():
     done = subprocess.run([sys.executable, "-m", "hairpin", "--version"], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout == subprocess.run([BIN, "--version"], capture_output=True, text=True).stdout

@@ -78,9 +78,10 @@ pub(crate) fn explain<'py>(
     object(py, &said)
 }
 
-/// The key of the score of what `scenario` is about.
+/// Of what `scenario` is about the key of its score, and how many processes fly, if it says so.
 #[pyfunction]
-pub(crate) fn score_key(py: Python<'_>, scenario: &str, sets: Vec<Set>) -> PyResult<&'static str> {
+pub(crate) fn facts(py: Python<'_>, scenario: &str, sets: Vec<Set>) -> PyResult<(&'static str, Option<u64>)> {
     let setup = py.detach(|| setup_for(scenario, &sets));
-    setup.map(|setup| setup.scenario.score_key()).map_err(|report| raised(py, &report.into()))
+    let found = setup.map(|setup| (setup.scenario.score_key(), setup.scenario.executor().processes));
+    found.map_err(|report| raised(py, &report.into()))
 }

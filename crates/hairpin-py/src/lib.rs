@@ -26,7 +26,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(campaigns::stress, module)?)?;
     module.add_function(wrap_pyfunction!(campaigns::generate, module)?)?;
     module.add_function(wrap_pyfunction!(campaigns::explain, module)?)?;
-    module.add_function(wrap_pyfunction!(campaigns::score_key, module)?)?;
+    module.add_function(wrap_pyfunction!(campaigns::facts, module)?)?;
     module.add_function(wrap_pyfunction!(folders::execute, module)?)?;
     module.add_function(wrap_pyfunction!(folders::judge, module)?)?;
     module.add_function(wrap_pyfunction!(folders::verify, module)?)?;

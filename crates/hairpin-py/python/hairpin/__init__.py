@@ -11,7 +11,7 @@ A test generator: what it finds is stressful by design, and is no safety certifi
 """
 
 from hairpin._call import Progress
-from hairpin._callables import Controller, ControllerLike, vectorised
+from hairpin._callables import Controller, ControllerLike
 from hairpin._campaign import Campaign
 from hairpin._errors import ExecutorError, InputError, Interrupted, WriteError
 from hairpin._executors import adversary, dynamics
@@ -32,6 +32,7 @@ from hairpin._jobs import (
 from hairpin._judge import judge
 from hairpin._live import live
 from hairpin._logs import Cut, JudgedLog, JudgedLogs
+from hairpin._many import vectorised
 from hairpin._native import __version__
 from hairpin._results import Case, Comparison, Judged, Report, Run, Shrunk, Verification, Violation
 from hairpin._scenario import Robot, Scenario, World

@@ -11,11 +11,13 @@ import socket
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from hairpin._errors import InputError
+from hairpin._many import Together, takes_many
 from hairpin._scenario import texts
 
 PLACE = "HAIRPIN_PYTHON_EXECUTOR"
@@ -44,9 +46,10 @@ def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
         name = next(
             name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors
         )
-        _executors[name] = executor
+        _executors[name] = Together(executor) if takes_many(executor) else executor
     try:
-        yield f"{shlex.quote(sys.executable)} -m hairpin._relay {name}"
+        # Of the package it needs nothing, whose import takes longer than many a mission.
+        yield shlex.join([sys.executable, "-IS", str(Path(__file__).with_name("_relay.py")), name])
     finally:
         with _lock:
             del _executors[name]

@@ -12,13 +12,14 @@ import textwrap
 import types
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Protocol, TypeVar, Union
+from typing import Any, Protocol, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from hairpin._call import Brought
 from hairpin._errors import InputError
+from hairpin._many import takes_many
 from hairpin._scenario import texts, toml_value
 
 _NUMBERS = ("v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s")
@@ -39,23 +40,6 @@ class Controller(Protocol):
 
 ControllerLike = Union[Callable[[float, dict[str, Any], dict[str, Any]], Mapping[str, Any]], Controller, type[Controller]]
 """A function ``control(t_s, state, reference)``, an object with such a method, or its class."""
-
-
-_Marked = TypeVar("_Marked", bound=Callable[..., Any])
-
-
-def vectorised(function: _Marked) -> _Marked:
-    """Marks a score that takes all legs at once: a dictionary of arrays, numbers (n,) and places (n, 3), and gives (n,) or (n, 2).
-
-    The second column is what a leg leaves to the next (docs/stress.md). Or a controller that takes all runs that are under way at
-    once: the same keys as of one, with a row for each run (docs/own-controllers.md).
-
-    >>> @vectorised
-    ... def score(legs):
-    ...     return legs["v_in_m_s"] * legs["turn_rad"]
-    """
-    function.hairpin_vectorised = True  # type: ignore[attr-defined]
-    return function
 
 
 def bring(
@@ -84,7 +68,10 @@ def bring(
                 repr(given),
                 "a function, an object with `control`, or its class",
             )
-        if what == "controller" and getattr(given, "hairpin_vectorised", False):
+        if what == "target" and takes_many(given):
+            bound = "a function of one run: targets have no vectorised form"
+            raise InputError(f"`target` = {given!r}: must be {bound}", what, repr(given), bound)
+        if what == "controller" and takes_many(given):
             make = _steering_many
         if what != "controller" and not callable(given):
             raise InputError(f"`{what}` = {given!r}: must be a function", what, repr(given), "a function")
@@ -166,7 +153,7 @@ def _rows(values: Any) -> list[Any]:
 
 
 def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[bytes], Any]:
-    many, left = getattr(given, "hairpin_vectorised", False), getattr(given, "left", None)
+    many, left = takes_many(given), getattr(given, "left", None)
 
     def score(table: bytes) -> Any:
         legs = np.frombuffer(table, dtype=np.float64).reshape(-1, _OF_A_LEG)
@@ -256,14 +243,14 @@ def source(given: Any, what: str = "controller") -> str | None:
             f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n"
         )
         lines.append("def control(t_s, state, reference):\n    return _own.control(t_s, state, reference)\n")
-    elif what == "score" and getattr(given, "hairpin_vectorised", False):
+    elif what == "score" and takes_many(given):
         # The command asks for one leg at a time.
         lines.append(_ONE_BY_ONE.format(name=name))
     else:
         asked = "control" if what == "controller" else what
         if name != asked:
             lines.append(f"{asked} = {name}\n")
-        if getattr(given, "hairpin_vectorised", False):
+        if takes_many(given):
             lines.append(f"{asked}.hairpin_vectorised = True\n")
     return "\n\n".join(lines)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import itertools
 import os
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
@@ -14,8 +15,9 @@ import numpy as np
 from hairpin import _native
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
+from hairpin._many import takes_many
 from hairpin._picture import picture
-from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation
+from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation, margin_of
 from hairpin._scenario import sets_of
 from hairpin._tables import Table
 
@@ -158,25 +160,34 @@ class Campaign:
         said = _native.judge(self.folder, sets_of(values), waiting(threads, progress))
         return Campaign(self.folder, brought=self._brought, said=said)
 
-    def judge_by(self, judge: Callable[[Run], float | bool | None]) -> Judged:
+    def judge_by(self, judge: Callable[[Any], Any]) -> Judged:
         """Judges every run that the folder keeps by a callable of this process, beside the folder's own verdict, which stays.
 
         Args:
-            judge: of a :class:`Run` gives whether it is within what is asked, or by how much (≥ 0 is within), or ``None``: open.
+            judge: of a :class:`Run` gives whether it is within what is asked, or by how much (≥ 0 is within); ``None`` and NaN are open.
+                With :func:`vectorised` it gets a list of runs, 256 at most, and gives as many answers.
+
+        Raises:
+            ValueError: a vectorised judge gave more or fewer answers than it was asked for.
 
         Nothing is written.
         """
+        asked = judge if takes_many(judge) else lambda runs: [judge(run) for run in runs]
         found: dict[tuple[str, int], float | None] = {}
+        runs = self._runs()
+        while block := list(itertools.islice(runs, 256)):
+            answers = list(asked(block))
+            if len(answers) != len(block):
+                raise ValueError(f"{len(answers)} answers of {len(block)} runs")
+            found.update({(run.case.id, run.number): margin_of(answer) for run, answer in zip(block, answers, strict=True)})
+        return Judged(found)
+
+    def _runs(self) -> Iterator[Run]:
+        """Every run that is kept, read when it is asked for."""
         for case in self.cases:
             runs = self.table("executions", case=case.number).to_numpy()["run"]
             for run in sorted(set(runs.tolist())):
-                answer = judge(Run(case, run, self.execution(case.id, run)))
-                found[case.id, run] = (
-                    None
-                    if answer is None
-                    else (float(answer) if not isinstance(answer, bool | np.bool_) else (0.0 if answer else -1.0))
-                )
-        return Judged(found)
+                yield Run(case, run, self.execution(case.id, run))
 
     def verify(self, *, threads: int | None = None, progress: Progress | None = None) -> Verification:
         """Integrates every witness by independent code; see :func:`hairpin.verify`."""

@@ -9,8 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hairpin._errors import InputError
+from hairpin._many import takes_many, vectorised
+
 Floats = npt.NDArray[np.float64]
-Executor = Callable[[dict[str, Any]], dict[str, Any]]
+Executor = Callable[[Any], Any]
+"""Of a mission gives a flight; if it is marked by :func:`vectorised`, of a list of missions a list of flights."""
 
 
 def dynamics(
@@ -36,6 +40,10 @@ def dynamics(
     Returns:
         an executor for :func:`stress` and :func:`execute`.
 
+    With a derivative that is marked by :func:`vectorised` the missions that are under way are integrated side by side: states, controls
+    and places have a row for each, (r, n), (r, m) and (r, 3), ``next`` is (r,), ``target_m`` (r, 3), ``waypoints_m`` a list, and
+    ``start`` gets a list of missions. A row stays until the last one is there, and no row may depend on another.
+
     A waypoint is reached within ``accept_m`` of it. What is reported is what was integrated: it is executed only, and a case that
     no reach set of hairpin's planned has the evidence ``unchecked``.
 
@@ -46,28 +54,25 @@ def dynamics(
     ('done', True)
     """
     if not step_s > 0 or substeps < 1:
-        from hairpin._errors import InputError
-
         field, value = ("step_s", step_s) if not step_s > 0 else ("substeps", substeps)
         raise InputError(f"`{field}` = {value}: must be more than 0", field, str(value), "more than 0")
 
-    def fly(mission: dict[str, Any]) -> dict[str, Any]:
-        state = np.array(start(mission), dtype=np.float64)
+    def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
+        state = np.array(start(missions), dtype=np.float64)
         size = step_s / substeps
 
-        def advance(t: float, to: dict[str, Any]) -> dict[str, Floats]:
+        def advance(t: float, to: dict[str, Any]) -> Any:
             nonlocal state
             if t > 0.0:
                 before = t - step_s
                 u = np.asarray(control(before, state, to), dtype=np.float64)
                 for number in range(substeps):
                     state = _runge_kutta(derivative, before + number * size, state, u, size)
-            return _posed(pose(state))
+            return pose(state)
 
-        return _carried_out(mission, advance, step_s)
+        return advance
 
-    fly.__name__ = getattr(derivative, "__name__", "dynamics").strip("<>") or "dynamics"
-    return fly
+    return _executor(begin, step_s, takes_many(derivative), derivative, "dynamics")
 
 
 def adversary(
@@ -90,22 +95,47 @@ def adversary(
     Returns:
         an executor for :func:`stress` and :func:`execute`; the environment's physics are its own, and nothing of them is proven.
 
+    With a step that is marked by :func:`vectorised` all four work on the missions that are under way, as :func:`dynamics` has it:
+    ``reset`` gets a list of them, and the state, whatever it is, holds them all until the last one is there.
+
     Numbered examples: examples/python/06_learned_policy.py.
     """
 
-    def fly(mission: dict[str, Any]) -> dict[str, Any]:
-        state = reset(mission)
+    def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
+        state = reset(missions)
 
-        def advance(t: float, to: dict[str, Any]) -> dict[str, Floats]:
+        def advance(t: float, to: dict[str, Any]) -> Any:
             nonlocal state
             if t > 0.0:
                 state = env_step(state, policy(state, to))
-            return _posed(pose(state))
+            return pose(state)
 
-        return _carried_out(mission, advance, step_s)
+        return advance
 
-    fly.__name__ = getattr(policy, "__name__", "policy").strip("<>") or "policy"
-    return fly
+    return _executor(begin, step_s, takes_many(env_step), policy, "policy")
+
+
+def _executor(
+    begin: Callable[[Any], Callable[[float, dict[str, Any]], Any]], step_s: float, many: bool, named: Any, otherwise: str
+) -> Executor:
+    """One of what steps a mission, or many of them at once."""
+
+    def fly_many(missions: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        advance = begin(missions)
+        return _carried_out(missions, lambda t, to: _posed(advance(t, to), len(missions)), step_s)
+
+    def fly(mission: dict[str, Any]) -> dict[str, Any]:
+        advance = begin(mission)
+
+        def alone(t: float, to: dict[str, Any]) -> dict[str, Floats]:
+            row = {"waypoints_m": to["waypoints_m"][0], "next": int(to["next"][0]), "target_m": to["target_m"][0]}
+            return {key: value[np.newaxis] for key, value in _posed(advance(t, row)).items()}
+
+        return _carried_out([mission], alone, step_s)[0]
+
+    made: Executor = vectorised(fly_many) if many else fly
+    made.__name__ = getattr(named, "__name__", otherwise).strip("<>") or otherwise
+    return made
 
 
 def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, u: Floats, h: float) -> Floats:
@@ -119,36 +149,54 @@ def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, 
     return x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
 
 
-def _posed(found: Any) -> dict[str, Floats]:
+def _posed(found: Any, rows: int | None = None) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
-    return {key: np.array(value, dtype=np.float64) for key, value in table.items()}
+    posed = {key: np.array(value, dtype=np.float64) for key, value in table.items()}
+    for key, value in posed.items() if rows is not None else ():
+        if value.shape[:1] != (rows,):
+            raise ValueError(f"{key} of shape {value.shape}: must have a row for each of {rows} missions")
+    return posed
 
 
 def _carried_out(
-    mission: dict[str, Any], advance: Callable[[float, dict[str, Any]], dict[str, Floats]], step_s: float
-) -> dict[str, Any]:
-    """Steps until the last waypoint is reached, or the time is over."""
-    waypoints = np.asarray(mission["waypoints_m"], dtype=np.float64)
-    accept, limit = float(mission["accept_m"]), float(mission["time_limit_s"])
-    at, rows, times, legs, ended = 1, [], [], [], "time"
-    number = 0
-    while number * step_s <= limit:
-        t = number * step_s
-        target = waypoints[min(at, len(waypoints) - 1)]
-        row = advance(t, {"waypoints_m": waypoints, "next": at, "target_m": target})
-        if not np.isfinite(row["p_m"]).all():
-            ended = "crash"
-            break
+    missions: list[dict[str, Any]], advance: Callable[[float, dict[str, Any]], dict[str, Floats]], step_s: float
+) -> list[dict[str, Any]]:
+    """Steps until of each the last waypoint is reached, or the time is over."""
+    ways = [np.asarray(mission["waypoints_m"], dtype=np.float64) for mission in missions]
+    accept, limit = (np.array([float(mission[key]) for mission in missions]) for key in ("accept_m", "time_limit_s"))
+    counts = np.array([len(way) for way in ways])
+    places = np.zeros((len(ways), counts.max(), 3))
+    for way, place in zip(ways, places, strict=True):
+        place[: len(way)] = way
+    every = np.arange(len(ways))
+    at, ended = np.ones(len(ways), dtype=np.int64), ["time"] * len(ways)
+    samples, under_way = np.zeros(len(ways), dtype=np.int64), np.ones(len(ways), dtype=bool)
+    rows: list[dict[str, Floats]] = []
+    legs: list[npt.NDArray[np.int64]] = []
+    while (under_way := under_way & (len(rows) * step_s <= limit)).any():
+        towards = np.minimum(at, counts - 1)
+        row = advance(len(rows) * step_s, {"waypoints_m": ways, "next": at.copy(), "target_m": places[every, towards]})
+        lost = under_way & ~np.isfinite(row["p_m"]).all(axis=1)
+        under_way &= ~lost
         rows.append(row)
-        times.append(t)
-        legs.append(min(at, len(waypoints) - 1) - 1)
-        while at < len(waypoints) and float(np.linalg.norm(row["p_m"] - waypoints[at])) <= accept:
-            at += 1
-        if at >= len(waypoints):
-            ended = "done"
-            break
-        number += 1
-    flown: dict[str, Any] = {"t_s": np.array(times), "leg": np.array(legs), "ended": ended}
-    for key in rows[0] if rows else ():
-        flown[key] = np.stack([row[key] for row in rows])
-    return flown
+        legs.append(towards - 1)
+        samples[under_way] = len(rows)
+        while (near := under_way & (at < counts) & _within(row["p_m"], places[every, np.minimum(at, counts - 1)], accept)).any():
+            at[near] += 1
+        there = under_way & (at >= counts)
+        under_way &= ~there
+        for which, word in ((lost, "crash"), (there, "done")):
+            for run in np.flatnonzero(which):
+                ended[run] = word
+    times = np.arange(len(rows)) * step_s
+    keys = rows[0] if rows else ()
+    columns = {key: np.stack([row[key] for row in rows]) for key in keys} | {"leg": np.array(legs)}
+    return [
+        {"t_s": times[:count], "ended": ended[run]} | {key: column[:count, run] for key, column in columns.items()}
+        for run, count in enumerate(samples.tolist())
+    ]
+
+
+def _within(places: Floats, goals: Floats, distances: Floats) -> npt.NDArray[np.bool_]:
+    within: npt.NDArray[np.bool_] = np.linalg.norm(places - goals, axis=1) <= distances
+    return within

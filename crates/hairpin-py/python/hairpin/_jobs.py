@@ -15,6 +15,7 @@ from hairpin._call import Brought, Progress, means, replaces, waiting
 from hairpin._callables import ControllerLike, bring
 from hairpin._campaign import Campaign
 from hairpin._errors import InputError
+from hairpin._many import AT_ONCE, takes_many
 from hairpin._results import Comparison, Shrunk, Verification
 from hairpin._scenario import Scenario, Source, scenario, sets_of, toml_value
 
@@ -81,7 +82,7 @@ def stress(
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
     with serving(executor) as command:
-        begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s, budget_s)
+        begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s, budget_s)
         said = _called(
             brought,
             lambda: _native.stress(
@@ -120,7 +121,7 @@ def generate(
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
     with serving(executor) as command:
-        begun = _begun(asked, out, seed, values, brought, command, if_there, time_limit_s)
+        begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s)
         said = _called(
             brought, lambda: _native.generate(begun, means(brought, portable, allow_commands), waiting(threads, progress))
         )
@@ -152,7 +153,8 @@ def execute(
         executor: a command; or a callable that carries a mission out. It gets a dictionary with ``case``, ``run``, ``seed``,
             ``robot``, ``world``, ``waypoints_m``, ``accept_m``, ``time_limit_s``, ``timed`` as the executor protocol has it, and gives
             ``t_s`` (n,), ``p_m`` (n, 3), and if it knows them ``q_wxyz`` (n, 4), ``v_m_s`` (n, 3), ``leg`` (n,), ``ended`` (``done``,
-            ``time`` or ``crash``). It is asked from several threads. See also :func:`dynamics` and :func:`adversary`.
+            ``time`` or ``crash``). It is asked from several threads; with :func:`vectorised` it gets a list of the missions that are
+            under way, 16 at most if `execute.processes` does not say, and gives as many. See also :func:`dynamics`, :func:`adversary`.
         missions: a mission or a folder of them, which take the place of the cases.
         repro: folder of saved cases that are run first.
         out: a folder of its own for the runs, with the same cases.
@@ -169,6 +171,7 @@ def execute(
         brought = opened._brought
     with serving(executor) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
+        sets += _side_by_side(executor, os.fspath(folder / "scenario.toml"), sets)
         flights = SimpleNamespace(
             folder=folder,
             out=_path(out),
@@ -346,7 +349,7 @@ def _begun(
     seed: int | None,
     values: Mapping[str, Any] | None,
     brought: Brought,
-    command: str | None,
+    executes: tuple[str | None, Callable[..., Any] | str | None],
     if_there: str,
     time_limit_s: float | None,
     budget_s: float | None = None,
@@ -357,12 +360,20 @@ def _begun(
     sets = asked.sets() + sets_of(values)
     if seed is not None:
         sets.append(("seed", toml_value(seed)))
-    sets += brought.sets + _command(command)
+    sets += brought.sets + _command(executes[0])
+    sets += _side_by_side(executes[1], asked.path(), sets)
     return SimpleNamespace(scenario=asked.path(), out=_path(out), sets=sets, if_there=if_there, time_limit_s=time_limit_s, budget_s=budget_s)
 
 
 def _command(command: str | None) -> list[tuple[str, str]]:
     return [] if command is None else [("execute.command", toml_value(command))]
+
+
+def _side_by_side(executor: Any, scenario: str, sets: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    """As many missions as an executor that takes many is asked with at most, where the scenario does not say."""
+    if not takes_many(executor) or _native.facts(scenario, sets)[1] is not None:
+        return []
+    return [("execute.processes", str(AT_ONCE))]
 
 
 def _called(brought: Brought, call: Callable[[], Any]) -> Any:
@@ -374,7 +385,7 @@ def _called(brought: Brought, call: Callable[[], Any]) -> Any:
 
 def _score_key(asked: Scenario) -> str:
     """Arms have their score elsewhere."""
-    return str(_native.score_key(asked.path(), asked.sets()))
+    return _native.facts(asked.path(), asked.sets())[0]
 
 
 def _path(path: str | os.PathLike[str] | None) -> str | None:

@@ -118,6 +118,14 @@ class Run:
         return np.stack([self.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
 
 
+def margin_of(answer: Any) -> float | None:
+    """What a judge said of a run as a margin: ``None`` is open, and so is what is no number."""
+    if isinstance(answer, bool | np.bool_):
+        return 0.0 if answer else -1.0
+    margin = None if answer is None else float(answer)
+    return None if margin is None or np.isnan(margin) else margin
+
+
 @dataclass(frozen=True)
 class Judged:
     """What a judge of this process says: margins by case and run, ≥ 0 is within, ``None`` is open."""
