@@ -1,9 +1,12 @@
 //! What of a log is compared, and what a simulation says in its place.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 
 use super::FitError;
 use super::passages::{Missed, passages};
+use super::placed::without;
 use crate::campaign::Case;
 use crate::campaign::kind::{Output, Sampling};
 use crate::simulation::Acceptance;
@@ -158,7 +161,12 @@ impl Compared {
         let begun: Vec<f64> = (0..((to - start) / anew).ceil() as usize).map(|k| start + k as f64 * anew).collect();
         let count = (anew / period).round() as usize;
         let samples = (0..begun.len()).flat_map(|k| (0..count).map(move |i| (k, (i as f64 + 0.5) * period)));
-        let samples = samples.filter(|(k, tau)| (from..=to).contains(&(begun[*k] + tau))).collect();
+        let samples = samples.filter(|(k, tau)| (from..=to).contains(&(begun[*k] + tau)));
+        let alone = |(k, tau): &(usize, f64)| {
+            let Window { range, .. } = Window::at(track.times(), begun[*k] + tau, period);
+            track.times()[range.start] >= begun[*k] && track.times()[range.end - 1] <= begun[*k] + anew
+        };
+        let samples = samples.filter(alone).collect();
         let mut compared = Self { samples, begun, ..self.clone() };
         compared.logged = compared.outputs_of(track, &compared.begun, &compared.which, rule);
         compared
@@ -176,11 +184,46 @@ impl Compared {
         self.begun.iter().map(place).collect()
     }
 
-    /// What a simulation that was put where the log is says in its place: between its own samples, which jump.
-    pub(super) fn beside(&self, driven: &Track, track: &Track) -> Vec<Vec<f64>> {
-        let start = track.times()[0];
-        let at = |(k, tau): &(usize, f64)| outputs_at(driven, &self.which, self.begun[*k] - start + tau, 0.0);
+    /// What a simulation that was put where the log is says in its place: of the same moments, by the same line.
+    ///
+    /// A line between samples of the log is smoother than the motion; held against the motion itself, a vehicle would
+    /// seem to answer more lazily than it does, and sooner.
+    pub(super) fn beside(&self, driven: &Track, track: &Track, period: f64) -> Vec<Vec<f64>> {
+        let times = track.times();
+        let at = |(k, tau): &(usize, f64)| {
+            let Window { range, weights } = Window::at(times, self.begun[*k] + tau, period);
+            let mut sum = vec![0.0; self.which.len()];
+            for (time, weight) in times[range].iter().zip(weights) {
+                let says = outputs_at(driven, &self.which, time - times[0], 0.0);
+                sum.iter_mut().zip(says).for_each(|(sum, value)| *sum += weight * value);
+            }
+            sum
+        };
         self.samples.iter().map(at).collect()
+    }
+
+    /// Logged less simulated.
+    pub(super) fn less(&self, simulated: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let differences = self.logged.iter().zip(simulated);
+        differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect()
+    }
+
+    /// Residuals without what a wrong place explains of them, stretch by stretch; `slopes` are derivatives by the
+    /// places. Outputs weigh by how far they are off in the whole log.
+    pub(super) fn but_for_places(&self, residuals: &[Vec<f64>], slopes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
+        let mut squares = vec![f64::MIN_POSITIVE; self.outputs.iter().max().map_or(0, |most| most + 1)];
+        for row in residuals {
+            row.iter().zip(&self.outputs).for_each(|(value, &number)| squares[number] += value * value);
+        }
+        let weights: Vec<f64> = self.outputs.iter().map(|&number| squares[number].sqrt().recip()).collect();
+        let mut from = 0;
+        let stretch = |samples: &[(usize, f64)]| {
+            let these = from..from + samples.len();
+            from = these.end;
+            let by: Vec<&[Vec<f64>]> = slopes.iter().map(|rows| &rows[these.clone()]).collect();
+            without(&residuals[these.clone()], &by, &weights)
+        };
+        self.samples.chunk_by(|(a, _), (b, _)| a == b).flat_map(stretch).collect()
     }
 
     /// What `flown` says in the place of the log, sample by sample; `None` where it passes not all waypoints.
@@ -233,18 +276,9 @@ fn begins_of_legs(track: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Resu
 /// faster than the period. Positions in m, velocities in m/s, axes as unit vectors' parts, thrust as the mean of the
 /// rotors' squared speeds in (rad/s)², joints in rad.
 fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> {
-    let times = track.times();
-    let t = t.clamp(times[0], times[times.len() - 1]);
-    let near =
-        times.partition_point(|time| *time < t - 0.5 * period)..times.partition_point(|time| *time <= t + 0.5 * period);
-    let range = if near.len() >= 4 {
-        near
-    } else {
-        let after = times.partition_point(|time| *time < t).clamp(1, times.len() - 1);
-        after - 1..after + 1
-    };
-    let line = Line::through(&times[range.clone()], t);
-    let through = |value: &dyn Fn(usize) -> f64| line.at(range.clone().map(value));
+    let Window { range, weights } = Window::at(track.times(), t, period);
+    let through =
+        |value: &dyn Fn(usize) -> f64| range.clone().zip(&weights).map(|(i, weight)| weight * value(i)).sum::<f64>();
     let channel = |name: &str| {
         let values = track.channel(name).unwrap_or_default();
         through(&|i| values[i])
@@ -262,20 +296,30 @@ fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> 
     which.iter().map(output).collect()
 }
 
-/// Weights of samples whose least-squares line is asked for at one time.
+/// Samples, and what each weighs in the least-squares line through them at one time.
 ///
 /// wᵢ = 1/n + (t − t̄)(tᵢ − t̄)/Σ(tⱼ − t̄)².
-struct Line(Vec<f64>);
+struct Window {
+    range: Range<usize>,
+    weights: Vec<f64>,
+}
 
-impl Line {
-    fn through(times: &[f64], t: f64) -> Self {
+impl Window {
+    fn at(times: &[f64], t: f64, period: f64) -> Self {
+        let t = t.clamp(times[0], times[times.len() - 1]);
+        let (from, to) = (t - 0.5 * period, t + 0.5 * period);
+        let near = times.partition_point(|time| *time < from)..times.partition_point(|time| *time <= to);
+        let range = if near.len() >= 4 {
+            near
+        } else {
+            let after = times.partition_point(|time| *time < t).clamp(1, times.len() - 1);
+            after - 1..after + 1
+        };
+        let times = &times[range.clone()];
         let n = times.len() as f64;
         let mean = times.iter().sum::<f64>() / n;
         let spread: f64 = times.iter().map(|time| (time - mean) * (time - mean)).sum();
-        Self(times.iter().map(|time| 1.0 / n + (t - mean) * (time - mean) / spread).collect())
-    }
-
-    fn at(&self, values: impl Iterator<Item = f64>) -> f64 {
-        self.0.iter().zip(values).map(|(weight, value)| weight * value).sum()
+        let weight = |time: &f64| 1.0 / n + (t - mean) * (time - mean) / spread;
+        Self { range, weights: times.iter().map(weight).collect() }
     }
 }

@@ -21,6 +21,7 @@ mod error;
 mod estimate;
 mod gap;
 mod passages;
+mod placed;
 mod simulate;
 mod stretches;
 mod whiten;

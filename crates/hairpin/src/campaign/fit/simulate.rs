@@ -7,10 +7,13 @@ use super::FitError;
 use super::compare::{Compared, Flown, Rule};
 use crate::campaign::kind::{Adjustable, Fittable, Order};
 use crate::campaign::{Mistake, Setup};
+use crate::simulation::ground::Place;
 use crate::trajectory::Track;
 
 /// Who waits for a robot that is slower than the log's, s beyond the log's end.
 const PATIENCE: f64 = 5.0;
+/// What places are moved by for derivatives, m and rad.
+const ASIDE: f64 = 0.005;
 
 /// A setup without chance, logs, and the rule that they are compared by.
 pub(super) struct Loops<'a> {
@@ -82,28 +85,39 @@ impl<'a> Loops<'a> {
     /// simulated.
     pub(super) fn residuals(&self, theta: &[f64], which: &[usize]) -> Option<Vec<Vec<Vec<f64>>>> {
         let setup = self.with(theta).ok()?;
-        which
-            .par_iter()
-            .map(|&at| {
-                let compared = &self.compared[at];
-                let simulated = self.simulated(&setup, at)?;
-                let differences = compared.logged.iter().zip(&simulated);
-                Some(differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect())
-            })
-            .collect()
+        let of = |&at: &usize| match self.rule.sampling.anew {
+            Some(_) => self.beside(&setup, at),
+            None => Some(self.compared[at].less(&self.freely(&setup, at)?)),
+        };
+        which.par_iter().map(of).collect()
     }
 
-    /// What is compared of mission number `at`, which is flown freely, or anew from where the log is.
-    fn simulated(&self, setup: &Setup, at: usize) -> Option<Vec<Vec<f64>>> {
+    /// What is compared of mission number `at`, flown freely.
+    fn freely(&self, setup: &Setup, at: usize) -> Option<Vec<Vec<f64>>> {
+        let flown = self.flown[at];
+        self.compared[at].simulated(&self.fly(setup, at).ok()?, &flown.case.waypoints, &self.rule)
+    }
+
+    /// The residuals of mission number `at`, driven anew from where the log is, but for what comes of the places.
+    fn beside(&self, setup: &Setup, at: usize) -> Option<Vec<Vec<f64>>> {
         let (compared, flown) = (&self.compared[at], self.flown[at]);
-        if self.rule.sampling.anew.is_none() {
-            return compared.simulated(&self.fly(setup, at).ok()?, &flown.case.waypoints, &self.rule);
-        }
         let around = setup.around(&flown.case).ok()?;
         let order = Order { time_limit: compared.end, ..self.order(at) };
+        let says = |places: &[Place]| {
+            let driven = around.kind().run_beside(self.setup.kind().same(), &flown.case, &order, places).ok()?;
+            Some(compared.beside(&driven, &flown.track, self.rule.sampling.period))
+        };
         let places = compared.places(&flown.track);
-        let driven = around.kind().run_beside(self.setup.kind().same(), &flown.case, &order, &places).ok()?;
-        Some(compared.beside(&driven, &flown.track))
+        let (here, known) = (says(&places)?, places.iter().all(|place| place.yaw.is_some()));
+        let aside = |axis: usize| -> Option<Vec<Vec<f64>>> {
+            let moved: Vec<Place> = places.iter().map(|place| place.aside(axis, ASIDE)).collect();
+            let difference = |(there, here): (Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+                there.iter().zip(here).map(|(there, here)| (there - here) / ASIDE).collect()
+            };
+            Some(says(&moved)?.into_iter().zip(&here).map(difference).collect())
+        };
+        let slopes = (0..if known { 3 } else { 2 }).map(aside).collect::<Option<Vec<_>>>()?;
+        Some(compared.but_for_places(&compared.less(&here), &slopes))
     }
 
     /// How mission number `at` is flown: somewhat longer than the log.

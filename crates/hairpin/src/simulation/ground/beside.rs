@@ -25,6 +25,18 @@ pub struct Place {
     pub yaw: Option<f64>,
 }
 
+impl Place {
+    /// Moved by `by`, m or rad: east, north, or turned counter-clockwise.
+    pub fn aside(self, axis: usize, by: f64) -> Self {
+        let [x, y] = self.at;
+        match axis {
+            0 => Self { at: [x + by, y], ..self },
+            1 => Self { at: [x, y + by], ..self },
+            _ => Self { yaw: self.yaw.map(|yaw| yaw + by), ..self },
+        }
+    }
+}
+
 /// Between how a run stood before it was put elsewhere and after it, s.
 const JUMP: f64 = 1e-6;
 
