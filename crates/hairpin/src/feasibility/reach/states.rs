@@ -259,13 +259,21 @@ impl<'a, J: ProveLegs> States<'a, J> {
         let incoming = here - self.points[from.previous as usize];
         let left = self.number(from);
         let (v_in, length_in) = (J::speed(&self.states[left]), incoming.norm());
-        for leg in self.kept_legs(left).iter() {
-            let (waypoint, velocity) = self.place(leg.state);
-            let outgoing = self.points[waypoint as usize] - here;
+        // States of a waypoint follow on one another: they share the straight way to it, and the turn into that.
+        let (mut to, mut outgoing, mut turn) = (from.waypoint, Vector3::zeros(), 0.0);
+        let legs = self.kept_legs(left);
+        out.reserve(legs.len());
+        for leg in legs.iter() {
+            if leg.state >= self.first[to as usize + 1] || to == from.waypoint {
+                to = self.place(leg.state).0;
+                outgoing = self.points[to as usize] - here;
+                turn = if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) };
+            }
+            let (waypoint, velocity) = (to, leg.state - self.first[to as usize]);
             let features = LegFeatures {
                 v_in,
                 v_out: J::speed(&self.states[leg.state as usize]),
-                turn: if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) },
+                turn,
                 length: outgoing.norm(),
                 climb: outgoing.z,
                 slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },

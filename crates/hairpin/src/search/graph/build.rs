@@ -61,11 +61,10 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
             waypoints: vec![0],
             first: vec![0],
             to: Vec::new(),
-            details: Vec::new(),
+            details: Details::default(),
             without_returns: None,
         };
-        let mut numbers: HashMap<N, u32, FxBuildHasher> = HashMap::default();
-        numbers.insert(start, 0);
+        let mut known = Known { numbers: HashMap::from_iter([(start, 0)]), rows: HashMap::default() };
         let mut legs = Vec::new();
         let (mut node, mut layer_end, mut steps) = (0, 1, 1);
         while node < graph.nodes.len() {
@@ -76,21 +75,49 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
             if steps < length && candidates.len() >= 2 {
                 legs.clear();
                 legs_of(&graph.nodes[node], &mut legs);
-                for leg in &legs {
-                    let next = graph.nodes.len() as u32;
-                    let to = *numbers.entry(leg.to).or_insert(next);
-                    if to == next {
-                        graph.nodes.push(leg.to);
-                        graph.waypoints.push(leg.waypoint);
-                    }
-                    graph.to.push(to);
-                    graph.details.push(Details { duration: leg.duration, features: leg.features });
-                }
+                graph.add_row(&legs, &mut known);
             }
             graph.first.push(graph.to.len() as u32);
             node += 1;
         }
         graph
+    }
+}
+
+/// What is found again while a graph grows.
+struct Known<N> {
+    /// Of every node.
+    numbers: HashMap<N, u32, FxBuildHasher>,
+    /// First leg of the row that had as many legs, whose first led to this node with this entry speed.
+    rows: HashMap<(N, u64, usize), usize, FxBuildHasher>,
+}
+
+impl<N: Copy + Eq + Hash> LegGraph<'_, N> {
+    /// Appends the legs of one node. Where nodes differ in what was before their waypoint, rows lead to the same nodes:
+    /// these are copied, and not looked up.
+    fn add_row(&mut self, legs: &[Leg<N>], known: &mut Known<N>) {
+        let Some(head) = legs.first() else { return };
+        let begin = *known.rows.entry((head.to, head.features.v_in.to_bits(), legs.len())).or_insert(self.to.len());
+        let is_like =
+            |(at, leg): (usize, &Leg<N>)| self.nodes[self.to[at] as usize] == leg.to && self.details.is_onward(at, leg);
+        if begin < self.to.len() && (begin..).zip(legs).all(is_like) {
+            self.to.extend_from_within(begin..begin + legs.len());
+            (begin..).zip(legs).for_each(|(at, leg)| self.details.push_like(at, leg));
+        } else {
+            legs.iter().for_each(|leg| self.add_leg(leg, known));
+        }
+    }
+
+    /// Appends a leg, and the node that it leads to where that is new.
+    fn add_leg(&mut self, leg: &Leg<N>, known: &mut Known<N>) {
+        let next = self.nodes.len() as u32;
+        let to = *known.numbers.entry(leg.to).or_insert(next);
+        if to == next {
+            self.nodes.push(leg.to);
+            self.waypoints.push(leg.waypoint);
+        }
+        self.to.push(to);
+        self.details.push(leg);
     }
 }
 
@@ -159,7 +186,8 @@ impl<N: Copy> LegGraph<'_, N> {
                 if keep(&self.waypoints, from, to) {
                     (number[from as usize], number[to as usize]) = (0, 0);
                     // Never ahead of the leg that is looked at.
-                    (self.to[kept], self.details[kept]) = (to, self.details[leg]);
+                    self.to[kept] = to;
+                    self.details.put(kept, leg);
                     kept += 1;
                 }
             }

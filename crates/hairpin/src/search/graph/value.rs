@@ -18,8 +18,8 @@ pub(in crate::search) struct LegScores {
 impl LegScores {
     /// `own` and `left` of every leg; `sink`: the last leg is left nothing.
     ///
-    /// One entry per leg of the graph, in its order. NaN counts as −∞: such a leg is the last to be chosen, and still a
-    /// leg.
+    /// One entry per leg of the graph, in its order; an empty `left` leaves nothing. NaN counts as −∞: such a leg is
+    /// the last to be chosen, and still a leg.
     pub(in crate::search) fn new(mut own: Vec<f64>, mut left: Vec<f64>, sink: bool) -> Self {
         for score in own.iter_mut().chain(&mut left).filter(|score| score.is_nan()) {
             *score = f64::NEG_INFINITY;
@@ -86,14 +86,18 @@ impl<N: Copy> LegGraph<'_, N> {
     /// A row at a time, all legs of a node together, which is what scores that are asked of a program or are made in
     /// SIMD lanes need.
     pub(in crate::search) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
-        let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::with_capacity(self.legs()));
+        let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::new());
         let mut views = Vec::new();
         for node in 0..self.nodes() as u32 {
             views.clear();
             views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
             for [of_leg, to_next] in objective.own_and_left(&views) {
+                // Most scores leave nothing: no room is taken for that.
+                if !left.is_empty() || to_next.to_bits() != 0 {
+                    left.resize(own.len(), 0.0);
+                    left.push(to_next);
+                }
                 own.push(of_leg);
-                left.push(to_next);
             }
         }
         LegScores::new(own, left, objective.has_sink())
