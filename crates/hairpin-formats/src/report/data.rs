@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::column::{column, counts, round};
 use super::panels::panels;
 use super::relief::shading;
-use super::solids::{TRIANGLES, mesh, robot};
+use super::solids::{Meshes, meshes, robot};
 
 /// Samples of all flights together, of one at most, and of one at least.
 const FLOWN: [usize; 3] = [80_000, 700, 150];
@@ -25,8 +25,7 @@ const OTHERS: usize = 300;
 /// The JSON, safe inside a `<script>` element.
 pub(super) fn json(data: &ReportData) -> String {
     let size = data.drawing.size;
-    let mut left = TRIANGLES;
-    let obstacles: Vec<Value> = data.drawing.obstacles.iter().map(|surface| mesh(surface, &mut left)).collect();
+    let Meshes { drawn: obstacles, told } = meshes(&data.drawing.obstacles);
     let low = data.drawing.low;
     let samples = (FLOWN[0] / data.shown.len().max(1)).clamp(FLOWN[2], FLOWN[1]);
     let mut others = OTHERS;
@@ -35,6 +34,7 @@ pub(super) fn json(data: &ReportData) -> String {
         "size": [round(size.x, 3), round(size.y, 3), round(size.z, 3)],
         "relief": data.drawing.relief.as_ref().map(relief),
         "obstacles": obstacles,
+        "obstaclesTold": told,
         "robot": data.drawing.figure.as_ref().map(robot),
         "beside": data.beside.runs,
         "shown": data.beside.shown,
@@ -99,8 +99,6 @@ fn draws(data: &ReportData) -> Vec<Value> {
 
 fn case(data: &ReportData, shown: &Shown, samples: usize, others: &mut usize) -> Value {
     let length = &data.length;
-    // Balls and boxes: few triangles each, and those of the world do not count here.
-    let mut left = TRIANGLES;
     let waypoints: Vec<_> = shown.waypoints.iter().map(|p| [round(p.x, 3), round(p.y, 3), round(p.z, 3)]).collect();
     let kept = thin(shown.planned.len(), samples / PLANNED, &[]);
     // What the figure is posed by: of arms the joints.
@@ -123,7 +121,7 @@ fn case(data: &ReportData, shown: &Shown, samples: usize, others: &mut usize) ->
         "planned": planned,
         "flown": shown.flown.as_ref().map(|track| flown(shown, track, samples, length)),
         "runs": runs.into_iter().map(|run| other(run, length)).collect::<Vec<_>>(),
-        "obstacles": shown.obstacles.iter().map(|surface| mesh(surface, &mut left)).collect::<Vec<_>>(),
+        "obstacles": meshes(&shown.obstacles).drawn,
     })
 }
 

@@ -5,6 +5,7 @@ mod cases;
 mod column;
 mod data;
 mod day_card;
+mod decimated;
 mod escape;
 mod layout;
 mod more;

@@ -140,6 +140,8 @@ fn cards(judged: &JudgedLogs, length: &Length) -> Vec<[String; 3]> {
     let simulated = only.sheet.as_ref().and_then(|sheet| sheet.simulated.as_ref()?.measures.as_ref());
     let (Some(flown), Some(simulated)) = (flown, simulated) else { return Vec::new() };
     let gap = flown.max_deviation - simulated.max_deviation;
+    // The numbers of a file's last digit are none: a flight judged against itself has no gap.
+    let gap = if gap.abs() < 5e-6 { 0.0 } else { gap };
     let gap = format!("{}{}", if gap > 0.0 { "+" } else { "" }, length.told(gap));
     vec![
         card(

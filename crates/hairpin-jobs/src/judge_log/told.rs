@@ -251,7 +251,10 @@ impl Found {
                 let flown = flown.measures.max_deviation;
                 line(
                     "gap",
-                    format!("flown {flown:.2} m, simulated {simulated:.2} m at worst: {:+.2} m", flown - simulated),
+                    format!(
+                        "flown {flown:.2} m, simulated {simulated:.2} m at worst: {:+.2} m",
+                        hundredths(flown - simulated)
+                    ),
                 );
             }
             if flown.measures.acceleration_source == AccelerationSource::Position && flown.limits.acceleration.is_some()
@@ -262,4 +265,9 @@ impl Found {
         self.notes.iter().for_each(|note| line("note", note.clone()));
         lines
     }
+}
+
+/// `value` to its second decimal, nothing without a sign of less.
+fn hundredths(value: f64) -> f64 {
+    (100.0 * value).round() / 100.0 + 0.0
 }

@@ -26,7 +26,7 @@ interface MetricData { name: string; unit: string; limit: number | null; lower: 
 interface ReliefData { low: [number, number]; step: number; rows: number; columns: number; z: Column; shade: Column }
 interface ReportDataOfPage {
   beside: string; shown: string; folder: string | null; unit: string; limit: number | null; digits: number; done: string; low: V3; size: V3; relief: ReliefData | null;
-  obstacles: MeshData[]; robot: RobotData | null; open: number; asked?: string; cases: CaseData[];
+  obstacles: MeshData[]; obstaclesTold: string; robot: RobotData | null; open: number; asked?: string; cases: CaseData[];
   ids: string[]; status: string[]; metrics: MetricData[]; draws: { name: string; values: Column }[];
 }
 interface Theme { [name: string]: string }

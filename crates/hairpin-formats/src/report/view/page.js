@@ -196,7 +196,7 @@ function paint() {
   s.parts.lines.push(...made);
   s.draw(theme);
   for (const { drawn } of made) s.gl.deleteVertexArray(drawn.array);
-  const told = [size > 1.05 ? `robot drawn ${short(Number(size.toPrecision(2)))} × its size` : "", state.high > 1 ? `heights drawn ${state.high} × as high` : "", data.robot ? data.robot.told : ""];
+  const told = [size > 1.05 ? `robot drawn ${short(Number(size.toPrecision(2)))} × its size` : "", state.high > 1 ? `heights drawn ${state.high} × as high` : "", data.robot ? data.robot.told : "", data.obstaclesTold];
   byId("drawn-how").textContent = told.filter(Boolean).join(" · ");
 }
 
