@@ -122,7 +122,7 @@ def _executor(
 
     def fly_many(missions: list[dict[str, Any]]) -> list[dict[str, Any]]:
         advance = begin(missions)
-        return _carried_out(missions, lambda t, to: _posed(advance(t, to), len(missions)), step_s)
+        return _carried_out(missions, lambda t, to: _posed_rows(advance(t, to), len(missions)), step_s)
 
     def fly(mission: dict[str, Any]) -> dict[str, Any]:
         advance = begin(mission)
@@ -149,10 +149,14 @@ def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, 
     return x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
 
 
-def _posed(found: Any, rows: int | None = None) -> dict[str, Floats]:
+def _posed(found: Any) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
-    posed = {key: np.array(value, dtype=np.float64) for key, value in table.items()}
-    for key, value in posed.items() if rows is not None else ():
+    return {key: np.array(value, dtype=np.float64) for key, value in table.items()}
+
+
+def _posed_rows(found: Any, rows: int) -> dict[str, Floats]:
+    posed = _posed(found)
+    for key, value in posed.items():
         if value.shape[:1] != (rows,):
             raise ValueError(f"{key} of shape {value.shape}: must have a row for each of {rows} missions")
     return posed

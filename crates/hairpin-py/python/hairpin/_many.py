@@ -81,8 +81,7 @@ class Together:
                 self._ask([one])
             return
         for one, answer in zip(asked, answers, strict=True):
-            wrong = TypeError(f"{answer!r} is no dictionary, of the executor")
-            one.answer = answer if isinstance(answer, Mapping) else wrong
+            one.answer = answer if isinstance(answer, Mapping) else TypeError(f"{answer!r} is no dictionary, of the executor")
 
 
 class _Mission:
