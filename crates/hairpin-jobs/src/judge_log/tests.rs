@@ -430,3 +430,9 @@ fn a_folder_with_a_broken_log_judges_the_others() {
     settings.path.push("b.tum");
     assert!(matches!(judge_log(&settings, &crate::Unwatched), Err(Problem::Input(_))));
 }
+
+#[test]
+fn a_gap_of_nothing_has_no_sign_of_less() {
+    let told = |gap: f64| format!("{:+.2}", super::told::hundredths(gap));
+    assert_eq!([-0.004, 0.004, -0.006, 1.234].map(told), ["+0.00", "+0.00", "-0.01", "+1.23"]);
+}

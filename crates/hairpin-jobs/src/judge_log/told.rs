@@ -268,6 +268,6 @@ impl Found {
 }
 
 /// `value` to its second decimal, nothing without a sign of less.
-fn hundredths(value: f64) -> f64 {
+pub(super) fn hundredths(value: f64) -> f64 {
     (100.0 * value).round() / 100.0 + 0.0
 }

@@ -8,7 +8,7 @@ use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, v
 
 use super::super::found::{JudgedLog, Outcome};
 use super::super::matching::Matched;
-use super::super::told::{file_name, where_and_when};
+use super::super::told::{file_name, hundredths, where_and_when};
 use super::found::{FoundProgram, JointsTold};
 
 /// A log that was judged.
@@ -129,7 +129,10 @@ impl FoundProgram {
                 let simulated = 1e3 * simulated;
                 line(
                     "gap",
-                    format!("hardware {most:.2} mm, simulated {simulated:.2} mm at worst: {:+.2} mm", most - simulated),
+                    format!(
+                        "hardware {most:.2} mm, simulated {simulated:.2} mm at worst: {:+.2} mm",
+                        hundredths(most - simulated)
+                    ),
                 );
             }
         }
