@@ -7,7 +7,7 @@ use nalgebra::Point3;
 
 /// Vertices of a mesh at most: their numbers are written in 16 bits.
 const VERTICES: usize = 65_535;
-/// Times that the pitch is halved, or doubled, at most.
+/// Times that the pitch is doubled, at most; that it is halved ends with what that gives.
 const TURNS: usize = 40;
 
 /// A surface with fewer triangles, each point of which is within `off` of the surface that it stands for.
@@ -103,6 +103,7 @@ fn has_area(vertices: &[Point3<f64>], triangle: &[u32; 3], pitch: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::solids::{Meshes, meshes};
 
     /// A ball of radius 2 m by rings.
     fn ball(rings: u32, around: u32) -> Surface {
@@ -139,6 +140,16 @@ mod tests {
         assert!(ball.vertices.iter().step_by(97).all(near));
         let again = decimated(&ball, 20_000).surface;
         assert!(again.triangles == surface.triangles && again.vertices == surface.vertices);
+    }
+
+    #[test]
+    fn what_a_page_carries_of_meshes_has_a_bound_however_many_there_are() {
+        let surfaces: Vec<Surface> = (0..6).map(|k| Surface { name: format!("rock {k}"), ..ball(120, 200) }).collect();
+        let Meshes { drawn, told } = meshes(&surfaces);
+        let carried = serde_json::to_string(&drawn).unwrap().len();
+        assert!(carried < 1_000_000, "{carried} bytes of a page of 3 MB");
+        assert!(told.starts_with("rock 0 shown with ") && told.contains(" of 48000 triangles, within "), "{told}");
+        assert!(told.ends_with("3 more meshes shown with fewer triangles"), "{told}");
     }
 
     #[test]

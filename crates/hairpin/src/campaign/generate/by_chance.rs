@@ -109,12 +109,7 @@ fn drawn_plan(setup: &Setup, (purpose, number): (Purpose, u64), stop: &Stop) -> 
 ///
 /// `Err(None)` where it was stopped.
 fn draw(graphs: &Graphs, graph: u64, stop: &Stop) -> Result<(u64, Plan), Option<String>> {
-    if (stop.cancelled)() {
-        return Err(None);
-    }
-    let drawn = graphs.solver.draw(graph, stop).map(|plan| (graph, graphs.solver.finished(plan)));
-    // What a draw that was stopped says is no reason.
-    drawn.map_err(|reason| (!(stop.cancelled)()).then_some(reason))
+    graphs.draw(graph, stop).map(|plan| (graph, graphs.solver.finished(plan)))
 }
 
 #[cfg(test)]

@@ -41,6 +41,18 @@ impl<'a> Graphs<'a> {
         Trials { setup: self.setup, executor: self.executor, graph, seed: self.seed }
     }
 
+    /// A plan of graph number `graph`, drawn at random.
+    ///
+    /// # Errors
+    /// Why there is none, in a sentence's part; `None` where `stop` ended it: what a draw says that was stopped is no
+    /// reason.
+    pub(super) fn draw(&self, graph: u64, stop: &Stop) -> Result<Plan, Option<String>> {
+        if (stop.cancelled)() {
+            return Err(None);
+        }
+        self.solver.draw(graph, stop).map_err(|reason| (!(stop.cancelled)()).then_some(reason))
+    }
+
     /// Searches graph number `graph` for what is `wanted`; `stop` ends what has no bound in counts.
     ///
     /// Executions and scores that `stop` cancelled are refused to the search, which ends with what it has.

@@ -55,9 +55,9 @@ struct Plans<'a> {
 impl Field for Plans<'_> {
     type Plan = Drawn;
 
-    fn draw(&self, number: u64) -> Result<Drawn, String> {
+    fn draw(&self, number: u64) -> Result<Drawn, Option<String>> {
         let graph = self.first + number;
-        self.graphs.solver.draw(graph, self.stop).map(|plan| Drawn { graph, plan })
+        self.graphs.draw(graph, self.stop).map(|plan| Drawn { graph, plan })
     }
 
     fn seeds(&self) -> Vec<Drawn> {

@@ -39,12 +39,12 @@ pub trait Field: Sync {
     /// Plan number `number` of those that are drawn at random.
     ///
     /// # Errors
-    /// Why there is none, in a sentence's part.
+    /// Why there is none, in a sentence's part; `None` where it was stopped, which is no reason.
     ///
     /// Numbers are asked from 0 on, each at most once, several at a time; 50 draws for each that is wanted are asked
     /// for before a field counts as empty.
     /// Numbers that places of other changes were given are passed over.
-    fn draw(&self, number: u64) -> Result<Self::Plan, String>;
+    fn draw(&self, number: u64) -> Result<Self::Plan, Option<String>>;
 
     /// Plans that other searches know of, to begin with beside draws.
     /// Optima of scores, say. They are executed first, within the budget, and not counted as drawn. May be empty.

@@ -138,7 +138,7 @@ impl<'a, F: Field> Search<'a, F> {
             for plan in drawn {
                 match plan {
                     Ok(plan) => children.push(Child { plan, step: FIRST_STEP }),
-                    Err(reason) => self.nothing = Some(reason),
+                    Err(reason) => self.nothing = reason.or(self.nothing.take()),
                 }
             }
             let before = self.executions();

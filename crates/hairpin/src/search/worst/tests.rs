@@ -42,7 +42,7 @@ impl Room {
 impl Field for Room {
     type Plan = Vec<Point3<f64>>;
 
-    fn draw(&self, number: u64) -> Result<Self::Plan, String> {
+    fn draw(&self, number: u64) -> Result<Self::Plan, Option<String>> {
         let mut random = stream(named_seed(7, "room", number));
         let points = std::iter::once(Point3::from(ENDS[0]))
             .chain((0..4).map(|k| {
@@ -53,7 +53,7 @@ impl Field for Room {
             }))
             .chain([Point3::from(ENDS[1])])
             .collect::<Vec<_>>();
-        Self::feasible(&points).then_some(points).ok_or_else(|| "a leg is too long".into())
+        Self::feasible(&points).then_some(points).ok_or_else(|| Some("a leg is too long".into()))
     }
 
     fn seeds(&self) -> Vec<Self::Plan> {
@@ -144,8 +144,8 @@ fn what_cannot_be_drawn_says_why_and_what_is_stopped_keeps_what_it_has() {
     struct Nothing(Room);
     impl Field for Nothing {
         type Plan = Vec<Point3<f64>>;
-        fn draw(&self, _: u64) -> Result<Self::Plan, String> {
-            Err("no room".into())
+        fn draw(&self, number: u64) -> Result<Self::Plan, Option<String>> {
+            Err((number % 2 == 0).then(|| "no room".into())) // the others were stopped
         }
         fn seeds(&self) -> Vec<Self::Plan> {
             Vec::new()
