@@ -15,10 +15,6 @@ use hairpin::search::{Aggregate, BeamOutcome, BeamSettings, ExactSettings, Score
 use hairpin::world::{Sampling, World, sample_free};
 use nalgebra::{Point3, Vector3};
 
-fn main() {
-    divan::main();
-}
-
 const START: StepNode = StepNode { previous: 0, current: 0 };
 
 fn flightgoggles() -> Hull {

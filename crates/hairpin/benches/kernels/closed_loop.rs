@@ -1,4 +1,4 @@
-//! How many times faster than real time a flight is simulated, on one core: `cargo bench --bench closed_loop`.
+//! How many times faster than real time a flight is simulated, on one core: `cargo bench -p hairpin closed_loop`.
 //!
 //! Items are simulated milliseconds, which at the default step are physics steps: 12 000 × real time is 12 Mitem/s.
 
@@ -8,12 +8,8 @@ use hairpin::simulation::{Conditions, ControllerKind, ControllerSettings, FlySet
 use hairpin::world::World;
 use nalgebra::{Point3, Vector3};
 
-fn main() {
-    divan::main();
-}
-
 fn flightgoggles() -> Quadrotor {
-    let text = include_str!("../../../data/robots/quadrotor/flightgoggles.toml");
+    let text = include_str!("../../../../data/robots/quadrotor/flightgoggles.toml");
     toml::from_str::<QuadrotorDescription>(text).expect("a shipped file").build().expect("a shipped robot")
 }
 

@@ -11,10 +11,6 @@ use hairpin::world::{Obstacle, Shape, World};
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-fn main() {
-    divan::main();
-}
-
 /// The Anafi stand-in: 0.8 kg, plus layout, FlightGoggles' rotors and drag.
 fn anafi() -> Quadrotor {
     let rotor = |x: f64, y: f64, spin: f64| Rotor { x, y, spin };

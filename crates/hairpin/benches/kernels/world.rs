@@ -3,10 +3,6 @@
 use hairpin::world::{Obstacle, Sampling, Shape, World, sample_free};
 use nalgebra::{Point3, Vector3};
 
-fn main() {
-    divan::main();
-}
-
 fn world(shapes: Vec<Shape>) -> World {
     let obstacles = shapes.into_iter().map(|shape| Obstacle { name: String::new(), shape }).collect();
     World::new(Vector3::repeat(30.0), 2.0, obstacles).expect("a world")

@@ -2,10 +2,6 @@
 
 use hairpin::verification::{Body, Claim, Leg, RotorPlace, Tolerances, open_loop_with_lag, verify};
 
-fn main() {
-    divan::main();
-}
-
 /// FlightGoggles' numbers (drone.yaml of mit-aera/FlightGoggles).
 fn body() -> Body {
     let place = |x, y, spin| RotorPlace { x, y, spin };

@@ -10,10 +10,6 @@ use hairpin::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use nalgebra::Point3;
 use rand::RngExt;
 
-fn main() {
-    divan::main();
-}
-
 fn shipped(name: &str) -> Quadrotor {
     let path = format!("{}/../../data/robots/quadrotor/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("shipped robots are in data/robots/quadrotor");

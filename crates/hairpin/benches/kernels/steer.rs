@@ -4,10 +4,6 @@ use hairpin::feasibility::steering::shooting::flat::{Settings, forward};
 use hairpin::feasibility::steering::shooting::{Curvatures, Goal, Query};
 use hairpin::math::random::hashed_unit;
 
-fn main() {
-    divan::main();
-}
-
 const BOUNDS: Curvatures = Curvatures { most: 1.0, most_rate: 1.0 };
 const QUERIES: u64 = 10_000;
 
