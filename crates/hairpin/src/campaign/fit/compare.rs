@@ -1,10 +1,9 @@
 //! What of a log is compared, and what a simulation says in its place.
 
-use std::ops::Range;
-
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::FitError;
+use super::outputs::{Window, has, outputs_at};
 use super::passages::{Missed, passages};
 use super::placed::without;
 use crate::campaign::Case;
@@ -73,22 +72,6 @@ pub(super) struct Compared {
     /// When each leg of the log begins, s.
     begun: Vec<f64>,
     which: Vec<Output>,
-}
-
-const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
-const ROTORS: [&str; 4] = ["rotor1_rad_s", "rotor2_rad_s", "rotor3_rad_s", "rotor4_rad_s"];
-const JOINTS: [&str; 6] = ["q1_rad", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"];
-
-/// Whether `track` has an output.
-fn has(track: &Track, output: Output) -> bool {
-    let all = |names: &[&str]| names.iter().all(|name| track.channel(name).is_some());
-    match output {
-        Output::Position(_) => true,
-        Output::Velocity(_) => all(&VELOCITY),
-        Output::Axis(..) => track.channel(crate::trajectory::ATTITUDE_UNKNOWN).is_none(),
-        Output::Thrust => all(&ROTORS),
-        Output::Joint(_) => all(&JOINTS),
-    }
 }
 
 impl Compared {
@@ -267,59 +250,4 @@ fn begins_of_legs(track: &Track, waypoints: &[Point3<f64>], rule: &Rule) -> Resu
         return Ok(vec![track.times().first().copied().unwrap_or_default()]);
     }
     passages(track, waypoints, (rule.acceptance, rule.radius))
-}
-
-/// The outputs at `t`, each by a line through the samples within half a period of it, or between the two around it
-/// where these are few; as at its end where the track is over.
-///
-/// Times within half a period and four samples at least: a moving least-squares line, which takes out noise that is
-/// faster than the period. Positions in m, velocities in m/s, axes as unit vectors' parts, thrust as the mean of the
-/// rotors' squared speeds in (rad/s)², joints in rad.
-fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> {
-    let Window { range, weights } = Window::at(track.times(), t, period);
-    let through =
-        |value: &dyn Fn(usize) -> f64| range.clone().zip(&weights).map(|(i, weight)| weight * value(i)).sum::<f64>();
-    let channel = |name: &str| {
-        let values = track.channel(name).unwrap_or_default();
-        through(&|i| values[i])
-    };
-    let output = |output: &Output| match *output {
-        Output::Position(axis) => through(&|i| track.position(i)[axis]),
-        Output::Velocity(axis) => channel(VELOCITY[axis]),
-        Output::Axis(own, axis) => through(&|i| (track.poses()[i].rotation * Vector3::ith(own, 1.0))[axis]),
-        Output::Thrust => {
-            let speeds = ROTORS.map(|name| track.channel(name).unwrap_or_default());
-            through(&|i| 0.25 * speeds.iter().map(|speed| speed[i] * speed[i]).sum::<f64>())
-        }
-        Output::Joint(axis) => channel(JOINTS[axis]),
-    };
-    which.iter().map(output).collect()
-}
-
-/// Samples, and what each weighs in the least-squares line through them at one time.
-///
-/// wᵢ = 1/n + (t − t̄)(tᵢ − t̄)/Σ(tⱼ − t̄)².
-struct Window {
-    range: Range<usize>,
-    weights: Vec<f64>,
-}
-
-impl Window {
-    fn at(times: &[f64], t: f64, period: f64) -> Self {
-        let t = t.clamp(times[0], times[times.len() - 1]);
-        let (from, to) = (t - 0.5 * period, t + 0.5 * period);
-        let near = times.partition_point(|time| *time < from)..times.partition_point(|time| *time <= to);
-        let range = if near.len() >= 4 {
-            near
-        } else {
-            let after = times.partition_point(|time| *time < t).clamp(1, times.len() - 1);
-            after - 1..after + 1
-        };
-        let times = &times[range.clone()];
-        let n = times.len() as f64;
-        let mean = times.iter().sum::<f64>() / n;
-        let spread: f64 = times.iter().map(|time| (time - mean) * (time - mean)).sum();
-        let weight = |time: &f64| 1.0 / n + (t - mean) * (time - mean) / spread;
-        Self { range, weights: times.iter().map(weight).collect() }
-    }
 }

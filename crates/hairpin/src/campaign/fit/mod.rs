@@ -16,19 +16,22 @@
 //! θ are the kind's adjustable numbers, each within its bounds, in its own unit. Deterministic: nothing of a fit is
 //! drawn. Cost: simulations of all missions, two a number for the derivatives of a turn, shared out over threads.
 
+mod answer;
 mod compare;
 mod error;
 mod estimate;
 mod gap;
+mod outputs;
 mod passages;
 mod placed;
 mod simulate;
 mod stretches;
 mod whiten;
 
+pub use answer::{Confounded, Estimate, Fit, Reading};
 pub use compare::Flown;
 pub use error::FitError;
-pub use estimate::{Confounded, Estimate, Fit, FitSettings, Reading, fit};
+pub use estimate::{FitSettings, fit};
 pub use gap::{Deviation, Gap};
 
 #[cfg(test)]
