@@ -145,7 +145,7 @@ fn what_cannot_be_drawn_says_why_and_what_is_stopped_keeps_what_it_has() {
     impl Field for Nothing {
         type Plan = Vec<Point3<f64>>;
         fn draw(&self, number: u64) -> Result<Self::Plan, Option<String>> {
-            Err((number % 2 == 0).then(|| "no room".into())) // the others were stopped
+            Err(number.is_multiple_of(2).then(|| "no room".into())) // the others were stopped
         }
         fn seeds(&self) -> Vec<Self::Plan> {
             Vec::new()
