@@ -2,6 +2,7 @@
 //! equal contents. Whatever is essential stands in columns, so files survive being rewritten by another program.
 
 pub mod cases;
+mod compressed;
 pub mod drawn;
 pub mod drive;
 mod guard;

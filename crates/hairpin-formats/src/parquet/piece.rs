@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
-use ::parquet::basic::{Compression, ZstdLevel};
+use ::parquet::basic::Compression;
 use ::parquet::file::properties::EnabledStatistics;
 use ::parquet::schema::types::ColumnPath;
 use arrow_array::{RecordBatch, new_null_array};
@@ -13,6 +13,7 @@ use arrow_cast::cast;
 use arrow_schema::{DataType, Field, Schema};
 use bytes::Bytes;
 
+use super::compressed::compressed;
 use super::table::{CASE, Columns, RUN, decode_groups_of, io_error, properties};
 
 /// The rows of one case or run, packed.
@@ -40,7 +41,7 @@ impl Piece {
         let schema = batch.schema();
         let mut builder = properties(&schema)
             .set_statistics_enabled(EnabledStatistics::None)
-            .set_compression(Compression::ZSTD(ZstdLevel::default()));
+            .set_compression(Compression::UNCOMPRESSED);
         for key in [CASE, RUN] {
             // What tells one piece from another without reading it.
             builder =
@@ -49,7 +50,7 @@ impl Piece {
         let builder = builder.set_offset_index_disabled(true);
         let mut writer = ArrowWriter::try_new(Vec::new(), schema.clone(), Some(builder.build())).map_err(io_error)?;
         writer.write(batch).map_err(io_error)?;
-        let bytes = writer.into_inner().map_err(io_error)?.into();
+        let bytes = compressed(&writer.into_inner().map_err(io_error)?.into())?;
         let fields = schema.fields().iter().map(|field| field.as_ref().clone()).collect();
         Ok(Self { bytes, fields, period })
     }
