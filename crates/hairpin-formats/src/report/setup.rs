@@ -39,8 +39,9 @@ pub(super) fn section(data: &ReportData) -> String {
             number(Some(data.drawing.radius))
         )
     };
-    // Of an arm the 3D view shows all there is.
-    let drawn = !data.drawing.rotors.is_empty() || !data.drawing.wheels.is_empty() || data.drawing.relief.is_some();
+    // Of an arm, and of a vehicle of whose wheels nobody said where they are, the 3D view shows all there is.
+    let wheels = data.drawing.radius > 0.0 && !data.drawing.wheels.is_empty();
+    let drawn = !data.drawing.rotors.is_empty() || wheels;
     let robot = if drawn {
         format!("<figure>{}<figcaption>{caption}</figcaption></figure>", layout::robot(&data.drawing))
     } else {

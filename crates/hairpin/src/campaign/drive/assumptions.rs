@@ -32,11 +32,14 @@ pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
         ));
     }
     let bounds = setup.bounds();
+    let tilt = match setup.tilt().to_degrees() {
+        most if most.is_finite() => format!("a tilt of at most {most:.1}°"),
+        _ => "any tilt".into(),
+    };
     said.push(format!(
-        "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², a tilt of at most {:.1}°, and go at {}.",
+        "Plans keep |κ| ≤ {} 1/m, |κ′| ≤ {} 1/m², {tilt}, and go at {}.",
         bounds.most,
         bounds.most_rate,
-        setup.tilt().to_degrees(),
         pace(setup)
     ));
     if setup.rover.kinematics == Kinematics::Exact && setup.rover.suspension != Suspension::Level {
