@@ -82,15 +82,19 @@ fn column_compressed(
         .set_dictionary_page_offset(dictionary)
         .set_data_page_offset(first.unwrap_or(0))
         .build()?;
-    let close = ColumnCloseResult {
-        bytes_written: bytes.len() as u64,
+    Ok((bytes, closed(metadata, rows)))
+}
+
+/// What a column that is written already, of so many rows, is appended by: it has neither filter nor index.
+pub(super) fn closed(metadata: ColumnChunkMetaData, rows: usize) -> ColumnCloseResult {
+    ColumnCloseResult {
+        bytes_written: metadata.compressed_size() as u64,
         rows_written: rows as u64,
         metadata,
         bloom_filter: None,
         column_index: None,
         offset_index: None,
-    };
-    Ok((bytes, close))
+    }
 }
 
 /// Pages of the first version of the format are compressed as a whole.

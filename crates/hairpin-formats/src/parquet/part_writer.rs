@@ -6,7 +6,6 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use ::parquet::column::writer::ColumnCloseResult;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use arrow_schema::Field;
@@ -14,6 +13,7 @@ use hairpin::campaign::CaseNumber;
 use tempfile::SpooledTempFile;
 
 use super::Key;
+use super::compressed::closed;
 use super::piece::{Piece, union};
 use super::table::{PERIOD, io_error, notes};
 use super::track::TOLERANCES;
@@ -107,14 +107,7 @@ impl PartWriter {
                 for group in metadata.row_groups() {
                     let mut there = writer.next_row_group().map_err(io_error)?;
                     for column in group.columns() {
-                        let close = ColumnCloseResult {
-                            bytes_written: column.compressed_size() as u64,
-                            rows_written: group.num_rows() as u64,
-                            metadata: column.clone(),
-                            bloom_filter: None,
-                            column_index: None,
-                            offset_index: None,
-                        };
+                        let close = closed(column.clone(), group.num_rows() as usize);
                         there.append_column(&piece.bytes, close).map_err(io_error)?;
                     }
                     there.close().map_err(io_error)?;
