@@ -3,9 +3,10 @@
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use ::parquet::file::metadata::ParquetMetaData;
+use ::parquet::arrow::arrow_reader::RowGroups;
 use arrow_schema::{DataType, Schema};
 
+use super::groups::Groups;
 use super::thrift::Walker;
 
 /// Bytes of a table in memory that any file may stand for …
@@ -44,16 +45,9 @@ pub(super) fn check_footer(file: &mut File) -> Result<(), String> {
 }
 
 /// Refuses row groups that would decode to more than `most` bytes, as far as they say.
-pub(super) fn check_sizes(
-    file: &mut File,
-    metadata: &ParquetMetaData,
-    groups: &[usize],
-    schema: &Schema,
-    most: u64,
-) -> Result<(), String> {
-    let groups: Vec<_> = groups.iter().map(|group| metadata.row_group(*group)).collect();
+pub(super) fn check_sizes(groups: &Groups<'_>, schema: &Schema, most: u64) -> Result<(), String> {
     let mut rows = 0_u64;
-    for group in &groups {
+    for group in groups.row_groups() {
         let more = u64::try_from(group.num_rows()).map_err(|_| "it has less than no rows")?;
         rows = rows.saturating_add(more);
     }
@@ -66,20 +60,15 @@ pub(super) fn check_sizes(
         return Err(format!("{rows} rows of {} columns are more than its size can hold", schema.fields().len()));
     }
     let mut taken = 0_u64;
-    for group in groups {
-        for column in group.columns() {
-            let (start, length) = column.byte_range();
-            taken = taken.saturating_add(pages(file, start, length, most - taken)?);
-        }
+    for column in groups.columns() {
+        let bytes = column.map_err(|error| error.to_string())?;
+        taken = taken.saturating_add(unpacked(&bytes, most - taken)?);
     }
     Ok(())
 }
 
 /// What the pages of a column say that they decode to, bytes; an error where that is more than `most`.
-fn pages(file: &mut File, start: u64, length: u64, most: u64) -> Result<u64, String> {
-    let mut bytes = Vec::new();
-    let read = file.seek(SeekFrom::Start(start)).and_then(|_| Read::by_ref(file).take(length).read_to_end(&mut bytes));
-    read.map_err(|error| error.to_string())?;
+fn unpacked(bytes: &[u8], most: u64) -> Result<u64, String> {
     let (mut at, mut taken) = (0, 0_u64);
     while at < bytes.len() {
         let mut walker = Walker::new(&bytes[at..]);

@@ -136,7 +136,7 @@ pub(super) fn decoded(path: &Path, metadata: &ArrowReaderMetadata, groups: &[usi
     let file = open_file(path)?;
     let packed = groups.iter().map(|group| metadata.metadata().row_group(*group).compressed_size());
     let most = most_decoded(packed.map(|bytes| bytes.max(0) as u64).sum());
-    let decoded = foreign::call(|| decode_groups(file, metadata, groups, most));
+    let decoded = foreign::call(|| decode_groups(&file, metadata, groups, most));
     let decoded = decoded.unwrap_or_else(|_| Err("its bytes contradict each other".into()));
     Ok(Table::of(path, decoded.map_err(|cause| TableError::Broken { path: path.into(), cause })?))
 }

@@ -5,8 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ::parquet::arrow::ArrowWriter;
-use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
+use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader};
+use ::parquet::arrow::{ArrowWriter, ProjectionMask, parquet_to_arrow_field_levels};
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
@@ -19,6 +19,7 @@ use arrow_select::concat::concat_batches;
 use bytes::Bytes;
 use thiserror::Error;
 
+use super::groups::Groups;
 use super::guard::{check_footer, check_sizes, most_decoded};
 use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_RASTER_BYTES};
@@ -34,6 +35,8 @@ pub(super) const PERIOD: &str = "hairpin.sample_s";
 pub(super) const CASE: &str = "case";
 /// Column: the number of the run that they are of.
 pub(super) const RUN: &str = "run";
+/// Rows between two looks at how much memory they take.
+const ROWS_AT_ONCE: usize = 1024;
 
 /// Why a Parquet file is not the table it should be.
 #[derive(Debug, Error)]
@@ -239,10 +242,9 @@ type Decoded = (RecordBatch, Vec<(String, String)>);
 fn decode(mut file: File) -> Result<Decoded, String> {
     let most = most_decoded(file.metadata().map_err(|error| error.to_string())?.len());
     check_footer(&mut file)?;
-    let other = file.try_clone().map_err(|error| error.to_string())?;
-    let metadata = ArrowReaderMetadata::load(&other, ArrowReaderOptions::new()).map_err(|error| error.to_string())?;
+    let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).map_err(|error| error.to_string())?;
     let groups: Vec<usize> = (0..metadata.metadata().num_row_groups()).collect();
-    let batch = decode_groups(file, &metadata, &groups, most)?;
+    let batch = decode_groups(&file, &metadata, &groups, most)?;
     Ok((batch, notes_of(&metadata)))
 }
 
@@ -255,33 +257,35 @@ pub(super) fn notes_of(metadata: &ArrowReaderMetadata) -> Vec<(String, String)> 
 
 /// The rows of a file of our own in memory.
 pub(super) fn decode_groups_of(bytes: &Bytes, metadata: &ArrowReaderMetadata) -> Result<RecordBatch, String> {
-    let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(bytes.clone(), metadata.clone());
-    let reader = builder.build().map_err(|error| error.to_string())?;
-    let batches = reader.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
-    concat_batches(metadata.schema(), &batches).map_err(|error| error.to_string())
+    rows_of(&Groups::of(bytes, metadata.metadata()), metadata, u64::MAX)
 }
 
 /// The rows of `groups`, which may come to `most` bytes.
 pub(super) fn decode_groups(
-    file: File,
+    file: &File,
     metadata: &ArrowReaderMetadata,
     groups: &[usize],
     most: u64,
 ) -> Result<RecordBatch, String> {
-    let mut other = file.try_clone().map_err(|error| error.to_string())?;
-    let schema = metadata.schema().clone();
-    check_sizes(&mut other, metadata.metadata(), groups, &schema, most)?;
-    let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone());
-    let reader = builder.with_row_groups(groups.to_vec()).build().map_err(|error| error.to_string())?;
-    let (mut batches, mut taken) = (Vec::new(), 0);
-    for batch in reader {
+    let groups = Groups::read(file, metadata.metadata(), groups, most).map_err(|error| error.to_string())?;
+    check_sizes(&groups, metadata.schema(), most)?;
+    rows_of(&groups, metadata, most)
+}
+
+fn rows_of(groups: &Groups<'_>, metadata: &ArrowReaderMetadata, most: u64) -> Result<RecordBatch, String> {
+    let schema = metadata.schema();
+    let all = ProjectionMask::all();
+    let reader = parquet_to_arrow_field_levels(metadata.parquet_schema(), all, Some(schema.fields()))
+        .and_then(|levels| ParquetRecordBatchReader::try_new_with_row_groups(&levels, groups, ROWS_AT_ONCE, None));
+    let (mut batches, mut taken) = (Vec::new(), 0_u64);
+    for batch in reader.map_err(|error| error.to_string())? {
         let batch = batch.map_err(|error| error.to_string())?;
         taken += batch.get_array_memory_size() as u64;
         // Short batches have room to spare.
-        if taken > 2 * most {
+        if taken > most.saturating_mul(2) {
             return Err(format!("more than {most} bytes of rows are in it"));
         }
         batches.push(batch);
     }
-    concat_batches(&schema, &batches).map_err(|error| error.to_string())
+    concat_batches(schema, &batches).map_err(|error| error.to_string())
 }
