@@ -166,13 +166,15 @@ impl<'a> Met<'a> {
         Ok(Self { work, cases, grid, judged })
     }
 
-    /// Those that each of these cases met.
+    /// Those that each of these cases met, in the order of their numbers: neighbours lie in one part of the tables.
     fn by_case(&self, places: &[usize]) -> Result<Vec<BTreeSet<usize>>, Problem> {
         let met = |place: &usize| {
             let case = self.cases[*place];
             let runs = measured_runs(self.work, case)?;
             Ok(runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect())
         };
+        let mut places = places.to_vec();
+        places.sort_unstable();
         places.par_iter().map(met).collect()
     }
 }

@@ -133,7 +133,7 @@ impl Table {
         })
     }
 
-    fn lists<T>(
+    fn lists<T: Clone>(
         &self,
         column: &str,
         item: &DataType,
@@ -141,7 +141,13 @@ impl Table {
         take: impl Fn(&ArrayRef) -> Vec<T>,
     ) -> Result<Vec<Option<Vec<T>>>, TableError> {
         let array = self.array(column, &DataType::new_list(item.clone(), true), expected)?;
-        Ok(array.as_list::<i32>().iter().map(|items| items.map(|items| take(&items))).collect())
+        let lists = array.as_list::<i32>();
+        // All items at once: an array of its own for each row costs more than its numbers.
+        let items = take(lists.values());
+        let of_row = |(row, ends): (usize, &[i32])| {
+            lists.is_valid(row).then(|| items[ends[0] as usize..ends[1] as usize].to_vec())
+        };
+        Ok(lists.value_offsets().windows(2).enumerate().map(of_row).collect())
     }
 
     /// The column converted to `wanted`. A value that the conversion loses is an error, not a null.
