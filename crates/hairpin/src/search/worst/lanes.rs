@@ -3,7 +3,8 @@
 //!
 //! Eight vectors make a block: coordinate k of all eight lies side by side, so that one instruction serves eight
 //! pairs. Four vectors of a block are compared with each other block at once, which keeps 32 sums in registers.
-//! [`Outlines`] and their bound save most of the pairs where only the largest distance is asked for.
+//! [`Outlines`] and their bound save most of the pairs where only the largest distance is asked for, which
+//! lies among the vectors that lie farthest out.
 
 use rayon::prelude::*;
 
@@ -15,8 +16,11 @@ const LANES: usize = 8;
 const ROWS: usize = 4;
 /// More than rounding takes from a bound of a squared distance, as a share.
 const ROUNDING: f64 = 1e-9;
-/// More than a distance, as a share of the largest, can be wrong by where it comes from products.
-const ALIKE: f64 = 1e-6;
+/// More than two distances, as shares of the largest, can be wrong by where they come from products in single precision.
+///
+/// A square is wrong by 4 (n + 4) 2⁻²⁴ of the larger square of both vectors at most, n coordinates in 72 + 4 sums: 4·10⁻³
+/// of a distance between vectors that are alike and lie as far out as any.
+const ALIKE: f64 = 1e-2;
 
 /// A number for each pair of four vectors with the eight of a block.
 type Pairs = [[f64; LANES]; ROWS];
@@ -88,28 +92,43 @@ impl Lanes {
         }
         most.into_iter().fold(0.0, f64::max)
     }
+}
 
-    /// The largest ‖x − y‖² of all pairs.
-    ///
-    /// Blocks are looked at in the order of what `outlines` say of them, until they say that none is left.
-    ///
-    /// Exact, not a bound: only blocks whose bound, less a share of 10⁻⁹ for rounding, is below a distance that was
-    /// found are left out. O(n²) bounds of few numbers always; whole vectors in the worst case too.
-    pub(super) fn largest_square(&self, outlines: &Outlines) -> f64 {
-        let all: Vec<usize> = (0..self.blocks()).collect();
-        let bound = |own: &usize| (outlines.vectors.most_of(*own, &outlines.left), *own);
-        let mut order: Vec<(f64, usize)> = all.par_iter().map(bound).collect();
-        order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-        let nothing = vec![0.0; self.blocks() * LANES];
-        let mut most: f64 = 0.0;
-        for few in order.chunks(LANES) {
-            if few[0].0 * (1.0 + ROUNDING) < most {
-                break;
-            }
-            most = few.par_iter().map(|(_, own)| self.most_of(*own, &nothing)).reduce(|| most, f64::max);
+/// The largest ‖x − y‖² of all pairs of `vectors`, which must not be empty, added up in groups of `group` coordinates.
+///
+/// Those that lie farthest out, r = ‖x − mean‖, stand first, and by the triangle inequality ‖x − y‖ ≤ r + r′: from
+/// where on this is below a distance that was found, none is looked at. Of the others blocks are looked at in the order
+/// of what outlines along the orthonormal `directions` say of them, until they say that none is left.
+///
+/// Exact, not a bound: only blocks whose bound, less a share of 10⁻⁹ for rounding, is below a distance that was
+/// found are left out. O(n²) bounds of few numbers, and whole vectors, in the worst case.
+pub(super) fn largest_square(vectors: &[Vec<f64>], group: usize, directions: &[Vec<f64>]) -> f64 {
+    let size = vectors[0].len();
+    let around = centred(vectors, size);
+    let mut outermost: Vec<(f64, usize)> = around.iter().map(|v| norm(v)).zip(0..).collect();
+    outermost.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let in_order = |all: &[Vec<f64>]| outermost.iter().map(|(_, at)| all[*at].clone()).collect::<Vec<_>>();
+    let lanes = Lanes::new(&in_order(vectors), size, group);
+    let mut most = lanes.squares_from(0).into_iter().fold(0.0, f64::max);
+    let farthest = |r: f64| (outermost[0].0 + r) * (outermost[0].0 + r) * (1.0 + ROUNDING);
+    let count = outermost.partition_point(|(r, _)| farthest(*r) >= most);
+    let outlines = Outlines::new(&in_order(&around)[..count], directions);
+    let blocks: Vec<usize> = (0..outlines.vectors.blocks()).collect();
+    let bound = |own: &usize| (outlines.vectors.most_of(*own, &outlines.left), *own);
+    let mut order: Vec<(f64, usize)> = blocks.par_iter().map(bound).collect();
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let nothing = vec![0.0; lanes.blocks() * LANES];
+    for few in order.chunks(LANES) {
+        if few[0].0 * (1.0 + ROUNDING) < most {
+            break;
         }
-        most
+        most = few.par_iter().map(|(_, own)| lanes.most_of(*own, &nothing)).reduce(|| most, f64::max);
     }
+    most
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Shorter vectors, each with the length ρ of what they leave out: those that they stand for are never farther apart
@@ -117,7 +136,7 @@ impl Lanes {
 ///
 /// By Pythagoras ‖x − y‖² = ‖short(x) − short(y)‖² + ‖rest(x) − rest(y)‖², and the last norm is at most ρ + ρ′.
 #[derive(Debug, Clone)]
-pub(super) struct Outlines {
+struct Outlines {
     vectors: Lanes,
     left: Vec<f64>,
 }
@@ -127,7 +146,7 @@ impl Outlines {
     ///
     /// ρ² = ‖v‖² − ‖short(v)‖², taken a little larger so that rounding never makes the bound too small; `vectors`
     /// must not be empty.
-    pub(super) fn new(vectors: &[Vec<f64>], directions: &[Vec<f64>]) -> Self {
+    fn new(vectors: &[Vec<f64>], directions: &[Vec<f64>]) -> Self {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let short: Vec<Vec<f64>> = vectors.iter().map(|v| directions.iter().map(|d| dot(v, d)).collect()).collect();
         let left = vectors.iter().zip(&short).map(|(v, short)| {
@@ -172,50 +191,57 @@ fn squares<const GROUP: usize>(own: &[f64], first: usize, other: &[f64]) -> Pair
 }
 
 /// `vectors` less their mean.
-pub(super) fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
+fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
     let mean: Vec<f64> =
         (0..size).map(|k| vectors.iter().map(|vector| vector[k]).sum::<f64>() / vectors.len() as f64).collect();
     vectors.iter().map(|vector| vector.iter().zip(&mean).map(|(x, mean)| x - mean).collect()).collect()
 }
 
-/// Vectors around their mean, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: half the work of differences,
-/// and as exact but where two are alike.
+/// Vectors around their mean in single precision, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: a quarter
+/// of the work of differences in double, and as good but where two are alike.
 ///
-/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are.
+/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are. Stored as [`Lanes`] are.
 #[derive(Debug, Clone)]
 pub(super) struct Centred {
-    lanes: Lanes,
+    count: usize,
+    size: usize,
+    values: Vec<f32>,
     /// Their squares.
-    squares: Vec<f64>,
+    squares: Vec<f32>,
 }
 
 impl Centred {
-    pub(super) fn new(vectors: &[Vec<f64>], size: usize) -> Self {
-        let lanes = Lanes::new(&centred(vectors, size), size, 1);
-        let mut squares = vec![0.0; lanes.blocks() * LANES];
-        for (at, square) in squares.iter_mut().enumerate() {
-            let block = &lanes.values[at / LANES * size * LANES..][..size * LANES];
-            *square = block.iter().skip(at % LANES).step_by(LANES).map(|x| x * x).sum();
+    /// `weight` · `vectors`, which must be 1 apart at most then.
+    pub(super) fn new(vectors: &[Vec<f64>], size: usize, weight: f64) -> Self {
+        let blocks = vectors.len().div_ceil(LANES);
+        let (mut values, mut squares) = (vec![0.0; blocks * size * LANES], vec![0.0; blocks * LANES]);
+        for (at, vector) in centred(vectors, size).iter().enumerate() {
+            for (k, value) in vector.iter().enumerate() {
+                let value = (weight * value) as f32;
+                values[(at / LANES * size + k) * LANES + at % LANES] = value;
+                // In the order of the products, so that what is the same is nothing apart.
+                squares[at] += value * value;
+            }
         }
-        Self { lanes, squares }
+        Self { count: vectors.len(), size, values, squares }
     }
 }
 
-/// Of `weights[0]` ‖x − y‖ + `weights[1]` ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that
-/// may be nearest to one before them.
+/// Of ‖x − y‖ + ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that may be nearest to one
+/// before them.
 ///
 /// Of each block a sum; they are added up in their order, on any number of threads.
 ///
 /// Each pair once, and none of a vector with itself or with what fills up the last block.
-pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<usize>) {
-    let (count, blocks) = (parts[0].lanes.count, parts[0].lanes.blocks());
-    let parts = parts.map(|part| (part.lanes.values.as_slice(), part.squares.as_slice()));
+pub(super) fn over_pairs(parts: [&Centred; 2]) -> (f64, Vec<usize>) {
+    let (count, sizes) = (parts[0].count, parts.map(|part| part.size));
+    let parts = parts.map(|part| (part.values.as_slice(), part.squares.as_slice()));
     let of_block = |own: usize| {
-        let (mut sums, mut least) = ([0.0; LANES], [f64::INFINITY; LANES]);
-        add_pairs(Simd::Widest, parts, weights, (own, count), &mut sums, &mut least);
-        (sums.into_iter().sum::<f64>(), least.into_iter().fold(f64::INFINITY, f64::min))
+        let (mut sums, mut least) = ([0.0; LANES], [f32::INFINITY; LANES]);
+        add_pairs(Simd::Widest, parts, sizes, (own, count), &mut sums, &mut least);
+        (sums.into_iter().sum::<f64>(), f64::from(least.into_iter().fold(f32::INFINITY, f32::min)))
     };
-    let all: Vec<(f64, f64)> = (0..blocks).into_par_iter().map(of_block).collect();
+    let all: Vec<(f64, f64)> = (0..count.div_ceil(LANES)).into_par_iter().map(of_block).collect();
     let nearest = all.iter().map(|(_, least)| *least).fold(f64::INFINITY, f64::min);
     let near = all.iter().enumerate().filter(|(_, (_, least))| *least <= nearest + ALIKE);
     let near = near.flat_map(|(own, _)| own * LANES..((own + 1) * LANES).min(count)).collect();
@@ -224,24 +250,24 @@ pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<u
 
 kernel! {
     fn add_pairs(
-        parts: [(&[f64], &[f64]); 2],
-        weights: [f64; 2],
+        parts: [(&[f32], &[f32]); 2],
+        sizes: [usize; 2],
         place: (usize, usize),
         sums: &mut [f64; LANES],
-        least: &mut [f64; LANES],
+        least: &mut [f32; LANES],
     ) {
         let (own, count) = place;
         for first in [0, ROWS] {
             for block in 0..=own {
                 let mut apart = [[0.0; LANES]; ROWS];
-                for ((values, squares), weight) in parts.into_iter().zip(weights) {
-                    let size = values.len() / squares.len() * LANES;
+                for ((values, squares), size) in parts.into_iter().zip(sizes) {
+                    let size = size * LANES;
                     let dots = dots(&values[own * size..][..size], first, &values[block * size..][..size]);
                     let (of_own, of_other) = (&squares[own * LANES..][..LANES], &squares[block * LANES..][..LANES]);
                     for r in 0..ROWS {
                         for l in 0..LANES {
                             let square = of_own[first + r] + of_other[l] - 2.0 * dots[r][l];
-                            apart[r][l] += weight * if square > 0.0 { square } else { 0.0 }.sqrt();
+                            apart[r][l] += if square > 0.0 { square } else { 0.0 }.sqrt();
                         }
                     }
                 }
@@ -251,7 +277,7 @@ kernel! {
                     let before = if row < count { row - block * LANES } else { 0 };
                     for l in 0..LANES {
                         let (counts, apart) = (l < before, apart[r][l]);
-                        sums[l] += if counts { apart } else { 0.0 };
+                        sums[l] += f64::from(if counts { apart } else { 0.0 });
                         least[l] = if counts & (apart < least[l]) { apart } else { least[l] };
                     }
                 }
@@ -262,7 +288,7 @@ kernel! {
 
 /// x·y of four vectors of one block with the eight of another.
 #[inline(always)]
-fn dots(own: &[f64], first: usize, other: &[f64]) -> Pairs {
+fn dots(own: &[f32], first: usize, other: &[f32]) -> [[f32; LANES]; ROWS] {
     let mut total = [[0.0; LANES]; ROWS];
     for (own, other) in own.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
         for r in 0..ROWS {

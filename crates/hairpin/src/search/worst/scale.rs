@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::lanes::{Lanes, Outlines, centred};
+use super::lanes::largest_square;
 use crate::trajectory::Route;
 
 /// Waves of a way that its outline has, along each axis.
@@ -70,8 +70,8 @@ pub struct Scale {
 impl Scale {
     /// The scale of `sample`.
     ///
-    /// O(n²) outlines of ways and behaviours on all threads, O(n) memory; ways themselves only where outlines do not
-    /// say that they are nearer than others.
+    /// O(n log n) where only a few ways and behaviours lie far out, O(n²) outlines of them at worst, on all threads, and
+    /// O(n) memory; ways themselves only where outlines do not say that they are nearer than others.
     ///
     /// A sample of none or one gives a scale on which everything is 0 apart. Measures beyond the number that all
     /// traces have are not looked at.
@@ -89,8 +89,8 @@ impl Scale {
         let placed: Vec<Placed> = sample.iter().map(|trace| scale.place(trace)).collect();
         let ways: Vec<Vec<f64>> = placed.iter().map(|placed| placed.route.coordinates().collect()).collect();
         let shares: Vec<Vec<f64>> = placed.into_iter().map(|placed| placed.shares).collect();
-        let way = Lanes::new(&ways, 3 * Route::PLACES, 3).largest_square(&outlines(&ways));
-        let behaviour = Lanes::new(&shares, count, 1).largest_square(&Outlines::new(&shares, &axes(count)));
+        let way = largest_square(&ways, 3, &waves());
+        let behaviour = largest_square(&shares, 1, &axes(count));
         Self { longest: roots([way, behaviour]), ..scale }
     }
 
@@ -164,11 +164,11 @@ pub(super) fn roots([way, behaviour]: [f64; 2]) -> [f64; 2] {
     [(way / Route::PLACES as f64).sqrt(), behaviour.sqrt()]
 }
 
-/// The first waves of the ways' orthonormal cosine transform along each axis.
+/// The directions of the first waves of the ways' orthonormal cosine transform along each axis.
 ///
 /// DCT-II: c_k(p) = √(2/P) cos(π (p + ½) k / P), k = 1 … 3, and c_0 = √(1/P), P = 24 places. Ways are smooth, so that
 /// four waves hold nearly all of their differences and the bound of what is left out is tight.
-fn outlines(ways: &[Vec<f64>]) -> Outlines {
+fn waves() -> Vec<Vec<f64>> {
     let places = Route::PLACES;
     let wave = |k: usize, place: usize| {
         let long = if k == 0 { 1.0 } else { 2.0 };
@@ -177,8 +177,7 @@ fn outlines(ways: &[Vec<f64>]) -> Outlines {
     let direction = |k: usize, axis: usize| {
         (0..3 * places).map(|i| if i % 3 == axis { wave(k, i / 3) } else { 0.0 }).collect::<Vec<f64>>()
     };
-    let directions: Vec<Vec<f64>> = (0..3 * WAVES).map(|d| direction(d / 3, d % 3)).collect();
-    Outlines::new(&centred(ways, 3 * places), &directions)
+    (0..3 * WAVES).map(|d| direction(d / 3, d % 3)).collect()
 }
 
 /// All directions of so many numbers: nothing is left out.
