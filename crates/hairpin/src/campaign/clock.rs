@@ -1,36 +1,41 @@
-//! The clock of a plan: stamps, and which leg is due.
+//! The clock of a plan: its times, and which leg is due.
 
 use std::borrow::Cow;
 
 use super::Case;
 
-/// Stamps from 0 to `duration` at `rate`, the end included.
-///
-/// s and Hz; the last interval may be shorter than 1 / `rate`, and is left out below 1 ns.
-pub(super) fn stamps(duration: f64, rate: f64) -> Vec<f64> {
-    let count = (duration * rate).floor() as usize;
-    let mut times: Vec<f64> = (0..=count).map(|k| k as f64 / rate).collect();
-    if duration - times[count] > 1e-9 {
-        times.push(duration);
-    }
-    times
+/// A time of a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Moment {
+    /// s.
+    pub(super) t: f64,
+    /// The leg that is due: one that begins at `t`, and beyond the end the last.
+    pub(super) leg: usize,
+    /// Since the leg began, s: at least 0, and at most what it takes.
+    pub(super) tau: f64,
 }
 
-/// The leg at `t` and the time since it began.
+/// The times from 0 to the end of legs that take `leg_times` (s, positive) at `rate` (Hz), the end included; none
+/// without legs.
 ///
-/// 0 ≤ τ ≤ the leg's duration; a stamp at a waypoint belongs to the leg that begins there, beyond the end to the last
-/// one.
-///
-/// Durations are positive; `t` below 0 belongs to the first leg.
-pub(super) fn locate(leg_times: &[f64], t: f64) -> (usize, f64) {
-    let mut start = 0.0;
-    for (leg, duration) in leg_times.iter().enumerate() {
-        if t < start + duration || leg + 1 == leg_times.len() {
-            return (leg, (t - start).clamp(0.0, *duration));
-        }
-        start += duration;
+/// The last interval may be shorter than 1 / `rate`, and is left out below 1 ns.
+pub(super) fn moments(leg_times: &[f64], rate: f64) -> Vec<Moment> {
+    if leg_times.is_empty() {
+        return Vec::new();
     }
-    (0, 0.0)
+    let duration: f64 = leg_times.iter().sum();
+    let count = (duration * rate).floor() as usize;
+    let at_rate = (0..=count).map(|k| k as f64 / rate);
+    let end = Some(duration).filter(|end| end - count as f64 / rate > 1e-9);
+    let (mut leg, mut begins) = (0, 0.0);
+    let moment = |t: f64| {
+        while leg + 1 < leg_times.len() && t >= begins + leg_times[leg] {
+            begins += leg_times[leg];
+            leg += 1;
+        }
+        Moment { t, leg, tau: (t - begins).clamp(0.0, leg_times[leg]) }
+    };
+    at_rate.chain(end).map(moment).collect()
 }
 
 /// The case as it is timed; one without leg times (a mission made elsewhere) at `speed` (m/s) along its straight legs,
@@ -41,4 +46,19 @@ pub(super) fn paced(case: &Case, speed: f64, least: f64) -> Cow<'_, Case> {
     }
     let leg_times = case.waypoints.windows(2).map(|leg| ((leg[1] - leg[0]).norm() / speed).max(least)).collect();
     Cow::Owned(Case { leg_times, witness: None, ..case.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_moment_has_its_leg_and_the_end_is_one() {
+        let found = moments(&[0.2, 0.1, 0.25], 10.0);
+        // 0.2 + 0.1 is more than 0.3.
+        assert_eq!(found.iter().map(|moment| moment.leg).collect::<Vec<_>>(), [0, 0, 1, 1, 2, 2, 2]);
+        let end = found[6];
+        assert!((end.t - 0.55).abs() < 1e-12 && (end.tau - 0.25).abs() < 1e-12, "{end:?}");
+        assert_eq!(moments(&[], 10.0), []);
+    }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 
 use super::BoatSetup;
-use crate::campaign::clock::{locate, paced, stamps};
+use crate::campaign::clock::{Moment, moments, paced};
 use crate::campaign::{Case, Timed};
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::trajectory::{Channel, Track, TrackError};
@@ -24,14 +24,11 @@ struct Sample {
 
 /// The timed reference of a mission; empty for a case without leg times.
 pub(super) fn timed(case: &Case) -> Vec<Timed> {
-    if case.leg_times.is_empty() {
-        return Vec::new();
-    }
-    let at = |t: f64| {
-        let Sample { position, velocity, .. } = sample(case, t);
-        Timed { t, position, velocity }
+    let at = |moment: Moment| {
+        let Sample { position, velocity, .. } = sample(case, moment);
+        Timed { t: moment.t, position, velocity }
     };
-    stamps(case.leg_times.iter().sum(), REFERENCE_RATE).into_iter().map(at).collect()
+    moments(&case.leg_times, REFERENCE_RATE).into_iter().map(at).collect()
 }
 
 /// Heading at each waypoint, rad: of a witness the one that it passes with, else along the leg that follows.
@@ -61,8 +58,8 @@ pub(super) fn headings(case: &Case) -> Vec<f64> {
 /// At [`RATE`] Hz, both ends included.
 pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError> {
     let case = &*paced(case, setup.boat.default_speed, 1.0 / RATE);
-    let times = stamps(case.leg_times.iter().sum(), RATE);
-    let samples: Vec<Sample> = times.iter().map(|t| sample(case, *t)).collect();
+    let moments = moments(&case.leg_times, RATE);
+    let samples: Vec<Sample> = moments.iter().map(|moment| sample(case, *moment)).collect();
     let pose = |sample: &Sample| {
         let attitude = unit_quaternion(&quaternion_from_euler(0.0, 0.0, sample.heading));
         Isometry3::from_parts(Translation3::from(sample.position), attitude)
@@ -78,12 +75,10 @@ pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError>
         column("vz_m_s", &|_| 0.0),
     ];
     let poses = samples.iter().map(pose).collect();
-    Track::new(times, poses, channels)
+    Track::new(moments.iter().map(|moment| moment.t).collect(), poses, channels)
 }
 
-/// `t` beyond the ends is that of the ends.
-fn sample(case: &Case, t: f64) -> Sample {
-    let (leg, tau) = locate(&case.leg_times, t);
+fn sample(case: &Case, Moment { leg, tau, .. }: Moment) -> Sample {
     if let Some(piece) = case.profile().and_then(|profile| profile.legs.get(leg)) {
         let (at, rate) = (piece.derivative(tau, 0), piece.derivative(tau, 1));
         let (position, velocity) = (Point3::new(at.x, at.y, 0.0), Vector3::new(rate.x, rate.y, 0.0));

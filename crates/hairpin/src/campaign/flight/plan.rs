@@ -2,33 +2,31 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use crate::campaign::clock::{locate, paced, stamps};
+use crate::campaign::clock::{Moment, moments, paced};
 use crate::campaign::{Case, Timed};
 use crate::feasibility::steering::Flatness;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::{Channel, Track, TrackError};
 
-/// Rate of planned tracks, Hz.
-/// The rate of planned and of drawn tracks.
+/// The rate of planned and of drawn tracks, Hz.
 const RATE: f64 = 100.0;
 
 /// Of a witness p(τ) and p′(τ) of its polynomial; else constant velocity along the straight leg.
-fn sample(case: &Case, t: f64) -> (usize, Timed) {
-    let (leg, tau) = locate(&case.leg_times, t);
+fn sample(case: &Case, Moment { t, leg, tau }: Moment) -> Timed {
     if let Some(profile) = case.profile() {
         let piece = &profile.legs[leg];
-        return (leg, Timed { t, position: piece.position(tau), velocity: piece.derivative(tau, 1) });
+        return Timed { t, position: piece.position(tau), velocity: piece.derivative(tau, 1) };
     }
     let (a, b) = (case.waypoints[leg], case.waypoints[leg + 1]);
     let velocity = (b - a) / case.leg_times[leg];
-    (leg, Timed { t, position: a + velocity * tau, velocity })
+    Timed { t, position: a + velocity * tau, velocity }
 }
 
 /// The timed reference of a mission at `rate` (Hz).
 ///
 /// Positions in m and velocities in m/s, in the cage's frame; the last stamp is the flight's end.
 pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
-    stamps(case.leg_times.iter().sum(), rate).into_iter().map(|t| sample(case, t).1).collect()
+    moments(&case.leg_times, rate).into_iter().map(|moment| sample(case, moment)).collect()
 }
 
 /// The planned motion at 100 Hz with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. Attitudes are those that a
@@ -39,24 +37,23 @@ pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
 /// A case whose numbers are no track, as a folder that was edited may hold.
 pub(super) fn track(robot: &Quadrotor, case: &Case) -> Result<Track, TrackError> {
     let case = &*paced(case, 1.0, 1.0 / RATE);
-    let times = stamps(case.leg_times.iter().sum(), RATE);
+    let moments = moments(&case.leg_times, RATE);
     let flatness = Flatness::new(robot).ok();
-    let mut poses = Vec::with_capacity(times.len());
-    let mut columns: [Vec<f64>; 4] = Default::default();
-    for &t in &times {
-        let (leg, tau) = locate(&case.leg_times, t);
-        let now = sample(case, t).1;
+    let mut poses = Vec::with_capacity(moments.len());
+    let mut columns = [(); 4].map(|()| Vec::with_capacity(moments.len()));
+    for &moment in &moments {
+        let now = sample(case, moment);
         let attitude = match (case.profile(), &flatness) {
-            (Some(profile), Some(flatness)) => flatness.body_state(&profile.legs[leg], tau).attitude,
+            (Some(profile), Some(flatness)) => flatness.body_state(&profile.legs[moment.leg], moment.tau).attitude,
             _ => UnitQuaternion::identity(),
         };
         poses.push(Isometry3::from_parts(Translation3::from(now.position), attitude));
-        columns[0].push(leg as f64);
+        columns[0].push(moment.leg as f64);
         for axis in 0..3 {
             columns[axis + 1].push(now.velocity[axis]);
         }
     }
     let names = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"];
     let channels = names.into_iter().zip(columns).map(|(name, values)| Channel { name: name.into(), values });
-    Track::new(times, poses, channels.collect())
+    Track::new(moments.iter().map(|moment| moment.t).collect(), poses, channels.collect())
 }
