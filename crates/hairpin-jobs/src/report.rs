@@ -123,30 +123,28 @@ fn assumptions(
     Ok(assumptions)
 }
 
-/// Runs of a folder; of those whose motion was not kept the first are executed again.
+/// Runs of a folder; of those whose motion was not kept the worst are executed again.
 struct Recorded<'a> {
     work: &'a Work,
     /// Asked for by number: executed again, however many they are.
     asked: &'a [CaseNumber],
-    /// Executed again so far, and not to be had.
-    again: Cell<usize>,
+    /// Not to be had.
     lost: Cell<usize>,
 }
 
-/// Runs that are executed again for a report at most: what takes longer is asked for by `--case`.
+/// So many of those that are shown are executed again at most, the worst: what takes longer is asked for by `--case`.
 const AGAIN: usize = 20;
 
 impl Motions for Recorded<'_> {
-    fn run(&self, case: &Case, run: usize) -> Result<Option<Run>, String> {
+    fn run(&self, case: &Case, run: usize, place: usize) -> Result<Option<Run>, String> {
         let said = |problem: Problem| problem.to_string();
         let facts = self.work.folder.facts_of(case.number).map_err(|error| error.to_string())?;
         let left_out = facts.iter().any(|facts| facts.run == run && !facts.is_kept());
-        let too_many = self.again.get() >= AGAIN && !self.asked.contains(&case.number);
+        let too_many = place >= AGAIN && !self.asked.contains(&case.number);
         if left_out && (too_many || why_lost(self.work, case, run).map_err(said)?.is_some()) {
             self.lost.set(self.lost.get() + 1);
             return Ok(None);
         }
-        self.again.set(self.again.get() + usize::from(left_out));
         run_with_motion(self.work, case, run).map_err(said)
     }
 
@@ -165,7 +163,7 @@ fn write(
     regression: Option<&Regression>,
     asked: &[CaseNumber],
 ) -> Result<ReportData, Problem> {
-    let recorded = Recorded { work, asked, again: Cell::new(0), lost: Cell::new(0) };
+    let recorded = Recorded { work, asked, lost: Cell::new(0) };
     let mut data =
         hairpin_formats::report::from_folder(&work.folder, told, verdict.clone(), assumptions, &recorded, asked)
             .map_err(Problem::input)?;

@@ -59,11 +59,27 @@ pub(super) fn part_number(path: &Path) -> Option<usize> {
     path.file_stem()?.to_str()?.strip_prefix("part-")?.parse().ok()
 }
 
-/// The one of `parts`, whose cases rise, that `case` would be in, by what `cases` says of each.
+/// The one of `parts`, whose cases rise, that `case` would be in, by what `cases` says of each: the one whose number
+/// says so is asked first.
 pub(super) fn part_with<T>(
     parts: &[PathBuf],
     case: CaseNumber,
     mut cases: impl FnMut(&Path) -> Result<(T, Option<(CaseNumber, CaseNumber)>), FolderError>,
+) -> Result<Option<T>, FolderError> {
+    if let Some(likely) = parts.iter().find(|part| part_number(part) == Some(case.0 / CASES_PER_PART))
+        && let (part, Some((first, last))) = cases(likely)?
+        && (first..=last).contains(&case)
+    {
+        return Ok(Some(part));
+    }
+    search(parts, case, &mut cases)
+}
+
+/// As [`part_with`] of parts of which nothing is known but that their cases rise.
+fn search<T>(
+    parts: &[PathBuf],
+    case: CaseNumber,
+    cases: &mut impl FnMut(&Path) -> Result<(T, Option<(CaseNumber, CaseNumber)>), FolderError>,
 ) -> Result<Option<T>, FolderError> {
     let (mut low, mut high) = (0, parts.len());
     while low < high {
@@ -76,7 +92,7 @@ pub(super) fn part_with<T>(
             // One without rows says nothing of its neighbours.
             None => {
                 let rest: Vec<PathBuf> = [&parts[low..middle], &parts[middle + 1..high]].concat();
-                return part_with(&rest, case, cases);
+                return search(&rest, case, cases);
             }
         }
     }

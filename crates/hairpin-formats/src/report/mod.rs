@@ -66,11 +66,12 @@ pub enum ReportError {
 
 /// Where the motion of runs comes from.
 pub trait Motions {
-    /// A run of a case, `None` where it was not executed or is not to be had any more.
+    /// A run of a case, `None` where it was not executed or is not to be had any more; `place`: the how-manieth of
+    /// those that are shown it is, from 0, what is asked for and the worst first.
     ///
     /// # Errors
     /// Why it cannot be read.
-    fn run(&self, case: &Case, run: usize) -> Result<Option<Run>, String>;
+    fn run(&self, case: &Case, run: usize, place: usize) -> Result<Option<Run>, String>;
 
     /// All runs of a case whose motion was kept.
     ///
@@ -96,21 +97,26 @@ pub fn from_folder(
     let results = folder.read_results()?;
     // Older parts of the folder may have been deleted by hand: the tally only adds two numbers.
     let tally = folder.read_tally().unwrap_or_else(|_| Tally { solved: cases.len() as u64, ..Tally::default() });
+    // Neighbours lie in one part of the tables: they are read one after another.
+    let mut by_number: Vec<_> = chosen(worst_first(&results), &cases, asked).into_iter().enumerate().collect();
+    by_number.sort_by_key(|(_, result)| result.case);
     let mut in_full = Vec::new();
-    for result in chosen(worst_first(&results), &cases, asked) {
+    for (place, result) in by_number {
         let Some(case) = cases.iter().find(|case| case.number == result.case) else { continue };
         // What is followed is planned from its witness, as the judge does it.
         let mut case = case.clone();
         folder.read_witness(&mut case)?;
         let planned = folder.read_planned(case.number)?;
-        let run = motions.run(&case, result.run).map_err(ReportError::Run)?;
+        let run = motions.run(&case, result.run, place).map_err(ReportError::Run)?;
         let others = match setup.scenario.executor().repeat {
             1 => Vec::new(),
             _ => motions.kept(case.number).map_err(ReportError::Run)?,
         };
         let flight = |cause| ReportError::Flight { case: case.number, run: result.run, cause };
-        in_full.push(shown(setup, &case, result, planned, run.as_ref().map(Drawn::from), &others).map_err(flight)?);
+        let shown = shown(setup, &case, result, planned, run.as_ref().map(Drawn::from), &others).map_err(flight)?;
+        in_full.push((place, shown));
     }
+    in_full.sort_by_key(|(place, _)| *place);
     let (baseline, scenario) = (folder.read_baseline()?, &setup.scenario);
     let pieces = Pieces {
         setup,
@@ -119,7 +125,7 @@ pub fn from_folder(
         tally: Some(&tally),
         verdict,
         assumptions,
-        shown: in_full,
+        shown: in_full.into_iter().map(|(_, shown)| shown).collect(),
         frame: Header::of(setup, &results).lines(),
         influences: folder.read_influences()?,
         coverage: folder.read_coverage()?,

@@ -36,7 +36,7 @@ fn written(place: &Path) -> (CampaignFolder, Setup) {
 struct Kept<'a>(&'a CampaignFolder);
 
 impl Motions for Kept<'_> {
-    fn run(&self, case: &Case, run: usize) -> Result<Option<Run>, String> {
+    fn run(&self, case: &Case, run: usize, _: usize) -> Result<Option<Run>, String> {
         self.0.read_run(case.number, run).map_err(|error| error.to_string())
     }
 
@@ -49,7 +49,7 @@ impl Motions for Kept<'_> {
 struct Lost;
 
 impl Motions for Lost {
-    fn run(&self, _: &Case, _: usize) -> Result<Option<Run>, String> {
+    fn run(&self, _: &Case, _: usize, _: usize) -> Result<Option<Run>, String> {
         Ok(None)
     }
 

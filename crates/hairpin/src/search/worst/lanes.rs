@@ -16,10 +16,11 @@ const LANES: usize = 8;
 const ROWS: usize = 4;
 /// More than rounding takes from a bound of a squared distance, as a share.
 const ROUNDING: f64 = 1e-9;
-/// More than two distances, as shares of the largest, can be wrong by where they come from products in single precision.
+/// More than two distances, as shares of the largest, can be wrong by where they come from products in single
+/// precision.
 ///
-/// A square is wrong by 4 (n + 4) 2⁻²⁴ of the larger square of both vectors at most, n coordinates in 72 + 4 sums: 4·10⁻³
-/// of a distance between vectors that are alike and lie as far out as any.
+/// A square is wrong by 4 (n + 4) 2⁻²⁴ of the larger square of both vectors at most, which for 72 coordinates is
+/// 4·10⁻³ of a distance between vectors that are alike and lie as far out as any.
 const ALIKE: f64 = 1e-2;
 
 /// A number for each pair of four vectors with the eight of a block.

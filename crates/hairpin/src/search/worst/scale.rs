@@ -70,8 +70,8 @@ pub struct Scale {
 impl Scale {
     /// The scale of `sample`.
     ///
-    /// O(n log n) where only a few ways and behaviours lie far out, O(n²) outlines of them at worst, on all threads, and
-    /// O(n) memory; ways themselves only where outlines do not say that they are nearer than others.
+    /// O(n log n) where only a few ways and behaviours lie far out, O(n²) outlines of them at worst, on all threads,
+    /// and O(n) memory; ways themselves only where outlines do not say that they are nearer than others.
     ///
     /// A sample of none or one gives a scale on which everything is 0 apart. Measures beyond the number that all
     /// traces have are not looked at.
