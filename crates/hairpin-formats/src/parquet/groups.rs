@@ -15,8 +15,7 @@ use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 use ::parquet::file::reader::{ChunkReader, Length};
 use ::parquet::file::serialized_reader::SerializedPageReader;
-use bytes::buf::Reader;
-use bytes::{Buf, Bytes};
+use bytes::{Buf, Bytes, buf::Reader};
 use zstd::bulk::Decompressor;
 use zstd::zstd_safe::get_frame_content_size;
 
@@ -158,14 +157,12 @@ struct Pages {
 
 impl Pages {
     fn of(stretch: &Arc<Stretch>, column: &ColumnChunkMetaData, rows: usize, most: u64) -> Result<Self> {
-        if !matches!(column.compression(), Compression::ZSTD(_)) {
-            let pages = SerializedPageReader::new(Arc::clone(stretch), column, rows, None)?;
-            return Ok(Self { pages, most: None });
-        }
+        let ours = matches!(column.compression(), Compression::ZSTD(_));
         // Who reads them as they lie there makes no decompressor.
-        let as_it_lies = column.clone().into_builder().set_compression(Compression::UNCOMPRESSED).build()?;
-        let pages = SerializedPageReader::new(Arc::clone(stretch), &as_it_lies, rows, None)?;
-        Ok(Self { pages, most: Some(most) })
+        let read_as = if ours { Compression::UNCOMPRESSED } else { column.compression() };
+        let column = column.clone().into_builder().set_compression(read_as).build()?;
+        let pages = SerializedPageReader::new(Arc::clone(stretch), &column, rows, None)?;
+        Ok(Self { pages, most: ours.then_some(most) })
     }
 }
 
@@ -210,19 +207,17 @@ fn page_unpacked(mut page: Page, most: u64) -> Result<Page> {
 /// `bytes`, of which those after the first `plain` are packed.
 fn unpacked(bytes: &Bytes, plain: usize, most: u64) -> io::Result<Bytes> {
     let (plain, packed) = bytes.split_at_checked(plain).ok_or(io::ErrorKind::UnexpectedEof)?;
-    let mut all = plain.to_vec();
+    let mut rest = Vec::new();
     match get_frame_content_size(packed) {
         _ if packed.is_empty() => {}
-        Ok(Some(length)) => all.append(&mut unpacked_to(packed, length.min(most) as usize)?),
+        Ok(Some(length)) => rest = unpacked_to(packed, length.min(most) as usize)?,
         // Written piece by piece, by others.
-        _ => {
-            zstd::Decoder::with_buffer(packed)?.take(most.saturating_add(1)).read_to_end(&mut all)?;
-        }
+        _ => drop(zstd::Decoder::with_buffer(packed)?.take(most.saturating_add(1)).read_to_end(&mut rest)?),
     }
-    if (all.len() - plain.len()) as u64 > most {
+    if rest.len() as u64 > most {
         return Err(io::Error::other(format!("a page of more than {most} bytes")));
     }
-    Ok(all.into())
+    Ok(if plain.is_empty() { rest.into() } else { [plain, &rest].concat().into() })
 }
 
 fn unpacked_to(packed: &[u8], length: usize) -> io::Result<Vec<u8>> {
