@@ -16,12 +16,8 @@ const LANES: usize = 8;
 const ROWS: usize = 4;
 /// More than rounding takes from a bound of a squared distance, as a share.
 const ROUNDING: f64 = 1e-9;
-/// More than two distances, as shares of the largest, can be wrong by where they come from products in single
-/// precision.
-///
-/// A square is wrong by 4 (n + 4) 2⁻²⁴ of the larger square of both vectors at most, which for 72 coordinates is
-/// 4·10⁻³ of a distance between vectors that are alike and lie as far out as any.
-const ALIKE: f64 = 1e-2;
+/// More than a distance, as a share of the largest, can be wrong by where it comes from products.
+const ALIKE: f64 = 1e-6;
 
 /// A number for each pair of four vectors with the eight of a block.
 type Pairs = [[f64; LANES]; ROWS];
@@ -198,51 +194,44 @@ fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
     vectors.iter().map(|vector| vector.iter().zip(&mean).map(|(x, mean)| x - mean).collect()).collect()
 }
 
-/// Vectors around their mean in single precision, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: a quarter
-/// of the work of differences in double, and as good but where two are alike.
+/// Vectors around their mean, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: half the work of differences,
+/// and as exact but where two are alike.
 ///
-/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are. Stored as [`Lanes`] are.
+/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are.
 #[derive(Debug, Clone)]
 pub(super) struct Centred {
-    count: usize,
-    size: usize,
-    values: Vec<f32>,
+    lanes: Lanes,
     /// Their squares.
-    squares: Vec<f32>,
+    squares: Vec<f64>,
 }
 
 impl Centred {
-    /// `weight` · `vectors`, which must be 1 apart at most then.
-    pub(super) fn new(vectors: &[Vec<f64>], size: usize, weight: f64) -> Self {
-        let blocks = vectors.len().div_ceil(LANES);
-        let (mut values, mut squares) = (vec![0.0; blocks * size * LANES], vec![0.0; blocks * LANES]);
-        for (at, vector) in centred(vectors, size).iter().enumerate() {
-            for (k, value) in vector.iter().enumerate() {
-                let value = (weight * value) as f32;
-                values[(at / LANES * size + k) * LANES + at % LANES] = value;
-                // In the order of the products, so that what is the same is nothing apart.
-                squares[at] += value * value;
-            }
+    pub(super) fn new(vectors: &[Vec<f64>], size: usize) -> Self {
+        let lanes = Lanes::new(&centred(vectors, size), size, 1);
+        let mut squares = vec![0.0; lanes.blocks() * LANES];
+        for (at, square) in squares.iter_mut().enumerate() {
+            let block = &lanes.values[at / LANES * size * LANES..][..size * LANES];
+            *square = block.iter().skip(at % LANES).step_by(LANES).map(|x| x * x).sum();
         }
-        Self { count: vectors.len(), size, values, squares }
+        Self { lanes, squares }
     }
 }
 
-/// Of ‖x − y‖ + ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that may be nearest to one
-/// before them.
+/// Of `weights[0]` ‖x − y‖ + `weights[1]` ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that
+/// may be nearest to one before them.
 ///
 /// Of each block a sum; they are added up in their order, on any number of threads.
 ///
 /// Each pair once, and none of a vector with itself or with what fills up the last block.
-pub(super) fn over_pairs(parts: [&Centred; 2]) -> (f64, Vec<usize>) {
-    let (count, sizes) = (parts[0].count, parts.map(|part| part.size));
-    let parts = parts.map(|part| (part.values.as_slice(), part.squares.as_slice()));
+pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<usize>) {
+    let (count, blocks) = (parts[0].lanes.count, parts[0].lanes.blocks());
+    let parts = parts.map(|part| (part.lanes.values.as_slice(), part.squares.as_slice()));
     let of_block = |own: usize| {
-        let (mut sums, mut least) = ([0.0; LANES], [f32::INFINITY; LANES]);
-        add_pairs(Simd::Widest, parts, sizes, (own, count), &mut sums, &mut least);
-        (sums.into_iter().sum::<f64>(), f64::from(least.into_iter().fold(f32::INFINITY, f32::min)))
+        let (mut sums, mut least) = ([0.0; LANES], [f64::INFINITY; LANES]);
+        add_pairs(Simd::Widest, parts, weights, (own, count), &mut sums, &mut least);
+        (sums.into_iter().sum::<f64>(), least.into_iter().fold(f64::INFINITY, f64::min))
     };
-    let all: Vec<(f64, f64)> = (0..count.div_ceil(LANES)).into_par_iter().map(of_block).collect();
+    let all: Vec<(f64, f64)> = (0..blocks).into_par_iter().map(of_block).collect();
     let nearest = all.iter().map(|(_, least)| *least).fold(f64::INFINITY, f64::min);
     let near = all.iter().enumerate().filter(|(_, (_, least))| *least <= nearest + ALIKE);
     let near = near.flat_map(|(own, _)| own * LANES..((own + 1) * LANES).min(count)).collect();
@@ -251,24 +240,24 @@ pub(super) fn over_pairs(parts: [&Centred; 2]) -> (f64, Vec<usize>) {
 
 kernel! {
     fn add_pairs(
-        parts: [(&[f32], &[f32]); 2],
-        sizes: [usize; 2],
+        parts: [(&[f64], &[f64]); 2],
+        weights: [f64; 2],
         place: (usize, usize),
         sums: &mut [f64; LANES],
-        least: &mut [f32; LANES],
+        least: &mut [f64; LANES],
     ) {
         let (own, count) = place;
         for first in [0, ROWS] {
             for block in 0..=own {
                 let mut apart = [[0.0; LANES]; ROWS];
-                for ((values, squares), size) in parts.into_iter().zip(sizes) {
-                    let size = size * LANES;
+                for ((values, squares), weight) in parts.into_iter().zip(weights) {
+                    let size = values.len() / squares.len() * LANES;
                     let dots = dots(&values[own * size..][..size], first, &values[block * size..][..size]);
                     let (of_own, of_other) = (&squares[own * LANES..][..LANES], &squares[block * LANES..][..LANES]);
                     for r in 0..ROWS {
                         for l in 0..LANES {
                             let square = of_own[first + r] + of_other[l] - 2.0 * dots[r][l];
-                            apart[r][l] += if square > 0.0 { square } else { 0.0 }.sqrt();
+                            apart[r][l] += weight * if square > 0.0 { square } else { 0.0 }.sqrt();
                         }
                     }
                 }
@@ -278,7 +267,7 @@ kernel! {
                     let before = if row < count { row - block * LANES } else { 0 };
                     for l in 0..LANES {
                         let (counts, apart) = (l < before, apart[r][l]);
-                        sums[l] += f64::from(if counts { apart } else { 0.0 });
+                        sums[l] += if counts { apart } else { 0.0 };
                         least[l] = if counts & (apart < least[l]) { apart } else { least[l] };
                     }
                 }
@@ -289,7 +278,7 @@ kernel! {
 
 /// x·y of four vectors of one block with the eight of another.
 #[inline(always)]
-fn dots(own: &[f32], first: usize, other: &[f32]) -> [[f32; LANES]; ROWS] {
+fn dots(own: &[f64], first: usize, other: &[f64]) -> Pairs {
     let mut total = [[0.0; LANES]; ROWS];
     for (own, other) in own.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
         for r in 0..ROWS {
