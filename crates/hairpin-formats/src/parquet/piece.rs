@@ -15,6 +15,7 @@ use bytes::Bytes;
 
 use super::compressed::compressed;
 use super::table::{CASE, Columns, RUN, decode_groups_of, io_error, properties};
+use crate::channels::LEG;
 
 /// The rows of one case or run, packed.
 #[derive(Debug, Clone)]
@@ -39,7 +40,10 @@ impl Piece {
 
     pub(super) fn of_batch(batch: &RecordBatch, period: Option<f64>) -> io::Result<Self> {
         let schema = batch.schema();
+        // Of a hundred rows a dictionary is a page more, and longer than what it saves but where few values take turns.
         let mut builder = properties(&schema)
+            .set_dictionary_enabled(false)
+            .set_column_dictionary_enabled(ColumnPath::new(vec![LEG.into()]), true)
             .set_statistics_enabled(EnabledStatistics::None)
             .set_compression(Compression::UNCOMPRESSED);
         for key in [CASE, RUN] {

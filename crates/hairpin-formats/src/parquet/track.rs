@@ -28,12 +28,13 @@ const NORM_TOLERANCE: f64 = 1e-3;
 /// How far the motion between rows is from what was left out, at most.
 pub(super) const TOLERANCES: Tolerances = Tolerances { position: 1e-4, attitude: 1e-3, share: 0.01 };
 /// The same less what rounding takes of it.
-const WITHIN: Tolerances = Tolerances { position: 9e-5, attitude: 0.98e-3, share: 0.009 };
-/// Steps of positions, m, and of quaternions, and of velocities, m/s: powers of two, so that the last bytes are zeros.
+const WITHIN: Tolerances = Tolerances { position: 9e-5, attitude: 0.93e-3, share: 0.0087 };
+/// Steps of positions, m, of quaternions, and of velocities, m/s: powers of two, so that the last bytes are zeros.
 const STEP: f64 = 1.0 / 131_072.0;
+const ATTITUDE_STEP: f64 = 1.0 / 16_384.0;
 const VELOCITY_STEP: f64 = 1.0 / 16_384.0;
 /// Steps in what every other channel may be off.
-const STEPS: f64 = 8.0;
+const STEPS: f64 = 4.0;
 
 /// A planned motion, the rows where it bends.
 ///
@@ -58,7 +59,7 @@ fn rounded(columns: Columns) -> Columns {
         _ if POSE[..3].contains(&name) => Arc::new(values.unary::<_, Float64Type>(|value| in_steps(value, STEP))),
         _ => {
             let step = match name {
-                _ if POSE.contains(&name) => STEP,
+                _ if POSE.contains(&name) => ATTITUDE_STEP,
                 _ if VELOCITY.contains(&name) => VELOCITY_STEP,
                 _ => step_of(values.values()),
             };
