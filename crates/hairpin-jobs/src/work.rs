@@ -120,6 +120,11 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
 }
 
 impl Planned {
+    /// Whether it goes on with the campaign that is in its folder.
+    pub(crate) fn resumes(&self) -> bool {
+        self.if_there == IfThere::Resume
+    }
+
     /// Makes or takes up its folder, and leaves the user's mark on what it may run: it is his.
     ///
     /// # Errors
