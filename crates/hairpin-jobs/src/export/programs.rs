@@ -59,6 +59,7 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
         return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
     };
     let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
+    may_run(work).map_err(refuse)?;
     let graph = graph_of(arm).map_err(refuse)?;
     let clock = arm.arc_clock(&graph).map_err(refuse)?;
     let evidence = match arm.scenario.generate.mode {
@@ -111,6 +112,7 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }
         Language::Rapid => {
+            may_run(work)?;
             let module = rapid::module(program, &header).map_err(|error| error.to_string())?;
             let cap = Speed::predefined(rapid::FIRST_RUN).ok_or("no speed for the first run")?;
             let slow = rapid::module(&rapid::slow(program, &cap), &header).map_err(|error| error.to_string())?;
@@ -121,6 +123,11 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             ]
         }
     })
+}
+
+/// A module that names `tool0` or `wobj0` moves by those of the controller.
+fn may_run(work: &Work) -> Result<(), String> {
+    work.setup.misnamed().map_or(Ok(()), Err)
 }
 
 /// What an arm's joints are to do.

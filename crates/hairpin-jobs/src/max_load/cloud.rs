@@ -12,6 +12,7 @@ use hairpin_formats::scenario::{arm_setup_for, shadowed};
 
 use crate::generate::keep_cases;
 use crate::sets::Set;
+use crate::spelling::check_names;
 use crate::work::{IfThere, make, saying_what_is_asked};
 use crate::{Deadline, Problem, Watch, optimum};
 
@@ -113,6 +114,7 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
     let sets: Vec<Set> = sets.iter().cloned().chain(programs.sets()).collect();
     let setup = arm_setup_for(cell, points, &sets)?;
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    check_names(&setup)?;
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {
         let graph = graph_until(arm, stop)?;
