@@ -18,9 +18,11 @@
 //! | a link without, or whose mesh is not there | a stand-in, named in `estimates` |
 //! | `<inertial>` | masses, where all six links have them; products of inertia are left out |
 //! | `<visual>`, `<transmission>`, `<gazebo>`, `<safety_controller>`, `<dynamics>`, `effort` | nothing |
+//! | whatever is on no list (`known`), or a second time where one is read | refused with its line |
 
 mod arm;
 mod element;
+mod known;
 mod outline;
 mod pairs;
 mod shapes;
@@ -64,11 +66,7 @@ pub fn read_urdf(text: &str, options: &UrdfOptions, find: &MeshFile) -> Result<U
     }
     let document = element::parse(text)?;
     let robot = srdf::root_of(&document)?;
-    if let Some(node) =
-        robot.children().find(|node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro")))
-    {
-        return Err(element::at(&node, "is a xacro file: `xacro FILE.xacro > FILE.urdf` makes the URDF of it"));
-    }
+    known::all_known(&robot)?;
     let tree = tree::Tree::of(&robot)?;
     let way = tip::arm_of(&tree, options.base.as_deref(), options.tip.as_deref())?;
     let stands = stand::stands(&tree, &way)?;
