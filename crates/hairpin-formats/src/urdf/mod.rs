@@ -11,7 +11,7 @@
 //! | `revolute`, `continuous` between base and flange | the six axes; without `<limit>` at an estimated speed |
 //! | `fixed` | part of the link before |
 //! | other joints beside or behind the arm (a gripper's) | held at rest |
-//! | `mimic` there | where the master is; of an axis as master, anywhere about the joint |
+//! | `mimic` there | where the master is; where an axis drives it, also by others, anywhere about the joint |
 //! | `<collision>`: box, sphere, capsule | exactly |
 //! | cylinder | a prism of 32 sides around it |
 //! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |
@@ -22,6 +22,7 @@
 
 mod arm;
 mod element;
+mod follower;
 mod known;
 mod outline;
 mod pairs;
