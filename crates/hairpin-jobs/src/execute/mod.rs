@@ -235,7 +235,7 @@ mod tests {
             ["p.csv", "way.csv", "arm", "other"].map(|name| place.path().join(name));
         std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n").unwrap();
         std::fs::write(&missions, "x_m,y_m,z_m\n0.3,0.1,0.4\n0.35,-0.1,0.3\n").unwrap();
-        let settings = CloudSettings { cell: "irb120".into(), points, ..CloudSettings::default() };
+        let settings = CloudSettings { cell: "irb120".into(), points: Some(points), ..CloudSettings::default() };
         let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
             panic!("these points can be met")
         };

@@ -35,8 +35,23 @@ pub(super) fn check(
     let bound = "left out where runs are recorded elsewhere: nothing can be drawn for them";
     found.require(!drawn, "vary", "given", bound);
     check_spec(&keys.spec, &mut found);
-    let built = if found.0.is_empty() { found.take(build()) } else { None };
+    let built = if found.0.is_empty() { found.take(build().and_then(with_fitting_costs)) } else { None };
     built.ok_or(found.0)
+}
+
+/// Costs of another number of points than the cloud's say nothing about it. Drawn points are counted once they are
+/// there; where none is, that is told, not the table.
+fn with_fitting_costs(setup: ArmSetup) -> Result<ArmSetup, Mistake> {
+    let CostSection::Table(table) = &setup.scenario.generate.cost else { return Ok(setup) };
+    let points = setup.station.points.len();
+    match setup.attachments.costs(table) {
+        Some(costs) if costs.points != points && points > 0 => Err(Mistake {
+            key: "generate.cost.table".into(),
+            value: format!("\"{}\", which has {} lines", table.table, costs.points),
+            bound: format!("of {points} lines of {points} numbers, one for each point of the cloud"),
+        }),
+        _ => Ok(setup),
+    }
 }
 
 fn check_task(task: &ArmTask, points: u64, found: &mut Findings) {
