@@ -28,6 +28,7 @@ const READ: [(&str, &[&str], &[&str]); 18] = [
             "limit",
             "mimic",
             "dynamics",
+            "joint_properties",
             "calibration",
             "safety_controller",
             "gazebo",
