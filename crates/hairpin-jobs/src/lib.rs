@@ -37,6 +37,7 @@ pub mod select;
 pub mod sets;
 pub mod shrink;
 pub mod simulate;
+mod spelling;
 pub mod steer;
 pub mod stress;
 pub mod terrain;

@@ -10,7 +10,7 @@ use crate::budget::Part;
 use crate::execute::{Flown, check_recordings, count_flown, fly_missing};
 use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
-use crate::missions::{self, adopt};
+use crate::missions::{self, adopt, cases_of};
 use crate::report::write_report;
 use crate::saved::{Replayed, replay_saved, with_saved};
 use crate::work::{CampaignSettings, Planned, Work, plan};
@@ -62,6 +62,9 @@ pub fn stress_missions(
     let budget = Budget::of(settings.budget_s, settings.time_limit_s);
     let planned = plan(settings, watch)?;
     let read = missions::read(&planned.setup, missions, watch)?;
+    if !planned.resumes() {
+        cases_of(&planned.setup, &[], &read)?;
+    }
     let replayed = replay(&planned, repro, &budget, watch)?;
     let work = planned.begin()?;
     let names: Vec<&str> = read.iter().map(|leg| leg.name.as_str()).collect();

@@ -13,6 +13,7 @@ use hairpin_formats::scenario::{check_asked, kept_in, read_kept, setup_for, shad
 use crate::consent::{Consent, Wish};
 use crate::differences::differences;
 use crate::sets::Set;
+use crate::spelling::check_names;
 use crate::watch::not_waiting_for;
 use crate::{Deadline, Problem, Watch};
 
@@ -103,6 +104,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     check_asked(&setup.scenario, Path::new(&settings.scenario))?;
     setup.scenario.check_search()?;
     check_command(&setup.scenario)?;
+    check_names(&setup)?;
     let (kept, wishes) = (kept_in(&settings.scenario), Wish::of_campaign(&setup));
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let search = setup.scenario.search();
@@ -120,6 +122,11 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
 }
 
 impl Planned {
+    /// Whether it goes on with the campaign that is in its folder.
+    pub(crate) fn resumes(&self) -> bool {
+        self.if_there == IfThere::Resume
+    }
+
     /// Makes or takes up its folder, and leaves the user's mark on what it may run: it is his.
     ///
     /// # Errors

@@ -118,7 +118,7 @@ pub(crate) fn max_load_of_cloud(
     let Cloud { cell, points, sets, out, replaces } = cloud;
     let min_cost = min_cost.map(|cost| cost.to_string());
     let programs = Programs { start, end, min_cost, programs, visits, seed };
-    let settings = CloudSettings { cell, points, sets, programs, time_limit_s };
+    let settings = CloudSettings { cell, points: Some(points), sets, programs, time_limit_s };
     let said = waiting.wait(py, |watch| {
         let answer = search_cloud(&settings, watch)?;
         if let (CloudAnswer::Searched(searched), Some(out)) = (&answer, &out) {

@@ -14,25 +14,25 @@ use super::resources::Threads;
 /// Exit code 3: there is no such path, 5: none was found yet.
 #[derive(Debug, Args)]
 pub(crate) struct MaxLoad {
-    /// Arm, cell: a shipped arm's name, a robot file, or a scenario; with --cloud
-    #[arg(value_name = "CELL", requires = "cloud")]
+    /// Arm, cell: a shipped arm's name, a robot file, or a scenario, whose own points are taken without --cloud
+    #[arg(value_name = "CELL", conflicts_with = "graph")]
     pub(crate) cell: Option<String>,
     /// Costs of the arcs: N lines of N numbers ≥ 0, empty where there is no arc; row = from
-    #[arg(long, value_name = "COSTS.csv", required_unless_present = "cloud", conflicts_with = "cloud")]
+    #[arg(long, value_name = "COSTS.csv", required_unless_present_any = ["cloud", "cell"], conflicts_with = "cloud")]
     pub(crate) graph: Option<PathBuf>,
     /// Points of an arm: x_mm,y_mm,z_mm, and if wanted q1 to q4 and cf1,cf4,cf6,cfx; or the robtargets of a RAPID
     /// module; needs CELL
     #[arg(long, value_name = "POINTS.csv", requires = "cell")]
     pub(crate) cloud: Option<PathBuf>,
-    /// Campaign folder for the programs of --cloud, with the graph and the reasons of refused moves; then `hairpin
+    /// Campaign folder for the programs of CELL, with the graph and the reasons of refused moves; then `hairpin
     /// export OUT --to rapid`
-    #[arg(long, value_name = "OUT", requires = "cloud")]
+    #[arg(long, value_name = "OUT", requires = "cell")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the campaign in --out
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
     /// Override one key of CELL's scenario, such as generate.mode=\"cartesian\"; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE", requires = "cloud")]
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "cell")]
     pub(crate) sets: Vec<String>,
     /// First point, counted from 0
     #[arg(long, value_name = "I")]
@@ -50,22 +50,22 @@ pub(crate) struct MaxLoad {
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) programs: u16,
     /// How to search
-    #[arg(long, value_enum, default_value_t = SearchMethod::Auto, conflicts_with = "cloud")]
+    #[arg(long, value_enum, default_value_t = SearchMethod::Auto, conflicts_with = "cell")]
     pub(crate) method: SearchMethod,
     /// Seconds after which the best so far is the answer
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) time_limit: Option<f64>,
     /// Problems that each of up to 32 parts of branch and bound looks at: a limit that gives the same answer everywhere
-    #[arg(long, value_name = "N", conflicts_with = "cloud")]
+    #[arg(long, value_name = "N", conflicts_with = "cell")]
     pub(crate) nodes: Option<u64>,
     /// Seed of the local search
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED), allow_negative_numbers = true)]
     pub(crate) seed: u64,
     /// Write the proof of the answer
-    #[arg(long, value_name = "OUT.json", conflicts_with_all = ["programs", "cloud"])]
+    #[arg(long, value_name = "OUT.json", conflicts_with_all = ["programs", "cell"])]
     pub(crate) certificate: Option<PathBuf>,
     /// Check a certificate against the graph by independent code instead of searching; exit code 1 if it does not hold
-    #[arg(long, value_name = "CERTIFICATE.json", conflicts_with_all = ["certificate", "cloud"])]
+    #[arg(long, value_name = "CERTIFICATE.json", conflicts_with_all = ["certificate", "cell"])]
     pub(crate) verify: Option<PathBuf>,
     /// One JSON object on stdout
     #[arg(long)]

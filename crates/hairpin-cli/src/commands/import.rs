@@ -3,7 +3,7 @@
 
 mod elsewhere;
 
-use hairpin_formats::listing::{Module, Unmodelled};
+use hairpin_formats::listing::{Module, Procedure, Unmodelled};
 use hairpin_formats::quote::shortened;
 use hairpin_jobs::Problem;
 use hairpin_jobs::import::{Follow, Follower, ImportSettings, Imported, MoveFinding, Read, import};
@@ -34,7 +34,7 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
         Imported::Mission(mission) => return Ok(elsewhere::tell_mission(&mission, asked.json)),
     };
     // A line that changes motion is not understood: what comes after it is not known.
-    let open = read.findings.iter().any(|finding| finding.open);
+    let open = read.findings.iter().any(|finding| finding.open) || unfollowed(asked, &read.module).is_some();
     let code = match (read.findings.iter().all(|finding| finding.open), read.module.unclear_line) {
         (false, _) => FINDING,
         (true, Some(_)) => INCONCLUSIVE,
@@ -47,6 +47,26 @@ pub(crate) fn run(asked: &Import) -> Result<u8, Problem> {
         in_words(asked, &read);
     }
     Ok(code)
+}
+
+/// Why a program that was to be checked was not, although every line that was executed is understood.
+fn unfollowed(asked: &Import, module: &Module) -> Option<String> {
+    if !asked.check {
+        return None;
+    }
+    if module.program.moves.is_empty() {
+        return Some("no move was found in it".into());
+    }
+    let is_main = |name: &str| name.eq_ignore_ascii_case("main");
+    let left: Vec<&str> = not_executed(module).map(|procedure| procedure.name.as_str()).collect();
+    let is_said = asked.procedure.is_some() || module.procedures.iter().any(|procedure| is_main(&procedure.name));
+    let named = left.iter().take(5).copied().collect::<Vec<_>>().join(", ");
+    (!is_said && !left.is_empty())
+        .then(|| format!("no main says whether {named} is executed: --procedure NAME follows one"))
+}
+
+fn not_executed(module: &Module) -> impl Iterator<Item = &Procedure> {
+    module.procedures.iter().filter(|procedure| !procedure.executed)
 }
 
 /// The flags as keys of the arm, and what else is set.
@@ -95,6 +115,10 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         let (file, line) = place(module, found.at.line);
         json!({ "file": file, "line": line, "column": found.at.column, "what": shortened(&found.what) })
     });
+    let left = not_executed(module).map(|procedure| {
+        let (file, line) = place(module, procedure.line);
+        json!({ "file": file, "line": line, "procedure": procedure.name })
+    });
     let unclear_place = module.unclear_line.map(|line| place(module, line));
     let mut object = json!({
         "kind": "program",
@@ -113,6 +137,8 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         "findings": findings.collect::<Vec<_>>(),
         "not_understood": unclear.collect::<Vec<_>>(),
         "mistakes": mistakes.collect::<Vec<_>>(),
+        "not_executed": left.collect::<Vec<_>>(),
+        "not_followed": unfollowed(import, module),
         "exit_code": code,
     });
     if import.lines {
@@ -171,14 +197,14 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
     for found in &module.mistakes {
         console::warn(&format!("{}, column {}: {}", module.told(found.at.line), found.at.column, found.what));
     }
-    for procedure in module.procedures.iter().filter(|procedure| !procedure.executed) {
+    for procedure in not_executed(module) {
         console::warn(&format!("{}: procedure {} is not executed", module.told(procedure.line), procedure.name));
     }
-    console::say(&verdict(module, followed.as_ref(), findings));
+    console::say(&verdict(module, followed.as_ref(), findings, unfollowed(import, module)));
 }
 
 /// The last line: the outcome, and whether it rests on bodies that are estimated.
-fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding]) -> String {
+fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfollowed: Option<String>) -> String {
     let moves = module.program.moves.len();
     let (open, findings): (Vec<&MoveFinding>, Vec<&MoveFinding>) = all.iter().partition(|finding| finding.open);
     let word = if findings.len() == 1 { "finding" } else { "findings" };
@@ -195,6 +221,8 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding]) -> S
         1 => ", 1 meeting of estimated shapes alone not found out".into(),
         count => format!(", {count} meetings of estimated shapes alone not found out"),
     };
+    let is_open = !open.is_empty() || unfollowed.is_some();
+    let not_found_out = unfollowed.map_or(String::new(), |why| format!(", {why}")) + &not_found_out;
     match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
@@ -202,7 +230,7 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding]) -> S
             let certain = module.certain;
             format!("{verdict}: {what} in the {certain} of {moves} moves before {before}{not_found_out}{estimated}")
         }
-        None if findings.is_empty() && open.is_empty() => format!("PASS: {what} in {moves} moves{estimated}"),
+        None if findings.is_empty() && !is_open => format!("PASS: {what} in {moves} moves{estimated}"),
         None if findings.is_empty() => format!("INCONCLUSIVE: {what} in {moves} moves{not_found_out}{estimated}"),
         None => format!("FAIL: {} {word} in {moves} moves{not_found_out}{estimated}", findings.len()),
     }

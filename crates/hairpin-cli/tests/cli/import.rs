@@ -256,7 +256,7 @@ fn logs_and_missions_are_told_by_what_they_hold() {
 #[test]
 fn what_is_exported_is_read_back() {
     let place = tempfile::tempdir().unwrap();
-    let text = "hairpin = 1\nrobot = \"irb120\"\nseed = 3\n[world]\ntool = { tcp_mm = [0, 0, 100], radius_mm = 20 }\n\
+    let text = "hairpin = 1\nrobot = \"irb120\"\nseed = 3\n[world]\ntool = { name = \"tGrip\", declare = true, tcp_mm = [0, 0, 100], radius_mm = 20 }\n\
         [task]\npoints = [[300, 100, 400], [350, -100, 300], [400, 50, 350], [250, 200, 450]]\n\
         [generate]\nmoves = { speeds = [\"v500\"], zones = [\"fine\", \"z10\"] }\nsearch = { programs = 1 }\n\
         [spec]\npath = { max_mm = 20 }\n";

@@ -33,6 +33,7 @@ mod guides;
 mod hardware;
 mod hours;
 mod import;
+mod import_unfollowed;
 mod interruptions;
 mod judge_arms;
 mod judge_logs;

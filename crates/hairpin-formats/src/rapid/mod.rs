@@ -27,4 +27,4 @@ pub use clock::{ArcTimes, Clocked, Clocking, LogError, arc_clock, is_log, read_l
 pub use names::{LONGEST_NAME, NameError, as_name, check_name};
 pub use program_file::{ProgramFileError, modules_of};
 pub use read::{Frames, NoModule, Options, read, read_all};
-pub use write::{FIRST_RUN, RapidError, module, program_file, slow};
+pub use write::{FIRST_RUN, RapidError, check_names, module, program_file, slow};

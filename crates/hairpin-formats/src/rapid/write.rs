@@ -58,13 +58,28 @@ pub fn module(program: &Program, header: &[String]) -> Result<String, RapidError
     if let Some(problem) = program.problems().into_iter().next() {
         return Err(problem.into());
     }
+    Ok(written(program)?.assemble(&program.name, &program.procedure, header, &[]))
+}
+
+/// Whether a module can have the names that a program has: all that it declares, and what it finds on the controller.
+///
+/// # Errors
+/// As of [`module`], where that is about a name.
+///
+/// # Panics
+/// Where a move has a tool or a work object that the program has not.
+pub fn check_names(program: &Program) -> Result<(), RapidError> {
+    written(program).map(drop)
+}
+
+fn written(program: &Program) -> Result<Writer, RapidError> {
     let mut writer = Writer::new(&program.name, &program.procedure)?;
     let mut demanded = (true, true);
     for (index, m) in program.moves.iter().enumerate() {
         writer.configuration(m, &mut demanded);
         writer.go(program, index, m)?;
     }
-    Ok(writer.assemble(&program.name, &program.procedure, header, &[]))
+    Ok(writer)
 }
 
 /// The same program for its first run: no speed above `cap` ([`FIRST_RUN`] where nothing else is asked for).
@@ -142,6 +157,19 @@ impl Writer {
         Ok(name.into())
     }
 
+    /// A name that is found on the controller: what nothing can be declared as there has no such name either, but for
+    /// its `own`. The module declares nothing else under it.
+    fn on_controller(&mut self, what: &'static str, name: &str, own: &str) -> Result<String, RapidError> {
+        if !name.eq_ignore_ascii_case(own) {
+            check_name(name).map_err(|cause| RapidError::Name { what, cause })?;
+        }
+        let line = format!("the controller's {what}");
+        match self.declared.insert(name.to_ascii_lowercase(), line.clone()) {
+            Some(before) if before != line => Err(RapidError::Twice { name: name.into() }),
+            _ => Ok(name.into()),
+        }
+    }
+
     pub(super) fn pose(&mut self, target: &PoseTarget) -> Result<String, RapidError> {
         let value = text::robtarget(target);
         match &target.name {
@@ -212,12 +240,12 @@ impl Writer {
         let tool_name = if tool.declare {
             self.declare("tool", "tooldata", &tool.name, &text::tooldata(tool))?
         } else {
-            plain(&tool.name)
+            self.on_controller("tool", &tool.name, "tool0")?
         };
         let object_name = if object.declare {
             self.declare("work object", "wobjdata", &object.name, &text::wobjdata(object))?
         } else {
-            plain(&object.name)
+            self.on_controller("work object", &object.name, "wobj0")?
         };
         self.lines.push(format!("{target}, {speed}{duration}, {zone}, {tool_name} \\WObj:={object_name};"));
         Ok(())

@@ -15,12 +15,10 @@ use super::element::{UrdfError, at, at_attribute, child, number, origin, told};
 use super::shapes::{Reader, Shape};
 use super::stand::{Held, Stand};
 use super::tip::{AXES, Way};
-use super::tree::{Joint, Moves, Tree};
+use super::tree::{Joint, Moves, Tree, UNBOUNDED};
 
 /// Speed of a joint whose limit is not given, rad/s.
 const USUAL_SPEED: f64 = std::f64::consts::PI;
-/// Largest angle of a joint without bounds.
-const UNBOUNDED: f64 = 3600.0;
 /// Bodies, at most: each is held against every other.
 const MOST_BODIES: usize = 2000;
 /// Sentences about shapes, at most.
@@ -138,7 +136,7 @@ impl Built {
             let shapes = reader.of(link)?;
             with_body[stand.of] |= !shapes.all.is_empty();
             for shape in &shapes.all {
-                self.body(stand, &shape.placed(&stand.pose), link);
+                self.body(stand, shape, link);
             }
             let named = format!("link {} (`{}`)", stand.of, told(name));
             if stand.held != Held::Firmly && !shapes.all.is_empty() {
@@ -183,12 +181,12 @@ impl Built {
     }
 
     fn body(&mut self, stand: &Stand, shape: &Shape, node: &Node) {
-        let mut shape = shape.clone();
-        match stand.held {
-            Held::Firmly => {}
-            Held::AtRest => shape.larger = shape.larger.max(shape.size()),
-            Held::About(center) => shape = shape.about(&center),
-        }
+        let placed = shape.placed(&stand.pose);
+        let shape = match stand.held {
+            Held::Firmly => placed,
+            Held::AtRest => Shape { larger: shape.larger.max(shape.size()), ..placed },
+            Held::About(orbit) => orbit.around(shape),
+        };
         let (radius_mm, larger_mm) = (shape.radius * 1e3, shape.larger * 1e3);
         match shape.points[..] {
             [ref a, ref rest @ ..] if rest.len() <= 1 && radius_mm > 1e-3 => {
@@ -208,8 +206,12 @@ impl Built {
     /// Of something that hangs on a link, as thick as that link's own stand-in.
     fn ball(&mut self, stand: &Stand) {
         let reach: f64 = self.joints.iter().map(|joint| Vector3::from(joint.xyz_mm).norm()).sum();
-        let at = mm(&stand.pose.translation.vector);
-        let radius_mm = (reach / (12.0 + 2.0 * stand.of as f64)).max(1.0);
+        let (center, far) = match stand.held {
+            Held::About(orbit) => (orbit.center().coords, orbit.far()),
+            Held::Firmly | Held::AtRest => (stand.pose.translation.vector, 0.0),
+        };
+        let at = mm(&center);
+        let radius_mm = (reach / (12.0 + 2.0 * stand.of as f64)).max(1.0) + far * 1e3;
         self.capsules.push(CapsuleDescription {
             link: stand.of,
             a_mm: at,

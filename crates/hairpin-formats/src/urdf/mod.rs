@@ -11,16 +11,19 @@
 //! | `revolute`, `continuous` between base and flange | the six axes; without `<limit>` at an estimated speed |
 //! | `fixed` | part of the link before |
 //! | other joints beside or behind the arm (a gripper's) | held at rest |
-//! | `mimic` there | where the master is; of an axis as master, anywhere about the joint |
+//! | `mimic` there | where the master is; where an axis drives it, also by others, anywhere about the joint |
 //! | `<collision>`: box, sphere, capsule | exactly |
 //! | cylinder | a prism of 32 sides around it |
 //! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |
 //! | a link without, or whose mesh is not there | a stand-in, named in `estimates` |
 //! | `<inertial>` | masses, where all six links have them; products of inertia are left out |
 //! | `<visual>`, `<transmission>`, `<gazebo>`, `<safety_controller>`, `<dynamics>`, `effort` | nothing |
+//! | whatever is on no list (`known`), or a second time where one is read | refused with its line |
 
 mod arm;
 mod element;
+mod follower;
+mod known;
 mod outline;
 mod pairs;
 mod shapes;
@@ -64,11 +67,7 @@ pub fn read_urdf(text: &str, options: &UrdfOptions, find: &MeshFile) -> Result<U
     }
     let document = element::parse(text)?;
     let robot = srdf::root_of(&document)?;
-    if let Some(node) =
-        robot.children().find(|node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro")))
-    {
-        return Err(element::at(&node, "is a xacro file: `xacro FILE.xacro > FILE.urdf` makes the URDF of it"));
-    }
+    known::all_known(&robot)?;
     let tree = tree::Tree::of(&robot)?;
     let way = tip::arm_of(&tree, options.base.as_deref(), options.tip.as_deref())?;
     let stands = stand::stands(&tree, &way)?;

@@ -4,9 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::math::rotation::from_rotation_vector;
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::element::{UrdfError, child, number};
+use super::element::{UrdfError, at};
+use super::follower::{Driven, Masters, Orbit};
 use super::tip::Way;
 use super::tree::{Joint, Moves, Tree};
 
@@ -17,8 +18,8 @@ pub(super) enum Held {
     Firmly,
     /// At rest of a joint that no program of the arm moves.
     AtRest,
-    /// Somewhere about this point (m, of the arm's link): its joint follows an axis.
-    About(Point3<f64>),
+    /// Somewhere about a point: a joint before it follows an axis.
+    About(Orbit),
 }
 
 /// A link beside the arm's link that carries it.
@@ -37,29 +38,18 @@ pub(super) struct Stand {
 pub(super) fn stands<'t>(tree: &Tree<'t>, way: &Way<'t>) -> Result<Vec<(&'t str, Stand)>, UrdfError> {
     let turning = way.joints.iter().copied().filter(|joint| tree.joints[*joint].moves == Moves::Turns);
     let own: BTreeMap<usize, usize> = turning.enumerate().map(|(axis, joint)| (joint, axis + 1)).collect();
-    let axes: BTreeSet<&str> = own.keys().map(|joint| tree.joints[*joint].name).collect();
+    let masters = Masters::of(tree, own.keys().copied());
     let on_way: BTreeSet<usize> = way.joints.iter().copied().collect();
     let base = Stand { of: 0, pose: Isometry3::identity(), held: Held::Firmly, on_way: true };
     let mut found = vec![(way.base, base)];
     let mut place: BTreeMap<&str, usize> = BTreeMap::from([(way.base, 0)]);
-    let named: BTreeMap<&str, &Joint> = tree.joints.iter().map(|joint| (joint.name, joint)).collect();
     for index in tree.downwards(way.base) {
         let joint = &tree.joints[index];
         let Some((_, parent)) = place.get(joint.parent).map(|at| found[*at]) else { continue };
-        let pose = parent.pose * joint.origin;
         let on_way = on_way.contains(&index);
-        let stand = match (joint.moves, own.get(&index)) {
-            (_, Some(axis)) => Stand { of: *axis, pose: Isometry3::identity(), held: Held::Firmly, on_way },
-            (Moves::Not, None) => Stand { pose, on_way, ..parent },
-            (_, None) if joint.mimic.is_some_and(|(master, ..)| axes.contains(master)) => {
-                let about = Held::About(pose.translation.vector.into());
-                let held = if let Held::About(_) = parent.held { parent.held } else { about };
-                Stand { pose, held, on_way, ..parent }
-            }
-            (_, None) => {
-                let held = if parent.held == Held::Firmly { Held::AtRest } else { parent.held };
-                Stand { pose: pose * displaced(joint, rest(joint, &named)?)?, held, on_way, ..parent }
-            }
+        let stand = match own.get(&index) {
+            Some(axis) => Stand { of: *axis, pose: Isometry3::identity(), held: Held::Firmly, on_way },
+            None => Stand { on_way, ..carried(&parent, joint, &masters)? },
         };
         place.insert(joint.child, found.len());
         found.push((joint.child, stand));
@@ -67,21 +57,35 @@ pub(super) fn stands<'t>(tree: &Tree<'t>, way: &Way<'t>) -> Result<Vec<(&'t str,
     Ok(found)
 }
 
-/// Where a joint of no axis rests: at 0 or the bound next to it; one that follows where its master does.
-fn rest(joint: &Joint, named: &BTreeMap<&str, &Joint>) -> Result<f64, UrdfError> {
-    if let Some((master, share, offset)) = joint.mimic {
-        // A master that follows another itself is not looked at further.
-        let of = named.get(master).filter(|master| master.mimic.is_none());
-        return Ok(share * of.map_or(Ok(0.0), |master| alone(master))? + offset);
+/// Where the child of a joint of no axis stands, and how well that is known.
+fn carried(parent: &Stand, joint: &Joint, masters: &Masters) -> Result<Stand, UrdfError> {
+    let pose = parent.pose * joint.origin;
+    let before = match parent.held {
+        Held::About(orbit) => Some(orbit.then(&joint.origin)),
+        Held::Firmly | Held::AtRest => None,
+    };
+    if joint.moves == Moves::Not {
+        return Ok(Stand { pose, held: before.map_or(parent.held, Held::About), ..*parent });
     }
-    alone(joint)
-}
-
-fn alone(joint: &Joint) -> Result<f64, UrdfError> {
-    let Some(limit) = child(&joint.node, "limit") else { return Ok(0.0) };
-    let bound = |name: &str| limit.attribute(name).map_or(Ok(0.0), |_| number(&limit, name));
-    let (lower, upper) = (bound("lower")?, bound("upper")?);
-    Ok(if lower <= upper { 0f64.clamp(lower, upper) } else { 0.0 })
+    match masters.driven(joint)? {
+        Driven::ByAxis(travel) => {
+            let orbit = before.unwrap_or_else(|| Orbit::about(pose.translation.vector.into()));
+            let orbit = match joint.moves {
+                Moves::Slides => orbit.slid(travel),
+                Moves::Turns | Moves::Not => orbit.turned(),
+                Moves::Anyhow => {
+                    let what = format!("joint {} floats and follows an axis: how far is not known", joint.told());
+                    return Err(at(&joint.node, &what));
+                }
+            };
+            Ok(Stand { pose, held: Held::About(orbit), ..*parent })
+        }
+        Driven::AtRest(value) => {
+            let by = displaced(joint, value)?;
+            let held = before.map_or(Held::AtRest, |orbit| Held::About(orbit.then(&by)));
+            Ok(Stand { pose: pose * by, held, ..*parent })
+        }
+    }
 }
 
 /// What a joint does at `value` (rad or m).

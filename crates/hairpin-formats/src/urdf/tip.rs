@@ -95,8 +95,11 @@ fn chosen<'t>(tree: &Tree<'t>, base: &'t str) -> Result<&'t str, UrdfError> {
     // What another joint follows is a gripper's.
     let wrists: Vec<usize> = sixths.iter().copied().filter(|index| !followed(tree.joints[*index].name)).collect();
     if wrists.is_empty() {
-        let most = count.values().copied().max().unwrap_or(0) - usize::from(!sixths.is_empty());
-        return Err(UrdfError::Chain(format!("the longest chain has {most} turning joints, not six")));
+        let most = count.values().copied().max().unwrap_or(0);
+        return Err(sixths.first().map_or_else(
+            || UrdfError::Chain(format!("the longest chain has {most} turning joints, not six")),
+            |sixth| followed_sixth(tree, *sixth),
+        ));
     }
     let rigid: Vec<Vec<&str>> = wrists.iter().map(|index| rigidly(tree, tree.joints[*index].child)).collect();
     // By name: exactly, else as the last part of a name.
@@ -140,6 +143,20 @@ fn rigidly<'t>(tree: &Tree<'t>, link: &'t str) -> Vec<&'t str> {
         next += 1;
     }
     found
+}
+
+/// What another joint follows is a finger more often than a wrist; which of both it is is not guessed.
+fn followed_sixth(tree: &Tree, sixth: usize) -> UrdfError {
+    let joint = &tree.joints[sixth];
+    let links = rigidly(tree, joint.child);
+    let flange = FLANGES.iter().find_map(|flange| links.iter().find(|link| link.ends_with(flange)));
+    UrdfError::Chain(format!(
+        "{} joints turn before {}, which another one follows (mimic) as fingers are followed: where it is the arm's sixth, the key \
+         tip says which link is the flange, such as tip = \"{}\"",
+        AXES - 1,
+        joint.told(),
+        told(flange.unwrap_or(&joint.child))
+    ))
 }
 
 fn several(tips: &[&str]) -> UrdfError {

@@ -43,6 +43,8 @@ pub(super) struct Tree<'t> {
     pub(super) root: &'t str,
 }
 
+/// Largest angle of a joint without bounds, °.
+pub(super) const UNBOUNDED: f64 = 3600.0;
 /// Joints, at most.
 const MOST_JOINTS: usize = 200_000;
 

@@ -39,12 +39,18 @@ pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem
     }
     let comparison = campaign::compare(&judged(&before, a)?, &judged(&after, b)?, tolerance_m);
     if comparison.pairs == 0 {
+        let (a, b) = (a.display(), b.display());
+        // An arm's cases are programs: waypoints cannot take their place.
+        let how = match before.setup.has_programs() {
+            true => format!("run the same programs in both, such as by hairpin execute {a} --out DIR"),
+            false => format!(
+                "fly the same trajectories in both under one --seed, such as by hairpin export {a} --to waypoints and hairpin \
+                 execute {b} --missions {a}/export"
+            ),
+        };
         return Err(Problem::input(format!(
-            "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): fly the same trajectories in \
-             both under one --seed, such as by hairpin export {a} --to waypoints and hairpin execute {b} --missions {a}/missions",
+            "no case of {a} has a partner in {b} with the same number, seed, waypoints and environment ({}): {how}",
             unpaired(&comparison),
-            a = a.display(),
-            b = b.display(),
         )));
     }
     Ok(Compared { comparison, differences })

@@ -23,7 +23,7 @@ use crate::consent::{Consent, Wish};
 use crate::missions::{self, adopt};
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{IfThere, Work, changed_by, check_tables, keep_changes, open_to_change, tell_share};
+use crate::work::{IfThere, Work, changed_by, check_tables, keep_changes, open_to_change, open_to_read, tell_share};
 use crate::{Problem, Watch};
 use beside::beside;
 pub(crate) use by_case::fly_by_case;
@@ -95,6 +95,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
         let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
         check_tables(sets, CHANGED)?;
+        if let Some(missions) = &settings.missions {
+            // What is in `out` makes room only for what can take its place.
+            missions::of_files(&open_to_read(folder)?.setup, missions)?;
+        }
         beside((folder, sets), path, if_there, &settings.consent)?;
     }
     if settings.resume && !sets.is_empty() {
@@ -188,7 +192,6 @@ mod tests {
     use crate::Unwatched;
     use crate::export::{Export, ExportSettings, Format};
     use crate::testing::generated;
-    use crate::work::open_to_read;
 
     #[test]
     fn runs_are_flown_once_and_resumed() {
@@ -219,6 +222,35 @@ mod tests {
         let executed = execute(&settings, &Unwatched).unwrap();
         assert_eq!((executed.cases, executed.missions), (2, vec!["0000".to_owned(), "0001".to_owned()]));
         assert_eq!(open_to_read(&folder).unwrap().folder.read_cases().unwrap(), before);
+    }
+
+    /// Waypoints are no programs: nothing of an arm's campaign goes for them, also where it is to make room.
+    #[test]
+    fn an_arms_campaign_outlives_missions() {
+        use crate::max_load::{CloudAnswer, CloudSettings, search_cloud};
+        use crate::work::IfThere;
+
+        let place = tempfile::tempdir().unwrap();
+        let [points, missions, folder, other] =
+            ["p.csv", "way.csv", "arm", "other"].map(|name| place.path().join(name));
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n").unwrap();
+        std::fs::write(&missions, "x_m,y_m,z_m\n0.3,0.1,0.4\n0.35,-0.1,0.3\n").unwrap();
+        let settings = CloudSettings { cell: "irb120".into(), points: Some(points), ..CloudSettings::default() };
+        let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("these points can be met")
+        };
+        for out in [&folder, &other] {
+            searched.keep(out, IfThere::Refuse, &Unwatched).unwrap();
+        }
+        let beside = ExecuteSettings { out: Some(other.clone()), replaces: true, ..ExecuteSettings::default() };
+        for settings in [ExecuteSettings::default(), beside] {
+            let settings = ExecuteSettings { folder: folder.clone(), missions: Some(missions.clone()), ..settings };
+            let refused = execute(&settings, &Unwatched).map(|_| ()).unwrap_err().to_string();
+            assert!(refused.contains("an arm's cases are programs"), "{refused}");
+        }
+        for out in [&folder, &other] {
+            assert!(open_to_read(out).unwrap().folder.read_cases().unwrap()[0].program().is_some());
+        }
     }
 
     #[test]

@@ -30,7 +30,13 @@ pub enum Language {
 const SAMPLE: f64 = 0.01;
 
 /// Writes the program of every case; a case without one, or one that the language cannot hold, is told as missing.
+///
+/// # Errors
+/// Modules that would move by another tool or work object than they were planned with; a file cannot be written.
 pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Language) -> Result<Written, Problem> {
+    if language == Language::Rapid {
+        may_run(work).map_err(|why| Problem::input(format!("--to rapid: {why}")))?;
+    }
     let mut written = Written::default();
     for case in cases {
         let mut case = Case::clone(case);
@@ -59,6 +65,7 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
         return Err(Problem::input("--to arc-clock: the campaign is no arm's"));
     };
     let refuse = |why: String| Problem::input(format!("--to arc-clock: {why}"));
+    may_run(work).map_err(refuse)?;
     let graph = graph_of(arm).map_err(refuse)?;
     let clock = arm.arc_clock(&graph).map_err(refuse)?;
     let evidence = match arm.scenario.generate.mode {
@@ -123,6 +130,11 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     })
 }
 
+/// A module that names `tool0` or `wobj0` moves by those of the controller.
+fn may_run(work: &Work) -> Result<(), String> {
+    work.setup.misnamed().map_or(Ok(()), Err)
+}
+
 /// What an arm's joints are to do.
 pub(super) struct PlannedJoints {
     pub(super) names: [String; AXES],
@@ -136,4 +148,51 @@ pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<PlannedJoints, 
     let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
     let (times_s, rows) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
     Ok(PlannedJoints { names: arm.station.arm.joint_names.clone(), times_s, rows })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Unwatched;
+    use crate::export::{Export, ExportSettings, Format};
+    use crate::max_load::{CloudAnswer, CloudSettings, search_cloud};
+    use crate::work::IfThere;
+
+    /// Through `tool0` a controller moves the flange to where the tool's point was to go.
+    #[test]
+    fn no_module_names_what_a_controller_has_otherwise() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("cell.toml");
+        for (number, (key, given, named)) in [
+            ("tool", "tcp_mm = [0, 0, 50]", "name = \"tA\", tcp_mm = [0, 0, 50]"),
+            ("wobj", "uframe_mm = [100, 0, 0]", "name = \"wA\", uframe_mm = [100, 0, 0]"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let exported = |table: &str, out: &str| {
+                let text = format!(
+                    "hairpin = 1\nrobot = \"irb120\"\nspec = \"none\"\n[world]\n{key} = {{ {table} }}\n[task]\n\
+                     points = [[300, 0, 300], [300, 100, 300]]\n"
+                );
+                std::fs::write(&file, text).unwrap();
+                let cell = file.to_string_lossy().into_owned();
+                let settings = CloudSettings { cell, ..CloudSettings::default() };
+                let CloudAnswer::Searched(found) = search_cloud(&settings, &Unwatched).unwrap() else {
+                    panic!("these points can be met")
+                };
+                let folder = place.path().join(format!("{out}{number}"));
+                found.keep(&folder, IfThere::Refuse, &Unwatched).unwrap();
+                Export::open(&ExportSettings { folder, ..ExportSettings::default() }).unwrap()
+            };
+            let own = exported(given, "own");
+            for format in [Format::Program(Language::Rapid), Format::ArcClock] {
+                let refused = own.write(format).map(|_| ()).unwrap_err().to_string();
+                assert!(refused.contains(&format!("give `world.{key}.name` another name")), "{refused}");
+            }
+            // KRL says the frames themselves.
+            assert_eq!(own.write(Format::Program(Language::Krl)).unwrap().files.len(), 2);
+            assert_eq!(exported(named, "named").write(Format::Program(Language::Rapid)).unwrap().files.len(), 3);
+        }
+    }
 }

@@ -224,6 +224,18 @@ fn known(work: &Work) -> Result<Known, Problem> {
     Ok(known)
 }
 
+/// Whether the motion of every case can be planned, which is kept of it: asked before a folder is made for them.
+///
+/// # Errors
+/// The first that cannot be.
+pub(crate) fn check_plans(setup: &Setup, cases: &[Case]) -> Result<(), Problem> {
+    let plan = |case: &Case| match planned(setup, case) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Problem::input(format!("case {}: {error}", case.id()))),
+    };
+    cases.par_iter().try_for_each(plan)
+}
+
 /// Writes the cases from number `from` of the list on, the tables of all, and the tally that belongs to them. Each file
 /// says no more than those before it: a kill in between leaves cases too many, never too few.
 pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {

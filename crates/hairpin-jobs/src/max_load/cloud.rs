@@ -8,10 +8,11 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{ArmGraph, graph_until};
 use hairpin::campaign::{Setup, Stop, Tally};
 use hairpin::search::heaviest::Heaviest;
-use hairpin_formats::scenario::{arm_setup_for, shadowed};
+use hairpin_formats::scenario::{arm_setup_for, setup_for, shadowed};
 
-use crate::generate::keep_cases;
+use crate::generate::{check_plans, keep_cases};
 use crate::sets::Set;
+use crate::spelling::check_names;
 use crate::work::{IfThere, make, saying_what_is_asked};
 use crate::{Deadline, Problem, Watch, optimum};
 
@@ -20,8 +21,8 @@ use crate::{Deadline, Problem, Watch, optimum};
 pub struct CloudSettings {
     /// Arm, or cell: a shipped arm's name, a robot file, or a scenario.
     pub cell: String,
-    /// Points: x_mm,y_mm,z_mm, or a RAPID module's robtargets.
-    pub points: PathBuf,
+    /// Points: x_mm,y_mm,z_mm, or a RAPID module's robtargets; the cell's own if not given.
+    pub points: Option<PathBuf>,
     /// Keys of the cell's scenario with other values.
     pub sets: Vec<Set>,
     /// What is wanted of programs, beside what those say.
@@ -111,8 +112,12 @@ pub fn search_cloud(settings: &CloudSettings, watch: &dyn Watch) -> Result<Cloud
     let CloudSettings { cell, points, sets, programs, time_limit_s } = settings;
     shadowed(cell).iter().for_each(|note| watch.warn(note));
     let sets: Vec<Set> = sets.iter().cloned().chain(programs.sets()).collect();
-    let setup = arm_setup_for(cell, points, &sets)?;
+    let setup = match points {
+        Some(points) => arm_setup_for(cell, points, &sets)?,
+        None => setup_for(cell, &sets)?,
+    };
     let Some(arm) = setup.own::<ArmSetup>() else { return Err(Problem::input(format!("`{cell}` is no arm"))) };
+    check_names(&setup)?;
     let (begun, deadline) = (Instant::now(), Deadline::after(*time_limit_s));
     let searched = with_stop(watch, deadline, begun, |stop| {
         let graph = graph_until(arm, stop)?;
@@ -138,12 +143,13 @@ impl CloudSearch {
     /// Writes the programs that were found, as generation would, into the campaign folder `out`.
     ///
     /// # Errors
-    /// The folder holds something else; a file cannot be written.
+    /// A program that the arm cannot follow to its end; the folder holds something else; a file cannot be written.
     pub fn keep(&self, out: &Path, if_there: IfThere, watch: &dyn Watch) -> Result<(), Problem> {
         let Some(arm) = self.setup.own::<ArmSetup>() else { unreachable!("clouds are searched of arms alone") };
+        let cases = arm.cases(&self.graph, &self.found);
+        check_plans(&self.setup, &cases)?;
         // Programs were asked for, no judgement.
         let work = make(out, saying_what_is_asked(self.setup.clone())?, if_there)?;
-        let cases = arm.cases(&self.graph, &self.found);
         work.folder.write_graph(arm, &self.graph)?;
         with_stop(watch, self.deadline, self.begun, |stop| optimum::keep(&work, arm, &self.graph, &cases, stop))?;
         let solved = u64::from(!cases.is_empty());
@@ -175,7 +181,8 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let (points, out) = (place.path().join("points.csv"), place.path().join("out"));
         std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n350,0,350\n").unwrap();
-        let settings = CloudSettings { cell: "irb120".into(), points: points.clone(), ..CloudSettings::default() };
+        let settings =
+            CloudSettings { cell: "irb120".into(), points: Some(points.clone()), ..CloudSettings::default() };
         let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
             panic!("these points can be met")
         };
@@ -197,14 +204,43 @@ mod tests {
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { open: None, .. }));
     }
 
+    /// What is wrong with a table of costs is told before anything is searched, and a program that cannot be followed
+    /// before there is a folder for it. A cell has points of its own.
+    #[test]
+    fn what_cannot_be_kept_is_refused_before_there_is_a_folder() {
+        let place = tempfile::tempdir().unwrap();
+        let [cell, table, out] = ["cell.toml", "costs.csv", "out"].map(|name| place.path().join(name));
+        let text = "hairpin = 1\nrobot = \"irb120\"\nspec = \"none\"\n[task]\n\
+            points = [[300, 0, 300], [300, 100, 300], [-300, 0, 300]]\n";
+        std::fs::write(&cell, text).unwrap();
+        std::fs::write(&table, ",1\n2,\n").unwrap();
+        let cell = cell.to_string_lossy().into_owned();
+        let costs = ("generate.cost".into(), format!("{{ table = {:?} }}", table.to_string_lossy()));
+        let settings = CloudSettings { cell: cell.clone(), sets: vec![costs], ..CloudSettings::default() };
+        let told = search_cloud(&settings, &Unwatched).map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("generate.cost.table") && told.contains("which has 2 lines"), "{told}");
+        // Straight through the arm's own base: Cartesian mode does not look at that.
+        let through = ("generate.mode".into(), "cartesian".into());
+        let settings = CloudSettings { cell, sets: vec![through], ..CloudSettings::default() };
+        let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("nothing is in the way of the tool")
+        };
+        let told = searched.keep(&out, IfThere::Refuse, &Unwatched).unwrap_err().to_string();
+        assert!(told.starts_with("case 0000: ") && !out.exists(), "{told}");
+    }
+
     /// A graph that was not whole in time is no proof that there is nothing in it.
     #[test]
     fn a_cloud_that_nobody_waits_for_is_not_known_to_have_nothing() {
         let place = tempfile::tempdir().unwrap();
         let points = place.path().join("points.csv");
         std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n300,100,300\n350,0,350\n").unwrap();
-        let settings =
-            CloudSettings { cell: "irb120".into(), points, time_limit_s: Some(0.0), ..CloudSettings::default() };
+        let settings = CloudSettings {
+            cell: "irb120".into(),
+            points: Some(points),
+            time_limit_s: Some(0.0),
+            ..CloudSettings::default()
+        };
         let CloudAnswer::Nothing { reason, open, .. } = search_cloud(&settings, &Unwatched).unwrap() else {
             panic!("no move was looked at")
         };

@@ -7,9 +7,10 @@ mod told;
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseNumber, Evidence, Setup, Tally};
+use hairpin::campaign::{Case, CaseNumber, Evidence, Setup, Tally, planned};
 use hairpin_formats::missions::{Mission, environment_path, read_all};
 use nalgebra::Point3;
+use rayon::prelude::*;
 
 use crate::check::{Checked, check_in};
 use crate::generate::keep_cases;
@@ -21,14 +22,21 @@ pub(crate) use leg::Leg;
 pub(crate) use told::read_told;
 pub use told::{MissionTold, MissionsTold};
 
-/// Reads the missions of a folder or file for `setup`, and checks each.
+/// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///
 /// # Errors
-/// A file that is no mission, or has something that changes the motion and is not followed.
-pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<Leg>, Problem> {
+/// An arm's campaign, whose cases are programs; a file that is no mission, or has something that changes the motion
+/// and is not followed.
+pub(crate) fn of_files(setup: &Setup, path: &Path) -> Result<Vec<Mission>, Problem> {
+    if setup.has_programs() {
+        return Err(Problem::of_file(
+            path,
+            "--missions: an arm's cases are programs, which waypoints are not; `hairpin import FILE --check --cell \
+             SCENARIO` looks at programs made elsewhere",
+        ));
+    }
     let all = read_all(path, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
-    let mut legs = Vec::with_capacity(all.len());
-    for mission in all {
+    for mission in &all {
         if let Some(one) = mission.uncertain.first() {
             return Err(Problem::of_file(
                 &mission.path,
@@ -38,6 +46,18 @@ pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<
                 ),
             ));
         }
+    }
+    Ok(all)
+}
+
+/// Reads the missions of a folder or file for `setup`, and checks each.
+///
+/// # Errors
+/// As of [`of_files`].
+pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<Leg>, Problem> {
+    let all = of_files(setup, path)?;
+    let mut legs = Vec::with_capacity(all.len());
+    for mission in all {
         let file = mission.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if let Some(outside) = mission.waypoints.iter().position(|place| setup.is_outside(place)) {
             watch.warn(&format!("Warning: {file}: waypoint {outside} lies outside the world"));
@@ -46,7 +66,7 @@ pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<
             watch.warn(&format!("{file}: {note}"));
         }
         // What stands in an environment of its own is not the claim's world.
-        let asked = mission.environment.is_none() && !setup.has_programs();
+        let asked = mission.environment.is_none();
         let check = |mission: &Mission| check_in(setup, mission.clone(), "the scenario's world".into()).ok();
         let checked = if asked { check(&mission) } else { None };
         if let Some(checked) = checked.as_ref().filter(|checked| checked.feasible != Some(true)) {
@@ -84,9 +104,23 @@ fn between_stops(mission: Mission, checked: Option<Checked>) -> Vec<Leg> {
 /// witness that its check found.
 pub(crate) fn adopt(work: &Work, legs: &[Leg]) -> Result<(), Problem> {
     let known = if work.folder.has_cases() { work.folder.read_cases()? } else { Vec::new() };
+    let cases = cases_of(&work.setup, &known, legs)?;
+    let tally =
+        Tally { complete: true, missions: legs.iter().map(|leg| leg.name.clone()).collect(), ..Tally::default() };
+    work.folder.forget_cases()?;
+    keep_cases(work, &cases, 0, &tally)?;
+    Ok(work.folder.write_missions(&MissionsTold::of(legs))?)
+}
+
+/// The cases that missions become, beside those that are `known`. All of them can be planned: what cannot be is found
+/// before the cases that they replace are gone.
+///
+/// # Errors
+/// An environment that `setup` has no room for; a case that cannot be planned.
+pub(crate) fn cases_of(setup: &Setup, known: &[Case], legs: &[Leg]) -> Result<Vec<Case>, Problem> {
     let mut cases = Vec::with_capacity(legs.len());
     for (number, Leg { name, waypoints, checked, mission }) in legs.iter().enumerate() {
-        let seed = hairpin::math::random::case_seed(work.setup.scenario.seed(), number as u64);
+        let seed = hairpin::math::random::case_seed(setup.scenario.seed(), number as u64);
         let same = known.iter().find(|case| match mission.rounded {
             true => are_rounded(&case.waypoints, waypoints),
             false => case.waypoints == *waypoints,
@@ -98,16 +132,17 @@ pub(crate) fn adopt(work: &Work, legs: &[Leg]) -> Result<(), Problem> {
         if let Some(environment) = &mission.environment {
             let file = environment_path(Path::new(""), name);
             let refuse = |mistake| Problem::input(format!("{}: {mistake}", file.display()));
-            work.setup.check_environment(environment).map_err(refuse)?;
+            setup.check_environment(environment).map_err(refuse)?;
             case.environment = Some(environment.clone());
         }
         cases.push(case);
     }
-    let tally =
-        Tally { complete: true, missions: legs.iter().map(|leg| leg.name.clone()).collect(), ..Tally::default() };
-    work.folder.forget_cases()?;
-    keep_cases(work, &cases, 0, &tally)?;
-    Ok(work.folder.write_missions(&MissionsTold::of(legs))?)
+    let plan = |(case, leg): (&Case, &Leg)| match planned(setup, case) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Problem::of_file(&leg.mission.path, format!("cannot be planned: {error}"))),
+    };
+    cases.par_iter().zip(legs).try_for_each(plan)?;
+    Ok(cases)
 }
 
 /// `case` with the witness of all of the mission, where the check found one.

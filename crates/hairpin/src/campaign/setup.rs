@@ -29,6 +29,7 @@ use crate::judgement::Swiftness;
 use crate::math::simd::Simd;
 use crate::robot::battery::Battery;
 use crate::trajectory::Track;
+use crate::trajectory::program::Program;
 
 mod steered;
 
@@ -304,6 +305,16 @@ impl Setup {
     /// The logs whose recordings are the runs, where nothing is executed.
     pub fn recordings(&self) -> Option<&str> {
         self.programs().and_then(Programs::recordings)
+    }
+
+    /// A program that names whatever programs of it can name, for names to be looked at; `None` without programs.
+    pub fn naming_all(&self) -> Option<Program> {
+        self.programs().map(Programs::naming_all)
+    }
+
+    /// What its programs call by a name that stands for something else on every controller, in a sentence.
+    pub fn misnamed(&self) -> Option<String> {
+        self.programs().and_then(Programs::misnamed)
     }
 
     /// The score of the user's own, if that is what legs are scored by.

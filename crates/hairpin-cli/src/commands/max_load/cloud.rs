@@ -12,11 +12,11 @@ use crate::args::MaxLoad;
 use crate::exit::{INCONCLUSIVE, NOTHING_FEASIBLE};
 use crate::{console, settings};
 
-/// Runs the command on `points` in `cell`.
-pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str, watch: &dyn Watch) -> Result<u8, Problem> {
+/// Runs the command on `points` in `cell`, or on the cell's own.
+pub(super) fn run(asked: &MaxLoad, points: Option<&Path>, cell: &str, watch: &dyn Watch) -> Result<u8, Problem> {
     let settings = CloudSettings {
         cell: cell.into(),
-        points: points.into(),
+        points: points.map(Path::to_owned),
         sets: settings::split(&asked.sets)?,
         programs: Programs {
             start: asked.start,
@@ -29,13 +29,14 @@ pub(super) fn run(asked: &MaxLoad, points: &Path, cell: &str, watch: &dyn Watch)
         time_limit_s: asked.time_limit,
     };
     let answer = search_cloud(&settings, watch)?;
+    // Of an answer that cannot be kept it is not said that it was found: its folder is.
+    if let (CloudAnswer::Searched(searched), Some(out)) = (&answer, &asked.out) {
+        searched.keep(out, settings::if_there(false, asked.force), watch)?;
+    }
     if asked.json {
         console::say(&object(&answer, asked.programs > 1, asked.out.as_deref()).to_string());
     } else {
         tell(asked, &answer);
-    }
-    if let (CloudAnswer::Searched(searched), Some(out)) = (&answer, &asked.out) {
-        searched.keep(out, settings::if_there(false, asked.force), watch)?;
     }
     Ok(exit_code(&answer))
 }

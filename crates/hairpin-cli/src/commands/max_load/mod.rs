@@ -15,11 +15,11 @@ use crate::settings;
 pub(crate) fn run(asked: &MaxLoad, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
     let path = match (&asked.graph, &asked.cloud, &asked.cell) {
-        (_, Some(points), Some(cell)) => return cloud::run(asked, points, cell, watch),
+        (_, points, Some(cell)) => return cloud::run(asked, points.as_deref(), cell, watch),
         (Some(path), ..) => path,
         _ => {
             return Err(Problem::input(
-                "give the costs of a graph, --graph COSTS.csv, or an arm's points, --cloud POINTS.csv CELL",
+                "give the costs of a graph, --graph COSTS.csv, or an arm's points, --cloud POINTS.csv CELL, or a CELL with its own",
             ));
         }
     };
@@ -44,10 +44,10 @@ pub(crate) fn run(asked: &MaxLoad, watch: &dyn Watch) -> Result<u8, Problem> {
         },
         watch,
     )?;
-    answer::tell(asked, &answer);
     if let Some(out) = &asked.certificate {
         answer.write_certificate(out)?;
     }
+    answer::tell(asked, &answer);
     Ok(answer::code(&answer.found))
 }
 

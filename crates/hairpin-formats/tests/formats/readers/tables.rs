@@ -198,6 +198,14 @@ pub(crate) fn samples() -> Vec<Sample> {
             "urdf.missing-mesh",
             ["", "<collision><geometry><mesh filename=\"a.stl\"/></geometry></collision>", ""],
         ),
+        urdf_row("urdf.unknown-element", ["", "", "<group><link name=\"hand\"/></group>\n"]),
+        urdf_row("urdf.unknown-attribute", ["", "<collision><origin quat_xyzw=\"0 0 1 0\"/></collision>", ""]),
+        urdf_row(
+            "urdf.second-shape",
+            ["", "<collision><geometry><sphere radius=\"1\"/><sphere radius=\"2\"/></geometry></collision>", ""],
+        ),
+        urdf_row("urdf.second-origin", ["<origin xyz=\"0 0 1\"/>", "", ""]),
+        urdf_row("urdf.xacro", ["", "<x:if xmlns:x=\"http://ros.org/wiki/xacro\"/>", ""]),
         urdf_row("urdf.mimic", ["<mimic joint=\"j1\"/>", "", ""]),
         urdf_row(
             "urdf.gripper",

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use super::ArmSetup;
 use crate::campaign::scenario::{ArmMode, Keys, PathFrom, ProgramMethod};
 use crate::campaign::{Case, Tally};
-use crate::robot::arm::{Outline, body_name};
+use crate::robot::arm::{Outline, WorkObject, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
@@ -36,14 +36,7 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
         setup.station.tool.name,
         declared(setup.scenario.world.tool.declare)
     ));
-    let tool = &setup.station.tool;
-    if tool.name.eq_ignore_ascii_case("tool0") && tool.tcp != Isometry3::identity() {
-        said.push(
-            "On a controller `tool0` is the flange, and here it has a point of its own: give `world.tool` another name before a \
-             program runs on an arm."
-                .into(),
-        );
-    }
+    said.extend(misnamed(setup));
     if let Some(first) = setup.station.points.first() {
         let p = first.pose.translation.vector * 1e3;
         said.push(format!(
@@ -54,6 +47,31 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
             p.z
         ));
     }
+}
+
+/// `tool0` and `wobj0` where they are not what every controller has under these names.
+///
+/// A user frame stands in the world: where the base stands in that changes nothing here.
+pub(super) fn misnamed(setup: &ArmSetup) -> Option<String> {
+    let (tool, object) = (&setup.station.tool, &setup.scenario.world.wobj);
+    let other = |key: &str, name: &str, is: &str, has: &str| {
+        format!(
+            "On a controller `{name}` is {is}, and here it has {has} of its own: give `{key}.name` another name before a program \
+             runs on an arm, and set `{key}.declare` or set it up on the controller."
+        )
+    };
+    if tool.name.eq_ignore_ascii_case("tool0") && is_elsewhere(&tool.tcp) {
+        return Some(other("world.tool", "tool0", "the flange", "a point"));
+    }
+    let (user, frame) = ((object.uframe_mm, object.uframe_q1_q4), (object.oframe_mm, object.oframe_q1_q4));
+    let placed = WorkObject::new(&object.name, user, frame).ok()?;
+    let is_misnamed = object.name.eq_ignore_ascii_case("wobj0") && is_elsewhere(&placed.base_from_object());
+    is_misnamed.then(|| other("world.wobj", "wobj0", "the world", "a frame"))
+}
+
+/// Whether a frame is another one than that which it is given in, by a nanometre or a nanoradian.
+fn is_elsewhere(frame: &Isometry3<f64>) -> bool {
+    frame.translation.vector.norm() > 1e-9 || frame.rotation.angle() > 1e-9
 }
 
 /// Which links are none of these.

@@ -3,7 +3,9 @@
 //! The path a program is judged by is its own with the zones cut (`spec.path.from = "blended"`), or the polyline of
 //! its targets (`"sharp"`). Alignment weighs orientation in only where the recording has it.
 
+use super::assumptions::misnamed;
 use super::execute::program_of;
+use super::program::{Met, slow};
 use super::{ArmSetup, obstructions};
 use crate::campaign::Case;
 use crate::campaign::kind::Programs;
@@ -12,11 +14,22 @@ use crate::campaign::scenario::{LogClock, PathFrom};
 use crate::judgement::Violation;
 use crate::judgement::moves::{Clock, MeasureSettings, Measured, measure_moves};
 use crate::simulation::arm::Plan;
+use crate::trajectory::program::{Program, Zone};
 use crate::trajectory::{ATTITUDE_UNKNOWN, PlannedPath, Track};
 
 impl Programs for ArmSetup {
     fn recordings(&self) -> Option<&str> {
         self.scenario.execute.logs.as_deref()
+    }
+
+    fn naming_all(&self) -> Program {
+        let met = |row| Met { row, configuration: None, speed: slow(), zone: Zone::stop(), passed: false };
+        let way: Vec<Met> = (0..self.station.points.len()).map(met).collect();
+        self.program(&way, 0, |_, _| false)
+    }
+
+    fn misnamed(&self) -> Option<String> {
+        misnamed(self)
     }
 
     fn reference(&self, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {

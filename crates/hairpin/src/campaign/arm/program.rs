@@ -146,7 +146,7 @@ impl ArmSetup {
 }
 
 /// Moves from and to home.
-fn slow() -> Speed {
+pub(super) fn slow() -> Speed {
     Speed::predefined("v200").unwrap_or(Speed {
         name: None,
         tcp: 0.2,

@@ -275,6 +275,25 @@ fn programs_execute_for_the_stresses_of_arms() {
     assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
 }
 
+/// Nothing is proven anew of what is drawn for runs: drawn there, it would be told of runs that never saw it.
+#[test]
+fn what_runs_do_not_read_is_not_drawn() {
+    let drawn = |key: &str| changed(&[("vary", json!({ (key): { "uniform": [0.0, 0.5] } }))]).map(|_| ());
+    for key in [
+        "world.tool.radius_mm",
+        "world.tool.mass_kg",
+        "world",
+        "task.home_deg[0]",
+        "generate.moves.clearance_mm",
+        "robot.capsules[0].radius_mm",
+    ] {
+        let [one] = &drawn(key).unwrap_err()[..] else { panic!("{key}") };
+        assert!(one.starts_with("vary.") && one.contains(key), "{one}");
+        assert!(one.contains("a key that runs of an arm read"), "{one}");
+    }
+    assert_eq!(drawn("execute.noise_mm"), Ok(()));
+}
+
 #[test]
 fn keys_of_the_search_for_the_worst_have_bounds() {
     let asked = setup(&[("generate.search.target", json!("lateness"))]).scenario.search();

@@ -7,6 +7,7 @@ use crate::campaign::case::Case;
 use crate::campaign::learn::MoveFeatures;
 use crate::judgement::Violation;
 use crate::judgement::moves::Measured;
+use crate::trajectory::program::Program;
 use crate::trajectory::{PlannedPath, Track};
 
 /// Runs that are measured move by move, and what is known of moves that are not possible.
@@ -16,6 +17,13 @@ use crate::trajectory::{PlannedPath, Track};
 pub(in crate::campaign) trait Programs {
     /// The logs whose recordings are the runs, where nothing is executed.
     fn recordings(&self) -> Option<&str>;
+
+    /// A program through all points: what any program can name, it names. Nothing is known of its moves.
+    fn naming_all(&self) -> Program;
+
+    /// What its programs call by a name that stands for something else on every controller of their language, in a
+    /// sentence; `None` where there is no such thing.
+    fn misnamed(&self) -> Option<String>;
 
     /// The path that deviations are measured from: with the program's zones, which is the one that is `programmed`, or
     /// through its points.

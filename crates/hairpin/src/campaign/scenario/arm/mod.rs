@@ -45,7 +45,8 @@ pub struct ArmScenario {
     /// How they are executed.
     #[serde(default)]
     pub execute: ArmExecute,
-    /// Any scenario key may have a distribution.
+    /// What runs read may have a distribution: keys of `execute` and `spec`, and of the robot's `joints`, `opw` and
+    /// `chain`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, Distribution>,
     /// What is within spec; `"none"`: nothing is judged.
