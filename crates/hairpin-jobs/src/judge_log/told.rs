@@ -95,9 +95,10 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         );
         return (Outcome::Unjudged, unjudged(case, how, &worst));
     }
-    if flown.limits.miss(&flown.measures) {
-        let why = "nothing that `spec` limits is measured in a log";
-        return (Outcome::Inconclusive, inconclusive(case, how, why));
+    if let Some(why) = flown.limits.open(&flown.measures) {
+        let why = format!("{why}; --set can ask a log for less (docs/judging-logs.md)");
+        let best = nearest(flown).into_iter().collect::<Vec<_>>();
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(why, &best)));
     }
     let between = flown.limits.deviation.map(|_| format!("at most {:.2} m between samples", flown.most_between));
     let best = nearest(flown).unwrap_or_else(|| "within all limits".into());
