@@ -9,6 +9,7 @@ use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
 
 use super::against::Ready;
+use super::asks::Asks;
 use super::cut::{Left, cut};
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
@@ -50,7 +51,7 @@ pub(super) fn judge(
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
         cases => {
-            let found = matching::matched(cases, &samples, (logged, &progress, against.accept))?;
+            let found = matching::matched(cases, &samples, (logged, &progress, against.accept), &Asks::JUDGE)?;
             (found.0, Some(found.1))
         }
     };
