@@ -172,8 +172,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         }
         Why::Between { .. } => {
             format!(
-                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: its file does \
-                 with `limits.speed_m_s`",
+                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: \
+                 of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does",
                 found.source.rate_hz
             )
         }
