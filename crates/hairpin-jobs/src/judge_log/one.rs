@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, Log, judge_flown};
-use hairpin::judgement::{Settings, legs_of_samples};
+use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
+use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
@@ -86,7 +86,7 @@ pub(super) fn judge(
         notes,
     };
     let whole = against.whole(case)?;
-    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left)?) } else { None };
+    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, &whole)?) } else { None };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         found.flown = Some(judge_flown(&against.setup, &whole, log).map_err(Problem::input)?);
@@ -163,8 +163,8 @@ impl Judging<'_> {
         ))
     }
 
-    /// What is left as a log to be judged.
-    fn to_judge(&self, left: &Left) -> Result<Log, Problem> {
+    /// What is left as a log to be judged, of the case with its plan.
+    fn to_judge(&self, left: &Left, whole: &Case) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),
@@ -188,7 +188,9 @@ impl Judging<'_> {
         let of = |channels| Track::new(times.clone(), samples.iter().map(pose).collect(), channels).map_err(refuse);
         let mut track = of(channels.clone())?;
         if self.course.is_none() {
-            let settings = Settings { breaks: &left.breaks, ..Settings::default() };
+            let plan = plan_followed(&self.against.setup, whole);
+            let reference = plan.as_ref().map_or(Reference::Leg, Reference::Path);
+            let settings = Settings { reference, breaks: &left.breaks, ..Settings::default() };
             let legs = legs_of_samples(&track, &self.case.waypoints, &settings).map_err(Problem::input)?;
             channels.push(Channel { name: "leg".into(), values: legs.into_iter().map(|leg| leg as f64).collect() });
             track = of(channels)?;
