@@ -14,6 +14,7 @@ use super::cut::{Left, cut};
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
+use super::reached::{Missed, missed};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
 use crate::Problem;
@@ -59,12 +60,7 @@ pub(super) fn judge(
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
     let own = judged.own_part(samples)?;
     let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
-    // The autopilot's own acceptance may be wider than the scenario's.
-    let says_so = span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
-    let is_done =
-        course.as_ref().is_some_and(|course| course.is_done() || (says_so && course.is_whole(case.waypoints.len())));
-    let near_last = |sample: &Sample| (sample.p_m - case.waypoints[case.waypoints.len() - 1]).norm() <= against.accept;
-    let finished = is_done || own.last().is_some_and(near_last);
+    let (missed, finished) = judged.end(&own, &left);
     let name = against.name_of(case);
     let simulated = against.simulated.iter().find(|result| result.case == case.number);
     let mut notes = logged.notes.clone();
@@ -81,6 +77,7 @@ pub(super) fn judge(
         cuts: left.cuts.clone(),
         ended: span.ended.clone(),
         finished,
+        missed,
         flown: None,
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
         notes,
@@ -142,6 +139,24 @@ impl Judging<'_> {
                 place(&start)
             ))),
         }
+    }
+
+    /// The first waypoint that it was never at, and whether it flew the whole mission.
+    ///
+    /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's. Of
+    /// all others ending at the last waypoint is not enough: a mission may lead back to its start, or cross itself.
+    fn end(&self, own: &[Sample], left: &Left) -> (Option<Missed>, bool) {
+        let waypoints = &self.case.waypoints[..];
+        let accept = self.against.setup.scenario.deviation_limit().unwrap_or(0.0).max(self.against.accept);
+        let by_autopilot = self.course.filter(|_| self.logged.format != "CSV");
+        let missed = by_autopilot.is_none().then(|| missed(&left.samples, waypoints, accept)).flatten();
+        let says_so = self.span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
+        let near_last = own
+            .last()
+            .is_some_and(|sample| (sample.p_m - waypoints[waypoints.len() - 1]).norm() <= self.against.accept);
+        let is_there = near_last || (says_so && by_autopilot.is_some());
+        let is_whole = self.course.is_none_or(|course| course.is_whole(waypoints.len())) && missed.is_none();
+        (missed, self.course.is_some_and(Course::is_done) || (is_whole && is_there))
     }
 
     /// Why a log whose frame is only taken for the world's is refused.
