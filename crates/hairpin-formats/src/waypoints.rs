@@ -15,6 +15,7 @@ use crate::delimited::{Cut, Row, Table};
 use crate::frames::Geodetic;
 use crate::geodetic;
 use crate::placement::Placement;
+use crate::quote::cell;
 
 const COLUMNS: [&str; 3] = ["x_m", "y_m", "z_m"];
 
@@ -36,8 +37,18 @@ pub enum WaypointsError {
         path: PathBuf,
         /// The missing column.
         column: &'static str,
-        /// The header found.
+        /// The header found, as much of it as a message holds.
         header: String,
+    },
+    /// It is no table.
+    #[error(
+        "{}: a ground station's mission, which `hairpin check` takes; here a table is needed: x_m,y_m,z_m, or \
+         lat_deg,lon_deg,alt_amsl_m",
+        path.display()
+    )]
+    Station {
+        /// The file.
+        path: PathBuf,
     },
     /// A cell is not a number, not finite, or too far away.
     #[error(
@@ -210,7 +221,12 @@ fn parse(
     let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(columns) {
-        let missing = || WaypointsError::Header { path: path.into(), column, header: header.into() };
+        let missing = || match header.trim_start() {
+            station if station.starts_with('{') || station.starts_with("QGC WPL") => {
+                WaypointsError::Station { path: path.into() }
+            }
+            _ => WaypointsError::Header { path: path.into(), column, header: cell(header) },
+        };
         *place = names.place(column).ok_or_else(missing)?;
     }
     let mut waypoints: Vec<Point3<f64>> = Vec::new();

@@ -171,6 +171,9 @@ fn found_object(found: &Found) -> Value {
         "legs_by": found.legs_by.word(),
         "ended": found.ended,
         "finished": found.finished,
+        "missed": found.missed.map(|missed| json!({
+            "waypoint": missed.waypoint, "nearest_m": finite(missed.nearest_m), "accept_m": missed.accept_m,
+        })),
         "cuts": found.cuts.iter().map(cut).collect::<Vec<_>>(),
         "measures": found.flown.as_ref().map(measures),
         "simulated_max_deviation_m": found.simulated_m,

@@ -181,9 +181,12 @@ fn two_cases_that_are_alike_are_asked_about() {
     assert_eq!(code, 0, "{said}{error}");
     let both = ["flew case 0000 (mean ", "or 0001 (mean ", "too near each other to tell", "--case ID"];
     refused(here, &["judge", "log.csv", "--campaign", "out"], &both);
-    let (code, said, _) =
-        run(here, &["judge", "log.csv", "--campaign", "out", "--case", "0001", "--set", "spec.deviation.max_m=50"]);
-    assert_eq!(code, 0, "{said}");
+    // As everywhere a case may be called by its number alone.
+    for case in ["0001", "1"] {
+        let arguments = ["judge", "log.csv", "--campaign", "out", "--case", case, "--set", "spec.deviation.max_m=50"];
+        let (code, said, _) = run(here, &arguments);
+        assert_eq!(code, 0, "{said}");
+    }
     // The one mission alone, by a robot's name.
     let arguments =
         ["judge", "log.csv", "--mission", "twice/a.csv", "--robot", "anafi", "--set", "spec.deviation.max_m=50"];

@@ -13,7 +13,8 @@ pub struct Logged {
     pub clock: Clock,
     /// The frame of all positions.
     pub frame: LogFrame,
-    /// Motions of the body, one a topic; motion capture and ground truth before estimates.
+    /// Motions of the body, one a topic, in the order of [`Source`]: motion capture and ground truth before estimates,
+    /// what was asked for last.
     pub motions: Vec<LoggedMotion>,
     /// Motions of an arm's joints.
     pub joints: Vec<Joints>,
@@ -62,6 +63,10 @@ pub enum Source {
     Estimate,
     /// The format does not tell.
     Untold,
+    /// The format does not tell, and it is a whole way at once: what a planner publishes, or a trail of what was moved.
+    Way,
+    /// By its name what was asked for: a command, a goal, a set point, a plan.
+    Asked,
 }
 
 /// The motion of a body by one source.

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 
 use super::*;
-use crate::logs::{Clock, LogFrame, read};
+use crate::logs::{Clock, LogFrame, Source, read};
 
 fn track(step: f64) -> Track {
     let pose = |i: f64| {
@@ -41,8 +41,11 @@ fn what_is_written_for_ros_is_read_as_it_was() {
     let read = read(&path).unwrap();
     assert_eq!((read.format, read.clock, &read.frame), ("ROS 2 MCAP", Clock::Header, &LogFrame::Named("world".into())));
     let names: Vec<_> = read.motions.iter().map(|motion| &motion.name[..]).collect();
-    assert_eq!(names, ["/planned", "/run_3/path", "/run_3/pose"]);
-    for (motion, track) in read.motions.iter().zip([&planned, &flown, &flown]) {
+    let sources: Vec<_> = read.motions.iter().map(|motion| motion.source).collect();
+    assert_eq!(sources, [Source::Untold, Source::Way, Source::Asked]);
+    // What is to be judged goes first, the plan last.
+    assert_eq!(names, ["/run_3/pose", "/run_3/path", "/planned"]);
+    for (motion, track) in read.motions.iter().zip([&flown, &flown, &planned]) {
         for ((sample, pose), time) in motion.samples.iter().zip(track.poses()).zip(track.times()) {
             assert_eq!((sample.t_s, sample.p_m), (*time, pose.translation.vector.into()));
             assert!(sample.attitude.unwrap().angle_to(&pose.rotation) < 1e-7);

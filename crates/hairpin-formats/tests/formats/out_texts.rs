@@ -113,6 +113,11 @@ fn waypoints_come_back_and_mistakes_are_placed() {
             "/0000.csv, line 1: no column `x_m` in the header `x,y,z`; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m",
         ),
         ("", "/0000.csv, line 1: no column `x_m` in the header ``; needed: x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m"),
+        (
+            "{\"fileType\": \"Plan\", \"mission\": {}}",
+            "/0000.csv: a ground station's mission, which `hairpin check` takes; here a table is needed: \
+             x_m,y_m,z_m, or lat_deg,lon_deg,alt_amsl_m",
+        ),
         ("x_m,y_m,z_m\n1,2,3\n", "/0000.csv: 1 waypoints, must be at least 2"),
         ("x_m,y_m,z_m\n1,2,3\n1,2,3\n", "/0000.csv, line 3: the waypoint of line 2 again"),
     ] {

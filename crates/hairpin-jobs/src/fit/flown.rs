@@ -10,7 +10,7 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::waypoints;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::judge_log::{FrameSettings, IntoWorld, LegsBy, arm_of, course, matched, ran};
+use crate::judge_log::{Asks, FrameSettings, IntoWorld, LegsBy, arm_of, best, course, matched, ran};
 use crate::{Problem, Watch};
 
 /// What logs are flights of.
@@ -78,7 +78,7 @@ impl Missions {
         if let Some(named) = self.named(file)? {
             return Ok(named);
         }
-        let found = matched(self.cases(), &log.samples, (log.logged, &log.progress, log.accept));
+        let found = matched(self.cases(), &log.samples, (log.logged, &log.progress, log.accept), &Asks::FIT);
         found.map(|(case, _)| case).map_err(|problem| Problem::of_file(file, problem.to_string()))
     }
 }
@@ -102,7 +102,7 @@ struct InWorld<'a> {
 pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn Watch) -> Result<Flown, Problem> {
     if let Some(arm) = arm_of(setup) {
         let named = missions.named(file)?;
-        let (case, track) = ran(file, arm, named.map_or(missions.cases(), std::slice::from_ref))?;
+        let (case, track) = ran(file, arm, named.map_or(missions.cases(), std::slice::from_ref), &Asks::FIT)?;
         return Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track });
     }
     let logged = logs::read(file).map_err(Problem::input)?;
@@ -118,7 +118,7 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
         }
         _ => {}
     }
-    let motion = logged.motions.first().ok_or_else(|| Problem::of_file(file, "no motion of a body"))?;
+    let motion = best(&logged, &Asks::FIT).map_err(|why| Problem::of_file(file, why))?;
     let frame = IntoWorld::of(&logged.frame, place.as_ref(), &FrameSettings::default())?;
     let samples = mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<_, _>>()?;
     let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<_, _>>()?;

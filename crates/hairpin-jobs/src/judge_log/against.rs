@@ -80,7 +80,8 @@ impl Ready {
         let folder = &before.folder;
         let mut cases = folder.read_cases_without_profiles()?;
         if let Some(id) = &settings.case {
-            cases.retain(|case| case.id() == *id);
+            let number: Option<CaseNumber> = id.parse().ok();
+            cases.retain(|case| Some(case.number) == number);
             if cases.is_empty() {
                 return Err(Problem::input(format!("--case {id}: {} has no such case", folder.path().display())));
             }

@@ -10,6 +10,7 @@ use super::cut::Cut;
 use super::frame::FrameTold;
 use super::legs::LegsBy;
 use super::matching::Matched;
+use super::reached::Missed;
 use super::sheet::Sheet;
 use super::source::SourceTold;
 
@@ -87,8 +88,10 @@ pub struct Found {
     pub cuts: Vec<Cut>,
     /// What ended the judged part, in words; `None`: the end of the log.
     pub ended: Option<String>,
-    /// Whether the last waypoint was reached.
+    /// Whether the whole mission was flown: every waypoint reached, in order, up to the last.
     pub finished: bool,
+    /// The first waypoint that was not; `None` where an autopilot itself tells which it flew to.
+    pub missed: Option<Missed>,
     /// What it was measured to be; `None` where nothing is left to measure.
     pub flown: Option<Flown>,
     /// The largest deviation of the same case in simulation, m, where that was judged.

@@ -8,6 +8,7 @@ use hairpin_formats::logs::{Logged, Progress, Sample};
 use nalgebra::{Isometry3, Point3};
 use rayon::prelude::*;
 
+use super::asks::Asks;
 use super::legs::{LegsBy, course};
 use crate::Problem;
 
@@ -51,6 +52,7 @@ pub(crate) fn matched<'a>(
     cases: &'a [Case],
     samples: &[Sample],
     (logged, progress, accept): (&Logged, &[Progress], f64),
+    asks: &Asks,
 ) -> Result<(&'a Case, Matched), Problem> {
     let ways: Vec<Point3<f64>> = thinned(samples);
     let flown = track(&ways, samples);
@@ -81,9 +83,11 @@ pub(crate) fn matched<'a>(
         match near[..] {
             [(best, case), (next, other), ..] if next <= CLEAR * best => {
                 return Err(Problem::input(format!(
-                    "flew case {} (mean {best:.2} m) or {} (mean {next:.2} m), which come too near each other to tell: --case ID says which",
+                    "flew case {} (mean {best:.2} m) or {} (mean {next:.2} m), which come too near each other to tell: \
+                     {}",
                     case.id(),
-                    other.id()
+                    other.id(),
+                    asks.case
                 )));
             }
             [(best, case), ..] => {

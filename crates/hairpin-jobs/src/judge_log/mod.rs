@@ -11,6 +11,7 @@
 mod against;
 mod arm;
 mod aside;
+mod asks;
 mod cut;
 mod found;
 mod frame;
@@ -19,6 +20,7 @@ mod matching;
 mod one;
 mod over;
 mod page;
+mod reached;
 mod remedy;
 mod settings;
 mod sheet;
@@ -34,6 +36,7 @@ use crate::{Problem, Watch};
 
 pub use arm::{FoundProgram, JointsTold};
 pub(crate) use arm::{arm_of, ran};
+pub(crate) use asks::Asks;
 pub use cut::Cut;
 pub(crate) use cut::cut;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};
@@ -43,10 +46,11 @@ pub use legs::LegsBy;
 pub(crate) use legs::course;
 pub use matching::Matched;
 pub(crate) use matching::matched;
+pub use reached::Missed;
 pub use settings::{Against, LogSettings};
 pub use sheet::Sheet;
 pub use source::SourceTold;
-pub(crate) use source::clock_words;
+pub(crate) use source::{best, clock_words};
 
 /// Judges a log, or all that are in a folder. In a folder one that cannot be judged is told, and the others are judged.
 ///

@@ -2,17 +2,19 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, Log, judge_flown};
-use hairpin::judgement::{Settings, legs_of_samples};
+use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
+use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
 
 use super::against::Ready;
+use super::asks::Asks;
 use super::cut::{Left, cut};
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
+use super::reached::{Missed, missed};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
 use crate::Problem;
@@ -50,7 +52,7 @@ pub(super) fn judge(
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
         cases => {
-            let found = matching::matched(cases, &samples, (logged, &progress, against.accept))?;
+            let found = matching::matched(cases, &samples, (logged, &progress, against.accept), &Asks::JUDGE)?;
             (found.0, Some(found.1))
         }
     };
@@ -58,12 +60,7 @@ pub(super) fn judge(
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
     let own = judged.own_part(samples)?;
     let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
-    // The autopilot's own acceptance may be wider than the scenario's.
-    let says_so = span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
-    let is_done =
-        course.as_ref().is_some_and(|course| course.is_done() || (says_so && course.is_whole(case.waypoints.len())));
-    let near_last = |sample: &Sample| (sample.p_m - case.waypoints[case.waypoints.len() - 1]).norm() <= against.accept;
-    let finished = is_done || own.last().is_some_and(near_last);
+    let (missed, finished) = judged.end(&own, &left);
     let name = against.name_of(case);
     let simulated = against.simulated.iter().find(|result| result.case == case.number);
     let mut notes = logged.notes.clone();
@@ -80,12 +77,13 @@ pub(super) fn judge(
         cuts: left.cuts.clone(),
         ended: span.ended.clone(),
         finished,
+        missed,
         flown: None,
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
         notes,
     };
     let whole = against.whole(case)?;
-    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left)?) } else { None };
+    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, &whole)?) } else { None };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         found.flown = Some(judge_flown(&against.setup, &whole, log).map_err(Problem::input)?);
@@ -143,6 +141,24 @@ impl Judging<'_> {
         }
     }
 
+    /// The first waypoint that it was never at, and whether it flew the whole mission.
+    ///
+    /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's. Of
+    /// all others ending at the last waypoint is not enough: a mission may lead back to its start, or cross itself.
+    fn end(&self, own: &[Sample], left: &Left) -> (Option<Missed>, bool) {
+        let waypoints = &self.case.waypoints[..];
+        let accept = self.against.setup.scenario.deviation_limit().unwrap_or(0.0).max(self.against.accept);
+        let by_autopilot = self.course.filter(|_| self.logged.format != "CSV");
+        let missed = by_autopilot.is_none().then(|| missed(&left.samples, waypoints, accept)).flatten();
+        let says_so = self.span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
+        let near_last = own
+            .last()
+            .is_some_and(|sample| (sample.p_m - waypoints[waypoints.len() - 1]).norm() <= self.against.accept);
+        let is_there = near_last || (says_so && by_autopilot.is_some());
+        let is_whole = self.course.is_none_or(|course| course.is_whole(waypoints.len())) && missed.is_none();
+        (missed, self.course.is_some_and(Course::is_done) || (is_whole && is_there))
+    }
+
     /// Why a log whose frame is only taken for the world's is refused.
     fn elsewhere(&self, first: &Sample, far: f64) -> Problem {
         let (start, p) = (self.case.waypoints[0], first.p_m);
@@ -162,8 +178,8 @@ impl Judging<'_> {
         ))
     }
 
-    /// What is left as a log to be judged.
-    fn to_judge(&self, left: &Left) -> Result<Log, Problem> {
+    /// What is left as a log to be judged, of the case with its plan.
+    fn to_judge(&self, left: &Left, whole: &Case) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),
@@ -187,7 +203,9 @@ impl Judging<'_> {
         let of = |channels| Track::new(times.clone(), samples.iter().map(pose).collect(), channels).map_err(refuse);
         let mut track = of(channels.clone())?;
         if self.course.is_none() {
-            let settings = Settings { breaks: &left.breaks, ..Settings::default() };
+            let plan = plan_followed(&self.against.setup, whole);
+            let reference = plan.as_ref().map_or(Reference::Leg, Reference::Path);
+            let settings = Settings { reference, breaks: &left.breaks, ..Settings::default() };
             let legs = legs_of_samples(&track, &self.case.waypoints, &settings).map_err(Problem::input)?;
             channels.push(Channel { name: "leg".into(), values: legs.into_iter().map(|leg| leg as f64).collect() });
             track = of(channels)?;

@@ -2,6 +2,7 @@
 
 use hairpin_formats::logs::{Clock, Logged, LoggedMotion, Source};
 
+use super::asks::Asks;
 use crate::Problem;
 
 /// Where a log's poses and times are from.
@@ -25,25 +26,49 @@ pub struct SourceTold {
     pub rate_hz: f64,
 }
 
-/// The motion that is judged: the one of the topic asked for, else the best ranked: motion capture, ground truth, the
-/// vehicle's own estimate.
+/// The motion that is judged: the one of the topic asked for, else the only one of the best rank ([`best`]).
 ///
 /// # Errors
-/// There is none, or none of that name.
+/// There is none, none of that name, or none that is known to be what moved.
 pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a LoggedMotion, SourceTold), Problem> {
-    let names = || logged.motions.iter().map(|motion| motion.name.as_str()).collect::<Vec<_>>().join(", ");
-    let usable = |motion: &&LoggedMotion| motion.samples.len() >= 2;
     let motion = match asked {
         Some(topic) => logged.motions.iter().find(|motion| motion.name == topic).ok_or_else(|| {
-            Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {}", names()))
+            let names = names(&logged.motions);
+            Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {names}"))
         })?,
-        None => logged.motions.iter().filter(usable).min_by_key(|motion| motion.source).ok_or_else(|| {
-            let joints =
-                if logged.joints.is_empty() { "" } else { "; its joints are judged against an arm's campaign" };
-            Problem::input(format!("a {} log without two poses{joints}", logged.format))
-        })?,
+        None => best(logged, &Asks::JUDGE).map_err(Problem::input)?,
     };
     Ok((motion, SourceTold::of(logged, motion)))
+}
+
+/// The motion of the best rank: motion capture, ground truth, the vehicle's own estimate, in the log's own order; of
+/// topics that do not tell who says so the only one, and no plan, way, goal or command.
+///
+/// # Errors
+/// In a sentence: no motion of two samples; several of which none is known to be what moved, or none that by its type
+/// and name did.
+pub(crate) fn best<'a>(logged: &'a Logged, asks: &Asks) -> Result<&'a LoggedMotion, String> {
+    let usable = || logged.motions.iter().filter(|motion| motion.samples.len() >= 2);
+    let first = usable().min_by_key(|motion| motion.source).ok_or_else(|| {
+        let joints = if logged.joints.is_empty() { "" } else { "; its joints are judged against an arm's campaign" };
+        format!("a {} log without two poses{joints}", logged.format)
+    })?;
+    if first.source > Source::Untold {
+        let names = names(usable());
+        let topic = asks.topic;
+        return Err(format!(
+            "nothing in it is known to have moved: {names} may be a plan, a goal or a command; {topic}"
+        ));
+    }
+    if first.source == Source::Untold && usable().filter(|motion| motion.source == first.source).count() > 1 {
+        let names = names(usable().filter(|motion| motion.source == first.source));
+        return Err(format!("several topics may be what moved: {names}; {}", asks.topic));
+    }
+    Ok(first)
+}
+
+fn names<'a>(motions: impl IntoIterator<Item = &'a LoggedMotion>) -> String {
+    motions.into_iter().map(|motion| motion.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// Whose stamps times are.
@@ -64,6 +89,8 @@ fn words(source: Source, format: &str) -> &'static str {
         (Source::Estimate, "ArduPilot DataFlash") => "EKF estimate",
         (Source::Estimate, _) => "estimate",
         (Source::Untold, _) => "source not told",
+        (Source::Way, _) => "a whole way, of a plan or a trail",
+        (Source::Asked, _) => "by its name a plan, goal or command",
     }
 }
 

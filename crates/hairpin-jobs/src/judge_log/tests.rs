@@ -13,6 +13,8 @@ use tempfile::TempDir;
 use super::against::Ready;
 use super::*;
 
+mod unflown;
+
 const SPEED: f64 = 5.0;
 
 /// Two legs of 20 m, flown at 5 m/s.

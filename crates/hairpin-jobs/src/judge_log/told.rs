@@ -11,6 +11,7 @@ use hairpin_formats::quote::shortened;
 
 use super::cut::Cut;
 use super::found::{Found, JudgedLog, Outcome};
+use super::reached::Missed;
 use super::remedy::log_at;
 use crate::Problem;
 
@@ -70,15 +71,7 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         return (Outcome::Invalid, invalid(case, how, &with(first.clone(), rest)));
     }
     if !found.finished {
-        let last = flown.measures.legs.iter().rposition(|leg| leg.time > 0.0).unwrap_or(0);
-        let of = flown.measures.legs.len() + 1;
-        let why = found.ended.clone().unwrap_or_else(|| "the log ends".into());
-        let on =
-            format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1);
-        return (
-            Outcome::Inconclusive,
-            inconclusive(case, how, &with(on, &nearest(flown).into_iter().collect::<Vec<_>>())),
-        );
+        return (Outcome::Inconclusive, inconclusive(case, how, &unfinished(found, flown)));
     }
     if let [first, rest @ ..] = &flown.doubts[..] {
         let rest: Vec<String> = rest.iter().map(|doubt| in_words(doubt, found)).collect();
@@ -95,13 +88,28 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         );
         return (Outcome::Unjudged, unjudged(case, how, &worst));
     }
-    if flown.limits.miss(&flown.measures) {
-        let why = "nothing that `spec` limits is measured in a log";
-        return (Outcome::Inconclusive, inconclusive(case, how, why));
+    if let Some(why) = flown.limits.open(&flown.measures) {
+        let why = format!("{why}; --set can ask a log for less (docs/judging-logs.md)");
+        let best = nearest(flown).into_iter().collect::<Vec<_>>();
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(why, &best)));
     }
     let between = flown.limits.deviation.map(|_| format!("at most {:.2} m between samples", flown.most_between));
     let best = nearest(flown).unwrap_or_else(|| "within all limits".into());
     (Outcome::Pass, within_spec(case, how, &with(best, &between.into_iter().collect::<Vec<_>>())))
+}
+
+/// Why what was flown is not the whole mission: where it ends, or what it left out.
+fn unfinished(found: &Found, flown: &Flown) -> String {
+    let last = flown.measures.legs.iter().rposition(|leg| leg.time > 0.0).unwrap_or(0);
+    let of = flown.measures.legs.len() + 1;
+    let why = found.ended.as_deref().unwrap_or("the log ends");
+    let missed = found.missed.as_ref().map(Missed::in_words);
+    let first = match (&found.missed, &missed) {
+        (Some(missed), Some(words)) if missed.waypoint <= last => format!("{words}; what was not flown is not judged"),
+        _ => format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1),
+    };
+    let missed = missed.filter(|words| !first.starts_with(words.as_str()));
+    [Some(first), missed, nearest(flown)].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 /// `0.65 m > 0.50 m, t = 12.34 s, leg 4→5`.
@@ -171,8 +179,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         }
         Why::Between { .. } => {
             format!(
-                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: its file does \
-                 with `limits.speed_m_s`",
+                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: \
+                 of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does",
                 found.source.rate_hz
             )
         }

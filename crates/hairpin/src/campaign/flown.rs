@@ -17,7 +17,7 @@ use crate::judgement::{
     measure, most_between,
 };
 use crate::math::segment::nearest_point;
-use crate::trajectory::Flight;
+use crate::trajectory::{Flight, Track};
 
 /// What of a log is judged.
 ///
@@ -143,6 +143,13 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let most_between = close.iter().filter_map(|close| close.until_next).fold(measures.max_deviation, f64::max);
     let statistics = Statistics::of(&deviations);
     Ok(Flown { measures, statistics, limits: terms.limits, violations: broken, doubts, most_between, swiftness })
+}
+
+/// The plan of `case`, where deviations are measured from that: of a log that tells no legs they are the plan's.
+pub fn plan_followed(setup: &Setup, case: &Case) -> Option<Track> {
+    let around = setup.around(case).ok()?;
+    let from = around.scenario.head().terms.from;
+    (from == DeviationFrom::Path).then(|| reference(&around, case, None)).flatten()
 }
 
 /// What bounds the robot, without a speed that the log itself shows it to exceed.

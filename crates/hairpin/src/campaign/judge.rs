@@ -218,9 +218,7 @@ fn judge_run(
         if unseen.is_some_and(|unseen| unseen.late_unproven) {
             violations.retain(|violation| violation.what != "late");
         }
-        // What limits there are may all be of what was not measured.
-        let unmeasured = terms.limits.miss(&measures).then(|| "nothing that `spec` limits was measured".into());
-        let open = unseen.and_then(|unseen| unseen.open.clone()).or(unmeasured);
+        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(|| terms.limits.open(&measures));
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }

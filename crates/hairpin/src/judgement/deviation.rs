@@ -44,6 +44,24 @@ pub(super) fn legs_flown(
     Ok((told.iter().map(|&leg| (leg as usize).min(last)).collect(), LegSource::Executor))
 }
 
+/// The leg of the place on `path` that every sample belongs to, never an earlier one than the sample before; `None`
+/// where the path tells no legs up to `last`.
+pub(super) fn legs_along(
+    positions: &[Point3<f64>],
+    weights: &[f64],
+    path: &Track,
+    last: usize,
+) -> Result<Option<Vec<usize>>, JudgementError> {
+    let is_leg = |leg: &f64| (0.0..=(last + 1) as f64).contains(leg);
+    let Some(told) = path.channel("leg").filter(|told| told.iter().all(is_leg)) else { return Ok(None) };
+    let mut furthest = 0;
+    let legs = path_places(positions, weights, path)?.into_iter().map(|(_, segment)| {
+        furthest = furthest.max((told[segment] as usize).min(last));
+        furthest
+    });
+    Ok(Some(legs.collect()))
+}
+
 /// How far a sample is from the reference.
 pub(super) struct Off {
     /// Distance, m; `None` where overshoot judges instead.

@@ -4,8 +4,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::deviation::{Off, deviations, legs_flown};
-use super::settings::{JudgementError, Settings};
+use super::deviation::{Off, deviations, legs_along, legs_flown};
+use super::settings::{JudgementError, Reference, Settings};
 use super::{AccelerationSource, LegMeasures, Measures};
 use crate::math::segment::nearest_point;
 use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
@@ -110,7 +110,8 @@ pub fn deviation_of_samples(
     Ok(deviations(&positions, &weights, waypoints, &legs, settings)?.into_iter().map(|off| off.distance).collect())
 }
 
-/// The leg that every sample belongs to, as [`measure`] has it.
+/// The leg that every sample belongs to, as [`measure`] has it; of a track that tells none, beside a path that does,
+/// the leg of the place on the path that it belongs to: a path need not lead straight from waypoint to waypoint.
 ///
 /// # Errors
 /// [`JudgementError`].
@@ -123,7 +124,13 @@ pub fn legs_of_samples(
 ) -> Result<Vec<usize>, JudgementError> {
     check(track, waypoints, settings)?;
     let positions: Vec<Point3<f64>> = (0..track.len()).map(|i| track.position(i)).collect();
-    Ok(legs_flown(track, waypoints, &positions, &time_weights(track.times(), settings))?.0)
+    let weights = time_weights(track.times(), settings);
+    if let (None, Reference::Path(path)) = (track.channel("leg"), settings.reference)
+        && let Some(legs) = legs_along(&positions, &weights, path, waypoints.len() - 2)?
+    {
+        return Ok(legs);
+    }
+    Ok(legs_flown(track, waypoints, &positions, &weights)?.0)
 }
 
 pub(super) fn check(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) -> Result<(), JudgementError> {

@@ -33,6 +33,7 @@ pub mod settings;
 pub mod spec;
 pub mod statistics;
 mod stress;
+mod unmeasured;
 pub mod verdict;
 
 #[cfg(test)]

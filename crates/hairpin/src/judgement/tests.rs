@@ -49,6 +49,25 @@ fn the_second_definition_takes_the_nearer_of_two_legs() {
     assert_eq!(by(Reference::NearestLeg).max_deviation, 0.0);
 }
 
+/// The path leads round: half of its first leg lies nearer to the straight line of the second.
+#[test]
+fn legs_of_a_track_beside_a_path_are_those_of_the_path() {
+    let waypoints = [[0.0; 3], [10.0, 0.0, 0.0], [5.0, 10.0, 0.0]].map(Point3::from);
+    let way = [[0.0; 3], [5.0, 8.0, 0.0], [10.0, 0.0, 0.0], [20.0, 5.0, 0.0], [5.0, 10.0, 0.0]];
+    let path = track(seconds(5), &way, &[("leg", vec![0.0, 0.0, 1.0, 1.0, 1.0])]);
+    let positions = [[0.0; 3], [2.5, 4.0, 0.0], [5.0, 8.0, 0.0], [7.5, 4.0, 0.0], [15.0, 2.5, 0.0], [5.0, 10.0, 0.0]];
+    let flown = track(seconds(6), &positions, &[]);
+    let by = |reference: Reference<'_>| {
+        legs_of_samples(&flown, &waypoints, &Settings { reference, ..Settings::default() }).unwrap()
+    };
+    assert_eq!(by(Reference::Path(&path)), [0, 0, 0, 0, 1, 1]);
+    assert_eq!(by(Reference::Leg)[3], 1);
+    // A path that tells no leg, or one that there is not, leaves them to the straight lines.
+    for channels in [vec![], vec![("leg", vec![0.0, 0.0, 1.0, 3.0, 3.0])]] {
+        assert_eq!(by(Reference::Path(&track(seconds(5), &way, &channels))), by(Reference::Leg));
+    }
+}
+
 #[test]
 fn going_straight_on_is_no_overshoot_but_reversing_late_is() {
     let straight = [[0.0; 3], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]].map(Point3::from);

@@ -75,7 +75,8 @@ impl Bag {
                 Channel::Other(told) => others.push(told),
             }
         }
-        topics.sort_by(|a, b| a.name.cmp(&b.name));
+        // The frame that is told is that of the first.
+        topics.sort_by(|a, b| (a.source(), &a.name).cmp(&(b.source(), &b.name)));
         if !others.is_empty() {
             let named = others.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
             let more = if others.len() > NAMED { format!(" and {} more", others.len() - NAMED) } else { String::new() };

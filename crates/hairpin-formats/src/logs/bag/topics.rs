@@ -147,6 +147,15 @@ impl Topic {
         !self.stamped && (!self.samples.is_empty() || !self.sets.is_empty())
     }
 
+    /// Who says so, as far as type and name tell.
+    pub(super) fn source(&self) -> Source {
+        match self.kind {
+            _ if is_asked(&self.name) => Source::Asked,
+            Kind::Path => Source::Way,
+            Kind::Pose | Kind::Odometry | Kind::Joints => Source::Untold,
+        }
+    }
+
     /// Adds what moved, by one clock; its frame where it has one, and what is to be told of it.
     pub(super) fn finish(
         self,
@@ -154,6 +163,7 @@ impl Topic {
         motions: &mut Vec<LoggedMotion>,
         all: &mut Vec<Joints>,
     ) -> (Option<(String, String)>, Vec<String>) {
+        let source = self.source();
         let Self { name, samples, sets, received, mut frame, .. } = self;
         let mut notes = Vec::new();
         if self.broken > 0 {
@@ -181,7 +191,7 @@ impl Topic {
             }
             let samples: Vec<Sample> = rising(rows, &name, &mut notes).into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
-            motions.push(LoggedMotion { name: name.clone(), source: Source::Untold, samples, resets, invalid });
+            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid });
         } else {
             frame = None;
         }
@@ -195,6 +205,17 @@ impl Topic {
         }
         (frame.map(|frame| (name, frame)), notes)
     }
+}
+
+/// Words in names of topics that are no motions but what motions are to be.
+const ASKED: &str = "cmd command commanded commands desired goal goals nominal plan planned planner plans ref reference \
+                     setpoint setpoints target targets wanted waypoint waypoints";
+
+/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/set_point`.
+fn is_asked(name: &str) -> bool {
+    let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase).collect();
+    words.iter().any(|word| ASKED.split(' ').any(|asked| asked == word))
+        || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point"))
 }
 
 /// Rows in the order of their times, one each.

@@ -85,6 +85,21 @@ fn a_path_without_times_is_a_plan() {
 }
 
 #[test]
+fn what_was_asked_for_comes_behind_what_moved() {
+    let kind = "geometry_msgs/msg/PoseStamped";
+    let names =
+        ["/a/command/pose", "/goal_pose", "/mavros/setpoint_raw", "/set_point", "/planned", "/commander/pose", "/z"];
+    let poses = |name: &'static str| [1, 2].map(|t| (name, kind, t, pose(t as u32, name, 1.0)));
+    let messages: Vec<_> = names.into_iter().flat_map(poses).collect();
+    let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+    let found: Vec<_> = read.motions.iter().map(|motion| (&motion.name[..], motion.source)).collect();
+    assert_eq!(found[..2], [("/commander/pose", Source::Untold), ("/z", Source::Untold)]);
+    assert!(found.len() == 7 && found[2..].iter().all(|(_, source)| *source == Source::Asked), "{found:?}");
+    // The frame that is told is the first one's.
+    assert_eq!(read.frame, LogFrame::Named("/commander/pose".into()));
+}
+
+#[test]
 fn what_is_cut_or_spoiled_is_told_by_its_byte() {
     let whole = drive(true, Some(Compression::Zstd));
     let cut = parse(&whole[..whole.len() / 2], "a.mcap").unwrap();

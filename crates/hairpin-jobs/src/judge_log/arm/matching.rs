@@ -6,6 +6,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin_formats::controller_log::ControllerLog;
 use rayon::prelude::*;
 
+use super::super::asks::Asks;
 use super::super::matching::{CLEAR, Matched};
 
 /// Paths that lie nearer to each other are the same to a log, m: a servo's lag and noise.
@@ -19,6 +20,7 @@ pub(super) fn matched<'a>(
     arm: &ArmSetup,
     cases: &'a [Case],
     log: &ControllerLog,
+    asks: &Asks,
 ) -> Result<(&'a Case, Option<Matched>), String> {
     if let [only] = cases {
         return Ok((only, None));
@@ -34,11 +36,12 @@ pub(super) fn matched<'a>(
     ranked.retain(|((far, is_whole), _)| !whole || *is_whole || !near(*far));
     match ranked[..] {
         [((best, _), case), ((next, _), other), ..] if near(next) => Err(format!(
-            "ran case {} (mean {:.2} mm off) or {} ({:.2} mm), which come too near each other to tell: --case ID says which",
+            "ran case {} (mean {:.2} mm off) or {} ({:.2} mm), which come too near each other to tell: {}",
             case.id(),
             1e3 * best,
             other.id(),
-            1e3 * next
+            1e3 * next,
+            asks.case
         )),
         [((mean_m, _), case), ref rest @ ..] => {
             let next = rest.first().map(|((far, _), other)| (other.id(), *far));

@@ -23,6 +23,7 @@ use hairpin::trajectory::Track;
 use rayon::prelude::*;
 
 use super::against::Ready;
+use super::asks::Asks;
 use super::found::JudgedLog;
 use super::over;
 use super::settings::LogSettings;
@@ -39,9 +40,14 @@ pub(crate) fn arm_of(setup: &Setup) -> Option<&ArmSetup> {
 ///
 /// # Errors
 /// It is no recording of this arm, or of no program of the campaign.
-pub(crate) fn ran<'a>(file: &Path, arm: &ArmSetup, cases: &'a [Case]) -> Result<(&'a Case, Track), Problem> {
-    let read = read::recording(file, arm, (None, [None; 2]))?;
-    let (case, _) = matching::matched(arm, cases, &read.log).map_err(|why| Problem::of_file(file, why))?;
+pub(crate) fn ran<'a>(
+    file: &Path,
+    arm: &ArmSetup,
+    cases: &'a [Case],
+    asks: &Asks,
+) -> Result<(&'a Case, Track), Problem> {
+    let read = read::recording(file, arm, (None, [None; 2]), asks)?;
+    let (case, _) = matching::matched(arm, cases, &read.log, asks).map_err(|why| Problem::of_file(file, why))?;
     Ok((case, read.log.track))
 }
 
@@ -80,8 +86,9 @@ impl<'a> Programs<'a> {
         settings: &LogSettings,
     ) -> Result<JudgedLog, Problem> {
         let refuse = |why: String| Problem::of_file(file, why);
-        let read = read::recording(file, self.arm, (settings.source.as_deref(), [settings.from_s, settings.to_s]))?;
-        let (case, matched) = matching::matched(self.arm, &self.cases, &read.log).map_err(refuse)?;
+        let part = (settings.source.as_deref(), [settings.from_s, settings.to_s]);
+        let read = read::recording(file, self.arm, part, &Asks::JUDGE)?;
+        let (case, matched) = matching::matched(self.arm, &self.cases, &read.log, &Asks::JUDGE).map_err(refuse)?;
         let recorded = self.arm.recorded(case, read.log.track, read.log.orientation_known);
         let (flight, short) = recorded.map_err(|error| refuse(error.to_string()))?;
         let run = Run { case: case.number, run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };

@@ -9,6 +9,7 @@ use hairpin_formats::controller_log::{self, ControllerLog};
 use hairpin_formats::logs::{self, Clock, Logged};
 use hairpin_formats::quote::shortened;
 
+use super::super::asks::Asks;
 use super::super::source::{SourceTold, clock_words};
 use super::found::JointsTold;
 use super::names::axes;
@@ -36,6 +37,7 @@ pub(super) fn recording(
     file: &Path,
     arm: &ArmSetup,
     (source, [from_s, to_s]): (Option<&str>, [Option<f64>; 2]),
+    asks: &Asks,
 ) -> Result<Read, Problem> {
     let refuse = |why: String| Problem::of_file(file, why);
     let station = &arm.station;
@@ -45,7 +47,7 @@ pub(super) fn recording(
         (log, name, "CSV", Clock::File, None, Vec::new())
     } else {
         let logged = logs::read(file).map_err(Problem::input)?;
-        let (joints, place, told) = chosen(&logged, &station.arm, source).map_err(refuse)?;
+        let (joints, place, told) = chosen(&logged, &station.arm, source, asks).map_err(refuse)?;
         let rows: Vec<Joints> = joints.positions_rad.iter().map(|row| place.map(|index| row[index])).collect();
         let log = controller_log::of_joints(file, joints.times_s.clone(), &rows, (&station.arm, &station.tool.tcp));
         let name = joints.name.clone();
@@ -83,6 +85,7 @@ fn chosen<'a>(
     logged: &'a Logged,
     arm: &Arm,
     asked: Option<&str>,
+    asks: &Asks,
 ) -> Result<(&'a logs::Joints, [usize; AXES], JointsTold), String> {
     let sets: Vec<&logs::Joints> =
         logged.joints.iter().filter(|joints| asked.is_none_or(|topic| joints.name == topic)).collect();
@@ -103,7 +106,7 @@ fn chosen<'a>(
     match (fitting.len(), fitting.pop()) {
         (1, Some(only)) => Ok(only),
         (0, _) => Err(why),
-        _ => Err(format!("several topics have this arm's joints: {}; --source TOPIC says which", names())),
+        _ => Err(format!("several topics have this arm's joints: {}; {}", names(), asks.topic)),
     }
 }
 

@@ -66,6 +66,11 @@ impl Way {
         Self { poses, along, ends, end_poses, planned, weight }
     }
 
+    /// Where pose `i` is.
+    pub(super) fn place(&self, i: usize) -> Point3<f64> {
+        self.poses[i].translation.vector.into()
+    }
+
     /// The move that a length along the path belongs to.
     ///
     /// The first move that ends at or behind it; the last beyond all.
@@ -196,7 +201,7 @@ impl Way {
     ///
     /// Two poses more on either side, so that a segment at the range's border counts.
     pub(super) fn distance(&self, range: &Range<usize>, point: &Point3<f64>) -> f64 {
-        let place = |i: usize| self.poses[i].translation.vector.into();
+        let place = |i: usize| self.place(i);
         let (first, last) = (range.start.saturating_sub(BESIDE), (range.end + BESIDE).min(self.poses.len() - 1));
         let segments = (first..last).map(|i| crate::math::segment::point_distance(point, &place(i), &place(i + 1)));
         segments.fold((point.coords - self.poses[range.start].translation.vector).norm(), f64::min)
@@ -204,7 +209,7 @@ impl Way {
 
     /// Distance of `pose`'s position from the path about pose `j`, m.
     pub(super) fn deviation(&self, j: usize, pose: &Isometry3<f64>) -> f64 {
-        let place = |i: usize| self.poses[i].translation.vector.into();
+        let place = |i: usize| self.place(i);
         let (first, last) = (j.saturating_sub(BESIDE), (j + BESIDE).min(self.poses.len() - 1));
         let point = pose.translation.vector.into();
         let segments = (first..last).map(|i| crate::math::segment::point_distance(&point, &place(i), &place(i + 1)));

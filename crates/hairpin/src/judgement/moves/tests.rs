@@ -426,6 +426,22 @@ fn what_is_missing_at_the_ends_is_not_passed_over() {
     assert!(told.starts_with("the log begins at t = 0.510 s, ") && told.contains("on move 1 of 4"), "{told}");
 }
 
+/// Whoever stands where the program begins and ends is past all of it by the path alone.
+#[test]
+fn a_program_that_comes_back_is_not_run_by_standing_there() {
+    let path = plan(&[([0.0; 3], 0.0), ([0.3, 0.0, 0.0], 0.0), ([0.3, 0.3, 0.0], 0.0), ([0.0; 3], 0.0)]);
+    let open = |recording: &Track, limit| not_shown(&path, recording, 1.0, false, [limit, Some(10.0)]).open;
+    let whole = record(&path, 3.4, |t| t, still);
+    assert_eq!((open(&whole, Some(0.02)), open(&whole, None)), (None, None));
+    // It sets out along the first line, goes over to the last after 30 mm and comes back.
+    let turns = |t: f64| if t < 0.1 { t } else { (t + 3.0).clamp(3.1, 3.2) };
+    let back = record(&path, 3.4, turns, still);
+    for limit in [Some(0.02), None] {
+        let told = open(&back, limit).unwrap();
+        assert!(told.contains("mm away from it: it was left out") && told.contains("and move 3 (p2→p3)"), "{told}");
+    }
+}
+
 /// An arrival in a gap is late for certain only if it was not there yet when the limit was over.
 #[test]
 fn arrivals_in_gaps_are_late_only_where_the_gap_says_so() {

@@ -6,8 +6,10 @@
 //! median interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no
 //! sample.
 //!
-//! Data flow: plan and recording are aligned (`align`) → gaps, ends and moves without samples → each is held
-//! against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict open.
+//! Data flow: plan and recording are aligned (`align`) → gaps, ends, moves without samples, what was left out → each
+//! is held against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict open.
+
+mod left_out;
 
 use nalgebra::Point3;
 
@@ -130,7 +132,7 @@ impl Look<'_> {
             estimate = gravest(&mut over.iter()).map(|(_, most)| most);
         }
         let (unproven, proven) = self.late();
-        let open = open.or_else(|| unproven.as_ref().map(|(why, _)| why.clone()));
+        let open = open.or_else(|| unproven.as_ref().map(|(why, _)| why.clone())).or_else(|| self.left_out());
         let moves = self.path.moves().len();
         Unseen {
             longest,

@@ -1,0 +1,133 @@
+//! Logs that end where their mission does and did not fly it, and logs that do not tell what of them moved.
+
+use super::*;
+
+/// A square that comes back to its start.
+const SQUARE: [[f64; 3]; 5] = [[4.0, 4.0, 5.0], [24.0, 4.0, 5.0], [24.0, 24.0, 5.0], [4.0, 24.0, 5.0], [4.0, 4.0, 5.0]];
+/// An eight whose first leg crosses its last.
+const EIGHT: [[f64; 3]; 4] = [[4.0, 4.0, 5.0], [24.0, 24.0, 5.0], [24.0, 4.0, 5.0], [4.0, 24.0, 5.0]];
+
+/// At 5 m/s and 100 samples a second from place to place; the first of them is where it stands for 2 s.
+fn through(places: &[[f64; 3]]) -> Logged {
+    let start = Point3::from(places[0]);
+    let mut way: Vec<Point3<f64>> = vec![start; 200];
+    for pair in places.windows(2) {
+        let (from, to) = (Point3::from(pair[0]), Point3::from(pair[1]));
+        let steps = ((to - from).norm() / SPEED * 100.0).round() as usize;
+        way.extend((1..=steps).map(|step| from + (to - from) * (step as f64 / steps as f64)));
+    }
+    let sample = |(i, p_m): (usize, &Point3<f64>)| {
+        let t_s = i as f64 / 100.0;
+        Sample { t_s, p_m: *p_m, attitude: None, v_m_s: None, accuracy_m: None }
+    };
+    let samples = way.iter().enumerate().map(sample).collect();
+    Logged { format: "TUM", motions: vec![motion("a.tum", Source::Untold, samples)], ..log(100.0, 0.0) }
+}
+
+fn over(logged: &Logged, mission: &[[f64; 3]]) -> (String, u8, Found) {
+    let judged = judged_as(logged, |_, here| {
+        let rows: String = mission.iter().map(|[x, y, z]| format!("{x},{y},{z}\n")).collect();
+        fs::write(here.join("m.csv"), format!("x_m,y_m,z_m\n{rows}")).unwrap();
+    });
+    let judged = judged.unwrap();
+    (judged.verdict.sentence, judged.verdict.exit_code, judged.found.unwrap())
+}
+
+#[test]
+fn who_ends_at_the_last_waypoint_need_not_have_been_at_the_others() {
+    let (sentence, code, found) = over(&through(&SQUARE), &SQUARE);
+    assert!(code == 0 && found.finished && found.missed.is_none(), "{sentence}");
+    // Where it stands is the last waypoint, too.
+    let (sentence, code, found) = over(&through(&SQUARE[..1]), &SQUARE);
+    assert!(code == 5 && !found.finished && sentence.starts_with("INCONCLUSIVE m"), "{sentence}");
+    let words = "waypoint 1 of 0 to 4 was never reached: 20.00 m at the nearest, 1 m accepted";
+    assert!(sentence.contains(words), "{sentence}");
+    assert_eq!(found.missed.map(|missed| (missed.waypoint, missed.of)), Some((1, 5)));
+    // Out and back along the first leg.
+    let (sentence, code, found) = over(&through(&[SQUARE[0], [14.0, 4.0, 5.0], SQUARE[0]]), &SQUARE);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("waypoint 1 of 0 to 4 was never reached: 10.00 m"), "{sentence}");
+    // From the first leg to the last where they cross.
+    let cut = [EIGHT[0], [14.0, 14.0, 5.0], EIGHT[3]];
+    let (sentence, code, found) = over(&through(&cut), &EIGHT);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("waypoint 1 of 0 to 3 was never reached: 14.14 m"), "{sentence}");
+    assert_eq!(over(&through(&EIGHT), &EIGHT).1, 0);
+    // What was violated all the same is a violation.
+    let (sentence, code, _) = over(&through(&[SQUARE[0], [14.0, 8.0, 5.0], SQUARE[0]]), &SQUARE);
+    assert!(code == 1, "{sentence}");
+}
+
+#[test]
+fn a_column_of_legs_is_no_word_that_they_were_flown() {
+    let step = |t_s: f64, item: u32| Progress { t_s, item, target_m: None };
+    let mut log = Logged { format: "CSV", ..through(&SQUARE) };
+    log.progress = vec![step(0.0, 1), step(6.0, 2), step(10.0, 3), step(14.0, 4)];
+    let (sentence, code, found) = over(&log, &SQUARE);
+    assert!(code == 0 && found.legs_by == LegsBy::Count && found.finished, "{sentence}");
+    // It stops at its second leg, and the log goes on.
+    log.progress.truncate(2);
+    assert!(!over(&log, &SQUARE).2.finished);
+    // Standing at the start it counts to the last leg.
+    let mut still = Logged { format: "CSV", ..through(&SQUARE[..1]) };
+    still.progress = vec![step(0.0, 1), step(0.1, 2), step(0.2, 3), step(0.3, 4)];
+    assert!(!over(&still, &SQUARE).2.finished);
+}
+
+#[test]
+fn a_mission_state_that_stops_at_its_first_leg_is_no_whole_mission() {
+    let target = |k: usize| Some(Point3::from(SQUARE[k]));
+    let mut log = Logged { format: "PX4 ULog", ..through(&[SQUARE[0], [14.0, 4.0, 5.0], SQUARE[0]]) };
+    log.progress =
+        vec![Progress { t_s: 0.0, item: 1, target_m: target(0) }, Progress { t_s: 1.0, item: 2, target_m: target(1) }];
+    let (sentence, code, found) = over(&log, &SQUARE);
+    assert_eq!((found.legs_by, found.finished, found.missed), (LegsBy::Targets, false, None));
+    assert!(code == 5 && sentence.contains("the log ends, on leg 0→1 of 5 waypoints"), "{sentence}");
+}
+
+/// Several topics of a bag.
+fn bag(topics: &[(&str, Source)]) -> Logged {
+    let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
+    Logged { format: "ROS 2 MCAP", motions, ..log(100.0, 0.3) }
+}
+
+#[test]
+fn what_may_be_a_plan_is_judged_only_where_it_is_named() {
+    let asked = |logged: &Logged, topic: &str| {
+        judged_as(logged, |settings, _| settings.source = Some(topic.into())).unwrap().verdict
+    };
+    let refused = |logged: &Logged| judged_as(logged, |_, _| {}).unwrap_err();
+    // Two that do not tell whose word they are.
+    let two = bag(&[("/a_pose", Source::Untold), ("/vicon/pose", Source::Untold), ("/plan", Source::Asked)]);
+    let told = refused(&two);
+    assert!(told.contains("several topics may be what moved: /a_pose, /vicon/pose; --source TOPIC"), "{told}");
+    assert_eq!(asked(&two, "/vicon/pose").exit_code, 0);
+    let told = best(&two, &Asks::FIT).unwrap_err();
+    assert!(told.contains("/vicon/pose; `fit` reads") && !told.contains("--source"), "{told}");
+    // One beside plans and goals is what moved.
+    let one = bag(&[("/robot/odom", Source::Untold), ("/trail", Source::Way), ("/goal_pose", Source::Asked)]);
+    let found = judged_as(&one, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!((found.source.topic.as_str(), found.source.others.len()), ("/robot/odom", 2));
+    // A plan alone is none, and by its name it is told in the sentence.
+    for (name, source, words) in [
+        ("/planned", Source::Asked, "by its name a plan, goal or command"),
+        ("/trail", Source::Way, "a whole way, of a plan or a trail"),
+    ] {
+        let alone = bag(&[(name, source)]);
+        let told = refused(&alone);
+        assert!(told.contains(&format!("{name} may be a plan, a goal or a command; --source TOPIC")), "{told}");
+        let sentence = asked(&alone, name).sentence;
+        assert!(sentence.starts_with(&format!("PASS m (flown, log_24.ulg, {words}): ")), "{sentence}");
+    }
+}
+
+#[test]
+fn a_limit_that_a_log_does_not_measure_is_open() {
+    let both = [("spec.deviation.max_m".to_owned(), "0.5".to_owned()), ("spec.clearance.min_m".into(), "0.1".into())];
+    // Without --world no obstacle is known.
+    let judged = judged_as(&log(100.0, 0.3), |settings, _| settings.sets = both.to_vec()).unwrap().verdict;
+    assert_eq!(judged.exit_code, 5, "{}", judged.sentence);
+    assert!(judged.sentence.contains("not all that `spec` limits was measured: no clearance"), "{}", judged.sentence);
+    let violated = judged_as(&log(100.0, 0.65), |settings, _| settings.sets = both.to_vec()).unwrap().verdict;
+    assert_eq!(violated.exit_code, 1, "{}", violated.sentence);
+}
