@@ -94,9 +94,11 @@ impl Reference {
             Some((_, System::Unknown)) | None => None,
         };
         let said = self.unit.clone().or(by_code).filter(|_| !self.placed);
-        let unknown = self.unknown_unit.as_ref().filter(|_| !self.placed && given.unit.is_none());
-        if let Some(said) = unknown {
-            return Err(TerrainError::UnknownUnit { key: "unit", said: said.clone() });
+        // A plane of the registry that is not known here has a unit, and nobody says which.
+        let unknown =
+            || self.unknown_unit.clone().or(epsg.filter(|_| said.is_none()).map(|code| format!("EPSG:{code}")));
+        if let Some(said) = unknown().filter(|_| !self.placed && given.unit.is_none()) {
+            return Err(TerrainError::UnknownUnit { key: "unit", said });
         }
         if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
             return Err(geographic(format!(

@@ -80,6 +80,7 @@ fn units_that_are_said_are_known_or_asked_for() {
         (&[(4096, 5103)][..], "height_unit: the file says VerticalCS = 5103"),
         (&[(4096, 9999), (4099, 9001)][..], "height_unit: the file says VerticalCS = 9999"),
         (&[(4099, 32767)][..], "height_unit: the file says VerticalUnits = 32767"),
+        (&[(3072, 1)][..], "unit: the file says EPSG:1, which is not known here"),
         (&[(3076, 9999)][..], "unit: the file says ProjLinearUnits = 9999, which is not known here; it must be given"),
     ] {
         let error = read(keys, None).expect_err(words);
