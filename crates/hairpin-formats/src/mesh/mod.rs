@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 pub use types::{Mesh, MeshError};
 
-/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are taken
-/// as metres; Collada says its unit.
+/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are in the
+/// file's own unit, which neither says; Collada's are made metres.
 ///
 /// # Errors
 /// [`MeshError`].
@@ -23,14 +23,28 @@ pub fn read_mesh(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
     };
     match mesh.vertices.iter().position(|v| v.iter().any(|x| !x.is_finite())) {
         Some(vertex) => Err(MeshError::NotFinite { vertex }),
+        None if mesh.triangles.is_empty() => Err(none_of(bytes, &ending)),
         None => Ok(mesh),
     }
+}
+
+/// A file without triangles holds something else, or is written otherwise.
+fn none_of(bytes: &[u8], ending: &str) -> MeshError {
+    let lines = String::from_utf8_lossy(bytes).lines().count();
+    MeshError::NoTriangles(match ending {
+        "obj" => format!("none of its {lines} lines begins with f"),
+        "stl" if is_ascii_stl(bytes) => format!("none of its {lines} lines begins with vertex"),
+        "stl" => "its header says 0".into(),
+        _ => "no geometry has any".into(),
+    })
 }
 
 /// Binary files may begin with `solid` too: the length decides.
 fn is_ascii_stl(bytes: &[u8]) -> bool {
     let said = bytes.get(80..84).map(|n| u64::from(u32::from_le_bytes([n[0], n[1], n[2], n[3]])));
-    bytes.trim_ascii_start().starts_with(b"solid") && said.is_none_or(|said| 84 + 50 * said != bytes.len() as u64)
+    let begin = bytes.trim_ascii_start().get(..5);
+    begin.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        && said.is_none_or(|said| 84 + 50 * said != bytes.len() as u64)
 }
 
 /// 80 bytes of header, the count, then 50 bytes per triangle: normal, three corners (f32, little-endian), attributes.
@@ -51,12 +65,19 @@ fn read_binary_stl(bytes: &[u8]) -> Result<Mesh, MeshError> {
     Ok(welder.mesh)
 }
 
+/// `vertex x y z`, three a facet; words in capitals are the same. Everything else is passed over.
 fn read_ascii_stl(text: &str) -> Result<Mesh, MeshError> {
     let mut welder = Welder::default();
     let mut corners = Vec::with_capacity(3);
     for (index, line) in text.lines().enumerate() {
-        let Some(rest) = line.trim().strip_prefix("vertex") else { continue };
-        corners.push(point(rest, index)?);
+        let mut words = line.split_whitespace();
+        if !words.next().is_some_and(|word| word.eq_ignore_ascii_case("vertex")) {
+            continue;
+        }
+        corners.push(point(words.clone(), index)?);
+        if words.count() != 3 {
+            return Err(MeshError::Line { line: index + 1, expected: "three numbers, and no more" });
+        }
         if let [a, b, c] = corners[..] {
             welder.triangle([a, b, c]);
             corners.clear();
@@ -71,16 +92,17 @@ fn read_ascii_stl(text: &str) -> Result<Mesh, MeshError> {
 }
 
 /// `v x y z` and `f a b c …` (from 1, or from the end if negative; `a/b/c` has texture and normal too); faces of more
-/// corners become fans. Everything else is passed over.
+/// corners become fans. Words are apart by any white space. Everything else is passed over.
 fn read_obj(text: &str) -> Result<Mesh, MeshError> {
     let mut mesh = Mesh::default();
     for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or_default().trim();
-        if let Some(rest) = line.strip_prefix("v ") {
-            mesh.vertices.push(point(rest, index)?);
-        } else if let Some(rest) = line.strip_prefix("f ") {
+        let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
+        let word = words.next();
+        if word == Some("v") {
+            mesh.vertices.push(point(words, index)?);
+        } else if word == Some("f") {
             let error = MeshError::Line { line: index + 1, expected: "f with at least three vertices given before" };
-            let corners = rest.split_whitespace().map(|corner| corner_index(corner, mesh.vertices.len()));
+            let corners = words.map(|corner| corner_index(corner, mesh.vertices.len()));
             let Some(corners) = corners.collect::<Option<Vec<u32>>>().filter(|corners| corners.len() >= 3) else {
                 return Err(error);
             };
@@ -96,8 +118,8 @@ fn corner_index(corner: &str, count: usize) -> Option<u32> {
     (0..count as i64).contains(&index).then(|| u32::try_from(index).ok())?
 }
 
-fn point(text: &str, index: usize) -> Result<[f64; 3], MeshError> {
-    let mut numbers = text.split_whitespace().map(|word| word.parse::<f64>().ok());
+fn point<'t>(words: impl Iterator<Item = &'t str>, index: usize) -> Result<[f64; 3], MeshError> {
+    let mut numbers = words.map(|word| word.parse::<f64>().ok());
     match [numbers.next(), numbers.next(), numbers.next()] {
         [Some(Some(x)), Some(Some(y)), Some(Some(z))] => Ok([x, y, z]),
         _ => Err(MeshError::Line { line: index + 1, expected: "three numbers" }),
@@ -165,6 +187,37 @@ mod tests {
         }
         let quad = read_mesh(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4", "q.obj").unwrap();
         assert_eq!(quad.triangles, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn words_are_read_in_capitals_and_between_any_white_space() {
+        let obj = "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+        let read = read_mesh(obj.as_bytes(), "a.obj").unwrap();
+        assert_eq!((read.vertices.len(), read.triangles.len()), (3, 1));
+        for spaced in [obj.replace(' ', "\t"), obj.replace(' ', "  \t"), obj.replace('\n', "\r\n")] {
+            assert_eq!(read_mesh(spaced.as_bytes(), "a.obj").unwrap(), read, "{spaced:?}");
+        }
+        let stl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 0\nendloop\n\
+                   endfacet\nendsolid s\n";
+        for spelled in [stl.to_owned(), stl.to_uppercase(), stl.replace("vertex ", "\t VERTEX\t")] {
+            assert_eq!(read_mesh(spelled.as_bytes(), "a.stl").unwrap(), read, "{spelled:?}");
+        }
+    }
+
+    #[test]
+    fn files_without_triangles_are_refused() {
+        let none = |bytes: &[u8], name: &str| read_mesh(bytes, name).unwrap_err().to_string();
+        let empty = [&[b' '; 80][..], &[0; 4]].concat();
+        for (bytes, name, words) in [
+            (&b"v 0 0 0\nv 1 0 0\n"[..], "a.obj", "holds no triangles: none of its 2 lines begins with f"),
+            (&b"v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3"[..], "a.obj", "none of its 1 lines begins with f"),
+            (&b""[..], "a.obj", "none of its 0 lines begins with f"),
+            (&b"solid s\nendsolid s\n"[..], "a.stl", "none of its 2 lines begins with vertex"),
+            (&empty[..], "a.stl", "its header says 0"),
+            (&b"solid s\nvertex 0 0 0 vertex 1 0 0\n"[..], "a.stl", "line 2: expected three numbers, and no more"),
+        ] {
+            assert!(none(bytes, name).contains(words), "{}", none(bytes, name));
+        }
     }
 
     #[test]

@@ -39,6 +39,9 @@ pub enum MeshError {
         /// What should stand there.
         expected: &'static str,
     },
+    /// Nothing that could be in the way.
+    #[error("holds no triangles: {0}")]
+    NoTriangles(String),
     /// No XML, or XML that is no Collada.
     #[error("is no Collada: {0}")]
     NoCollada(String),

@@ -80,8 +80,13 @@ pub fn attach(mut scenario: Scenario, folder: &Path) -> Result<Resolved, Report>
 
 /// `parts` are the vertices and triangles so far.
 fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf, parts: &mut usize) -> Result<(), Wrong> {
-    let NamedMesh { key, file, scale, vertices_key, vertices, triangles } = keys;
+    let NamedMesh { key, file, scale, scale_key, per_metre, vertices_key, vertices, triangles } = keys;
     let Some(file) = file.take() else { return Ok(()) };
+    let scale = scale.take();
+    if let Some(given) = scale.filter(|given| !(*given > 0.0 && given.is_finite())) {
+        let key = key.replace(".mesh.file", &format!(".mesh.{scale_key}"));
+        return Err(Wrong { key, value: given.to_string(), bound: "a finite number > 0".into() });
+    }
     let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound };
     if !vertices.is_empty() || !triangles.is_empty() {
         return Err(wrong(format!("either a file or {vertices_key} and triangles, not both")));
@@ -94,9 +99,8 @@ fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf, parts: &mut usize) 
             format!("with the meshes before it {parts} vertices and triangles, at most {MOST_MESH_PARTS}: simplify it");
         return Err(wrong(bound));
     }
-    // Collada says its unit, and is read in metres; where vertices are in mm a file's scale is per mm.
-    let usual = if scale.is_some() && ending(&file) == "dae" { 1e3 } else { 1.0 };
-    let scale = scale.and_then(Option::take).unwrap_or(usual);
+    // Collada says its unit, and is read in metres.
+    let scale = scale.unwrap_or(if ending(&file) == "dae" { per_metre } else { 1.0 });
     *vertices = read.vertices.iter().map(|vertex| vertex.map(|part| part * scale)).collect();
     *triangles = read.triangles;
     Ok(())

@@ -43,7 +43,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
             if heights.len() == columns * rows {
                 return Err(wrong(format!("more than {columns} x {rows} heights")));
             }
-            let hole = !height.is_finite() || f64::from(height) == header.no_data || height == header.no_data as f32;
+            let value = f64::from(height);
+            let hole = no_data::is_none(value) || value == header.no_data || height == header.no_data as f32;
             heights.push(if hole { f32::NAN } else { height });
         }
     }

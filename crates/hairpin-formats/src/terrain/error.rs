@@ -37,6 +37,14 @@ pub enum TerrainError {
          m, ft or us-ft"
     )]
     UnitOfHeights,
+    /// The file says a unit that is not known.
+    #[error("{key}: the file says {said}, which is not known here; it must be given: m, ft or us-ft")]
+    UnknownUnit {
+        /// Key of the terrain's table.
+        key: &'static str,
+        /// What it says.
+        said: String,
+    },
     /// More cells than are worth reading at once.
     #[error("{columns} x {rows} cells: at most {MOST_CELLS} in all; crop the map first")]
     TooLarge {
@@ -87,7 +95,7 @@ impl TerrainError {
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::UnitOfHeights => Some("height_unit"),
-            Self::Contradicts { key, .. } => Some(key),
+            Self::Contradicts { key, .. } | Self::UnknownUnit { key, .. } => Some(key),
             Self::Wrong { key: "epsg", .. } => Some("epsg"),
             _ => None,
         }

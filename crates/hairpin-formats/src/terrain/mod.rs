@@ -5,6 +5,7 @@ mod error;
 mod georeference;
 mod geotiff;
 mod keep_out;
+mod mercator;
 mod no_data;
 mod numpy;
 mod prj;
@@ -15,6 +16,7 @@ mod sidecar;
 mod sixteen_bit;
 mod told;
 mod unit;
+mod vertical;
 
 #[cfg(test)]
 mod tests;
@@ -70,9 +72,17 @@ pub fn read_terrain(
     beside.check(name, &raster.layout)?;
     let by_sidecar = if raster.reference.model == Model::Unsaid { beside.reference(name)? } else { None };
     let beside = by_sidecar.is_some();
-    let said = by_sidecar.unwrap_or(raster.reference);
-    let height_unit = said.height_unit.filter(|_| !has_heights_by_key(&ending));
-    raster.reference = Reference { placed: !says_itself(&ending), height_unit, ..said };
+    let said = match by_sidecar {
+        Some(mut said) => {
+            said.also_heights_in(raster.reference.height_unit);
+            said
+        }
+        None => raster.reference,
+    };
+    raster.reference = Reference { placed: !says_itself(&ending), ..said };
+    if has_heights_by_key(&ending) {
+        raster.reference = Reference { height_unit: None, unknown_heights: None, depth: None, ..raster.reference };
+    }
     let Raster { grid, mut heights, reference, layout } = raster;
     let center = [0, 1].map(|i| {
         let cells = if i == 0 { grid.columns } else { grid.rows };

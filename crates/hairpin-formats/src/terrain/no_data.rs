@@ -1,5 +1,13 @@
 //! The value that means no data, as tools write it.
 
+/// Heights below this are the −3.4e38 of tools that forget to say so.
+const LOWEST: f64 = -1e30;
+
+/// Whether a value is no height, whatever else the file says of it.
+pub(super) fn is_none(value: f64) -> bool {
+    !value.is_finite() || value < LOWEST
+}
+
 /// A number in any spelling: `-9999`, `nan`, `NaN`, `-nan`, `-1.#QNAN` of older Windows.
 pub(super) fn parse(text: &str) -> Option<f64> {
     let text = text.trim();
@@ -12,6 +20,12 @@ pub(super) fn parse(text: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_far_below_all_ground_is_no_height() {
+        assert!([f64::NAN, f64::INFINITY, -3.4e38, -1.1e30].into_iter().all(is_none));
+        assert!(![-11_000.0, 0.0, -9999.0].into_iter().any(is_none));
+    }
 
     #[test]
     fn nan_in_any_spelling() {

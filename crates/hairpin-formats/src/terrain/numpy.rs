@@ -1,10 +1,12 @@
-//! NumPy arrays: two dimensions of floats in metres, rows from the north, NaN where there is no data.
+//! NumPy arrays: two dimensions of floats in metres, rows from the north, NaN or values below −1e30 where
+//! there is no data.
 //!
 //! The header is a dictionary of three values (numpy.lib.format, versions 1 to 3). It is read as just that: a general
 //! reader of Python's literals takes as long as somebody's brackets want it to.
 
 use super::error::TerrainError;
 use super::georeference::{Georeference, placed};
+use super::no_data;
 use super::raster::{Layout, Raster, bounded};
 use super::reference::Reference;
 
@@ -42,6 +44,8 @@ pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, 
         "<f8" => data.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b) as f32).collect(),
         _ => data.as_chunks().0.iter().map(|b| f64::from_be_bytes(*b) as f32).collect(),
     };
+    let known = |height: f32| if no_data::is_none(height.into()) { f32::NAN } else { height };
+    let heights: Vec<f32> = heights.into_iter().map(known).collect();
     let heights = match fortran {
         false => heights,
         true => (0..rows * columns).map(|i| heights[i % columns * rows + i / columns]).collect(),

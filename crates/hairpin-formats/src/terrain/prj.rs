@@ -4,6 +4,7 @@
 use super::error::TerrainError;
 use super::reference::{Model, Reference};
 use super::unit::Unit;
+use super::vertical::{Depth, Vertical, is_depth, system};
 
 /// Brackets within brackets, at most: coordinate systems have six.
 const DEEPEST: usize = 32;
@@ -28,7 +29,7 @@ pub(super) fn read(text: &str) -> Result<Reference, TerrainError> {
     }
     // ESRI has the system of heights behind that of the plane.
     let heights = node(&mut rest, 0).filter(|node| node.is(&VERTICAL) && rest.trim().is_empty()).ok_or_else(broken)?;
-    Ok(Reference { height_unit: heights.height_unit(), ..plane })
+    Ok(heights.heights_of(plane))
 }
 
 const VERTICAL: [&str; 3] = ["VERT_CS", "VERTCS", "VERTCRS"];
@@ -49,23 +50,34 @@ fn of(root: &Node<'_>) -> Option<Reference> {
             let unit = root.nodes.iter().rev().find(|node| node.is(&["UNIT", "LENGTHUNIT"]));
             // Newer text has the unit in its axes where they share one.
             let unit = unit.or_else(|| root.find(&["LENGTHUNIT"]));
-            let metres = unit.and_then(|unit| unit.values.get(1)?.parse().ok());
             let epsg = said.epsg.or_else(|| code_of_name(&said.name));
-            Some(Reference { model: Model::Projected, unit: metres.and_then(Unit::of_length), epsg, ..said })
+            Some(Reference { model: Model::Projected, epsg, ..in_unit(unit, said) })
         }
         // A yard's own plane.
         "LOCAL_CS" | "ENGCRS" | "ENGINEERINGCRS" => {
-            let metres = root.find(&["UNIT", "LENGTHUNIT"]).and_then(|unit| unit.values.get(1)?.parse().ok());
-            Some(Reference { model: Model::Projected, unit: metres.and_then(Unit::of_length), epsg: None, ..said })
+            let unit = root.find(&["UNIT", "LENGTHUNIT"]);
+            Some(Reference { model: Model::Projected, epsg: None, ..in_unit(unit, said) })
         }
         // A plane with heights: what it says of the plane comes first.
         "COMPD_CS" | "COMPOUNDCRS" => {
             let plane = root.nodes.iter().find_map(of)?;
             let vertical = root.nodes.iter().find(|node| node.is(&VERTICAL));
-            Some(Reference { height_unit: vertical.and_then(Node::height_unit), ..plane })
+            Some(match vertical {
+                Some(vertical) => vertical.heights_of(plane),
+                None => plane,
+            })
         }
         _ => None,
     }
+}
+
+/// With the unit of x and y, where there is one.
+fn in_unit(node: Option<&Node<'_>>, plane: Reference) -> Reference {
+    let Some(node) = node else { return plane };
+    let unit = node.values.get(1).and_then(|metres| Unit::of_length(metres.parse().ok()?));
+    let unknown = || format!("a unit of length \"{}\" in its .prj", node.values.first().copied().unwrap_or_default());
+    let unknown_unit = unit.is_none().then(unknown);
+    Reference { unit, unknown_unit, ..plane }
 }
 
 /// ESRI's texts have no codes, but names.
@@ -97,10 +109,35 @@ impl<'t> Node<'t> {
         self.nodes.iter().find_map(|node| if node.is(words) { Some(node) } else { node.find(words) })
     }
 
-    /// Of a system of heights.
-    fn height_unit(&self) -> Option<Unit> {
-        let unit = self.find(&["UNIT", "LENGTHUNIT"])?;
-        Unit::of_length(unit.values.get(1)?.parse().ok()?)
+    /// `plane` with what this system says of heights.
+    fn heights_of(&self, plane: Reference) -> Reference {
+        let known = self.epsg().and_then(|code| u16::try_from(code).ok()).map(system);
+        let (by_code, falls_by_code) = match known {
+            Some(Vertical::Up(unit)) => (Some(unit), false),
+            Some(Vertical::Down(unit)) => (Some(unit), true),
+            _ => (None, false),
+        };
+        let written = self.find(&["UNIT", "LENGTHUNIT"]);
+        let unit = match written {
+            Some(unit) => unit.values.get(1).and_then(|metres| Unit::of_length(metres.parse().ok()?)),
+            None => by_code,
+        };
+        let name = self.values.first().copied().unwrap_or_default();
+        let falls = falls_by_code || is_depth(name) || self.nodes.iter().any(Node::points_down);
+        let metres = unit.as_ref().map_or(1.0, |unit| unit.metres);
+        let depth = falls.then(|| Depth { said: format!("\"{name}\" in its .prj"), metres });
+        let unknown = || format!("heights of \"{name}\" in its .prj, without a length of their unit");
+        let unknown_heights = unit.is_none().then(unknown);
+        Reference { height_unit: unit, unknown_heights, depth, ..plane }
+    }
+
+    /// Whether it is the axis of a depth, or Esri's direction of one.
+    fn points_down(&self) -> bool {
+        let down = |value: &&str| value.eq_ignore_ascii_case("down");
+        let falls = |value: &&str| value.parse().is_ok_and(|direction: f64| direction < 0.0);
+        let is_direction = self.values.first().is_some_and(|name| name.eq_ignore_ascii_case("direction"));
+        self.is(&["AXIS"]) && self.values.iter().any(down)
+            || self.is(&["PARAMETER"]) && is_direction && self.values.get(1).is_some_and(falls)
     }
 
     fn epsg(&self) -> Option<u32> {
@@ -175,6 +212,18 @@ mod tests {
         );
         assert_eq!(read(&esri).unwrap().height_unit.unwrap().name, "US survey ft");
         assert!(read(&format!("{utm},{DEGREES}")).is_err(), "two systems of the plane");
+        let up = read(&format!(r#"{utm},VERT_CS["MSL",VERT_DATUM["m",2005],UNIT["metre",1],AXIS["Up",UP]]"#)).unwrap();
+        assert_eq!((up.depth, up.unknown_heights, up.height_unit), (None, None, Some(Unit::metre())));
+        for (heights, metres) in [
+            (r#"VERT_CS["MSL",VERT_DATUM["m",2005],UNIT["metre",1],AXIS["Depth",DOWN]]"#, 1.0),
+            (r#"VERTCS["MSL_Depth",VDATUM["m"],PARAMETER["Direction",1.0],UNIT["Foot",0.3048]]"#, 0.3048),
+            (r#"VERTCS["MSL",VDATUM["m"],PARAMETER["Direction",-1.0],UNIT["Meter",1.0]]"#, 1.0),
+            (r#"VERTCRS["d",VDATUM["m"],CS[vertical,1],AXIS["(D)",down,LENGTHUNIT["metre",1]],ID["EPSG",5715]]"#, 1.0),
+        ] {
+            assert_eq!(read(&format!("{utm},{heights}")).unwrap().depth.unwrap().metres, metres, "{heights}");
+        }
+        let unsaid = read(&format!(r#"{utm},VERT_CS["h",VERT_DATUM["d",2005]]"#)).unwrap();
+        assert!(unsaid.unknown_heights.is_some());
         let yard = read(r#"LOCAL_CS["yard",UNIT["foot",0.3048]]"#).unwrap();
         assert_eq!((yard.epsg, yard.unit.unwrap().name.as_str()), (None, "ft"));
         let newer = r#"PROJCRS["WGS 84 / UTM zone 19S",CS[Cartesian,2],AXIS["(E)",east,LENGTHUNIT["metre",1]],ID["EPSG",32719]]"#;

@@ -2,8 +2,10 @@
 
 use super::error::TerrainError;
 use super::georeference::Georeference;
+use super::mercator::{Stretched, stretched};
 use super::remedy::Remedy;
 use super::unit::{Source, Unit};
+use super::vertical::Depth;
 use crate::epsg::{System, system};
 
 /// What the coordinates of a file are, as far as it says.
@@ -14,6 +16,12 @@ pub(super) struct Reference {
     /// Of x and y.
     pub(super) unit: Option<Unit>,
     pub(super) height_unit: Option<Unit>,
+    /// What it says of the unit of x and y that is not known.
+    pub(super) unknown_unit: Option<String>,
+    /// What it says of heights that is not known.
+    pub(super) unknown_heights: Option<String>,
+    /// Where its values are depths.
+    pub(super) depth: Option<Depth>,
     /// What it is called.
     pub(super) name: String,
     /// Degrees in one unit of angle.
@@ -72,6 +80,10 @@ impl Reference {
             Model::Unsaid | Model::Projected => {}
         }
         let epsg = same("epsg", self.epsg, given.epsg)?;
+        if let Some(Depth { said, metres }) = &self.depth {
+            let why = format!("its values are depths ({said}), which grow downwards: heights are needed");
+            return Err(TerrainError::Convert { why, command: Remedy::rise(file, *metres, epsg) });
+        }
         let by_code = match epsg.map(|code| (code, system(code))) {
             Some((_, System::Plane { metres })) => Unit::of_length(metres),
             Some((code, System::Angles)) => return Err(geographic(format!("EPSG:{code}"))),
@@ -82,6 +94,12 @@ impl Reference {
             Some((_, System::Unknown)) | None => None,
         };
         let said = self.unit.clone().or(by_code).filter(|_| !self.placed);
+        // A plane of the registry that is not known here has a unit, and nobody says which.
+        let unknown =
+            || self.unknown_unit.clone().or(epsg.filter(|_| said.is_none()).map(|code| format!("EPSG:{code}")));
+        if let Some(said) = unknown().filter(|_| !self.placed && given.unit.is_none()) {
+            return Err(TerrainError::UnknownUnit { key: "unit", said });
+        }
         if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
             return Err(geographic(format!(
                 "cells of {} on coordinates like degrees, and no unit said (unit = \"m\" says that they are metres)",
@@ -89,10 +107,30 @@ impl Reference {
             )));
         }
         let (plane, plane_from) = told("unit", said, given.unit.map(Unit::from), || Some(Unit::metre()))?;
+        if let Some(Stretched { times, at }) = stretched(epsg, &self.name, center.map(|c| c * plane.metres)) {
+            let what = self.called("a plane of Mercator's");
+            let why = format!("{what}, on which a metre of the ground is {times:.3} long: project it first");
+            return Err(TerrainError::Convert { why, command: Remedy::project(file, at, None) });
+        }
+        if let Some(said) = self.unknown_heights.as_ref().filter(|_| given.height_unit.is_none()) {
+            return Err(TerrainError::UnknownUnit { key: "height_unit", said: said.clone() });
+        }
         let taken = || (plane.is_metre() || given.assume_heights).then(|| plane.clone());
         let given_height = given.height_unit.map(Unit::from);
         let (height, height_from) = told("height_unit", self.height_unit.clone(), given_height, taken)?;
         Ok(Units { plane, plane_from, height, height_from, epsg, name: self.name.clone() })
+    }
+
+    /// What is said of heights once more, elsewhere; another unit than before is none.
+    pub(super) fn also_heights_in(&mut self, unit: Option<Unit>) {
+        match (&self.height_unit, unit) {
+            (Some(said), Some(unit)) if said.metres != unit.metres => {
+                let both = format!("heights in {} by its keys, in {} by its band", said.name, unit.name);
+                (self.height_unit, self.unknown_heights) = (None, Some(both));
+            }
+            (None, unit) => self.height_unit = unit,
+            _ => {}
+        }
     }
 
     fn called(&self, what: &str) -> String {

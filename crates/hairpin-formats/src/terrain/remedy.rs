@@ -23,6 +23,15 @@ impl Remedy {
         format!("gdal_translate {options}{} {}", quoted(file), beside(file, "plain"))
     }
 
+    /// Makes heights in metres of depths of which one is so many `metres`, in the plane of the code, if it has one.
+    pub(super) fn rise(file: &str, metres: f64, epsg: Option<u32>) -> String {
+        let out = beside(file, "heights");
+        let factor = if metres == 1.0 { String::new() } else { format!("{metres}*") };
+        let plane = epsg.map_or("PLANE".to_owned(), |code| format!("EPSG:{code}"));
+        let file = quoted(file);
+        format!("gdal_calc.py -A {file} --calc='-{factor}A' --outfile={out} && gdal_edit.py -a_srs {plane} {out}")
+    }
+
     /// Turns a raster upright.
     pub(super) fn warp(file: &str) -> String {
         format!("gdalwarp -r bilinear {} {}", quoted(file), beside(file, "upright"))
@@ -72,6 +81,11 @@ mod tests {
         assert_eq!(east, "gdalwarp -t_srs EPSG:32729 -r bilinear 'a map.tif' 'a map_projected.tif'");
         assert!(
             Remedy::project("m.tif", [0.0, 4.0], Some(3_396_190.0)).contains("+lat_0=4.0000 +lon_0=0.0000 +R=3396190")
+        );
+        assert_eq!(
+            Remedy::rise("d.tif", 0.3048, Some(32632)),
+            "gdal_calc.py -A d.tif --calc='-0.3048*A' --outfile=d_heights.tif && \
+             gdal_edit.py -a_srs EPSG:32632 d_heights.tif"
         );
         assert_eq!(Remedy::rewrite("x/a.b/m", "-b 1 "), "gdal_translate -b 1 x/a.b/m x/a.b/m_plain.tif");
     }

@@ -13,13 +13,20 @@ fn read_terrain(bytes: &[u8], name: &str, georeference: &Georeference) -> Result
 const HEIGHTS: [f32; 6] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
 
 fn geotiff(heights: &[f32], raster_type: u16, no_data: &str) -> Vec<u8> {
+    keyed(heights, &[(1025, raster_type)], no_data)
+}
+
+/// With these keys and their codes.
+fn keyed(heights: &[f32], keys: &[(u16, u16)], no_data: &str) -> Vec<u8> {
+    let head = [1, 1, 0, keys.len() as u16];
+    let directory: Vec<u16> = head.into_iter().chain(keys.iter().flat_map(|(key, code)| [*key, 0, 1, *code])).collect();
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut bytes).expect("an encoder");
     let mut image = encoder.new_image::<colortype::Gray32Float>(3, 2).expect("an image");
     let tags = image.encoder();
     tags.write_tag(Tag::ModelPixelScaleTag, &[0.5, 0.5, 0.0][..]).expect("a tag");
     tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 10.0, 20.0, 0.0][..]).expect("a tag");
-    tags.write_tag(Tag::GeoKeyDirectoryTag, &[1_u16, 1, 0, 1, 1025, 0, 1, raster_type][..]).expect("a tag");
+    tags.write_tag(Tag::GeoKeyDirectoryTag, &directory[..]).expect("a tag");
     tags.write_tag(Tag::GdalNodata, no_data).expect("a tag");
     image.write_data(heights).expect("data");
     bytes.into_inner()
@@ -50,17 +57,98 @@ fn no_data_is_found_by_its_tag_and_by_its_size() {
 }
 
 #[test]
+fn units_that_are_said_are_known_or_asked_for() {
+    let given = |height_unit| Georeference { height_unit, ..Georeference::default() };
+    let read = |keys: &[(u16, u16)], height_unit| {
+        let plane = [&[(1024, 1), (1025, 1)][..], keys].concat();
+        read_terrain(&keyed(&HEIGHTS, &plane, "-9999"), "a.tif", &given(height_unit))
+    };
+    for (key, code, metres) in [
+        (4096, 5703, 1.0),
+        (4096, 5702, 1200.0 / 3937.0),
+        (4096, 6360, 1200.0 / 3937.0),
+        (4096, 8052, 1200.0 / 3937.0),
+        (4096, 8228, 0.3048),
+        (4096, 5754, 0.304_800_749_1),
+        (4099, 9098, 0.201_168),
+    ] {
+        let map = read(&[(key, code)], None).unwrap_or_else(|error| panic!("{code}: {error}"));
+        assert!((at(&map, 11.25, 19.25) - 6.0 * metres).abs() < 1e-6, "{code}");
+    }
+    for (keys, words) in [
+        (&[(4096, 5700)][..], "height_unit: the file says VerticalCS = 5700, which is not known here"),
+        (&[(4096, 5103)][..], "height_unit: the file says VerticalCS = 5103"),
+        (&[(4096, 9999), (4099, 9001)][..], "height_unit: the file says VerticalCS = 9999"),
+        (&[(4099, 32767)][..], "height_unit: the file says VerticalUnits = 32767"),
+        (&[(3072, 1)][..], "unit: the file says EPSG:1, which is not known here"),
+        (&[(3076, 9999)][..], "unit: the file says ProjLinearUnits = 9999, which is not known here; it must be given"),
+    ] {
+        let error = read(keys, None).expect_err(words);
+        assert!(error.to_string().starts_with(words) && error.key().is_some(), "{error}");
+    }
+    let told = read(&[(4096, 5700)], Some(hairpin::campaign::scenario::MapUnit::Ft)).expect("it is told");
+    assert!((at(&told, 11.25, 19.25) - 6.0 * 0.3048).abs() < 1e-6);
+    assert!(read(&[(4096, 5103), (4099, 9003)], None).is_ok(), "a datum, and the unit beside it");
+}
+
+#[test]
+fn depths_and_stretched_planes_come_with_the_command_that_mends_them() {
+    for (keys, words) in [
+        (&[(4096, 5715)][..], ["depths (VerticalCS = 5715)", "--calc='-A' --outfile=a_heights.tif"]),
+        (&[(4096, 6357), (3072, 32632)][..], ["VerticalCS = 6357", "gdal_edit.py -a_srs EPSG:32632 a_heights.tif"]),
+        (&[(4096, 5614)][..], ["VerticalCS = 5614", "--calc='-0.3048*A'"]),
+        (&[(3072, 3857)][..], ["a plane of Mercator's (EPSG:3857)", "gdalwarp -t_srs EPSG:32631 -r bilinear a.tif"]),
+    ] {
+        let plane = [&[(1024, 1), (1025, 1)][..], keys].concat();
+        let error = read_terrain(&keyed(&HEIGHTS, &plane, "-9999"), "a.tif", &Georeference::default());
+        let error = error.expect_err(words[0]).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "{error}");
+    }
+    let by_key = Georeference { epsg: Some(3857), ..Georeference::default() };
+    assert!(read_terrain(&geotiff(&HEIGHTS, 1, "0"), "a.tif", &by_key).is_err());
+}
+
+#[test]
+fn pictures_where_white_is_zero_are_refused() {
+    let mut bytes = geotiff(&HEIGHTS, 1, "-9999");
+    set_tag(&mut bytes, 262, 0);
+    let error = read_terrain(&bytes, "a.tif", &Georeference::default()).expect_err("white is zero").to_string();
+    assert!(error.contains("white is zero") && error.contains("PHOTOMETRIC=MINISBLACK a.tif a_plain.tif"), "{error}");
+}
+
+#[test]
+fn steps_of_heights_in_the_georeference_are_refused() {
+    let plain = geotiff(&HEIGHTS, 1, "-9999");
+    let scale: Vec<u8> = [0.5_f64, 0.5, 0.0].iter().flat_map(|number| number.to_le_bytes()).collect();
+    let place = plain.windows(scale.len()).position(|bytes| bytes == scale).expect("the pixel scale") + 16;
+    let read = |step: f64| {
+        let mut bytes = plain.clone();
+        bytes[place..place + 8].copy_from_slice(&step.to_le_bytes());
+        read_terrain(&bytes, "a.tif", &Georeference::default())
+    };
+    assert!(read(0.0).is_ok() && read(1.0).is_ok());
+    let error = read(0.1).expect_err("a step of heights").to_string();
+    assert!(error.contains("a step or an origin of heights") && error.contains("gdal_translate a.tif"), "{error}");
+}
+
+/// The directory's entries are 12 bytes each.
+fn set_tag(bytes: &mut [u8], tag: u16, value: u32) {
+    let directory = u32::from_le_bytes(bytes[4..8].try_into().expect("four bytes")) as usize;
+    let entries = u16::from_le_bytes(bytes[directory..directory + 2].try_into().expect("two bytes"));
+    for entry in 0..usize::from(entries) {
+        let at = directory + 2 + 12 * entry;
+        if bytes[at..at + 2] == tag.to_le_bytes() {
+            bytes[at + 8..at + 12].copy_from_slice(&value.to_le_bytes());
+        }
+    }
+}
+
+#[test]
 fn a_header_that_promises_more_than_the_file_holds_is_refused_before_memory_is_taken() {
     let promising = |cells: u32| {
         let mut bytes = geotiff(&HEIGHTS, 1, "0");
-        // The directory's entries are 12 bytes each; width and height are the tags 256 and 257.
-        let directory = u32::from_le_bytes(bytes[4..8].try_into().expect("four bytes")) as usize;
-        let entries = u16::from_le_bytes(bytes[directory..directory + 2].try_into().expect("two bytes"));
-        for entry in 0..usize::from(entries) {
-            let at = directory + 2 + 12 * entry;
-            if [256_u16, 257].iter().any(|tag| bytes[at..at + 2] == tag.to_le_bytes()) {
-                bytes[at + 8..at + 12].copy_from_slice(&cells.to_le_bytes());
-            }
+        for width_or_height in [256, 257] {
+            set_tag(&mut bytes, width_or_height, cells);
         }
         read_terrain(&bytes, "a.tif", &Georeference::default()).expect_err("a lie")
     };
@@ -88,6 +176,7 @@ fn ascii_grids_by_corner_and_by_centre() {
         ("cellsize 0.5", "cellsize 0", "cell width = 0"),
         ("nrows 2\n", "", "nrows is missing"),
         ("4 5 6", "4 -1 6", "1 cells without data"),
+        ("4 5 6", "4 -3.4e38 6", "1 cells without data"),
     ] {
         let broken = grid.replace(from, to);
         let error = read_terrain(broken.as_bytes(), "a.asc", &Georeference::default()).expect_err(said);
@@ -147,6 +236,10 @@ fn numpy_arrays_in_either_order_and_precision() {
         let map = read_terrain(&bytes, "a.npy", &given).expect("a map");
         assert_eq!((at(&map, 0.0, 1.0), at(&map, 2.0, 1.0), at(&map, 0.0, 0.0)), (1.0, 3.0, 4.0));
     }
+    let mut far: Vec<u8> = c32.clone();
+    far[..4].copy_from_slice(&(-3.4e38_f32).to_le_bytes());
+    let error = read_terrain(&array("<f4", false, &far), "a.npy", &given).expect_err("a hole");
+    assert_eq!(error, TerrainError::Map(MapError::Holes { count: 1, row: 0, column: 0 }));
     let error = read_terrain(&array("<i4", false, &c32), "a.npy", &given).expect_err("integers");
     assert!(error.to_string().contains("float32 or float64"), "{error}");
     let error = read_terrain(&array("<f4", false, &c32[..8]), "a.npy", &given).expect_err("cut short");

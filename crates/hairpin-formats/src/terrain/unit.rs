@@ -26,6 +26,7 @@ pub enum Source {
 }
 
 /// Code, name and metres of the EPSG registry's units of length that maps have.
+#[rustfmt::skip]
 const KNOWN: &[(u16, &str, f64)] = &[
     (9001, "m", 1.0),
     (9002, "ft", FOOT),
@@ -43,6 +44,37 @@ const KNOWN: &[(u16, &str, f64)] = &[
     (9096, "yd", 0.9144),
     (1025, "mm", 0.001),
     (1033, "cm", 0.01),
+    (9033, "US survey chain", 79_200.0 / 3937.0),
+    (9034, "US survey link", 792.0 / 3937.0),
+    (9035, "US survey mile", 6_336_000.0 / 3937.0),
+    (9037, "Clarke's yd", 0.914_391_796_2),
+    (9038, "Clarke's chain", 20.116_619_516_4),
+    (9039, "Clarke's link", 0.201_166_195_164),
+    (9040, "Sears' yd", 0.914_398_414_616_029),
+    (9042, "Sears' chain", 20.116_765_121_552_632),
+    (9043, "Sears' link", 0.201_167_651_215_526),
+    (9050, "Benoit's yd (A)", 0.914_399_2),
+    (9051, "Benoit's ft (A)", 0.304_799_733_333_333),
+    (9052, "Benoit's chain (A)", 20.116_782_4),
+    (9053, "Benoit's link (A)", 0.201_167_824),
+    (9060, "Benoit's yd (B)", 0.914_399_204_289_812),
+    (9061, "Benoit's ft (B)", 0.304_799_734_763_271),
+    (9062, "Benoit's chain (B)", 20.116_782_494_375_872),
+    (9063, "Benoit's link (B)", 0.201_167_824_943_759),
+    (9070, "British ft (1865)", 0.304_800_833_333_333),
+    (9081, "Indian ft (1937)", 0.304_798_41),
+    (9082, "Indian ft (1962)", 0.304_799_6),
+    (9083, "Indian ft (1975)", 0.304_799_5),
+    (9084, "Indian yd", 0.914_398_530_744_441),
+    (9085, "Indian yd (1937)", 0.914_395_23),
+    (9086, "Indian yd (1962)", 0.914_398_8),
+    (9087, "Indian yd (1975)", 0.914_398_5),
+    (9097, "chain", 20.116_8),
+    (9098, "link", 0.201_168),
+    (9099, "Sears' yd (truncated)", 0.914_398),
+    (9300, "Sears' ft (truncated)", 0.304_799_333_333_333),
+    (9301, "Sears' chain (truncated)", 20.116_756),
+    (9302, "Sears' link (truncated)", 0.201_167_56),
 ];
 
 /// Factors that differ by less than this share are of one unit; US survey and international feet differ by 2e-6.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use hairpin::world::Bounds;
 use nalgebra::{Isometry3, Point3, Vector3};
 use roxmltree::Node;
 
@@ -53,6 +54,8 @@ pub(super) struct Reader<'f> {
 const MOST_TRIANGLES: usize = 10_000_000;
 /// A shape reaches no farther than this, m: what does is in another unit.
 const LARGEST: f64 = 50.0;
+/// A mesh smaller than this, m, is in another unit, and would be no body at all.
+const SMALLEST: f64 = 0.001;
 /// Sides of the prism around a cylinder: half a percent of the radius larger.
 const SIDES: usize = 32;
 
@@ -135,6 +138,10 @@ impl<'f> Reader<'f> {
                 let vertices: Vec<Point3<f64>> = vertices.iter().map(scaled).collect();
                 if vertices.iter().any(|p| p.coords.amax() > LARGEST) {
                     return Err(wrong("is larger than 50 m: its unit is another, which scale says"));
+                }
+                let size = Bounds::around(&vertices).map_or(0.0, |bounds| (bounds.max - bounds.min).max());
+                if !vertices.is_empty() && size < SMALLEST {
+                    return Err(wrong("is smaller than 1 mm: its unit is another, which scale says"));
                 }
                 let pieces = outline(&vertices, &triangles);
                 if pieces.is_empty() {

@@ -248,7 +248,10 @@ fn meshes_are_read_where_they_are_and_stood_in_for_where_not() {
     assert!(error.starts_with("line 10: broken.stl: is no STL file"), "{error}");
     // Millimetres taken for metres.
     let error = read(&mesh("package://a/b.obj", "")).unwrap_err().to_string();
-    assert!(error.contains("its unit is another, which scale says"), "{error}");
+    assert!(error.contains("larger than 50 m: its unit is another, which scale says"), "{error}");
+    // Scaled once too often.
+    let error = read(&mesh("package://a/b.obj", " scale='1e-6 1e-6 1e-6'")).unwrap_err().to_string();
+    assert!(error.contains("smaller than 1 mm: its unit is another, which scale says"), "{error}");
 }
 
 #[test]

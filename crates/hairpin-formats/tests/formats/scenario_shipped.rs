@@ -173,16 +173,29 @@ fn meshes_are_read_and_end_up_in_the_scenario() {
     let obj = "v 9 9 9\nv 11 9 9\nv 9 11 9\nv 9 9 11\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     std::fs::write(folder.path().join("rock.obj"), obj).unwrap();
     let text = template::template("quadrotor").unwrap();
-    let read = |file: &str| {
-        let set = ("world.obstacles".to_owned(), format!("[{{ name = \"rock\", mesh = {{ file = \"{file}\" }} }}]"));
+    let read_scaled = |file: &str, scale: &str| {
+        let mesh = format!("{{ file = \"{file}\"{scale} }}");
+        let set = ("world.obstacles".to_owned(), format!("[{{ name = \"rock\", mesh = {mesh} }}]"));
         read_setup(text, "quadrotor.toml", folder.path(), &[set]).map(|setup| setup.scenario)
     };
+    let read = |file: &str| read_scaled(file, "");
     let scenario = read("rock.obj").unwrap_or_else(|report| panic!("{report}"));
     let mesh = flight(&scenario).world.obstacles[0].mesh.as_ref().unwrap();
     assert_eq!((mesh.vertices_m.len(), mesh.triangles.len(), &mesh.file), (4, 4, &None));
     let again = read_setup(&to_toml(&scenario, None).unwrap(), "s.toml", Path::new(""), &[]);
     assert_eq!(again.map(|setup| setup.scenario), Ok(scenario));
     assert_eq!(read("stone.obj").unwrap_err().complaints()[0].field, "world.obstacles[0].mesh.file");
+    let in_mm = obj.replace('9', "9000").replace("11", "11000");
+    std::fs::write(folder.path().join("mm.obj"), in_mm).unwrap();
+    let said = read_scaled("mm.obj", ", scale = 0.001").unwrap();
+    let said = flight(&said).world.obstacles[0].mesh.as_ref().unwrap();
+    assert!((said.vertices_m[1][0] - 11.0).abs() < 1e-9 && said.scale.is_none(), "{said:?}");
+    for scale in ["0", "-1", "nan"] {
+        let wrong = read_scaled("mm.obj", &format!(", scale = {scale}")).unwrap_err();
+        assert_eq!(wrong.complaints()[0].field, "world.obstacles[0].mesh.scale", "{wrong}");
+    }
+    let unsaid = read("mm.obj").unwrap_err();
+    assert!(unsaid.to_string().contains("`scale = 0.001` beside its file"), "{unsaid}");
     std::fs::write(folder.path().join("open.obj"), &obj[..obj.len() - 8]).unwrap();
     assert!(read("open.obj").unwrap_err().complaints()[0].field.starts_with("world.obstacles[0].mesh"));
 }

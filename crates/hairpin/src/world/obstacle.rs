@@ -161,6 +161,28 @@ impl Shape {
         }
     }
 
+    /// Whether some part of the solid lies within the box `walls`, its border included.
+    ///
+    /// Exact for balls, boxes and capsules. Of hulls and meshes the boxes around their triangles count, and whether the
+    /// middle of `walls` is inside: what is far from the walls is never within them.
+    pub fn reaches(&self, walls: &Bounds) -> bool {
+        let middle = nalgebra::center(&walls.min, &walls.max);
+        match self {
+            Shape::Sphere { center, radius } => walls.distance(center) <= *radius,
+            Shape::Box { .. } => self.bounds().distance_to(walls) <= 0.0,
+            Shape::Capsule { a, b, radius } => {
+                let half = (walls.max - walls.min) * 0.5;
+                closed::segment_to_box(&(a - middle), &(b - a), &half) <= *radius
+            }
+            Shape::Hull(solid) | Shape::Mesh(solid) => {
+                let vertices = solid.vertices();
+                let around = |t: &[u32; 3]| Bounds::around(t.iter().map(|&at| &vertices[at as usize]));
+                let mut triangles = solid.triangles().iter().filter_map(around);
+                triangles.any(|triangle| triangle.distance_to(walls) <= 0.0) || solid.signed_distance(&middle) <= 0.0
+            }
+        }
+    }
+
     /// The shape itself if its numbers are a solid's. The variants are public, so [`super::World::new`] asks again.
     pub(super) fn checked(self) -> Result<Self, WorldError> {
         match &self {
@@ -209,4 +231,35 @@ fn finite(field: &str, points: &[[f64; 3]]) -> Result<Vec<Point3<f64>>, WorldErr
         place(&format!("{field}[{index}]"), p)?;
     }
     Ok(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_wholly_outside_of_walls_does_not_reach_them() {
+        let walls = Bounds { min: Point3::origin(), max: Point3::new(10.0, 10.0, 10.0) };
+        let cube = |low: f64, high: f64| {
+            let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { high } else { low });
+            Shape::hull(&(0..8).map(corner).collect::<Vec<_>>())
+        };
+        for (shape, reaches) in [
+            // The corner is √3 away.
+            (Shape::sphere([-1.0; 3], 1.7), false),
+            (Shape::sphere([-1.0; 3], 1.8), true),
+            (Shape::cuboid([5.0, 5.0, -0.5], [9.0, 9.0, 1.0]), true),
+            (Shape::cuboid([5.0, 5.0, -0.6], [9.0, 9.0, 1.0]), false),
+            (Shape::capsule([-5.0, 5.0, 5.0], [15.0, 5.0, 5.0], 0.1), true),
+            // Past an edge, whose box it crosses.
+            (Shape::capsule([-5.0, 4.0, 5.0], [4.0, -5.0, 5.0], 0.1), false),
+            (Shape::capsule([-5.0, 4.0, 5.0], [4.0, -5.0, 5.0], 0.8), true),
+            (cube(-100.0, 100.0), true),
+            (cube(9.0, 11.0), true),
+            (cube(9000.0, 11_000.0), false),
+        ] {
+            let shape = shape.unwrap();
+            assert_eq!(shape.reaches(&walls), reaches, "{shape:?}");
+        }
+    }
 }

@@ -5,6 +5,7 @@ use tiff::tags::Tag;
 use super::decoder::Tiff;
 use crate::terrain::reference::{Model, Reference};
 use crate::terrain::unit::Unit;
+use crate::terrain::vertical::{Depth, Vertical, is_depth, system};
 
 const MODEL_TYPE: u16 = 1024;
 const RASTER_TYPE: u16 = 1025;
@@ -19,6 +20,7 @@ const PROJECTED_CITATION: u16 = 3073;
 const LINEAR_UNIT: u16 = 3076;
 const LINEAR_UNIT_SIZE: u16 = 3077;
 const VERTICAL: u16 = 4096;
+const VERTICAL_CITATION: u16 = 4097;
 const VERTICAL_UNIT: u16 = 4099;
 
 const PIXEL_IS_POINT: u16 = 2;
@@ -49,28 +51,55 @@ pub(super) fn read(tiff: &mut Tiff<'_>) -> Keys {
     let epsg = if model == Model::Projected { projected } else { table.code(GEODETIC) };
     let citations = if model == Model::Projected { PROJECTED_CITATION } else { GEODETIC_CITATION };
     let name = table.text(citations).or_else(|| table.text(CITATION)).unwrap_or_default();
-    let unit = match table.short(LINEAR_UNIT) {
-        Some(OWN) => table.number(LINEAR_UNIT_SIZE).and_then(Unit::of_length),
-        Some(code) => Unit::of_code(code),
-        None => None,
-    };
     let degrees = match table.short(ANGULAR_UNIT) {
         Some(9101) => 1f64.to_degrees(),
         Some(9105 | 9106) => 0.9,
         Some(OWN) => table.number(ANGULAR_UNIT_SIZE).map_or(1.0, f64::to_degrees),
         _ => 1.0,
     };
-    let height_unit = table.short(VERTICAL_UNIT).and_then(Unit::of_code).or_else(|| match table.short(VERTICAL) {
-        // NAVD 88 in feet; other heights of the registry that files have are in metres.
-        Some(6360) => Unit::of_code(9003),
-        Some(8228) => Unit::of_code(9002),
-        Some(3855 | 5701..=5799 | 7837 | 5605..=5623) => Some(Unit::metre()),
-        _ => None,
-    });
     let radius = table.number(SEMI_MAJOR_AXIS);
-    let (epsg, placed) = (epsg.map(u32::from), false);
-    let reference = Reference { model, epsg, unit, height_unit, name, degrees, radius, placed };
+    let plane = Reference { model, epsg: epsg.map(u32::from), name, degrees, radius, ..Reference::default() };
+    let reference = heights(&table, of_plane(&table, plane));
     Keys { reference, at_centers: table.short(RASTER_TYPE) == Some(PIXEL_IS_POINT) }
+}
+
+/// With the unit of x and y.
+fn of_plane(table: &Table<'_>, plane: Reference) -> Reference {
+    let Some(code) = table.code_or_own(LINEAR_UNIT) else { return plane };
+    let unit = match code {
+        OWN => table.number(LINEAR_UNIT_SIZE).and_then(Unit::of_length),
+        code => Unit::of_code(code),
+    };
+    let unknown_unit = unit.is_none().then(|| format!("ProjLinearUnits = {code}"));
+    Reference { unit, unknown_unit, ..plane }
+}
+
+/// With the unit of heights; the key of the unit goes before that of the system, as GDAL has it.
+fn heights(table: &Table<'_>, plane: Reference) -> Reference {
+    let (code, by_unit) = (table.code(VERTICAL), table.code_or_own(VERTICAL_UNIT));
+    let unit = by_unit.and_then(Unit::of_code);
+    let known = code.map(system);
+    let metres = |of: &Unit| unit.as_ref().unwrap_or(of).metres;
+    let depth = match &known {
+        Some(Vertical::Down(of)) => Some(Depth { said: said(VERTICAL_NAME, code), metres: metres(of) }),
+        _ => table.text(VERTICAL_CITATION).filter(|name| is_depth(name)).map(|name| {
+            let said = format!("\"{name}\"");
+            Depth { said, metres: metres(&Unit::metre()) }
+        }),
+    };
+    let (height_unit, unknown_heights) = match (known, by_unit) {
+        (Some(Vertical::Unknown), _) | (Some(Vertical::Datum), None) => (None, Some(said(VERTICAL_NAME, code))),
+        (_, Some(_)) if unit.is_none() => (None, Some(said("VerticalUnits", by_unit))),
+        (Some(Vertical::Up(of)), None) => (Some(of), None),
+        _ => (unit, None),
+    };
+    Reference { height_unit, unknown_heights, depth, ..plane }
+}
+
+const VERTICAL_NAME: &str = "VerticalCS";
+
+fn said(key: &str, code: Option<u16>) -> String {
+    format!("{key} = {}", code.unwrap_or_default())
 }
 
 /// A header of four numbers, then (key, tag of the value, count, value or place) each.
@@ -89,6 +118,11 @@ impl Table<'_> {
 
     fn short(&self, key: u16) -> Option<u16> {
         self.entry(key, Tag::GeoKeyDirectoryTag).map(|(_, value)| value as u16)
+    }
+
+    /// A code of the registry, or that of what the file defines itself.
+    fn code_or_own(&self, key: u16) -> Option<u16> {
+        self.short(key).filter(|code| *code != 0)
     }
 
     /// A code of the registry.

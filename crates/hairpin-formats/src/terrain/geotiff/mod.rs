@@ -13,6 +13,7 @@ use tiff::decoder::DecodingResult;
 use tiff::tags::Tag;
 
 use super::error::TerrainError;
+use super::no_data;
 use super::raster::{Layout, Raster, bounded, held};
 use super::remedy::Remedy;
 use decoder::{Tiff, limits, open};
@@ -33,6 +34,16 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     if samples != 1 {
         return Err(convert(format!("{samples} bands: one band of heights is needed"), "-b 1 "));
     }
+    // The decoder turns heights over where white is zero, and takes numbers of colours for heights.
+    if let Some(picture) = number(&mut tiff, Tag::PhotometricInterpretation)?.filter(|picture| *picture != 1) {
+        let what = match picture {
+            0 => "white is zero, which readers turn over or not",
+            3 => "its values are numbers of colours, not heights",
+            _ => "its values are no shades of grey",
+        };
+        let why = format!("its PhotometricInterpretation is {picture}: {what}");
+        return Err(convert(why, "-co PHOTOMETRIC=MINISBLACK "));
+    }
     let compression = number(&mut tiff, Tag::Compression)?.unwrap_or(1);
     if let Some(packed) = unread(compression) {
         return Err(convert(format!("compressed by {packed}, which is not read here"), "-co COMPRESS=DEFLATE "));
@@ -51,7 +62,7 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
         turn_over(&mut heights, columns);
     }
     let mut reference = keys.reference;
-    reference.height_unit = reference.height_unit.or(band.unit);
+    reference.also_heights_in(band.unit.clone());
     let Band { scale, offset, no_data, .. } = band;
     let layout = Layout { scale, offset, no_data, masked, south_up: placed.south_up, at_centers: keys.at_centers };
     Ok(Raster { grid: placed.grid, heights, reference, layout })
@@ -70,14 +81,11 @@ fn unread(compression: u16) -> Option<String> {
     })
 }
 
-/// Heights below this are the −3.4e38 of tools that forget to say so.
-const LOWEST: f64 = -1e30;
-
 fn scaled(values: DecodingResult, band: &Band) -> Result<Vec<f32>, TerrainError> {
     // Floats are written as text of another precision; whole numbers are what they are.
     let float = |value: f64| -> f32 {
         let none = band.no_data.is_some_and(|no_data| value == no_data || value as f32 == no_data as f32);
-        if none || !value.is_finite() || value < LOWEST { f32::NAN } else { band.height(value) }
+        if none || no_data::is_none(value) { f32::NAN } else { band.height(value) }
     };
     let whole = |value: f64| -> f32 { if band.no_data == Some(value) { f32::NAN } else { band.height(value) } };
     Ok(match values {

@@ -22,6 +22,11 @@ pub(super) fn read(
 ) -> Result<Placed, TerrainError> {
     let broken = |text: &str| TerrainError::Broken(text.into());
     let turned = |why: &str| TerrainError::Convert { why: why.into(), command: Remedy::warp(file) };
+    let level = |step: f64, rest: &[f64]| (step == 0.0 || step == 1.0) && rest.iter().all(|number| *number == 0.0);
+    let in_height = || TerrainError::Convert {
+        why: "its georeference has a step or an origin of heights, which some read and some not".into(),
+        command: Remedy::rewrite(file, ""),
+    };
     // x and y for a column and a row, in cells from the first corner of the raster: at + step · cell.
     let (step, tie, at) =
         match (tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag), tiff.get_tag_f64_vec(Tag::ModelTiepointTag)) {
@@ -30,6 +35,9 @@ pub(super) fn read(
                     return Err(turned(
                         "its pixel scale along y is negative, which some read as south up and some not",
                     ));
+                }
+                if !level(scale.get(2).copied().unwrap_or_default(), &[tie[2], tie[5]]) {
+                    return Err(in_height());
                 }
                 if tie.len() > 6 {
                     return Err(turned("several tie points: the raster is not placed by one"));
@@ -40,6 +48,9 @@ pub(super) fn read(
                 Ok(m) if m.len() == 16 => {
                     if m[1] != 0.0 || m[4] != 0.0 {
                         return Err(turned("the raster is rotated against its coordinates"));
+                    }
+                    if !level(m[10], &[m[2], m[6], m[8], m[9], m[11]]) {
+                        return Err(in_height());
                     }
                     ([m[0], m[5]], [0.0, 0.0], [m[3], m[7]])
                 }

@@ -50,6 +50,14 @@ const DEGREES: &str = "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"W
     PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]";
 const FEET: &str = "PROJCS[\"p\",GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6378137,298.257222101]],PRIMEM[\"Greenwich\",0],\
     UNIT[\"Degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],UNIT[\"Foot_US\",0.3048006096012192]]";
+const MERCATOR: &str = "PROJCS[\"WGS_1984_Web_Mercator_Auxiliary_Sphere\",GEOGCS[\"g\",DATUM[\"d\",\
+    SPHEROID[\"s\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.0174532925199433]],\
+    PROJECTION[\"Mercator_Auxiliary_Sphere\"],UNIT[\"Meter\",1]]";
+const DEPTH: &str = "PROJCS[\"p\",GEOGCS[\"g\",DATUM[\"d\",SPHEROID[\"s\",6378137,298.257222101]],\
+    PRIMEM[\"Greenwich\",0],\
+    UNIT[\"Degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],UNIT[\"Meter\",1]],\
+    VERTCS[\"h\",VDATUM[\"v\"],PARAMETER[\"Direction\",-1],UNIT[\"Meter\",1]]";
+const FAR_BELOW: &str = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n-3.4e38 2 3\n4 5 6\n7 8 9\n";
 const SCALE: &str = "<PAMDataset><PAMRasterBand band=\"1\"><Scale>0.1</Scale></PAMRasterBand></PAMDataset>";
 
 fn fixture(row: &'static str, without: &str, with: &str) -> Sample {
@@ -82,9 +90,12 @@ pub(crate) fn samples() -> Vec<Sample> {
         fixture("geotiff.lerc", "metres.tif", "lerc.tif"),
         grid("grid.dx-dy", GRID.replace("cellsize 0.5", "dx 0.5\ndy 1")),
         grid("grid.no-data", GRID.replace("1 2 3", "NODATA_value nan\nnan 2 3")),
+        grid("grid.far-below", FAR_BELOW.into()),
         grid("grid.short", GRID.replace("7 8 9", "7 8")),
         beside("prj.degrees", of_prj, DEGREES),
         beside("prj.feet", of_prj, FEET),
+        beside("prj.mercator", of_prj, MERCATOR),
+        beside("prj.depth", of_prj, DEPTH),
         beside("aux.scale", of_aux, SCALE),
     ]
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
+use crate::campaign::digits::number;
 use crate::campaign::scenario::{CellObstacle, CellSection, FrameSection, Mistake, frame_of};
 use crate::world::cell::{Cell, Part, Region, Words};
 use crate::world::{Shape, WorldError};
@@ -82,11 +83,33 @@ fn region_of(key: &str, obstacle: &CellObstacle) -> Result<Region, Mistake> {
         return shape(Shape::hull(&points));
     }
     if let Some(it) = mesh {
+        if let Some(scale) = it.scale_mm {
+            let bound = "left out where vertices are given: they are in mm".into();
+            return Err(Mistake { key: format!("{key}.mesh.scale_mm"), value: scale.to_string(), bound });
+        }
         let vertices: Vec<[f64; 3]> = it.vertices_mm.iter().map(|vertex| metres(*vertex)).collect();
-        return shape(Shape::mesh(&vertices, &it.triangles));
+        let solid = Shape::mesh(&vertices, &it.triangles).map_err(wrong)?;
+        return of_a_cells_size(key, &solid).map(|()| Region::Shape(solid));
     }
     let Some(it) = half_space else { unreachable!("one shape is given") };
     region(Region::half_space(it.normal, it.offset_mm / MM))
+}
+
+/// Meshes shorter or longer, m, are in another unit than was taken.
+const MESH_LENGTHS: [f64; 2] = [0.005, 50.0];
+
+/// A mesh in m that is taken for mm is smaller than a thumbnail, and stands in nobody's way.
+fn of_a_cells_size(key: &str, mesh: &Shape) -> Result<(), Mistake> {
+    let bounds = mesh.bounds();
+    let length = (bounds.max - bounds.min).max();
+    let [least, most] = MESH_LENGTHS;
+    if (least..=most).contains(&length) {
+        return Ok(());
+    }
+    let unit =
+        if length < least { "m? `scale_mm = 1000` beside its file" } else { "mm? `scale_mm = 1` beside its file" };
+    let bound = format!("from {} to {} mm long; {unit}", least * MM, most * MM);
+    Err(Mistake { key: format!("{key}.mesh"), value: format!("{} mm long", number(Some(length * MM))), bound })
 }
 
 fn metres(mm: [f64; 3]) -> [f64; 3] {

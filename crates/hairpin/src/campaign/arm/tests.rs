@@ -316,3 +316,21 @@ fn keys_of_the_search_for_the_worst_have_bounds() {
         assert!(found.iter().any(|mistake| mistake.contains(words)), "{key}: {found:?} should say {words:?}");
     }
 }
+
+#[test]
+fn meshes_in_metres_and_scales_of_nothing_are_refused() {
+    let mesh = |edge: f64, scale: Option<f64>| {
+        json!({ "mesh": { "vertices_mm": [[300, 0, 0], [300.0 + edge, 0, 0], [300, edge, 0], [300, 0, edge]],
+            "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], "scale_mm": scale } })
+    };
+    assert!(changed(&[("world.obstacles[1]", mesh(40.0, None))]).is_ok());
+    for (obstacle, words) in [
+        (mesh(0.4, None), "world.obstacles[1].mesh = 0.40 mm long: must be from 5 to 50000 mm long"),
+        (mesh(0.4, None), "m? `scale_mm = 1000` beside its file"),
+        (mesh(1e6, None), "mm? `scale_mm = 1` beside its file"),
+        (mesh(40.0, Some(1000.0)), "mesh.scale_mm = 1000: must be left out where vertices are given"),
+    ] {
+        let found = changed(&[("world.obstacles[1]", obstacle)]).err().unwrap_or_default();
+        assert!(found.iter().any(|mistake| mistake.contains(words)), "{found:?} should say {words:?}");
+    }
+}

@@ -4,7 +4,7 @@ use super::BoatSetup;
 use super::keys::{ACROSS_CURRENT, BoatExecute, BoatGenerate, BoatScenario, WatersSection};
 use crate::campaign::attachments::Attachments;
 use crate::campaign::bounds::{LARGEST_WATERS_M, LONGEST_PASSAGE_S, LONGEST_TRIP_S, MOST_WAYPOINTS};
-use crate::campaign::check::{Findings, check_executed, check_search, check_spec};
+use crate::campaign::check::{Findings, check_executed, check_places_within, check_search, check_spec};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{EXECUTED, Keys, Mistake, SearchMethod};
 use crate::judgement::Stress;
@@ -36,6 +36,9 @@ impl Build for BoatSetup {
         let boat = found.take(Self::boat(keys, known));
         check_world(&keys.world, &mut found);
         let keep_out = found.take(Self::keep_out(keys, known));
+        if let Some(places) = &keep_out {
+            check_places_within(places, [[0.0; 2], keys.world.size_m], "inside the waters", &mut found);
+        }
         check_task(keys, boat.as_deref(), keep_out.as_deref(), &mut found);
         check_generate(&keys.generate, &mut found);
         check_score(keys, files, &mut found);

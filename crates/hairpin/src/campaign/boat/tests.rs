@@ -42,6 +42,11 @@ fn every_bound_holds() {
         ("world.keep_in_margin_m", json!(8.0), "must be ≥ 0 and < 8 m"),
         ("world.current_m_s", json!([0.0, 200.0]), "world.current_m_s[1] = 200: must be"),
         ("world.keep_out[0].circle.radius_m", json!(0.0), "world.keep_out[0].circle.radius_m = 0: must be"),
+        (
+            "world.keep_out[0].circle.center_m",
+            json!([25.0, 17.0]),
+            "world.keep_out[0] = `buoy`, x 24.50 … 25.50, y 16.50 … 17.50 m: must be at least in part inside the waters",
+        ),
         ("task.length", json!(1), "task.length = 1: must be 2 …"),
         ("task.end_m", json!([23.5, 3.0]), "task.end_m[0] = 23.5: must be inside the waters: 1 … 23 m"),
         ("task.start_m", json!([10.5, 8.0]), "the hull's radius, from `buoy`"),

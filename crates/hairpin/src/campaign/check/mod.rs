@@ -8,11 +8,13 @@
 //! key as the user wrote it, the value and the bound in words.
 
 mod findings;
+mod places;
 mod search;
 mod spec;
 mod vary;
 
 pub(super) use findings::Findings;
+pub(super) use places::check_places_within;
 pub(super) use search::{check_executed, check_search};
 pub(super) use spec::check_spec;
 pub(super) use vary::check_vary;

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use crate::campaign::attachments::Attachments;
+use crate::campaign::digits::number;
 use crate::campaign::kind::Kind;
 use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{
@@ -13,7 +14,7 @@ use crate::campaign::scenario::{
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
 use crate::simulation::{ControllerKind, OwnController};
-use crate::world::{Obstacle, Shape, World, WorldError};
+use crate::world::{Bounds, Obstacle, Shape, World, WorldError};
 
 /// A resolved scenario of flights and what it describes.
 ///
@@ -117,7 +118,45 @@ fn world_of(section: &WorldSection) -> Result<World, Mistake> {
     let Some(size) = section.size_m else {
         return Err(Mistake { key: "world.size_m".into(), value: "missing".into(), bound: "given".into() });
     };
-    World::new(Vector3::from(size), section.keep_in_margin_m.unwrap_or(0.0), obstacles).map_err(|e| mistake("", e))
+    let margin = section.keep_in_margin_m.unwrap_or(0.0);
+    let world = World::new(Vector3::from(size), margin, obstacles).map_err(|error| mistake("", error))?;
+    stands_within(&world)?;
+    Ok(world)
+}
+
+/// A mesh that is so many times as long as the world is in another unit.
+const LONGEST_MESH: f64 = 100.0;
+
+/// A solid outside of the walls stands in nobody's way: nothing is ever measured of it, and all that keeps clear of it
+/// would pass.
+///
+/// # Errors
+/// The first obstacle of which no part lies within the walls, or whose mesh is far longer than they are.
+fn stands_within(world: &World) -> Result<(), Mistake> {
+    let walls = Bounds { min: Point3::origin(), max: world.size().into() };
+    for (index, Obstacle { name, shape }) in world.obstacles().iter().enumerate() {
+        let (bounds, is_mesh) = (shape.bounds(), matches!(shape, Shape::Mesh(_)));
+        let is_huge = is_mesh && (bounds.max - bounds.min).max() > LONGEST_MESH * world.size().max();
+        if shape.reaches(&walls) && !is_huge {
+            continue;
+        }
+        let asked = if is_huge { "cut to the world" } else { "at least in part inside the world" };
+        let units = if is_mesh { "mm? `scale = 0.001` beside its file" } else { "mm? its keys are in m" };
+        return Err(Mistake {
+            key: format!("world.obstacles[{index}]"),
+            value: format!("`{name}`, {}", extent(&bounds)),
+            bound: format!("{asked}, {}, or left out; {units}", extent(&walls)),
+        });
+    }
+    Ok(())
+}
+
+/// `x 0.00 … 40.00, y 0.00 … 30.00, z 0.00 … 14.00 m`
+fn extent(bounds: &Bounds) -> String {
+    let side = |axis: usize, name: &str| {
+        format!("{name} {} … {}", number(Some(bounds.min[axis])), number(Some(bounds.max[axis])))
+    };
+    format!("{}, {}, {} m", side(0, "x"), side(1, "y"), side(2, "z"))
 }
 
 fn mistake(prefix: &str, error: WorldError) -> Mistake {

@@ -31,8 +31,12 @@ pub struct NamedMesh<'a> {
     pub key: String,
     /// The file.
     pub file: &'a mut Option<String>,
-    /// What the file's unit is in the vertices' own; 1 where there is none.
-    pub scale: Option<&'a mut Option<f64>>,
+    /// What the file's unit is in the vertices' own.
+    pub scale: &'a mut Option<f64>,
+    /// Name of the key that says it.
+    pub scale_key: &'static str,
+    /// How many of the vertices' unit a metre is.
+    pub per_metre: f64,
     /// Name of the key that its vertices have.
     pub vertices_key: &'static str,
     /// Its vertices.

@@ -138,7 +138,8 @@ impl QuadrotorDescription {
     ///
     /// # Errors
     /// The first key whose value is out of bounds, with the bound: not finite, absurd in magnitude, a layout that
-    /// cannot make roll, pitch and yaw, less thrust than weight, a robot that cannot hover level.
+    /// cannot make roll, pitch and yaw, less thrust than weight, a robot that cannot hover level, a ball around the body
+    /// that does not hold its rotors' hubs.
     pub fn build(&self) -> Result<Quadrotor, QuadrotorError> {
         if self.name.trim().is_empty() {
             return Err(QuadrotorError::new("name", "\"\"", "a name for reports"));
@@ -165,6 +166,7 @@ impl QuadrotorDescription {
         let clearance_radius = derive(self.clearance_radius_m, "clearance_radius_m", 1e-4, 1e2, &|| {
             derived::arm(&rotors) + derived::rotor_radius(&rotors)
         })?;
+        holds_the_rotors(clearance_radius, &rotors)?;
         let most = 4.0 * thrust_coefficient * square(rotor_speed.1);
         let drag_linear = optional("drag_linear_n_s_m", self.drag_linear_n_s_m, 1e3)?;
         let given_drag = self.drag_quadratic_n_s2_m2.or(self.drag_linear_n_s_m.map(|_| 0.0));
@@ -365,6 +367,20 @@ fn check_hover(robot: &Quadrotor) -> Result<(), QuadrotorError> {
     }
 }
 
+/// The ball that holds the whole body holds the hubs of its rotors, whose discs reach farther still.
+fn holds_the_rotors(radius: f64, rotors: &[Rotor; 4]) -> Result<(), QuadrotorError> {
+    let arm = derived::arm(rotors);
+    // A radius that was taken from the layout is the arm but for rounding.
+    if radius >= arm * (1.0 - 1e-9) {
+        return Ok(());
+    }
+    let bound = format!(
+        "at least {arm:.4} m, how far the farthest rotor's hub is from the centre, and its disc beside that: nothing is \
+         measured of what reaches out of the ball"
+    );
+    Err(QuadrotorError::new("clearance_radius_m", radius, bound))
+}
+
 /// `value` if it is a number in [low, high].
 fn within(field: &str, value: f64, low: f64, high: f64) -> Result<f64, QuadrotorError> {
     if value >= low && value <= high {
@@ -435,7 +451,8 @@ mod tests {
     #[test]
     fn every_bad_number_is_refused_by_its_key() {
         type Spoil = fn(&mut QuadrotorDescription);
-        let cases: [(&str, Spoil); 20] = [
+        let cases: [(&str, Spoil); 21] = [
+            ("clearance_radius_m", |d| d.clearance_radius_m = Some(0.14)),
             ("name", |d| d.name.clear()),
             ("mass_kg", |d| d.mass_kg = f64::NAN),
             ("mass_kg", |d| d.mass_kg = -1.0),

@@ -1,6 +1,7 @@
 //! The bounds of every key of a drive.
 
 mod environment;
+mod places;
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use crate::campaign::scenario::{
 use crate::feasibility::reach::drive::GroundScore;
 use crate::math::simd::Simd;
 use crate::robot::rover::{MOST_SPEED, Rover, Steering};
-use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
+use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
@@ -41,7 +42,7 @@ impl Build for DriveSetup {
         check_task(&keys.task, rover, &mut found);
         let map = Self::map(keys, files, known);
         let map = match found.0.is_empty() {
-            true => found.take(map).inspect(|map| check_places(&keys.task, map, &mut found)),
+            true => found.take(map).inspect(|map| places::check(keys, keep_out.as_deref(), map, &mut found)),
             // What is wrong with the ground is told once all before it is right.
             false => map.ok(),
         };
@@ -135,21 +136,6 @@ fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
     if let Some(rover) = rover {
         let most = rover.limits.curvature;
         found.from("task.start.curvature_1_m", task.start.curvature_1_m, -most, most, " 1/m, the robot's");
-    }
-}
-
-/// It must be possible to stand at both ends.
-fn check_places(task: &DriveTask, map: &ElevationMap, found: &mut Findings) {
-    for (key, place) in [("task.start", Some([task.start.x_m, task.start.y_m])), ("task.end_m", task.end_m)] {
-        let Some([x, y]) = place else { continue };
-        if let Err(error) = map.patch(x, y) {
-            let (low, high) = map.extent();
-            let bound = format!(
-                "on the map, x {} … {} m, y {} … {} m, and not on a cell without data: {error}",
-                low[0], high[0], low[1], high[1]
-            );
-            found.require(false, key, format!("({x}, {y})"), &bound);
-        }
     }
 }
 

@@ -16,6 +16,13 @@ fn scenario() -> Value {
     })
 }
 
+/// An obstacle with one corner at `from`, its edges along the axes.
+fn tetrahedron(from: [f64; 3], edge: f64) -> Value {
+    let [x, y, z] = from;
+    json!({ "mesh": { "vertices_m": [from, [x + edge, y, z], [x, y + edge, z], [x, y, z + edge]],
+        "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] } })
+}
+
 fn mistakes(changes: &[(&str, Value)]) -> Vec<String> {
     let mut value = scenario();
     for (key, new) in changes {
@@ -59,6 +66,20 @@ fn every_bound_holds() {
                 "triangles": [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 4]] } }),
             "mesh.triangles[3] = [1, 2, 4]: must be three indices below 4",
         ),
+        (
+            "world.obstacles[0].box.center_m",
+            json!([120.0, 8.0, 5.0]),
+            "world.obstacles[0] = `mast`, x 119.0 … 121.0, y 7.00 … 9.00, z 0.00 … 10.00 m: must be at least in part \
+             inside the world, x 0.00 … 30.00, y 0.00 … 30.00, z 0.00 … 30.00 m, or left out; mm? its keys are in m",
+        ),
+        (
+            "world.obstacles[0]",
+            json!({ "sphere": { "center_m": [31.0, 31.0, 5.0], "radius_m": 1.4 } }),
+            "world.obstacles[0] = `obstacle 0`, x 29.60 … 32.40",
+        ),
+        ("world.obstacles[0]", tetrahedron([9000.0; 3], 2000.0), "m, or left out; mm? `scale = 0.001` beside its file"),
+        ("world.obstacles[0]", tetrahedron([0.0; 3], 9000.0), "must be cut to the world, x 0.00 … 30.00"),
+        ("world.obstacles[0].mesh", json!({ "scale": 2.0, "vertices_m": [], "triangles": [] }), "mesh.scale = 2: must"),
         ("task.length", json!(1), "task.length = 1: must be 2 … 10 000"),
         ("task.length", json!(1_000_000), "task.length = 1000000: must be 2 … 10 000"),
         ("task.start_m", json!([12.0, 8.0, 5.0]), "must be outside obstacle `mast`; it is 1.00 m inside"),

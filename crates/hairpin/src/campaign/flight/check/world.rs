@@ -85,6 +85,9 @@ fn check_obstacle(key: &str, obstacle: &ObstacleSection, found: &mut Findings) {
             found.require(false, &format!("{key}.file"), format!("\"{file}\""), "resolved to its triangles first");
             return;
         }
+        if let Some(scale) = mesh.scale {
+            found.require(false, &format!("{key}.scale"), scale, "left out where vertices are given: they are in m");
+        }
         points(&format!("{key}.vertices_m"), &mesh.vertices_m, found);
         let key = format!("{key}.triangles");
         let count = mesh.triangles.len();

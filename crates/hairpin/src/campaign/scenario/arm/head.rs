@@ -109,7 +109,9 @@ impl Keys for ArmScenario {
             Some(NamedMesh {
                 key: format!("world.obstacles[{index}].mesh.file"),
                 file: &mut mesh.file,
-                scale: Some(&mut mesh.scale_mm),
+                scale: &mut mesh.scale_mm,
+                scale_key: "scale_mm",
+                per_metre: 1000.0,
                 vertices_key: "vertices_mm",
                 vertices: &mut mesh.vertices_mm,
                 triangles: &mut mesh.triangles,

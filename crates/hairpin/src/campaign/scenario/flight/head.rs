@@ -100,7 +100,9 @@ impl Keys for FlightScenario {
             Some(NamedMesh {
                 key: format!("world.obstacles[{index}].mesh.file"),
                 file: &mut mesh.file,
-                scale: None,
+                scale: &mut mesh.scale,
+                scale_key: "scale",
+                per_metre: 1.0,
                 vertices_key: "vertices_m",
                 vertices: &mut mesh.vertices_m,
                 triangles: &mut mesh.triangles,

@@ -134,13 +134,17 @@ pub struct HullSection {
     pub points_m: Vec<[f64; 3]>,
 }
 
-/// `mesh = { vertices_m, triangles }` or `mesh = { file }` (STL, OBJ or Collada, resolved into the former when read).
+/// `mesh = { vertices_m, triangles }` or `mesh = { file, scale }` (STL, OBJ or Collada, resolved into the former when
+/// read).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSection {
     /// An STL, OBJ or Collada file, relative to the scenario file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// How many m the file's unit is: 0.001 of one in mm; 1 if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
     /// Vertices.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub vertices_m: Vec<[f64; 3]>,

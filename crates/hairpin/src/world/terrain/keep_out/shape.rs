@@ -72,8 +72,22 @@ impl KeepOutShape {
         }
     }
 
+    /// Whether some of it lies within `low` … `high`, borders included; of a polygon the box around it counts.
+    pub fn reaches(&self, low: [f64; 2], high: [f64; 2]) -> bool {
+        match self {
+            Self::Circle { center_m, radius_m } => {
+                let gap = [0, 1].map(|axis| (low[axis] - center_m[axis]).max(center_m[axis] - high[axis]).max(0.0));
+                libm::hypot(gap[0], gap[1]) <= *radius_m
+            }
+            Self::Polygon { .. } => {
+                let [least, most] = self.bounds();
+                (0..2).all(|axis| most[axis] >= low[axis] && least[axis] <= high[axis])
+            }
+        }
+    }
+
     /// Least and largest x and y.
-    pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
             Self::Circle { center_m: [x, y], radius_m: r } => [[x - r, y - r], [x + r, y + r]],
             Self::Polygon { points_m } => {
