@@ -19,6 +19,8 @@ const QUATERNION_TOLERANCE: f64 = 1e-3;
 /// What is flown after the time limit before hairpin calls it off, s.
 const OVERTIME_S: f64 = 10.0;
 /// Bound of the memory that one mission may take: 10⁶ poses are 100 MB.
+/// Beyond it a simulation has diverged, m/s.
+const FASTEST_M_S: f64 = 1e6;
 const MOST_POSES: usize = 1_000_000;
 
 /// The promise that a pose, or the whole stream, breaks. Poses are counted from 0.
@@ -41,6 +43,12 @@ pub enum PoseError {
     #[error("pose {index} (t_s = {time}): p_m[{axis}] = {value:e}: must be within ±{FARTHEST_ON_EARTH_M:e} m")]
     Far { index: usize, time: f64, axis: usize, value: f64 },
     /// A leg that the mission has not.
+    /// A velocity that no robot has.
+    #[error("pose {index} (t_s = {time}): v_m_s[{axis}] = {value:e}: must be within ±{FASTEST_M_S:e} m/s")]
+    Fast { index: usize, time: f64, axis: usize, value: f64 },
+    /// Velocities that are not those of the places.
+    #[error(transparent)]
+    Velocity(#[from] Disagreement),
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
     Leg { index: usize, time: f64, leg: u64, last: u64 },
     /// A leg that was over.
@@ -114,6 +122,10 @@ impl<'a> Recording<'a> {
             return Err(PoseError::Far { index, time, axis, value: pose.p_m[axis] });
         }
         if let (0, Some(start)) = (index, self.mission.waypoints.first()) {
+        let velocity = pose.v_m_s.unwrap_or_default();
+        if let Some(axis) = (0..3).find(|&axis| velocity[axis].is_nan() || velocity[axis].abs() > FASTEST_M_S) {
+            return Err(PoseError::Fast { index, time, axis, value: velocity[axis] });
+        }
             let is_at = self.is_at(&Point3::from(pose.p_m), start);
             elsewhere(pose.p_m, start, (self.mission.accept, is_at)).map_or(Ok(()), Err)?;
         }
