@@ -7,7 +7,7 @@ use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
 use super::judge::Gravity;
-use super::scenario::Asked;
+use super::scenario::{Asked, UNMEASURED};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
 
@@ -18,8 +18,15 @@ const CONFIDENCE: f64 = 0.95;
 /// nothing was feasible.
 ///
 /// `results` belong to `cases`, and may be fewer. Without cases the verdict is `NOTHING FEASIBLE` (3), or
-/// `INCONCLUSIVE` (5) where a time ended the search.
-pub fn verdict(
+/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure.
+pub fn verdict(setup: &Setup, cases: &[Case], judged: (&[CaseResult], Option<&Baseline>), tally: &Tally) -> Verdict {
+    let runs = judged.0.len() * setup.scenario.executor().repeat as usize;
+    verdict_on(setup, cases, judged, tally, runs)
+}
+
+/// [`verdict`], where so many of the cases' `runs` came to a flight: those that a program refused are told beside a
+/// violation, and are none of those that the worst is the worst of.
+pub fn verdict_on(
     setup: &Setup,
     cases: &[Case],
     (results, baseline): (&[CaseResult], Option<&Baseline>),
@@ -27,7 +34,11 @@ pub fn verdict(
 ) -> Verdict {
     let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
-        return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally, None) };
+        return match tally.nothing.as_deref() {
+            _ if tally.stopped => nothing_found(setup, tally, asked),
+            Some(UNMEASURED) => nothing_measured(setup, tally, asked),
+            _ => nothing_feasible(setup, tally, None),
+        };
     }
     let count = |status: Status| results.iter().filter(|result| result.status == status).count();
     let claims: Vec<Claim> = Evidence::ALL
@@ -203,6 +214,14 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let searched = format!("{} graphs searched", tally.graphs);
     let how = [searched.as_str(), setup.scenario.reach()];
     let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+/// The verdict of exit 5 on a search whose executions had nothing of what was searched for: what is feasible was found,
+/// and of how stressful it is nothing is known.
+fn nothing_measured(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
+    let executed: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+    let executed = format!("{} executed", grouped(executed));
+    judgement::inconclusive(&format!("0/{asked}"), &[&executed, setup.scenario.reach()], UNMEASURED)
+}
+
     let what = format!("stopped before the first trajectory was found{why}");
     judgement::inconclusive(&format!("0/{asked}"), &how, &what)
 }

@@ -102,6 +102,10 @@ impl Default for SearchSection {
     }
 }
 
+/// Why nothing was found where all that was executed went without the measure that is searched for, in a sentence's
+/// part.
+pub(in crate::campaign) const UNMEASURED: &str = "no execution came to a measure of what is searched for";
+
 /// The key of what is searched for.
 pub const TARGET_KEY: &str = "generate.search.target";
 
