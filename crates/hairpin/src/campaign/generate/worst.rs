@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::graphs::Graphs;
 use super::known::Known;
-use super::targets::{Margins, targets};
+use super::targets::{Margins, column, targets};
 use crate::campaign::answers::{Answers, Executed};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
@@ -269,6 +269,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
         sampler: Some(graphs.solver.drawn_how().into()),
         apart: Some(apart),
         nothing,
+        told_in: Some(column(setup)),
         ..Tally::default()
     };
     tally.complete &= !tally.stopped;

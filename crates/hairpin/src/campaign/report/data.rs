@@ -192,6 +192,9 @@ pub struct ReportData {
     pub stress: Stress,
     /// Of such searches: the largest stress so far in every graph.
     pub curves: Vec<Curve>,
+    /// What their curves are told in: the stress as columns are named, or `margin_in_spreads` of several limits,
+    /// `target` of a function of the user's.
+    pub told_in: String,
     /// Of adaptive campaigns.
     pub rounds: Vec<RoundTally>,
 }

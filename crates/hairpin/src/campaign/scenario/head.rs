@@ -7,8 +7,9 @@ use serde_json::Value;
 
 use super::{
     Asked, Distribution, Environment, Mistake, Named, Origin, Projected, Record, SearchMethod, SearchSection, Subject,
-    Terms,
+    Target, Terms,
 };
+use crate::judgement::Stress;
 use crate::trajectory::program::{Tool, WorkObject};
 
 /// Who executes a campaign's trajectories, and how often.
@@ -267,6 +268,19 @@ pub trait Keys: Any {
     /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours or a command.
     /// Trajectories that are there already are anybody's to execute.
     ///
+    /// What is searched for as it is measured beside all other cases: the target or the stress, and where the method
+    /// `worst` searches for the only limit of `[spec]`, what that bounds.
+    ///
+    /// Of several limits, and of a target of the user's, the usual stress.
+    fn sought(&self) -> Stress {
+        let Head { search, terms, .. } = self.head();
+        let by_limits = search.method == SearchMethod::Worst && search.target.is_none();
+        match terms.limited()[..] {
+            [(only, _)] if by_limits && search.stress == Stress::default() => only,
+            _ => search.target.as_ref().and_then(Target::stress).unwrap_or(search.stress),
+        }
+    }
+
     /// # Errors
     /// The method of search, or the score.
     fn check_search(&self) -> Result<(), Mistake> {

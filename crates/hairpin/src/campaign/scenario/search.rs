@@ -265,9 +265,20 @@ impl SearchSection {
         self.executions.saturating_mul(self.cases)
     }
 
-    /// What is searched for as it is measured beside all other cases; of a target of the user's the usual stress.
-    pub fn sought(&self) -> Stress {
-        self.target.as_ref().and_then(Target::stress).unwrap_or(self.stress)
+    /// Keys that stand there with another value than the usual one and that the method `worst` has no use for, with
+    /// their values; none of other methods.
+    pub fn passed_over(&self) -> Vec<(&'static str, String)> {
+        let usual = Self::default();
+        let beside_target = self.target.is_some() && self.stress != usual.stress;
+        let given = [
+            ("width", (self.width != usual.width).then(|| self.width.to_string())),
+            ("per_graph", (self.per_graph != usual.per_graph).then(|| self.per_graph.to_string())),
+            ("aggregate", (self.aggregate == Aggregate::Max).then(|| "\"max\"".to_owned())),
+            ("rounds", self.rounds.map(|rounds| rounds.to_string())),
+            ("stress", beside_target.then(|| format!("\"{}\"", self.stress.word()))),
+        ];
+        let worst = self.method == SearchMethod::Worst;
+        given.into_iter().filter_map(|(key, value)| Some((key, value.filter(|_| worst)?))).collect()
     }
 
     /// Whether waypoints are moved off their graphs.
