@@ -55,6 +55,7 @@ mod queue;
 mod recording;
 #[cfg(test)]
 mod tests;
+mod velocities;
 mod watchdog;
 mod wire;
 mod worker;
@@ -73,5 +74,6 @@ pub use process::kill_all;
 pub(crate) use process::{end, start};
 pub use queue::fly_all;
 pub use recording::{PoseError, Recording};
+pub use velocities::{Disagreement, Misread};
 pub use wire::{Said, Speaker, Transcript, Wire};
 pub use worker::{Limits, QUIET, Worker};

@@ -54,7 +54,7 @@ def good(m):
     points, t = m["waypoints_m"], 0.0
     for leg, (a, b) in enumerate(zip(points, points[1:])):
         for i in range(11 if leg == len(points) - 2 else 10):
-            pose(t, [u + (v - u) * i / 10 for u, v in zip(a, b)], leg, v_m_s=[0, 0, 0])
+            pose(t, [u + (v - u) * i / 10 for u, v in zip(a, b)], leg, v_m_s=[v - u for u, v in zip(a, b)])
             t += 0.1
     say(type="end", reason="done")
 def fly(m):
