@@ -11,9 +11,6 @@ use super::scenario::{Asked, UNMEASURED};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
 
-/// Confidence of intervals where the spec names none.
-const CONFIDENCE: f64 = 0.95;
-
 /// The verdict on a campaign: on its results, beside the cases by chance that were run alike if there are any; or that
 /// nothing was feasible.
 ///
@@ -55,7 +52,7 @@ pub fn verdict_on(
     let how: Vec<&str> = how.iter().map(String::as_str).collect();
     let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
     let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
-    let confidence = setup.scenario.confidence().unwrap_or(CONFIDENCE);
+    let confidence = setup.scenario.confidence_of_intervals();
     let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
     let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();

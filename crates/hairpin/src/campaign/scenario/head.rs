@@ -40,6 +40,9 @@ pub struct Executor<'a> {
 /// Random feasible cases where the scenario does not say how many.
 pub(in crate::campaign) const BASELINE: u64 = 20;
 
+/// Confidence of intervals where the spec names none.
+const CONFIDENCE: f64 = 0.95;
+
 /// When a run is given up: after a time that is given, else after what it may be expected to take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patience {
@@ -233,6 +236,11 @@ pub trait Keys: Any {
         self.head().confidence
     }
 
+    /// Confidence of all intervals that are told of its cases, runs and draws: that of the spec, 0.95 where it says none.
+    fn confidence_of_intervals(&self) -> f64 {
+        self.confidence().unwrap_or(CONFIDENCE)
+    }
+
     /// Limit of the deviation, m.
     fn deviation_limit(&self) -> Option<f64> {
         self.head().terms.limits.deviation
@@ -260,14 +268,6 @@ pub trait Keys: Any {
         Err(Mistake { key: "spec".into(), value, bound })
     }
 
-    /// Whether trajectories are executed while they are searched for.
-    fn executes(&self) -> bool {
-        self.search().executes(self.score())
-    }
-
-    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours or a command.
-    /// Trajectories that are there already are anybody's to execute.
-    ///
     /// What is searched for as it is measured beside all other cases: the target or the stress, and where the method
     /// `worst` searches for the only limit of `[spec]`, what that bounds.
     ///
@@ -281,6 +281,14 @@ pub trait Keys: Any {
         }
     }
 
+    /// Whether trajectories are executed while they are searched for.
+    fn executes(&self) -> bool {
+        self.search().executes(self.score())
+    }
+
+    /// Whether it can be searched as it asks for: what executes in the loop is a controller of ours or a command.
+    /// Trajectories that are there already are anybody's to execute.
+    ///
     /// # Errors
     /// The method of search, or the score.
     fn check_search(&self) -> Result<(), Mistake> {
