@@ -77,7 +77,7 @@ fn every_bound_holds() {
         ("generate.score", json!("fast"), "generate.score = \"fast\": must be one of random, "),
         ("generate.score", json!("learned:m.json"), "read with its scenario"),
         ("generate.limits.max_tilt_deg", json!(0.0), "max_tilt_deg = 0: must be > 0"),
-        ("execute.logs", json!("*.ulg"), "judging logs is not in this version"),
+        ("execute.logs", json!("*.ulg"), "`hairpin judge LOGS --campaign OUT` judges logs of flights"),
         ("execute.step_s", json!(0.01), "execute.step_s = 0.01: must be ≥ 0.00001 and ≤ 0.001"),
         ("execute.command", json!(" "), "must be a program and its arguments"),
         ("execute.repeat", json!(0), "execute.repeat = 0: must be 1"),
