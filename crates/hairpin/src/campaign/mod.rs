@@ -117,5 +117,5 @@ pub use user_code::UserCode;
 pub use user_controller::UserController;
 pub use user_score::LegScorer;
 pub use user_target::RunMeter;
-pub use verdict::{how_obtained, verdict};
+pub use verdict::{how_obtained, verdict, verdict_on};
 pub use verify::verify;

@@ -28,6 +28,7 @@ pub fn verdict_on(
     cases: &[Case],
     (results, baseline): (&[CaseResult], Option<&Baseline>),
     tally: &Tally,
+    runs: usize,
 ) -> Verdict {
     let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
@@ -65,11 +66,15 @@ pub fn verdict_on(
     };
     let doubt = results.iter().find(is_doubt);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
-    let beside =
-        baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
+    let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+    let flown = format!("{} flown", grouped(searched + runs as u64));
+    let beside = baseline.map(|baseline| (flown, baseline.in_words(setup)));
+    let repeat = setup.scenario.executor().repeat as usize;
+    let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
         how: &how,
-        runs: setup.scenario.executor().repeat as usize,
+        runs: repeat,
+        unflown: [carried_out.saturating_sub(runs), carried_out],
         cases: results.len(),
         limited: setup.scenario.asked() == Asked::Limits,
         asked,
@@ -104,12 +109,6 @@ fn cut_words(tally: &Tally, [not_executed, not_judged]: [usize; 2], of: usize) -
         .chain(cases(not_judged, "not judged"))
         .collect();
     (!parts.is_empty()).then(|| format!("cut short by the budget of time: {}", parts.join(", ")))
-}
-
-/// Runs of all cases, and the executions of a search that executes.
-fn flown(setup: &Setup, results: &[CaseResult], tally: &Tally) -> u64 {
-    let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
-    searched + results.len() as u64 * setup.scenario.executor().repeat
 }
 
 /// `violations run again 10 times each: 5 of 7 violate every time, least often 0117, 3/10 [6.7, 65.2] %`.
@@ -211,16 +210,16 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let searched = format!("{} graphs searched", tally.graphs);
     let how = [searched.as_str(), setup.scenario.reach()];
     let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    let what = format!("stopped before the first trajectory was found{why}");
+    judgement::inconclusive(&format!("0/{asked}"), &how, &what)
+}
+
 /// The verdict of exit 5 on a search whose executions had nothing of what was searched for: what is feasible was found,
 /// and of how stressful it is nothing is known.
 fn nothing_measured(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let executed: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
     let executed = format!("{} executed", grouped(executed));
     judgement::inconclusive(&format!("0/{asked}"), &[&executed, setup.scenario.reach()], UNMEASURED)
-}
-
-    let what = format!("stopped before the first trajectory was found{why}");
-    judgement::inconclusive(&format!("0/{asked}"), &how, &what)
 }
 
 /// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change
