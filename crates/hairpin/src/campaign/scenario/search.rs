@@ -297,6 +297,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_worst_has_no_use_for_is_known() {
+        let usual = SearchSection { method: SearchMethod::Worst, ..SearchSection::default() };
+        assert!(usual.passed_over().is_empty());
+        let idle = SearchSection { per_graph: 3, rounds: Some(2), stress: Stress::Time, ..usual };
+        let keys = |search: &SearchSection| search.passed_over().into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+        assert_eq!(keys(&idle), ["per_graph", "rounds"], "a stress without a target is what is searched for");
+        let aimed = SearchSection { target: Some(Target::Deviation), ..idle };
+        assert_eq!(keys(&aimed), ["per_graph", "rounds", "stress"]);
+        assert_eq!(keys(&SearchSection { method: SearchMethod::Beam, ..aimed }), Vec::<&str>::new());
+    }
+
+    #[test]
     fn rounds_follow_from_executions() {
         let rounds = |cases, executions, rounds| {
             SearchSection { cases, executions, rounds, ..SearchSection::default() }.adaptive_rounds()
