@@ -220,12 +220,12 @@ def chase(t_s, state, control):
     return control
 
 
-def chasing(derivative):
+def chasing(derivative, *as_places):
     return hairpin.dynamics(
         derivative,
         lambda t, x, to: np.clip(to["target_m"] - x, -2.0, 2.0),
         start=lambda given: [one["waypoints_m"][0] for one in given] if isinstance(given, list) else given["waypoints_m"][0],
-        pose=lambda x: {"p_m": x, "q_wxyz": np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*x.shape[:-1], 4)), "v_m_s": x},
+        pose=lambda x: {"p_m": x, "q_wxyz": np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*x.shape[:-1], 4)), **dict.fromkeys(as_places, x)},
         step_s=0.05,
     )
 
@@ -233,7 +233,7 @@ def chasing(derivative):
 def test_many_missions_are_integrated_as_each_by_itself():
     ways = [[[0, 0, 0], [2, 0, 0]], [[1, 1, 1], [1, 4, 1], [5, 4, 1]], [[0, 0, 0], [900, 0, 0]], [[3, 3, 3]]]
     missions = [{"waypoints_m": way, "accept_m": 0.1, "time_limit_s": 20.0} for way in ways]
-    many, one = chasing(chase), chasing(lambda t, x, u: u)
+    many, one = chasing(chase, "v_m_s"), chasing(lambda t, x, u: u, "v_m_s")
     for together, alone in zip(many(missions), map(one, missions), strict=True):
         assert together.keys() == alone.keys() and together["ended"] == alone["ended"]
         for key in ("t_s", "p_m", "q_wxyz", "v_m_s", "leg"):

@@ -179,6 +179,16 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
     Ok((waypoints, true))
 }
 
+/// The columns of a file that [`read`] does not read, in their order; none of a file that cannot be read.
+pub fn passed_over(path: &Path) -> Vec<String> {
+    let Ok(bytes) = bounds::read_table(path) else { return Vec::new() };
+    let text = String::from_utf8_lossy(&bytes);
+    let header = Table::of(&text, Cut::COMMAS).names;
+    let names = (0..header.len()).map(|place| header.cell(place).to_owned());
+    let of_others = |name: &String| !COLUMNS.contains(&name.as_str()) && !geodetic::PLACE.contains(&name.as_str());
+    names.filter(of_others).collect()
+}
+
 /// A row in metres.
 fn metres(path: &Path, row: &Row, places: [usize; 3], farthest: f64) -> Result<Point3<f64>, WaypointsError> {
     let mut point = Point3::origin();

@@ -52,7 +52,7 @@ pub(crate) fn fly_searched(work: &Work, deadline: Deadline, watch: &dyn Watch) -
 pub(crate) fn read_baseline(work: &Work) -> Result<Option<Baseline>, Problem> {
     let scenario = &work.setup.scenario;
     let found = work.folder.read_baseline()?;
-    Ok(found.and_then(|measured| Baseline::of(scenario.search().sought(), scenario.executor().repeat, &measured)))
+    Ok(found.and_then(|measured| Baseline::of(scenario.sought(), scenario.executor().repeat, &measured)))
 }
 
 /// Cases by chance, as many as are `asked` for or found; `what` is told of as it goes on.

@@ -139,23 +139,32 @@ impl Replayed {
 }
 
 /// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a
-/// violation.
+/// violation, one that was not flown or that nothing can be said of is no pass.
+///
+/// What is graver than what the campaign's own cases came to is the first that is read; the rest is told behind it.
 pub fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
-    let count = |status: Status| replayed.iter().filter(|one| one.result.status == status).count();
-    let (failed, unrun, of) = (count(Status::Fail), count(Status::ExecutorFailed), replayed.len());
     let Verdict { sentence, exit_code } = verdict;
-    match exit_code {
-        0 | 3 | 5 if failed > 0 => {
-            Verdict { sentence: format!("FAIL {failed}/{of} saved cases violate; {sentence}"), exit_code: 1 }
+    let mut told = Verdict::clone(verdict);
+    for (status, [outcome, they, behind], code, graver_than) in OUTCOMES {
+        let count = replayed.iter().filter(|one| one.result.status == status).count();
+        let words = format!("{count}/{} saved cases", replayed.len());
+        let leads = told.exit_code == *exit_code && graver_than.contains(exit_code);
+        match count {
+            0 => {}
+            _ if leads => told = Verdict { sentence: format!("{outcome} {words}{they}; {sentence}"), exit_code: code },
+            _ => told.sentence += &format!("; {words} {behind}"),
         }
-        // What the campaign's own cases came to stays the first that is read.
-        1 if failed > 0 => Verdict { sentence: format!("{sentence}; {failed}/{of} saved cases violate"), exit_code: 1 },
-        0 if unrun > 0 => {
-            Verdict { sentence: format!("EXECUTOR FAILED {unrun}/{of} saved cases; {sentence}"), exit_code: 4 }
-        }
-        _ => verdict.clone(),
     }
+    told
 }
+
+/// What saved cases come to beside a pass, gravest first: the words of it where the verdict begins with them and where
+/// they stand behind, the exit code, and those that give way to it.
+const OUTCOMES: [(Status, [&str; 3], u8, &[u8]); 3] = [
+    (Status::Fail, ["FAIL", " violate", "violate"], 1, &[0, 3, 4, 5]),
+    (Status::ExecutorFailed, ["EXECUTOR FAILED", "", "not flown"], 4, &[0, 5]),
+    (Status::Inconclusive, ["INCONCLUSIVE", "", "inconclusive"], 5, &[0]),
+];
 
 fn tell(replayed: &[Replayed], watch: &dyn Watch) {
     let violating = replayed.iter().filter(|one| one.result.status == Status::Fail).count();
@@ -167,5 +176,55 @@ fn tell(replayed: &[Replayed], watch: &dyn Watch) {
             _ => one.result.message.clone().unwrap_or_default(),
         };
         watch.warn(&on_one_line(&format!("  {}: {what}", one.file.display())));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hairpin::campaign::CaseNumber;
+
+    use super::*;
+
+    fn saved(status: Status) -> Replayed {
+        let result = CaseResult {
+            case: CaseNumber(0),
+            status,
+            run: 0,
+            measures: None,
+            ended: status.word().into(),
+            left_world: None,
+            violations: Vec::new(),
+            drawn: Vec::new(),
+            message: None,
+            reruns: None,
+            draws: None,
+        };
+        Replayed { file: "0000.json".into(), result }
+    }
+
+    /// The gravest leads, nothing that is no pass is left out, and the campaign's own violation stays first.
+    #[test]
+    fn whatever_saved_cases_come_to_is_told() {
+        use Status::{ExecutorFailed, Fail, Inconclusive, Pass};
+        for (code, cases, sentence, told) in [
+            (0, vec![Pass, Pass], "own", 0),
+            (0, vec![Pass, Inconclusive], "INCONCLUSIVE 1/2 saved cases; own", 5),
+            (0, vec![ExecutorFailed, Pass], "EXECUTOR FAILED 1/2 saved cases; own", 4),
+            (
+                0,
+                vec![ExecutorFailed, Inconclusive],
+                "EXECUTOR FAILED 1/2 saved cases; own; 1/2 saved cases inconclusive",
+                4,
+            ),
+            (1, vec![ExecutorFailed, Fail], "own; 1/2 saved cases violate; 1/2 saved cases not flown", 1),
+            (3, vec![Fail, Inconclusive], "FAIL 1/2 saved cases violate; own; 1/2 saved cases inconclusive", 1),
+            (3, vec![ExecutorFailed], "own; 1/1 saved cases not flown", 3),
+            (4, vec![Fail], "FAIL 1/1 saved cases violate; own", 1),
+            (5, vec![Inconclusive], "own; 1/1 saved cases inconclusive", 5),
+        ] {
+            let replayed: Vec<Replayed> = cases.iter().map(|status| saved(*status)).collect();
+            let found = with_saved(&Verdict::of("own", code), &replayed);
+            assert_eq!((found.sentence.as_str(), found.exit_code), (sentence, told), "{code} {cases:?}");
+        }
     }
 }

@@ -209,6 +209,10 @@ fn write(
     let numbers: BTreeSet<CaseNumber> = chosen.iter().map(|case| case.number).collect();
     old.copy_cases(&numbers.iter().copied().collect::<Vec<_>>(), there)?;
     there.write_new_cases(chosen, 0)?;
+    // Who flew the runs that go along is named in what is said of them.
+    if let Some(greeting) = old.read_executor()? {
+        there.write_executor(&greeting)?;
+    }
     let old_tally = old.read_tally()?;
     // Missions are those of the cases in their order: a choice keeps numbers, and may be chosen from again.
     let missions = all.iter().zip(&old_tally.missions);

@@ -109,6 +109,10 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let search = setup.scenario.search();
     tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
+    // Of programs of arms these are none of their keys.
+    for (key, value) in search.passed_over().into_iter().filter(|_| !setup.has_programs()) {
+        watch.warn(&format!("`generate.search.{key}` = {value} is passed over: the method `worst` has no use for it"));
+    }
     may_make(&path, &setup, settings.if_there)?;
     for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {
         let deadline = Deadline::after(settings.time_limit_s);

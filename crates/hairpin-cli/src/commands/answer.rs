@@ -16,9 +16,6 @@ use hairpin_jobs::saved::Replayed;
 use hairpin_jobs::work::Work;
 use serde_json::{Value, json};
 
-/// Confidence of the shares of violations, where the scenario names none.
-const CONFIDENCE: f64 = 0.95;
-
 /// A verdict and what it is about.
 pub struct Answer<'a> {
     /// The campaign.
@@ -71,7 +68,7 @@ impl Answer<'_> {
         let chosen = self.tally.chosen(&scenario.search());
         let violated = self.count(Status::Fail);
         let of = violated + self.count(Status::Pass) + self.count(Status::Unjudged);
-        let share = chosen.share(violated, of, scenario.confidence().unwrap_or(CONFIDENCE));
+        let share = chosen.share(violated, of, scenario.confidence_of_intervals());
         json!({
             "cases": chosen.word(), "violated": violated, "of": of,
             "low": share.map(|share| share.low), "high": share.map(|share| share.high),
@@ -117,7 +114,7 @@ impl Answer<'_> {
             "missions": self.judgement.missions.as_ref().map(missions),
             "frame": self.header(),
             "worst": worst_first(&self.judgement.results).first().map(|result| {
-                let mut object = worst(result);
+                let mut object = worst(result, self.work.setup.scenario.confidence_of_intervals());
                 object["evidence"] = json!(self.claim(result));
                 object
             }),
@@ -204,8 +201,8 @@ fn regression(found: &Regression) -> Value {
     })
 }
 
-/// The worst run of a case.
-fn worst(result: &CaseResult) -> Value {
+/// The worst run of a case, with intervals of that confidence.
+fn worst(result: &CaseResult, confidence: f64) -> Value {
     let measures = result.measures.as_ref();
     json!({
         "case": result.case.to_string(),
@@ -218,14 +215,14 @@ fn worst(result: &CaseResult) -> Value {
         "joint_effort_rad2_s3": measures.and_then(|m| m.joint_effort),
         "ended": result.ended,
         "draws": result.draws.map(|draws| {
-            let share = draws.share(CONFIDENCE);
+            let share = draws.share(confidence);
             json!({
                 "violated": draws.violated, "of": draws.of,
                 "low": share.map(|share| share.low), "high": share.map(|share| share.high),
             })
         }),
         "reruns": result.reruns.map(|reruns| {
-            let share = reruns.share(CONFIDENCE);
+            let share = reruns.share(confidence);
             json!({
                 "violated": reruns.violated, "of": reruns.of,
                 "low": share.map(|share| share.low), "high": share.map(|share| share.high),

@@ -43,6 +43,7 @@ fn object(asked: &Calibrate, found: &Calibrated, code: u8) -> Value {
     object["share"] = json!(asked.share);
     object["flown"] = json!(found.flown);
     object["lost"] = json!(found.lost);
+    object["trouble"] = json!(found.trouble);
     object["left_world"] = json!(found.left_world);
     object["fewer"] = json!(found.reason);
     object["limits"] = found.proposals.iter().map(one).collect();
@@ -58,7 +59,8 @@ fn tell(asked: &Calibrate, found: &Calibrated) {
         console::warn(&format!("{} random feasible cases were found: {reason}", found.flown));
     }
     if found.lost > 0 {
-        console::warn(&format!("{} of {} cases were not flown, or cannot be judged", found.lost, found.flown));
+        let trouble = found.trouble.as_ref().map_or(String::new(), |first| format!(": {first}"));
+        console::warn(&format!("{} of {} cases were not flown, or cannot be judged{trouble}", found.lost, found.flown));
     }
     if found.left_world > 0 {
         console::warn(&format!(

@@ -150,8 +150,11 @@ for line in sys.stdin:
         say(type="ready", protocol=1, name="slow")
     elif message["type"] == "mission":
         time.sleep(0.03)
-        for i, p in enumerate(message["waypoints_m"]):
-            say(type="pose", t_s=i, p_m=[p[0], p[1] + 0.1 * (i % 2), p[2]], q_wxyz=[1, 0, 0, 0], v_m_s=[0, 0, 0], leg=max(0, i - 1))
+        w = message["waypoints_m"]
+        for k in range(20 * (len(w) - 1) + 1):
+            i, u = min(k // 20, len(w) - 2), k / 20 - min(k // 20, len(w) - 2)
+            x, y, z = [a + u * (b - a) for a, b in zip(w[i], w[i + 1])]
+            say(type="pose", t_s=k / 20, p_m=[x, y + 0.1 * (i % 2), z], q_wxyz=[1, 0, 0, 0], leg=i)
         say(type="end", reason="done")
     elif message["type"] == "bye":
         break

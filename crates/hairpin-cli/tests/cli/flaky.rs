@@ -49,6 +49,12 @@ fn violations_are_run_again_with_other_noise() {
     fs::remove_file(here.join("b/rerun-runs/part-00000.parquet")).unwrap();
     assert_eq!(run(here, &["execute", "b", "--resume"]).0, 0);
     assert!(reruns("b") == first, "the missing ones are flown again");
+    // At the confidence that the spec asks for, here as in the verdict.
+    let sure = json(here, &["judge", "a", "--set", "spec.confidence=0.99"])["worst"]["reruns"].clone();
+    let wide = sure["high"].as_f64().unwrap() - sure["low"].as_f64().unwrap();
+    assert!(sure["violated"] == k && wide > high - low + 0.01, "{sure}");
+    let page = json(here, &["report", "a"]);
+    assert!(fs::read_to_string(here.join("a/report.html")).unwrap().contains("with its 99 % interval"), "{page}");
     // Flown anew without the key there is nothing to run again.
     assert_eq!(json(here, &["execute", "a", "--set", "execute.flaky.reruns=1"])["counts"]["runs"], 4);
     assert_eq!(reruns("a").len(), 1);

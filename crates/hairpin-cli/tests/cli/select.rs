@@ -122,6 +122,10 @@ fn deviations_are_not_compared_with_scores() {
     let worst = number(&chosen["all"]["worst"]);
     assert!(worst < 0.1 && chosen["selected"]["stress"] == chosen["all"]["worst"], "{chosen}");
     assert!(chosen["cases"][0] != "0002", "{chosen}");
+    // Who flew them is named in what is said of the few, too.
+    assert_eq!(fs::read(here.join("one/executor.json")).unwrap(), fs::read(here.join("all/executor.json")).unwrap());
+    let verdict = json(here, &["judge", "one"])["verdict"].clone();
+    assert!(verdict.as_str().unwrap().contains("executor minimal executor"), "{verdict}");
     let all = number(&chosen["all"]["cases"]) as usize + 1;
     refused(
         here,

@@ -126,3 +126,31 @@ fn what_cannot_be_shrunk_is_said() {
     run(here, &[&SMALL[..], &["--out", "none", "--set", "generate.limits.max_speed_m_s=0.01"]].concat());
     refused(here, &["shrink", "none", "--case", "0"], &["--case 0", "no cases"]);
 }
+
+/// A program may refuse what it cannot fly; only one that flies not even the case itself has failed.
+#[test]
+fn a_program_that_refuses_candidates_does_not_end_the_search() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let minimal = fs::read_to_string(minimal).unwrap();
+    let picky = "        if len(message[\"waypoints_m\"]) < 5:\n            say(type=\"error\", message=\"five or more\")\n            continue\n        fly(message)\n";
+    let picky = minimal.replace("        fly(message)\n", picky);
+    assert_ne!(picky, minimal);
+    fs::write(here.join("picky.py"), &picky).unwrap();
+    let fly = ["--executor", "python3 picky.py", "--set", "execute.repeat=1", "--set", "execute.baseline=0"];
+    let fast = ["--set", "spec.total_time.max_s=0.5", "--out", "a"];
+    let object = json(here, &[&SMALL[..], &fly, &fast].concat());
+    assert_eq!(object["worst"]["status"], "fail", "{object}");
+    let case = object["worst"]["case"].as_str().unwrap();
+    let (code, out, error) = run(here, &["shrink", "a", "--case", case, "--budget", "40", "--json"]);
+    let shrunk: Value = serde_json::from_str(&out).unwrap();
+    let waypoints = shrunk["waypoints"].as_u64().unwrap();
+    assert!(code == 0 && (5..8).contains(&waypoints), "{out}{error}");
+    assert!(error.contains(" candidates were not flown, and count as within spec: reports: five or more"), "{error}");
+
+    fs::remove_file(here.join(format!("a/repro/{case}-shrink.state"))).unwrap();
+    fs::write(here.join("picky.py"), minimal.replace("        fly(message)\n", "        sys.exit(\"no\")\n")).unwrap();
+    let (code, _, error) = run(here, &["shrink", "a", "--case", case]);
+    assert!(code == 4 && error.contains("the executor failed"), "{error}");
+}

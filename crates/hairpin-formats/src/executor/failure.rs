@@ -186,7 +186,7 @@ impl Failure {
 }
 
 /// Whether a run that failed with this sentence was never handed to a program: to go on is to fly it.
-pub(crate) fn was_never_asked(sentence: &str) -> bool {
+pub fn was_never_asked(sentence: &str) -> bool {
     [NOT_ASKED, "cannot start `", "no \"ready\" within "].iter().any(|beginning| sentence.starts_with(beginning))
 }
 

@@ -11,6 +11,7 @@ use thiserror::Error;
 use super::acceptance;
 use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
+use super::velocities::{Disagreement, disagreement};
 
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 
@@ -18,6 +19,8 @@ use hairpin::trajectory::ATTITUDE_UNKNOWN;
 const QUATERNION_TOLERANCE: f64 = 1e-3;
 /// What is flown after the time limit before hairpin calls it off, s.
 const OVERTIME_S: f64 = 10.0;
+/// Beyond it a simulation has diverged, m/s.
+const FASTEST_M_S: f64 = 1e6;
 /// Bound of the memory that one mission may take: 10⁶ poses are 100 MB.
 const MOST_POSES: usize = 1_000_000;
 
@@ -40,6 +43,12 @@ pub enum PoseError {
     /// A position at which no robot is.
     #[error("pose {index} (t_s = {time}): p_m[{axis}] = {value:e}: must be within ±{FARTHEST_ON_EARTH_M:e} m")]
     Far { index: usize, time: f64, axis: usize, value: f64 },
+    /// A velocity that no robot has.
+    #[error("pose {index} (t_s = {time}): v_m_s[{axis}] = {value:e}: must be within ±{FASTEST_M_S:e} m/s")]
+    Fast { index: usize, time: f64, axis: usize, value: f64 },
+    /// Velocities that are not those of the places.
+    #[error(transparent)]
+    Velocity(#[from] Disagreement),
     /// A leg that the mission has not.
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
     Leg { index: usize, time: f64, leg: u64, last: u64 },
@@ -113,6 +122,10 @@ impl<'a> Recording<'a> {
         if let Some(axis) = (0..3).find(|&axis| pose.p_m[axis].is_nan() || pose.p_m[axis].abs() > FARTHEST_ON_EARTH_M) {
             return Err(PoseError::Far { index, time, axis, value: pose.p_m[axis] });
         }
+        let velocity = pose.v_m_s.unwrap_or_default();
+        if let Some(axis) = (0..3).find(|&axis| velocity[axis].is_nan() || velocity[axis].abs() > FASTEST_M_S) {
+            return Err(PoseError::Fast { index, time, axis, value: velocity[axis] });
+        }
         if let (0, Some(start)) = (index, self.mission.waypoints.first()) {
             let is_at = self.is_at(&Point3::from(pose.p_m), start);
             elsewhere(pose.p_m, start, (self.mission.accept, is_at)).map_or(Ok(()), Err)?;
@@ -162,10 +175,13 @@ impl<'a> Recording<'a> {
     /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
     ///
     /// # Errors
-    /// No pose.
+    /// No pose; velocities that are not those of the places.
     pub fn finish(mut self, reason: EndReason) -> Result<Flight, PoseError> {
         if self.times.is_empty() {
             return Err(PoseError::Empty);
+        }
+        if let Some(velocities) = &self.velocities {
+            disagreement(&self.times, &self.poses, velocities).map_or(Ok(()), Err)?;
         }
         let ended = match reason {
             EndReason::Done => Ended::Done,

@@ -146,13 +146,20 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, 
                 rounded,
                 frame: if rounded { Frame::Placed } else { Frame::World },
                 stops: Vec::new(),
-                notes: Vec::new(),
+                notes: passed_over(path),
                 uncertain: Vec::new(),
                 fences: Vec::new(),
                 environment: None,
             })
         }
     }
+}
+
+/// What a table has beside places, which is not followed.
+fn passed_over(path: &Path) -> Vec<String> {
+    let columns = waypoints::passed_over(path);
+    let note = format!("of a table places alone are read; passed over: {}", columns.join(", "));
+    if columns.is_empty() { Vec::new() } else { vec![note] }
 }
 
 /// What a file is written in.

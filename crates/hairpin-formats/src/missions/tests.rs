@@ -219,6 +219,10 @@ fn a_folder_has_missions_of_all_formats() {
     };
     assert_eq!(names(place.path()), ["a", "b.plan", "b.waypoints", "c"]);
     assert_eq!(names(&place.path().join("b.plan")), ["b"]);
+    // What a table has beside places is not followed, and that is told.
+    write("a.csv", "x_m,y_m,z_m,speed_m_s\n1,2,3,4\n4,5,6,4\n");
+    let told = read(&place.path().join("a.csv"), &scenario(false), FARTHEST_M).unwrap().notes;
+    assert_eq!(told, ["of a table places alone are read; passed over: speed_m_s"]);
 }
 
 proptest! {

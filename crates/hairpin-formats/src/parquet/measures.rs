@@ -63,8 +63,14 @@ pub(super) fn columns(rows: &[Option<&Measures>]) -> Vec<(&'static str, ArrayRef
         all.push(("joint_effort_rad2_s3", number(&|m| m.joint_effort)));
         all.push(("leg_joint_effort_rad2_s3", legs(|leg| leg.joint_effort)));
     }
+    if rows.iter().flatten().any(|measures| measures.most_between.is_some()) {
+        all.push((BETWEEN, number(&|m| m.most_between)));
+    }
     all
 }
+
+/// Column: what may hide between samples, of runs of which that is asked.
+pub(super) const BETWEEN: &str = "max_deviation_between_m";
 
 fn leg_source_word(source: LegSource) -> &'static str {
     match source {
@@ -98,6 +104,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let t_tilt = optional_column(table, "t_tilt_s")?;
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
+    let between = optional_column(table, BETWEEN)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
     let leg_late = table.optional_counts("leg_late")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
@@ -121,6 +128,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 max_deviation,
                 t_worst,
                 leg_worst: leg_worst[row].ok_or_else(|| table.refuse("leg_worst", row, "empty", "a leg's number"))?,
+                most_between: between[row],
                 mean_deviation,
                 max_acceleration,
                 t_acceleration,

@@ -51,7 +51,7 @@ pub(super) fn thinned(key: (CaseNumber, Option<usize>), track: &Track, marked: &
 }
 
 /// Times as they are, everything else in steps; in single precision but for positions, which may lie anywhere in the
-/// world.
+/// world, and for columns whose numbers would be infinite in it.
 fn rounded(columns: Columns) -> Columns {
     let in_steps = |value: f64, step: f64| if step > 0.0 { (value / step).round() * step } else { value };
     columns.map_numbers(|name, values| match name {
@@ -63,6 +63,9 @@ fn rounded(columns: Columns) -> Columns {
                 _ if VELOCITY.contains(&name) => VELOCITY_STEP,
                 _ => step_of(values.values()),
             };
+            if values.values().iter().any(|value| value.abs() > f64::from(f32::MAX)) {
+                return Arc::new(values.clone());
+            }
             Arc::new(values.unary::<_, Float32Type>(|value| in_steps(value, step) as f32))
         }
     })
@@ -164,5 +167,24 @@ fn leg_column(legs: &[f64]) -> ArrayRef {
         Arc::new(Int64Array::from_iter_values(legs.iter().map(|leg| *leg as i64)))
     } else {
         number_column(legs.iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arrow_array::Array;
+    use arrow_schema::DataType;
+
+    use super::*;
+
+    /// What single precision has no number for keeps its own.
+    #[test]
+    fn nothing_becomes_infinite() {
+        let poses = vec![Isometry3::identity(); 3];
+        let channel = |name: &str, most: f64| Channel { name: name.into(), values: vec![0.0, most, 1.0] };
+        let track = Track::new(vec![0.0, 0.1, 0.2], poses, vec![channel("far", 1e200), channel("near", 2.0)]).unwrap();
+        let batch = rounded(columns((CaseNumber(0), None), &track)).into_batch();
+        let of = |name: &str| batch.column_by_name(name).unwrap().data_type().clone();
+        assert_eq!((of("far"), of("near")), (DataType::Float64, DataType::Float32));
     }
 }

@@ -22,7 +22,7 @@ impl Table {
 
     /// Whether nothing stands in the column, while there are rows.
     pub(crate) fn is_empty(&self, column: &str) -> bool {
-        self.column(column).is_ok_and(|array| !array.is_empty() && array.null_count() == array.len())
+        self.column(column).is_ok_and(|array| !array.is_empty() && array.logical_null_count() == array.len())
     }
 
     /// Whether the column holds texts.
@@ -159,13 +159,13 @@ impl Table {
             found: format!("has type {}", found.data_type()),
             expected: expected.into(),
         };
-        // Arrow would also parse numbers out of texts and print numbers as texts: not the same meaning.
-        if is_text(found.data_type()) != is_text(wanted) {
-            // A column of nulls alone has no type that could be wrong.
-            if found.data_type() != &DataType::Null && found.null_count() < found.len() {
-                return Err(refuse());
-            }
+        // A column of nulls alone has no type that could be wrong.
+        if found.logical_null_count() == found.len() {
             return Ok(arrow_array::new_null_array(wanted, found.len()));
+        }
+        // Arrow would also parse numbers out of texts and print numbers as texts: not the same meaning.
+        if is_text(found.data_type()) != is_text(wanted) && !has_no_items(found.data_type()) {
+            return Err(refuse());
         }
         let converted = cast(found, wanted).map_err(|_| refuse())?;
         // Nulls stay nulls: as many of them are the same ones.
@@ -193,11 +193,54 @@ impl Table {
     }
 }
 
+/// Whether it is of lists in which nothing stands, which pandas writes of a column of empty lists: their items have no
+/// type that could be wrong.
+fn has_no_items(kind: &DataType) -> bool {
+    match kind {
+        DataType::List(item) | DataType::LargeList(item) => item.data_type().is_null(),
+        _ => false,
+    }
+}
+
 fn is_text(kind: &DataType) -> bool {
     match kind {
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => true,
         DataType::Dictionary(_, value) => is_text(value),
         DataType::List(item) | DataType::LargeList(item) => is_text(item.data_type()),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::sync::Arc;
+
+    use arrow_array::builder::{ListBuilder, NullBuilder};
+    use arrow_array::{NullArray, StringArray, new_null_array};
+
+    use super::super::table::Columns;
+    use super::*;
+
+    /// As pandas writes columns without a single value: of no type, or lists without items.
+    #[test]
+    fn a_column_of_no_type_is_empty_whatever_it_should_be() {
+        let mut lists = ListBuilder::new(NullBuilder::new());
+        [true, false].into_iter().for_each(|there| lists.append(there));
+        let mut columns = Columns::default();
+        columns.push("none", Arc::new(NullArray::new(2)));
+        columns.push("lists", Arc::new(lists.finish()));
+        columns.push("texts", Arc::new(StringArray::from(vec!["a", "b"])));
+        columns.push("words", new_null_array(&DataType::Utf8, 2));
+        let table = Table::of(Path::new("t"), columns.into_batch());
+        assert_eq!(table.optional_numbers("none").unwrap(), [None, None]);
+        assert_eq!(table.optional_counts("none").unwrap(), [None, None]);
+        assert_eq!(table.optional_texts("none").unwrap(), [None, None]);
+        assert_eq!(table.text_lists("none").unwrap(), [None, None]);
+        assert_eq!(table.text_lists("lists").unwrap(), [Some(Vec::new()), None]);
+        assert_eq!(table.number_lists("lists").unwrap(), [Some(Vec::new()), None]);
+        assert_eq!(table.optional_numbers("words").unwrap(), [None, None]);
+        assert!(table.is_empty("none") && !table.is_empty("lists") && !table.is_empty("texts"));
+        assert!(table.optional_numbers("texts").is_err());
     }
 }

@@ -131,7 +131,7 @@ pub fn from_folder(
         coverage: folder.read_coverage()?,
         baseline: baseline
             .as_ref()
-            .and_then(|measured| Baseline::of(scenario.search().sought(), scenario.executor().repeat, measured)),
+            .and_then(|measured| Baseline::of(scenario.sought(), scenario.executor().repeat, measured)),
         random: baseline.as_deref().unwrap_or_default(),
         asked: asked.first().copied(),
     };

@@ -5,15 +5,12 @@ use hairpin::campaign::report::ReportData;
 
 use super::escape::escape;
 
-/// Confidence of the shares' intervals.
-const CONFIDENCE: f64 = 0.95;
-
 /// How often violations came again.
 pub(super) fn reruns(data: &ReportData) -> String {
     let again = data.results.iter().filter_map(|result| Some((result.case, result.reruns?)));
     let rows: String = again
         .filter_map(|(case, reruns)| {
-            let share = reruns.share(CONFIDENCE)?;
+            let share = reruns.share(data.confidence)?;
             let [value, low, high] = [share.value, share.low, share.high].map(|share| 100.0 * share);
             let (k, n) = (reruns.violated, reruns.of);
             Some(format!(
@@ -24,11 +21,12 @@ pub(super) fn reruns(data: &ReportData) -> String {
     if rows.is_empty() {
         return String::new();
     }
+    let sure = (1000.0 * data.confidence).round() / 10.0;
     format!(
         "<section class=\"panel\" id=\"reruns\"><h2>Do violations come again?</h2><p class=\"note\">Each violating run was run again \
-         with what was drawn for it and other noise; the share that violates, with its 95 % interval \
+         with what was drawn for it and other noise; the share that violates, with its {sure} % interval \
          (Clopper-Pearson).</p><div class=\"scroll\"><table class=\"spread\"><thead><tr><th scope=\"col\">case</th>\
-         <th scope=\"col\">violate</th><th scope=\"col\">share</th><th scope=\"col\">95 %</th></tr></thead>\
+         <th scope=\"col\">violate</th><th scope=\"col\">share</th><th scope=\"col\">{sure} %</th></tr></thead>\
          <tbody>{rows}</tbody></table></div></section>"
     )
 }

@@ -25,16 +25,27 @@ pub(super) fn section(data: &ReportData) -> String {
     format!(
         "<section class=\"panel\" id=\"progress\"><h2>Stress against executions</h2><p class=\"note\">The largest {} executed so far, \
          {place}. Every rise is in best-so-far.tsv.</p><figure>{drawn}</figure>{}</section>",
-        in_words(data.stress),
+        in_words(data),
         rounds(&data.rounds)
     )
 }
 
-/// The stress in words; of a distance, whose least is the worst, with the sign that the numbers have.
-fn in_words(stress: Stress) -> String {
-    match stress {
-        Stress::Clearance => "negative clearance (above 0: so deep in an obstacle)".into(),
-        other => other.word().replace('-', " "),
+/// What the curves are of, in words; of a distance, whose least is the worst, with the sign that the numbers have.
+fn in_words(data: &ReportData) -> String {
+    match (data.told_in.as_str(), data.stress) {
+        ("margin_in_spreads", _) => "margin to a limit (above 0: beyond it)".into(),
+        ("target", _) => "value of your target".into(),
+        (_, Stress::Clearance) => "negative clearance (above 0: so deep in an obstacle)".into(),
+        (_, other) => other.word().replace('-', " "),
+    }
+}
+
+/// The unit of the curves, behind a comma; empty where they have none.
+fn unit(data: &ReportData) -> String {
+    match (data.told_in.as_str(), data.stress.unit()) {
+        ("margin_in_spreads", _) => ", spreads of random cases".into(),
+        ("target", _) | (_, "") => String::new(),
+        (_, unit) => format!(", {unit}"),
     }
 }
 
@@ -52,12 +63,10 @@ fn figure(data: &ReportData) -> Option<Figure> {
     let mean = series("mean of the graphs", |values| values.iter().sum::<f64>() / values.len() as f64);
     let largest = series("largest", |values| values.iter().copied().fold(f64::NEG_INFINITY, f64::max));
     let least = series("least", |values| values.iter().copied().fold(f64::INFINITY, f64::min));
-    let unit = data.stress.unit();
-    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
     Some(Figure {
         title: String::new(),
         x: Axis { label: "executions in a graph".into(), scale: Scale::Linear },
-        y: Axis { label: format!("largest {} so far{unit}", in_words(data.stress)), scale: Scale::Linear },
+        y: Axis { label: format!("largest {} so far{}", in_words(data), unit(data)), scale: Scale::Linear },
         series: if data.curves.len() > 1 { vec![mean, largest, least] } else { vec![mean] },
     })
 }

@@ -119,12 +119,14 @@ struct JudgedCase {
     lacks_attitude: bool,
     /// Whether it was measured of the rows that are kept.
     from_rows: bool,
+    /// Runs that came to a flight.
+    flown: usize,
 }
 
 impl JudgedCase {
     fn undone(case: &Case, what: Undone) -> Self {
         let result = CaseResult::undone(case.number, what);
-        Self { result, deviations: Vec::new(), met: BTreeSet::new(), lacks_attitude: false, from_rows: false }
+        Self { result, deviations: Vec::new(), met: BTreeSet::new(), lacks_attitude: false, from_rows: false, flown: 0 }
     }
 }
 
@@ -141,6 +143,7 @@ pub(crate) fn judge_cases(
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
     let from_rows = judged.iter().filter(|case| case.from_rows).count();
+    let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
     for case in judged {
         results.push(case.result);
@@ -150,7 +153,7 @@ pub(crate) fn judge_cases(
     let influences = campaign::influences(&work.setup.scenario, &deviations);
     let moves = work.setup.own::<ArmSetup>().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
     let baseline = read_baseline(work)?;
-    let verdict = campaign::verdict(&told, cases, (&results, baseline.as_ref()), tally);
+    let verdict = campaign::verdict_on(&told, cases, (&results, baseline.as_ref()), tally, flown);
     let (verdict, regression) = with_moves(work, &moves, verdict)?;
     let missions = compare(work, &results)?;
     let verdict = with_compared(verdict, missions.as_ref());
@@ -202,7 +205,8 @@ fn judge_case(
         result.reruns = reruns(work, case)?;
     }
     let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown), from_rows })
+    let flown = runs.iter().filter(|run| run.outcome.is_ok()).count();
+    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown), from_rows, flown })
 }
 
 /// How often the violation of `case` came again; `None` where it was not run again.

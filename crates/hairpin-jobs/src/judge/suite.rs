@@ -11,9 +11,6 @@ use crate::next::replay_command;
 use crate::saved::Replayed;
 use crate::work::Work;
 
-/// Confidence of the shares of violations that come again.
-const CONFIDENCE: f64 = 0.95;
-
 /// The suite of a judged campaign.
 pub(super) fn suite(
     work: &Work,
@@ -45,7 +42,7 @@ pub(super) fn suite(
             property("version", env!("CARGO_PKG_VERSION").into()),
         ]
         .into_iter()
-        .chain(results.iter().filter_map(rerun_property))
+        .chain(results.iter().filter_map(|result| rerun_property(result, scenario.confidence_of_intervals())))
         .collect(),
         regressions: worse.collect(),
         saved: replayed.iter().map(Replayed::named).collect(),
@@ -67,9 +64,9 @@ fn again(work: &Work, results: &[CaseResult], replayed: &[Replayed]) -> BTreeMap
 
 /// `reruns 0117`: `3 of 10 violate, share 0.30 [0.07, 0.65]`. A test case of Jenkins' schema has no properties of its
 /// own.
-fn rerun_property(result: &CaseResult) -> Option<(String, String)> {
+fn rerun_property(result: &CaseResult, confidence: f64) -> Option<(String, String)> {
     let reruns = result.reruns?;
-    let share = reruns.share(CONFIDENCE)?;
+    let share = reruns.share(confidence)?;
     let (violated, of) = (reruns.violated, reruns.of);
     let value = format!("{violated} of {of} violate, share {:.2} [{:.2}, {:.2}]", share.value, share.low, share.high);
     Some((format!("reruns {}", result.case), value))

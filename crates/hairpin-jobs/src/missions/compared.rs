@@ -39,7 +39,7 @@ pub struct Ranked {
 pub(crate) fn compare(work: &Work, results: &[CaseResult]) -> Result<Option<Compared>, Problem> {
     let Some(told) = read_told(work)? else { return Ok(None) };
     let (scenario, repeat) = (&work.setup.scenario, work.setup.scenario.executor().repeat);
-    let sought = scenario.search().sought();
+    let sought = scenario.sought();
     let [searched, random] =
         [work.folder.read_searched()?, work.folder.read_baseline()?].map(Option::unwrap_or_default);
     let rank = |stress: f64, others: &[CaseResult]| Rank::of(sought, repeat, stress, others);

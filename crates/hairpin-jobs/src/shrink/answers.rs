@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Shrunk, Status};
 use hairpin::judgement::{Measures, Violation};
 use hairpin_formats::checksum::sha256;
+use hairpin_formats::executor::was_never_asked;
 use hairpin_formats::{atomic, bounds};
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +39,9 @@ struct Answer {
     t_worst_s: f64,
     leg_worst: usize,
     ended: String,
+    /// Why it was not flown: the program that executes refused it, or failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    unflown: Option<String>,
 }
 
 /// A [`Violation`].
@@ -60,6 +64,8 @@ pub(super) struct Answers<'a> {
     budget: u64,
     deadline: Deadline,
     fresh: u64,
+    /// Of [`Self::fresh`], those that were not flown, and why the first was not.
+    unflown: (u64, Option<String>),
     watch: &'a dyn Watch,
 }
 
@@ -83,6 +89,7 @@ impl<'a> Answers<'a> {
             budget: settings.budget,
             deadline: Deadline::after(settings.time_limit_s),
             fresh: 0,
+            unflown: (0, None),
             watch,
         }
     }
@@ -98,6 +105,12 @@ impl<'a> Answers<'a> {
         };
         let shrunk = campaign::shrink(setup, case, result, &mut run);
         self.watch.finished(WHAT);
+        if let (count, Some(first)) = &self.unflown {
+            let (of, case) = (self.fresh, case.id());
+            self.watch.warn(&format!(
+                "case {case}: {count} of {of} candidates were not flown, and count as within spec: {first}"
+            ));
+        }
         match trouble {
             Some(problem) => Err(problem),
             None => shrunk.map_err(Problem::input),
@@ -124,15 +137,28 @@ impl<'a> Answers<'a> {
             return Ok(None);
         }
         let flown = fly_one(setup, candidate, self.run, self.watch)?;
-        if let Err(message) = &flown.outcome {
-            return Err(Problem::input(format!("case {}: the executor failed: {message}", candidate.id())));
-        }
         let result = campaign::judge(setup, candidate, std::slice::from_ref(&flown))?;
+        if let Err(message) = &flown.outcome {
+            self.note_unflown(candidate, message)?;
+        }
         self.fresh += 1;
         self.watch.progress(WHAT, self.fresh as usize, self.budget as usize);
         self.state.answers.insert(key, Answer::of(&result));
         atomic::write_json(&self.path, &self.state)?;
         Ok(Some(result))
+    }
+
+    /// A program may refuse what it cannot fly, and what is not flown does not violate. But where nothing was flown yet
+    /// (the first that is asked is the case itself), or the program cannot be started, it is the program that failed.
+    fn note_unflown(&mut self, candidate: &Case, message: &str) -> Result<(), Problem> {
+        let was_flown = self.state.answers.values().any(|answer| answer.unflown.is_none());
+        if !was_flown || was_never_asked(message) {
+            return Err(Problem::Executor(format!("case {}: the executor failed: {message}", candidate.id())));
+        }
+        let (count, first) = &mut self.unflown;
+        *count += 1;
+        first.get_or_insert_with(|| message.to_owned());
+        Ok(())
     }
 }
 
@@ -153,6 +179,7 @@ impl Answer {
             t_worst_s: measures.t_worst,
             leg_worst: measures.leg_worst,
             ended: result.ended.clone(),
+            unflown: result.message.clone().filter(|_| result.status == Status::ExecutorFailed),
         }
     }
 
@@ -168,7 +195,11 @@ impl Answer {
         };
         CaseResult {
             case,
-            status: if self.violations.is_empty() { Status::Pass } else { Status::Fail },
+            status: match (&self.unflown, self.violations.is_empty()) {
+                (Some(_), _) => Status::ExecutorFailed,
+                (None, true) => Status::Pass,
+                (None, false) => Status::Fail,
+            },
             run,
             measures: Some(Measures {
                 max_deviation: self.max_deviation_m,
@@ -180,7 +211,7 @@ impl Answer {
             left_world: None,
             violations: self.violations.iter().map(violation).collect(),
             drawn: Vec::new(),
-            message: None,
+            message: self.unflown.clone(),
             reruns: None,
             draws: None,
         }

@@ -14,6 +14,7 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
+use super::hidden::{hidden, sampled};
 use super::influence::RunDeviation;
 use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
@@ -204,7 +205,7 @@ fn judge_run(
         None => {
             let clearance = own.kind().clearance();
             let settings = settings(&terms, path, clearance.as_deref());
-            judgement::measure(&flight.track, &case.waypoints, &settings)
+            sampled(&own, &flight.track, &case.waypoints, &settings)
         }
     };
     Ok(measured.map(|mut measures| {
@@ -218,7 +219,9 @@ fn judge_run(
         if unseen.is_some_and(|unseen| unseen.late_unproven) {
             violations.retain(|violation| violation.what != "late");
         }
-        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(|| terms.limits.open(&measures));
+        let hidden = || hidden(&own, &measures, terms.limits.deviation);
+        let unmeasured = || terms.limits.open(&measures);
+        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }
@@ -264,9 +267,7 @@ pub fn is_at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Result<bool, Mi
     Ok(known.is_by(&Drawn::of(&around, run)?.terms))
 }
 
-/// How a run is measured by `terms`, from the `path` where they ask for it.
-///
-/// No breaks: recordings of ours have none.
+/// How a run is measured by `terms`, from the `path` where they ask for it. Recordings of ours have no breaks.
 pub(super) fn settings<'a>(
     terms: &Terms,
     path: Option<&'a Track>,

@@ -10,10 +10,11 @@ use nalgebra::Vector3;
 
 use super::coverage::Grid;
 use super::full_rate::FullRate;
+use super::hidden::sampled;
 use super::judge::{Drawn, reference, settings};
 use super::scenario::DeviationFrom;
 use super::{Case, Run, Setup};
-use crate::judgement::{Limits, Measures, Settings, deviation_of_samples, measure};
+use crate::judgement::{Limits, Measures, Settings, deviation_of_samples};
 use crate::trajectory::Track;
 
 /// Measures `run` as the judge would, and marks the rows that matter to it: the worst moments, and both sides of every
@@ -32,7 +33,7 @@ pub fn at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Option<(FullRate, 
     let path = (terms.from == DeviationFrom::Path).then(|| reference(&around, case, None)).flatten();
     let clearance = own.kind().clearance();
     let settings = settings(&terms, path.as_ref(), clearance.as_deref());
-    let measures = measure(&flight.track, &case.waypoints, &settings).ok()?;
+    let measures = sampled(&own, &flight.track, &case.waypoints, &settings).ok()?;
     let marked = marked(&flight.track, case, &measures, (&terms.limits, &settings));
     let met = Grid::of(setup).met(setup, &case.waypoints, run);
     Some((FullRate { from: terms.from, corner: terms.corner, measures, met }, marked))

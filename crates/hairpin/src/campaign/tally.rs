@@ -48,6 +48,9 @@ pub struct Tally {
     /// In the order of graphs; one for a pool.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub curves: Vec<Curve>,
+    /// Of one pool of executions: what its curve is told in, which follows from the limits that there were then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub told_in: Option<String>,
     /// Rounds of an adaptive campaign.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rounds: Vec<RoundTally>,

@@ -7,27 +7,36 @@ use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
 use super::judge::Gravity;
-use super::scenario::Asked;
+use super::scenario::{Asked, UNMEASURED};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
-
-/// Confidence of intervals where the spec names none.
-const CONFIDENCE: f64 = 0.95;
 
 /// The verdict on a campaign: on its results, beside the cases by chance that were run alike if there are any; or that
 /// nothing was feasible.
 ///
 /// `results` belong to `cases`, and may be fewer. Without cases the verdict is `NOTHING FEASIBLE` (3), or
-/// `INCONCLUSIVE` (5) where a time ended the search.
-pub fn verdict(
+/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure.
+pub fn verdict(setup: &Setup, cases: &[Case], judged: (&[CaseResult], Option<&Baseline>), tally: &Tally) -> Verdict {
+    let runs = judged.0.len() * setup.scenario.executor().repeat as usize;
+    verdict_on(setup, cases, judged, tally, runs)
+}
+
+/// [`verdict`], where so many of the cases' `runs` came to a flight: those that a program refused are told beside a
+/// violation, and are none of those that the worst is the worst of.
+pub fn verdict_on(
     setup: &Setup,
     cases: &[Case],
     (results, baseline): (&[CaseResult], Option<&Baseline>),
     tally: &Tally,
+    runs: usize,
 ) -> Verdict {
     let asked = tally.asked(setup.scenario.search().cases);
     if cases.is_empty() {
-        return if tally.stopped { nothing_found(setup, tally, asked) } else { nothing_feasible(setup, tally, None) };
+        return match tally.nothing.as_deref() {
+            _ if tally.stopped => nothing_found(setup, tally, asked),
+            Some(UNMEASURED) => nothing_measured(setup, tally, asked),
+            _ => nothing_feasible(setup, tally, None),
+        };
     }
     let count = |status: Status| results.iter().filter(|result| result.status == status).count();
     let claims: Vec<Claim> = Evidence::ALL
@@ -44,7 +53,7 @@ pub fn verdict(
     let how: Vec<&str> = how.iter().map(String::as_str).collect();
     let gaps: Option<Vec<f64>> = cases.iter().map(Case::gap).collect();
     let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
-    let confidence = setup.scenario.confidence().unwrap_or(CONFIDENCE);
+    let confidence = setup.scenario.confidence_of_intervals();
     let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
     let reruns = rerun_words(results, confidence);
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
@@ -57,11 +66,15 @@ pub fn verdict(
     };
     let doubt = results.iter().find(is_doubt);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
-    let beside =
-        baseline.map(|baseline| (format!("{} flown", grouped(flown(setup, results, tally))), baseline.in_words(setup)));
+    let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+    let flown = format!("{} flown", grouped(searched + runs as u64));
+    let beside = baseline.map(|baseline| (flown, baseline.in_words(setup)));
+    let repeat = setup.scenario.executor().repeat as usize;
+    let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
         how: &how,
-        runs: setup.scenario.executor().repeat as usize,
+        runs: repeat,
+        unflown: [carried_out.saturating_sub(runs), carried_out],
         cases: results.len(),
         limited: setup.scenario.asked() == Asked::Limits,
         asked,
@@ -96,12 +109,6 @@ fn cut_words(tally: &Tally, [not_executed, not_judged]: [usize; 2], of: usize) -
         .chain(cases(not_judged, "not judged"))
         .collect();
     (!parts.is_empty()).then(|| format!("cut short by the budget of time: {}", parts.join(", ")))
-}
-
-/// Runs of all cases, and the executions of a search that executes.
-fn flown(setup: &Setup, results: &[CaseResult], tally: &Tally) -> u64 {
-    let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
-    searched + results.len() as u64 * setup.scenario.executor().repeat
 }
 
 /// `violations run again 10 times each: 5 of 7 violate every time, least often 0117, 3/10 [6.7, 65.2] %`.
@@ -205,6 +212,14 @@ fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
     let what = format!("stopped before the first trajectory was found{why}");
     judgement::inconclusive(&format!("0/{asked}"), &how, &what)
+}
+
+/// The verdict of exit 5 on a search whose executions had nothing of what was searched for: what is feasible was found,
+/// and of how stressful it is nothing is known.
+fn nothing_measured(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
+    let executed: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
+    let executed = format!("{} executed", grouped(executed));
+    judgement::inconclusive(&format!("0/{asked}"), &[&executed, setup.scenario.reach()], UNMEASURED)
 }
 
 /// The verdict of exit 3 (5 where it rests on nothing but estimates), with what it rests on, and the smallest change

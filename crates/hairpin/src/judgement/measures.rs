@@ -77,6 +77,9 @@ pub struct Measures {
     pub t_worst: f64,
     /// The leg it belongs to, numbered by its first waypoint.
     pub leg_worst: usize,
+    /// Largest deviation that may hide between two samples, m, as [`super::look_closely`] bounds it; `None` where the
+    /// samples are all there is to know.
+    pub most_between: Option<f64>,
     /// Mean deviation over time, m.
     pub mean_deviation: f64,
     /// Largest ‖dv/dt‖, m/s².

@@ -68,6 +68,8 @@ pub struct Judged<'a> {
     pub how: &'a [&'a str],
     /// Runs per case.
     pub runs: usize,
+    /// Runs that came to no flight, of how many.
+    pub unflown: [usize; 2],
     /// Cases in all.
     pub cases: usize,
     /// Whether runs were held against anything; where they were not, crashes and leaving the world alone are counted.
@@ -115,6 +117,7 @@ impl Default for Judged<'_> {
         Self {
             how: &[],
             runs: 1,
+            unflown: [0, 0],
             cases: 0,
             limited: true,
             asked: 0,
@@ -245,6 +248,11 @@ fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     if judged.executor_failed > 0 && judged.failed > 0 {
         parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
     }
+    // Else the outcome is that they were not.
+    let [lost, of] = judged.unflown;
+    if lost > 0 && judged.failed > 0 {
+        parts.push(format!("{lost} of {of} runs not flown"));
+    }
     if judged.inconclusive > 0 {
         let doubt = if judged.doubt.is_empty() { String::new() } else { format!(" ({})", judged.doubt) };
         parts.push(format!("data of {}/{} inconclusive, not counted{doubt}", judged.inconclusive, judged.cases));
@@ -316,6 +324,16 @@ mod tests {
         let worst = Some(Worst { case: "0117", value, saturation: Some(0.31) });
         let chosen = Chosen::AtRandom;
         Judged { how: HOW, runs: 5, cases: 200, failed, worst, chosen, claims: WITNESSED, ..Judged::default() }
+    }
+
+    /// A violation is one whatever was not flown, and what was not is told.
+    #[test]
+    fn runs_that_were_not_flown_are_told_beside_a_violation() {
+        let far = violation("deviation", 0.65, 0.5);
+        let told = |failed| verdict(&Judged { unflown: [3, 1000], ..with(failed, &far) }).sentence;
+        assert!(told(3).contains("; 3 of 1000 runs not flown; all 200 witnessed"), "{}", told(3));
+        assert!(!told(0).contains("not flown"), "{}", told(0));
+        assert!(!verdict(&with(3, &far)).sentence.contains("not flown"));
     }
 
     #[test]

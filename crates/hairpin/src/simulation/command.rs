@@ -96,16 +96,16 @@ impl Demand {
     }
 }
 
-/// The columns x, y, z of the attitude whose z lies along `force` and whose yaw is 0; level where that is undefined.
+/// The columns x, y, z of the attitude whose z lies along `force` and whose yaw is 0; level without a force.
 ///
-/// y = z × e_x/|z × e_x|, x = y × z.
+/// y = z × e_x/|z × e_x|, x = y × z; where z lies along ±e_x any y across it has yaw 0, and it is e_y, as it is of all
+/// that lean a little less.
 pub(super) fn level_heading(force: &Vector3<f64>) -> Matrix3<f64> {
-    let axes = || {
-        let z = force.try_normalize(1e-9)?;
-        let y = z.cross(&Vector3::x()).try_normalize(1e-9)?;
-        Some(Matrix3::from_columns(&[y.cross(&z), y, z]))
+    let axes = |z: Vector3<f64>| {
+        let y = z.cross(&Vector3::x()).try_normalize(1e-9).unwrap_or_else(Vector3::y);
+        Matrix3::from_columns(&[y.cross(&z), y, z])
     };
-    axes().unwrap_or_else(Matrix3::identity)
+    force.try_normalize(1e-9).map_or_else(Matrix3::identity, axes)
 }
 
 /// A rotation matrix as a quaternion, by the largest of its four components (Shepperd 1978).
@@ -124,4 +124,25 @@ pub(super) fn attitude_of(r: &Matrix3<f64>) -> UnitQuaternion<f64> {
     let own = 0.5 * root;
     let [w, x, y, z] = [[own, wx, wy, wz], [wx, own, xy, xz], [wy, xy, own, yz], [wz, xz, yz, own]][largest];
     UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Also along the axis that headings are told from, where a force would be no other than hovering.
+    #[test]
+    fn thrust_goes_along_the_force() {
+        let tiny = 1e-10;
+        for force in [[5.0, 0.0, 0.0], [-5.0, 0.0, 0.0], [1e10, 0.0, 9.8], [1.0, tiny, 0.0], [0.0, 3.0, 4.0]] {
+            let force = Vector3::from(force);
+            let Demand { attitude, .. } = Demand::along(force);
+            assert!((attitude * Vector3::z() - force.normalize()).norm() < 1e-8, "{force}");
+            assert!((attitude.norm() - 1.0).abs() < 1e-9, "{force}");
+        }
+        assert_eq!(level_heading(&Vector3::zeros()), Matrix3::identity());
+        // What leans a little less turns the same way.
+        let near = level_heading(&Vector3::new(1.0, 0.0, 1e-6)) - level_heading(&Vector3::x());
+        assert!(near.norm() < 1e-5, "{near}");
+    }
 }

@@ -3,7 +3,7 @@
 use crate::campaigns::{ENDLESS, asked, check_witness, distance_to_hull, from_mast, run, setup};
 use hairpin::campaign::flight::FlightSetup;
 use hairpin::campaign::generate::Known;
-use hairpin::campaign::{Case, Evidence, OwnSimulator, Scenario, Setup, Stop, generate, optima, verdict};
+use hairpin::campaign::{Case, Curve, Evidence, OwnSimulator, Scenario, Setup, Stop, Tally, generate, optima, verdict};
 use hairpin::feasibility::reach::sampling;
 use hairpin::math::simd::Simd;
 use hairpin::robot::quadrotor::Quadrotor;
@@ -204,6 +204,18 @@ fn nothing_feasible_is_told_with_its_proof() {
     let verdict = verdict(&setup, &[], (&[], None), &tally);
     assert_eq!(verdict.exit_code, 3);
     assert!(verdict.sentence.starts_with("NOTHING FEASIBLE (proof, hull)"), "{}", verdict.sentence);
+}
+
+/// What was executed was feasible: that nothing of it was measured is no proof of anything.
+#[test]
+fn nothing_measured_is_not_nothing_feasible() {
+    let setup = setup("flightgoggles", 2, asked("hull", "beam", 2));
+    let why = "no execution came to a measure of what is searched for";
+    let curves = vec![Curve { executions: 30, ..Default::default() }];
+    let tally = Tally { graphs: 30, nothing: Some(why.into()), curves, ..Tally::default() };
+    let verdict = verdict(&setup, &[], (&[], None), &tally);
+    assert_eq!(verdict.exit_code, 5);
+    assert_eq!(verdict.sentence, format!("INCONCLUSIVE 0/2 (30 executed, hull): {why}"));
 }
 
 #[test]

@@ -54,7 +54,7 @@ def good(m):
     points, t = m["waypoints_m"], 0.0
     for leg, (a, b) in enumerate(zip(points, points[1:])):
         for i in range(11 if leg == len(points) - 2 else 10):
-            pose(t, [u + (v - u) * i / 10 for u, v in zip(a, b)], leg, v_m_s=[0, 0, 0])
+            pose(t, [u + (v - u) * i / 10 for u, v in zip(a, b)], leg, v_m_s=[v - u for u, v in zip(a, b)])
             t += 0.1
     say(type="end", reason="done")
 def fly(m):
@@ -205,6 +205,7 @@ fn every_broken_promise_has_its_sentence() {
         ("pose(0, [1, 1, 1], q=(0.9, 0, 0, 0))", "q_wxyz has length 0.900000"),
         ("pose(0, [1, 1, 1], 3)", "leg = 3: must be 0 … 1"),
         ("pose(0, [1, 1, 1]); pose(1, [1e8, 1, 1])", "p_m[0] = 1e8: must be within ±2.1e7 m"),
+        ("pose(0, [1, 1, 1]); pose(1, [2, 1, 1], v_m_s=[0, -1e39, 0])", "v_m_s[1] = -1e39: must be within ±1e6 m/s"),
         ("pose(0, [1, 1, 1]); pose(41, [1, 1, 1])", "t_s = 41 and no \"end\", time_limit_s is 30"),
         ("say(type='end', reason='done')", "\"end\" before the first pose"),
         ("say(type='end', reason='bored')", "unknown variant `bored`"),

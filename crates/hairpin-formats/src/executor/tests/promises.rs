@@ -100,6 +100,21 @@ fn what_would_be_a_false_violation_is_refused() {
     }
 }
 
+/// What a velocity is not: in km/h, or one that is not known.
+#[test]
+fn velocities_have_to_be_those_of_the_places() {
+    for (told, slip) in [("3.6 * (v - u)", "they look like km/h"), ("0", "they are 0 throughout: leave \"v_m_s\" out")]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let program = python(folder.path(), "good(m)");
+        let file = folder.path().join("executor.py");
+        let text = fs::read_to_string(&file).unwrap();
+        fs::write(&file, text.replace("v_m_s=[v - u for", &format!("v_m_s=[{told} for"))).unwrap();
+        let failed = fly(&program, limits(), 1, 1).remove(0).unwrap_err().to_string();
+        assert!(failed.contains("v_m_s[1] adds up to ") && failed.contains(slip), "{failed}");
+    }
+}
+
 /// In a corner of the cylinder that is outside of the sphere.
 #[test]
 fn acceptance_is_a_cylinder_from_protocol_2_on() {

@@ -122,13 +122,9 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
     let (search, score) = (&generate.search, generate.score.as_str());
     let named = files.model(score).map_or(score, |model| &model.given);
     found.rounds(search.method, (key, named), keys.vary.keys());
-    if search.executes(score) {
-        let measured = !matches!(search.stress, Stress::JointEffort | Stress::Tilt | Stress::Saturation);
-        found.stress(search.stress, measured, "trip");
-        let near = search.stress != Stress::Clearance || !keys.world.keep_out.is_empty();
-        let bound = "another one, or world.keep_out given: there is nothing to be near to";
-        found.require(near, "generate.search.stress", "\"clearance\"", bound);
-    }
+    let unmeasured = [Stress::JointEffort, Stress::Tilt, Stress::Saturation, Stress::Lateness];
+    let near = !keys.world.keep_out.is_empty();
+    found.sought(&keys.head(), &|stress| !unmeasured.contains(&stress), ("trip", "world.keep_out", near));
     found.target_of_file(search.target.as_ref(), files);
     if found.score_of_file(key, score, files, || keys.subject()) {
         return;

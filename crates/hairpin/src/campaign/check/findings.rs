@@ -3,8 +3,8 @@
 use crate::campaign::attachments::Attachments;
 use crate::campaign::digits::grouped;
 use crate::campaign::scenario::{
-    CONTROLLER_KEY, FlakySection, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Steering, Subject,
-    TARGET_KEY, Target,
+    CONTROLLER_KEY, FlakySection, Head, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Steering,
+    Subject, TARGET_KEY, Target,
 };
 use crate::judgement::Stress;
 
@@ -220,10 +220,45 @@ impl Findings {
         self.require(search.executions >= least, "generate.search.executions", search.executions, &bound);
     }
 
-    /// Whether a search that executes is for a stress that `execution`, a flight or a drive, is measured by.
-    pub(in crate::campaign) fn stress(&mut self, stress: Stress, measured: bool, execution: &str) {
-        let bound = format!("a stress that a {execution} is measured by");
-        self.require(measured, "generate.search.stress", format!("\"{}\"", stress.word()), &bound);
+    /// Whether a search that executes is for what an `execution`, a flight or a drive, is measured by: its target, its
+    /// stress, or at least one of the limits that the method `worst` searches for. Where `near` is false there are none
+    /// of the `things` that a clearance is measured from.
+    pub(in crate::campaign) fn sought(
+        &mut self,
+        head: &Head<'_>,
+        measured: &dyn Fn(Stress) -> bool,
+        (execution, things, near): (&str, &str, bool),
+    ) {
+        let search = &head.search;
+        if !search.executes(head.score) {
+            return;
+        }
+        let (key, word, stress) = match &search.target {
+            Some(target) => (TARGET_KEY, target.word(), target.stress()),
+            None => ("generate.search.stress", search.stress.word().to_owned(), Some(search.stress)),
+        };
+        let given = format!("\"{word}\"");
+        let bound = format!("another one, or {things} given: there is nothing to be near to");
+        match stress {
+            Some(Stress::Clearance) => self.require(near, key, given, &bound),
+            Some(stress) => {
+                self.require(measured(stress), key, given, &format!("a stress that a {execution} is measured by"));
+            }
+            None => {}
+        }
+        if search.method == SearchMethod::Worst && search.target.is_none() && !near {
+            self.limited_nearness(head, things);
+        }
+    }
+
+    /// Refuses a clearance as the only limit, and so as what the method `worst` searches for, where there are none of
+    /// the `things` that it is measured from.
+    fn limited_nearness(&mut self, head: &Head<'_>, things: &str) {
+        if let [(Stress::Clearance, least)] = head.terms.limited()[..] {
+            let key = head.limits.iter().find(|key| key.contains("clearance")).copied().unwrap_or("spec");
+            let bound = format!("beside another limit, or {things} given: there is nothing to be near to");
+            self.require(false, key, -least, &bound);
+        }
     }
 
     /// Whether what is searched under `key` stands nowhere else: given in its own place, or varied there.

@@ -3,7 +3,7 @@
 use crate::campaign::Setup;
 use crate::campaign::scenario::SearchMethod;
 use crate::campaign::trial::Sought;
-use crate::judgement::{Limits, Statistics, Stress};
+use crate::judgement::{Statistics, Stress};
 
 /// What is measured, and the limit that is asked of it, as it is measured: more is worse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,20 +26,9 @@ pub(super) fn targets(setup: &Setup) -> Vec<Target> {
     if search.stress != Stress::default() {
         return one(Sought::Measured(search.stress));
     }
-    let Limits { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, unfinished: _ } =
-        setup.scenario.head().terms.limits;
-    let least = |limit: Option<f64>| limit.map(|limit| -limit);
-    let limits = [
-        (Stress::MaxDeviation, deviation),
-        (Stress::Overshoot, overshoot),
-        (Stress::Clearance, least(clearance)),
-        (Stress::Tilt, least(tip_over_margin)),
-        (Stress::MaxAcceleration, acceleration),
-        (Stress::Time, total_time),
-        (Stress::Lateness, late),
-    ];
-    let given = limits.into_iter().filter(|(_, limit)| limit.is_some());
-    let given: Vec<Target> = given.map(|(stress, limit)| Target { sought: Sought::Measured(stress), limit }).collect();
+    let given = setup.scenario.head().terms.limited().into_iter();
+    let given: Vec<Target> =
+        given.map(|(stress, limit)| Target { sought: Sought::Measured(stress), limit: Some(limit) }).collect();
     if given.is_empty() { one(Sought::Measured(Stress::default())) } else { given }
 }
 
@@ -48,13 +37,12 @@ pub(super) fn targets(setup: &Setup) -> Vec<Target> {
 ///
 /// One name for a whole campaign; its values are those of [`Tally::curves`](crate::campaign::tally::Tally).
 pub fn column(setup: &Setup) -> String {
-    let search = setup.scenario.search();
-    if search.method != SearchMethod::Worst {
-        return search.sought().column();
+    if setup.scenario.search().method != SearchMethod::Worst {
+        return setup.scenario.sought().column();
     }
     match *targets(setup) {
         [Target { sought: Sought::Users, .. }] => "target".into(),
-        [_] => search.sought().column(),
+        [Target { sought: Sought::Measured(stress), .. }] => stress.column(),
         _ => "margin_in_spreads".into(),
     }
 }
@@ -93,5 +81,43 @@ impl<'a> Margins<'a> {
     pub(super) fn most(&self, stresses: &[f64]) -> Option<f64> {
         let told = stresses.iter().enumerate().map(|(target, stress)| self.told(target, *stress));
         told.filter(|told| !told.is_nan()).reduce(f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::campaign::Scenario;
+    use crate::campaign::testing::quadrotor;
+
+    fn told(search: Value, spec: Value) -> (String, Stress) {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] }, "spec": spec,
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },
+            "generate": { "search": search },
+        }))
+        .unwrap();
+        let setup = Setup::new(scenario).unwrap();
+        (column(&setup), setup.scenario.sought())
+    }
+
+    /// A number has the unit of what was searched for, and what it stands beside is measured alike.
+    #[test]
+    fn the_only_limit_gives_its_name() {
+        let worst = || json!({ "method": "worst" });
+        let fast = || json!({ "acceleration": { "max_m_s2": 3.0 } });
+        let both = json!({ "acceleration": { "max_m_s2": 3.0 }, "deviation": { "max_m": 0.5 } });
+        for (search, spec, name, sought) in [
+            (worst(), fast(), "max_acceleration_m_s2", Stress::MaxAcceleration),
+            (worst(), json!({ "total_time": { "max_s": 60.0 } }), "time_s", Stress::Time),
+            (worst(), json!({ "deviation": { "max_m": 0.5 } }), "max_deviation_m", Stress::MaxDeviation),
+            (worst(), both, "margin_in_spreads", Stress::MaxDeviation),
+            (json!({ "method": "worst", "target": "time" }), fast(), "time_s", Stress::Time),
+            (json!({ "method": "in-loop" }), fast(), "max_deviation_m", Stress::MaxDeviation),
+        ] {
+            assert_eq!(told(search, spec), (name.to_owned(), sought));
+        }
     }
 }

@@ -11,10 +11,11 @@ use rayon::prelude::*;
 
 use super::graphs::Graphs;
 use super::known::Known;
-use super::targets::{Margins, targets};
+use super::targets::{Margins, column, targets};
 use crate::campaign::answers::{Answers, Executed};
 use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint, met};
+use crate::campaign::scenario::UNMEASURED;
 use crate::campaign::trial::{Sought, executed_case};
 use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::{Stream, named_seed};
@@ -255,6 +256,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     let executions = [setup.scenario.searched_executions(), 0];
     let Pool { plans, curve, drawn, run, apart, nothing, answers } =
         pool(graphs, search.cases as usize, executions, &before, stop);
+    let nothing = if plans.is_empty() && curve.executions > 0 { Some(UNMEASURED.into()) } else { nothing };
     let mut tally = Tally {
         units: 1,
         graphs: drawn,
@@ -267,6 +269,7 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
         sampler: Some(graphs.solver.drawn_how().into()),
         apart: Some(apart),
         nothing,
+        told_in: Some(column(setup)),
         ..Tally::default()
     };
     tally.complete &= !tally.stopped;

@@ -19,6 +19,7 @@ use super::executions::Executions;
 use super::optima::optima;
 use super::plan::Plan;
 use super::question::{Looped, Question};
+use crate::campaign::scenario::UNMEASURED;
 use crate::math::random::named_seed;
 use crate::search::in_loop::{EvolveSettings, ShiftSettings, Tested, Trial, climb, evolve, shift};
 use crate::search::{Additive, Aggregate, Found, LegGraph, UniformSettings, uniform};
@@ -111,8 +112,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
     let mut plans: Vec<Plan> = climbers.into_iter().map(|climber| climber.plan).collect();
     // Where nothing finds room, and nothing else stands there, there is no clearance to measure either.
     let no_room = "no obstacle of those asked for (`generate.environment.obstacles`) finds room where executions leave their plan";
-    let unmeasured = "no execution of what was found ended with a measure";
-    let mut reason = plans.is_empty().then(|| if furnished { no_room } else { unmeasured }.to_owned());
+    let mut reason = plans.is_empty().then(|| if furnished { no_room } else { UNMEASURED }.to_owned());
     if furnished && !plans.is_empty() {
         let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.stress, ..plan });
         let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);

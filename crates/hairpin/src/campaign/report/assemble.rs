@@ -6,6 +6,7 @@ use super::data::{Beside, Metric, Pieces, ReportData, Shown, worst_first};
 use super::facts::{facts, key_numbers, metrics};
 use super::length::length;
 use crate::campaign::CaseNumber;
+use crate::campaign::generate::column;
 use crate::campaign::verdict::named;
 
 /// Puts the pieces of a report together.
@@ -38,7 +39,9 @@ pub fn assemble(pieces: Pieces) -> ReportData {
         influences: pieces.influences,
         regression: None,
         coverage: pieces.coverage,
-        stress: pieces.setup.scenario.search().sought(),
+        confidence: pieces.setup.scenario.confidence_of_intervals(),
+        stress: pieces.setup.scenario.sought(),
+        told_in: pieces.tally.and_then(|tally| tally.told_in.clone()).unwrap_or_else(|| column(pieces.setup)),
         curves: pieces.tally.map_or_else(Vec::new, |tally| tally.curves.clone()),
         rounds: pieces.tally.map_or_else(Vec::new, |tally| tally.rounds.clone()),
     }

@@ -188,8 +188,13 @@ pub struct ReportData {
     pub regression: Option<Regression>,
     /// Which cells of the grid of motion were met.
     pub coverage: Option<Coverage>,
+    /// Confidence of intervals, 0 … 1.
+    pub confidence: f64,
     /// What searches that execute look for.
     pub stress: Stress,
+    /// What their curves are told in: the stress as columns are named, or `margin_in_spreads` of several limits,
+    /// `target` of a function of the user's.
+    pub told_in: String,
     /// Of such searches: the largest stress so far in every graph.
     pub curves: Vec<Curve>,
     /// Of adaptive campaigns.

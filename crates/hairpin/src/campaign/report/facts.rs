@@ -56,7 +56,7 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     }
     // What was not searched for has no search to be counted.
     let Some(tally) = pieces.tally else { return numbers };
-    let confidence = pieces.setup.scenario.confidence().unwrap_or(0.95);
+    let confidence = pieces.setup.scenario.confidence_of_intervals();
     let chosen = tally.chosen(&pieces.setup.scenario.search());
     let share = match (chosen.share(failed, judged, confidence), chosen) {
         _ if pieces.setup.scenario.asked() != Asked::Limits => "crashes alone: spec = \"none\"".into(),

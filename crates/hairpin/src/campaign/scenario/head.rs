@@ -7,8 +7,9 @@ use serde_json::Value;
 
 use super::{
     Asked, Distribution, Environment, Mistake, Named, Origin, Projected, Record, SearchMethod, SearchSection, Subject,
-    Terms,
+    Target, Terms,
 };
+use crate::judgement::Stress;
 use crate::trajectory::program::{Tool, WorkObject};
 
 /// Who executes a campaign's trajectories, and how often.
@@ -38,6 +39,9 @@ pub struct Executor<'a> {
 
 /// Random feasible cases where the scenario does not say how many.
 pub(in crate::campaign) const BASELINE: u64 = 20;
+
+/// Confidence of intervals where the spec names none.
+const CONFIDENCE: f64 = 0.95;
 
 /// When a run is given up: after a time that is given, else after what it may be expected to take.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -232,6 +236,11 @@ pub trait Keys: Any {
         self.head().confidence
     }
 
+    /// Confidence of all intervals that are told of its cases, runs and draws: that of the spec, 0.95 where it says none.
+    fn confidence_of_intervals(&self) -> f64 {
+        self.confidence().unwrap_or(CONFIDENCE)
+    }
+
     /// Limit of the deviation, m.
     fn deviation_limit(&self) -> Option<f64> {
         self.head().terms.limits.deviation
@@ -257,6 +266,19 @@ pub trait Keys: Any {
             self.head().limits.join(", ")
         );
         Err(Mistake { key: "spec".into(), value, bound })
+    }
+
+    /// What is searched for as it is measured beside all other cases: the target or the stress, and where the method
+    /// `worst` searches for the only limit of `[spec]`, what that bounds.
+    ///
+    /// Of several limits, and of a target of the user's, the usual stress.
+    fn sought(&self) -> Stress {
+        let Head { search, terms, .. } = self.head();
+        let by_limits = search.method == SearchMethod::Worst && search.target.is_none();
+        match terms.limited()[..] {
+            [(only, _)] if by_limits && search.stress == Stress::default() => only,
+            _ => search.target.as_ref().and_then(Target::stress).unwrap_or(search.stress),
+        }
     }
 
     /// Whether trajectories are executed while they are searched for.

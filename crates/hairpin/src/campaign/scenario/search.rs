@@ -102,6 +102,10 @@ impl Default for SearchSection {
     }
 }
 
+/// Why nothing was found where all that was executed went without the measure that is searched for, in a sentence's
+/// part.
+pub(in crate::campaign) const UNMEASURED: &str = "no execution came to a measure of what is searched for";
+
 /// The key of what is searched for.
 pub const TARGET_KEY: &str = "generate.search.target";
 
@@ -261,9 +265,20 @@ impl SearchSection {
         self.executions.saturating_mul(self.cases)
     }
 
-    /// What is searched for as it is measured beside all other cases; of a target of the user's the usual stress.
-    pub fn sought(&self) -> Stress {
-        self.target.as_ref().and_then(Target::stress).unwrap_or(self.stress)
+    /// Keys that stand there with another value than the usual one and that the method `worst` has no use for, with
+    /// their values; none of other methods.
+    pub fn passed_over(&self) -> Vec<(&'static str, String)> {
+        let usual = Self::default();
+        let beside_target = self.target.is_some() && self.stress != usual.stress;
+        let given = [
+            ("width", (self.width != usual.width).then(|| self.width.to_string())),
+            ("per_graph", (self.per_graph != usual.per_graph).then(|| self.per_graph.to_string())),
+            ("aggregate", (self.aggregate == Aggregate::Max).then(|| "\"max\"".to_owned())),
+            ("rounds", self.rounds.map(|rounds| rounds.to_string())),
+            ("stress", beside_target.then(|| format!("\"{}\"", self.stress.word()))),
+        ];
+        let worst = self.method == SearchMethod::Worst;
+        given.into_iter().filter_map(|(key, value)| Some((key, value.filter(|_| worst)?))).collect()
     }
 
     /// Whether waypoints are moved off their graphs.
@@ -280,6 +295,18 @@ impl SearchSection {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_worst_has_no_use_for_is_known() {
+        let usual = SearchSection { method: SearchMethod::Worst, ..SearchSection::default() };
+        assert!(usual.passed_over().is_empty());
+        let idle = SearchSection { per_graph: 3, rounds: Some(2), stress: Stress::Time, ..usual };
+        let keys = |search: &SearchSection| search.passed_over().into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+        assert_eq!(keys(&idle), ["per_graph", "rounds"], "a stress without a target is what is searched for");
+        let aimed = SearchSection { target: Some(Target::Deviation), ..idle };
+        assert_eq!(keys(&aimed), ["per_graph", "rounds", "stress"]);
+        assert_eq!(keys(&SearchSection { method: SearchMethod::Beam, ..aimed }), Vec::<&str>::new());
+    }
 
     #[test]
     fn rounds_follow_from_executions() {

@@ -1,7 +1,7 @@
 //! What a run is judged by: the reference of its deviation, and the limits.
 
 use super::{DeviationFrom, SpecSection};
-use crate::judgement::Limits;
+use crate::judgement::{Limits, Stress};
 
 /// The terms of a scenario's spec.
 #[derive(Debug, Clone, Copy)]
@@ -38,5 +38,24 @@ impl Terms {
                 ..Limits::default()
             },
         }
+    }
+
+    /// The limits that there are, each with the stress that it bounds: as stresses are, more being worse.
+    ///
+    /// Limits that must not be fallen short of (clearance, tip-over margin) are turned.
+    pub(in crate::campaign) fn limited(&self) -> Vec<(Stress, f64)> {
+        let Limits { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, unfinished: _ } =
+            self.limits;
+        let least = |limit: Option<f64>| limit.map(|limit| -limit);
+        let limits = [
+            (Stress::MaxDeviation, deviation),
+            (Stress::Overshoot, overshoot),
+            (Stress::Clearance, least(clearance)),
+            (Stress::Tilt, least(tip_over_margin)),
+            (Stress::MaxAcceleration, acceleration),
+            (Stress::Time, total_time),
+            (Stress::Lateness, late),
+        ];
+        limits.into_iter().filter_map(|(stress, limit)| Some((stress, limit?))).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Bounds of `generate.environment`, and what it goes with.
 
 use crate::campaign::check::Findings;
-use crate::campaign::scenario::{DriveEnvironmentSection, DriveScenario, PlacedDiscsSection};
+use crate::campaign::scenario::{DriveEnvironmentSection, DriveScenario, Keys, PlacedDiscsSection};
 use crate::judgement::Stress;
 use crate::robot::rover::Rover;
 use crate::world::terrain::ElevationMap;
@@ -13,14 +13,9 @@ const MOST_FORCE: f64 = 1e6;
 pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, map: Option<&ElevationMap>, found: &mut Findings) {
     let search = scenario.generate.search.section();
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
-    if search.executes(&scenario.generate.search.score) && search.stress == Stress::Clearance {
-        let some = placed.is_some() || !scenario.world.keep_out.is_empty();
-        let bound = "another one, or keep-outs given: there is nothing to be near to";
-        found.require(some, "generate.search.stress", "\"clearance\"", bound);
-    }
-    if search.executes(&scenario.generate.search.score) {
-        found.stress(search.stress, !matches!(search.stress, Stress::JointEffort | Stress::Saturation), "drive");
-    }
+    let near = placed.is_some() || !scenario.world.keep_out.is_empty();
+    let measured = |stress| !matches!(stress, Stress::JointEffort | Stress::Saturation | Stress::Lateness);
+    found.sought(&scenario.head(), &measured, ("drive", "keep-outs", near));
     let Some(environment) = &scenario.generate.environment else { return };
     let DriveEnvironmentSection { obstacles, external_force_n } = *environment;
     found.environment(&search, obstacles.is_some() || external_force_n.is_some(), "obstacles or external_force_n");

@@ -2,22 +2,22 @@
 
 use super::world::vector;
 use crate::campaign::check::Findings;
-use crate::campaign::scenario::{EnvironmentSection, FlightScenario, PlacedSection};
+use crate::campaign::scenario::{EnvironmentSection, FlightScenario, Keys, PlacedSection};
 use crate::judgement::Stress;
 
 /// Winds and gusts up to 100 m/s, searched only where none is given or varied; obstacles only for the stress
-/// `clearance`.
+/// `clearance`, and that only where there are some.
 pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     let search = &scenario.generate.search;
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
-    if search.executes(&scenario.generate.score) && search.stress == Stress::Clearance {
-        let some = placed.is_some() || !scenario.world.obstacles.is_empty();
-        let bound = "another one, or obstacles given: there is nothing to be near to";
-        found.require(some, "generate.search.stress", "\"clearance\"", bound);
-    }
-    if search.executes(&scenario.generate.score) {
-        found.stress(search.stress, !matches!(search.stress, Stress::JointEffort), "flight");
-    }
+    let near = placed.is_some() || !scenario.world.obstacles.is_empty();
+    // A program's flights have no rotors to look at.
+    let measured = |stress| match stress {
+        Stress::JointEffort | Stress::Lateness => false,
+        Stress::Saturation => scenario.execute.command.is_none(),
+        _ => true,
+    };
+    found.sought(&scenario.head(), &measured, ("flight", "obstacles", near));
     let Some(environment) = &scenario.generate.environment else { return };
     let key = "generate.environment";
     let EnvironmentSection { wind_m_s, gust_m_s, gust_s, obstacles } = *environment;

@@ -37,7 +37,8 @@ pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
 /// At most one of controller, command and logs; none of them means the controller `stable-waypoint`.
 fn check_who(execute: &ExecuteSection, found: &mut Findings) {
     if let Some(logs) = &execute.logs {
-        let bound = "a controller or a command: judging logs is not in this version";
+        let bound =
+            "left out: `hairpin judge LOGS --campaign OUT` judges logs of flights against a campaign that is there";
         found.require(false, "execute.logs", format!("\"{logs}\""), bound);
         return;
     }

@@ -98,7 +98,7 @@ fn every_bound_holds() {
         ("generate.score", json!("fast"), "generate.score = \"fast\": must be one of random, "),
         ("generate.score", json!("learned:m.json"), "read with its scenario"),
         ("generate.limits.max_tilt_deg", json!(0.0), "max_tilt_deg = 0: must be > 0"),
-        ("execute.logs", json!("*.ulg"), "judging logs is not in this version"),
+        ("execute.logs", json!("*.ulg"), "`hairpin judge LOGS --campaign OUT` judges logs of flights"),
         ("execute.step_s", json!(0.01), "execute.step_s = 0.01: must be ≥ 0.00001 and ≤ 0.001"),
         ("execute.command", json!(" "), "must be a program and its arguments"),
         ("execute.repeat", json!(0), "execute.repeat = 0: must be 1"),
@@ -124,6 +124,43 @@ fn combinations_that_contradict_each_other() {
     assert_eq!(exact, ["generate.search.waypoints = 5000: must be 1 … 2 000"]);
     let several = mistakes(&[("task.length", json!(1)), ("spec.confidence", json!(2.0))]);
     assert_eq!(several.len(), 2, "{several:?}");
+}
+
+/// What no execution is measured by is not what nothing is feasible of.
+#[test]
+fn what_is_never_measured_is_not_searched_for() {
+    let open = ("world.obstacles", json!([]));
+    let worst = |target: &str| ("generate.search", json!({ "method": "worst", "target": target }));
+    let by_limits = ("generate.search", json!({ "method": "worst" }));
+    let in_loop = |stress: &str| ("generate.search", json!({ "method": "in-loop", "stress": stress }));
+    let near = "must be another one, or obstacles given: there is nothing to be near to";
+    let flown = "must be a stress that a flight is measured by";
+    let program = ("execute.command", json!("sim"));
+    let clear = ("spec", json!({ "clearance": { "min_m": 0.5 } }));
+    let both = ("spec", json!({ "clearance": { "min_m": 0.5 }, "deviation": { "max_m": 0.5 } }));
+    for (changes, told) in [
+        (vec![worst("lateness")], format!("generate.search.target = \"lateness\": {flown}")),
+        (vec![in_loop("lateness")], format!("generate.search.stress = \"lateness\": {flown}")),
+        (vec![in_loop("saturation"), program], format!("generate.search.stress = \"saturation\": {flown}")),
+        (vec![worst("clearance"), open.clone()], format!("generate.search.target = \"clearance\": {near}")),
+        (
+            vec![by_limits.clone(), clear.clone(), open.clone()],
+            "spec.clearance.min_m = 0.5: must be beside another limit, or obstacles given: there is nothing to be near to"
+                .to_owned(),
+        ),
+    ] {
+        assert_eq!(mistakes(&changes), [told]);
+    }
+    for changes in [
+        vec![worst("clearance")],
+        vec![worst("tip-over"), open.clone()],
+        vec![in_loop("saturation")],
+        vec![by_limits.clone(), clear.clone()],
+        vec![by_limits, both, open.clone()],
+        vec![clear, open],
+    ] {
+        assert_eq!(mistakes(&changes), Vec::<String>::new());
+    }
 }
 
 #[test]

@@ -27,7 +27,7 @@ use crate::campaign::curve::Curve;
 use crate::campaign::graph::{Plan, fingerprint};
 use crate::campaign::learn::LegSample;
 use crate::campaign::samples::learn;
-use crate::campaign::scenario::SearchSection;
+use crate::campaign::scenario::{SearchSection, UNMEASURED};
 use crate::campaign::trial::executed_case;
 use crate::campaign::{Case, RoundTally, Setup, Stop, Tally};
 
@@ -194,7 +194,7 @@ impl Campaign<'_> {
         if !cases.is_empty() {
             self.tally.nothing = None;
         } else if self.tally.solved > 0 && !self.tally.stopped {
-            self.tally.nothing = Some("no execution of what was drawn ended with a measure of its stress".into());
+            self.tally.nothing = Some(UNMEASURED.into());
         }
         sink(&cases, &self.tally);
         self.tally
