@@ -168,6 +168,20 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
     Ok((waypoints, true))
 }
 
+/// Columns of the table in `path` that are not read.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn unread_columns(path: &Path) -> Result<Vec<String>, WaypointsError> {
+    let bytes = bounds::read_table(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
+    let text = String::from_utf8_lossy(&bytes);
+    let header = Table::of(&text, Cut::COMMAS).names;
+    let is_in = |columns: [&str; 3]| columns.iter().all(|column| header.place(column).is_some());
+    let read = if is_in(COLUMNS) { COLUMNS } else { geodetic::PLACE };
+    let others = header.cells().filter(|name| !name.is_empty() && !read.contains(name));
+    Ok(others.map(str::to_owned).collect())
+}
+
 /// A row in metres.
 fn metres(path: &Path, row: &Row, places: [usize; 3], farthest: f64) -> Result<Point3<f64>, WaypointsError> {
     let mut point = Point3::origin();
