@@ -179,14 +179,18 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
     Ok((waypoints, true))
 }
 
-/// The columns of a file that [`read`] does not read, in their order; none of a file that cannot be read.
-pub fn passed_over(path: &Path) -> Vec<String> {
-    let Ok(bytes) = bounds::read_table(path) else { return Vec::new() };
+/// Columns of the table in `path` that are not read.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn unread_columns(path: &Path) -> Result<Vec<String>, WaypointsError> {
+    let bytes = bounds::read_table(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
     let text = String::from_utf8_lossy(&bytes);
     let header = Table::of(&text, Cut::COMMAS).names;
-    let names = (0..header.len()).map(|place| header.cell(place).to_owned());
-    let of_others = |name: &String| !COLUMNS.contains(&name.as_str()) && !geodetic::PLACE.contains(&name.as_str());
-    names.filter(of_others).collect()
+    let is_in = |columns: [&str; 3]| columns.iter().all(|column| header.place(column).is_some());
+    let read = if is_in(COLUMNS) { COLUMNS } else { geodetic::PLACE };
+    let others = header.cells().filter(|name| !name.is_empty() && !read.contains(name));
+    Ok(others.map(str::to_owned).collect())
 }
 
 /// A row in metres.

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use hairpin::campaign::Environment;
+use hairpin::world::terrain::KeepOutShape;
 use nalgebra::{Point2, Point3, Vector2};
 
 use crate::frames::Geodetic;
+pub use crate::qgc::read_plan::Whose;
 
 /// A mission made elsewhere.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +28,10 @@ pub struct Mission {
     pub frame: Frame,
     /// The speed demanded on each leg, m/s, where one is.
     pub speeds: Vec<Option<f64>>,
+    /// The acceptance radius of each waypoint, m, where it has one; empty where none does.
+    pub accept: Vec<Option<f64>>,
+    /// Whose it is, where the file says so.
+    pub whose: Whose,
     /// Waypoints between the ends where it stops.
     pub stops: Vec<Stop>,
     /// What of the file changes nothing that is judged, in words.
@@ -86,6 +92,14 @@ pub enum Outline {
 }
 
 impl Outline {
+    /// What it encloses.
+    pub fn shape(&self) -> KeepOutShape {
+        match self {
+            Self::Circle(center, radius) => KeepOutShape::Circle { center_m: [center.x, center.y], radius_m: *radius },
+            Self::Polygon(corners) => KeepOutShape::Polygon { points_m: corners.iter().map(|p| [p.x, p.y]).collect() },
+        }
+    }
+
     /// Moves it by `by`, m.
     pub fn shift(&mut self, by: &Vector2<f64>) {
         match self {
@@ -96,6 +110,11 @@ impl Outline {
 }
 
 impl Mission {
+    /// How long it waits at all of its stops together, s; infinite where it is told to go on.
+    pub fn hold(&self) -> f64 {
+        self.stops.iter().map(|stop| stop.hold_s).sum()
+    }
+
     /// Where waypoint `number` stands in the file: `waypoint 3 (item 5)`.
     pub fn told(&self, number: usize) -> String {
         match self.sources.get(number) {

@@ -9,5 +9,5 @@ mod read;
 mod tests;
 
 pub use error::MissionError;
-pub use mission::{Fence, Frame, Mission, Outline, Stop, Uncertain};
+pub use mission::{Fence, Frame, Mission, Outline, Stop, Uncertain, Whose};
 pub use read::{environment_path, read, read_all};

@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{Environment, Scenario};
 
 use super::error::MissionError;
-use super::mission::{Frame, Mission};
+use super::mission::{Frame, Mission, Whose};
 use super::place::place;
 use crate::bounds::{self, MOST_BYTES, MOST_TEXT_BYTES};
 use crate::folder::{is_exported, is_of_a_motion};
 use crate::geodetic;
 use crate::qgc::{read_plan, read_wpl};
+use crate::quote;
 use crate::waypoints;
 
 /// Endings of files that are missions, of which `txt` may be anything.
@@ -125,15 +126,17 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, 
         Format::Plan => {
             let text = bounds::read_json_text(path).map_err(unreadable)?;
             let plan = read_plan::parse(&text).map_err(wrong)?;
-            place((path, "QGroundControl plan"), (plan.mission, &plan.fences), scenario, farthest)
+            place((path, "QGroundControl plan"), (plan.mission, plan.whose, &plan.fences), scenario, farthest)
         }
         Format::Wpl => {
             let text = bounds::read_text(path, MOST_TEXT_BYTES).map_err(unreadable)?;
             let uploaded = read_wpl::parse(&text).map_err(wrong)?;
-            place((path, "QGC WPL 110"), (uploaded, &[]), scenario, farthest)
+            place((path, "QGC WPL 110"), (uploaded, Whose::default(), &[]), scenario, farthest)
         }
         Format::Table => {
             let (waypoints, rounded) = waypoints::read(path, scenario, farthest)?;
+            let unread = waypoints::unread_columns(path)?;
+            let unread = quote::shortened(&unread.join(", ")).into_owned();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             Ok(Mission {
@@ -145,21 +148,20 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, 
                 waypoints,
                 rounded,
                 frame: if rounded { Frame::Placed } else { Frame::World },
+                accept: Vec::new(),
+                whose: Whose::default(),
                 stops: Vec::new(),
-                notes: passed_over(path),
+                notes: if unread.is_empty() {
+                    Vec::new()
+                } else {
+                    vec![format!("columns that are not read: {unread}")]
+                },
                 uncertain: Vec::new(),
                 fences: Vec::new(),
                 environment: None,
             })
         }
     }
-}
-
-/// What a table has beside places, which is not followed.
-fn passed_over(path: &Path) -> Vec<String> {
-    let columns = waypoints::passed_over(path);
-    let note = format!("of a table places alone are read; passed over: {}", columns.join(", "));
-    if columns.is_empty() { Vec::new() } else { vec![note] }
 }
 
 /// What a file is written in.

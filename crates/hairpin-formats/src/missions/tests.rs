@@ -113,6 +113,54 @@ fn speeds_holds_and_endings_are_kept() {
 }
 
 #[test]
+fn speeds_that_wait_or_are_relative_and_places_passed_beside_are_not_followed() {
+    let open = |from: &str, to: &str| {
+        assert!(PLAN.contains(from), "{from}");
+        mission(&PLAN.replacen(from, to, 1), "a.plan", false).unwrap().uncertain
+    };
+    let speed = "{ \"type\": \"SimpleItem\", \"command\": 178,";
+    let waits = |command: u64| {
+        let item = "\"frame\": 2, \"autoContinue\": true, \"params\": [5, 0, 0, 0, 0, 0, 0] },";
+        open(speed, &format!("{{ \"type\": \"SimpleItem\", \"command\": {command}, {item} {speed}"))
+    };
+    for command in [112, 114, 115] {
+        let found = waits(command);
+        assert!(found.len() == 1 && found[0].words.contains("the condition of item 2"), "{command}: {found:?}");
+    }
+    // What is not motion may wait; and the next place ends it.
+    assert!(waits(203).is_empty() && open("\"command\": 203", "\"command\": 112").is_empty());
+    assert!(open("[1, 3, -1, 0, 0,", "[1, 3, -1, 1, 0,")[0].words.contains("relative to the one before"));
+    let beside = open("[0, 1, 0, null, 38.03364", "[0, 1, -4, null, 38.03364");
+    assert!(beside[0].waypoint == 1 && beside[0].words.contains("passes 4 m beside its place"), "{beside:?}");
+    let error = mission(&PLAN.replacen("[1, 3, -1, 0, 0,", "[1, 3, -1, 2, 0,", 1), "a.plan", false).unwrap_err();
+    assert!(error.contains("params[3] of command 178: 2, must be 0"), "{error}");
+}
+
+#[test]
+fn radii_and_whose_it_is_are_kept() {
+    let read = mission(PLAN, "a.plan", false).unwrap();
+    assert_eq!(read.accept, [None, Some(1.0), Some(1.0)]);
+    assert_eq!((read.whose.firmware, read.whose.vehicle), (Some(12), Some(2)));
+    let list = mission(WPL, "a.waypoints", false).unwrap();
+    assert_eq!((list.accept, list.whose), (read.accept, super::Whose::default()));
+}
+
+#[test]
+fn a_fence_without_an_area_is_refused() {
+    let flat = PLAN.replacen("[38.0339, -78.5076], [38.0339, -78.5082]", "[38.0334, -78.5079], [38.0334, -78.5078]", 1);
+    assert!(flat != PLAN);
+    let error = mission(&flat, "a.plan", false).unwrap_err();
+    assert!(error.contains("fence 0 of its geoFence") && error.contains("lie in a line"), "{error}");
+}
+
+#[test]
+fn columns_that_nobody_reads_are_named() {
+    let text = "x_m,y_m,z_m,speed_m_s,hold_s\n1,2,3,4,5\n4,5,6,7,8\n";
+    assert_eq!(mission(text, "a.csv", false).unwrap().notes, ["columns that are not read: speed_m_s, hold_s"]);
+    assert!(mission("x_m,y_m,z_m\n1,2,3\n4,5,6\n", "a.csv", false).unwrap().notes.is_empty());
+}
+
+#[test]
 fn what_no_loader_takes_is_placed() {
     let told = |from: &str, to: &str| {
         assert!(PLAN.contains(from), "{from}");
@@ -222,7 +270,7 @@ fn a_folder_has_missions_of_all_formats() {
     // What a table has beside places is not followed, and that is told.
     write("a.csv", "x_m,y_m,z_m,speed_m_s\n1,2,3,4\n4,5,6,4\n");
     let told = read(&place.path().join("a.csv"), &scenario(false), FARTHEST_M).unwrap().notes;
-    assert_eq!(told, ["of a table places alone are read; passed over: speed_m_s"]);
+    assert_eq!(told, ["columns that are not read: speed_m_s"]);
 }
 
 proptest! {

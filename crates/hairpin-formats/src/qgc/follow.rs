@@ -4,6 +4,7 @@
 use hairpin::campaign::bounds::{FARTHEST_M, MOST_WAYPOINTS};
 
 use super::item::{Frame, Item, Wrong};
+use super::uploaded::{Ending, Open, Station, Uploaded};
 use super::words::{self, Effect};
 use crate::frames::Geodetic;
 
@@ -14,56 +15,6 @@ const FASTEST_M_S: f64 = 1000.0;
 /// The longest wait, s.
 const LONGEST_S: f64 = 1e6;
 
-/// A mission as a vehicle is sent it, its places on Earth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Uploaded {
-    /// The planned home.
-    pub home: Geodetic,
-    /// Where the vehicle is sent, in order.
-    pub stations: Vec<Station>,
-    /// How it ends.
-    pub ending: Ending,
-    /// What was read and changes nothing that is judged, in words.
-    pub notes: Vec<String>,
-    /// What changes the motion and is not followed.
-    pub open: Vec<Open>,
-}
-
-/// A place that a mission sends its vehicle to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Station {
-    /// Number of the item, as ground stations count.
-    pub item: usize,
-    /// Where.
-    pub place: Geodetic,
-    /// The speed demanded on the way there, m/s; `None`: the vehicle's own.
-    pub speed: Option<f64>,
-    /// Seconds that it waits there, where it does; infinite: until it is told to go on.
-    pub hold_s: Option<f64>,
-    /// The acceptance radius, m, where the mission has one.
-    pub accept_m: Option<f64>,
-}
-
-/// How a mission ends, as far as it is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// At its last place.
-    Stays,
-    /// Down to the ground at its last place.
-    Lands,
-    /// The way home, which is the autopilot's own.
-    Returns,
-}
-
-/// An item that changes the motion and is not followed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Open {
-    /// Number of the station that is gone to before it: from there on nothing is certain.
-    pub station: usize,
-    /// The item, in words.
-    pub words: String,
-}
-
 /// What is known while items are followed.
 struct Following {
     mission: Uploaded,
@@ -73,6 +24,8 @@ struct Following {
     took_off: bool,
     /// The item that ended it.
     over: Option<String>,
+    /// The condition that what comes before the next place waits for.
+    waits: Option<usize>,
     yaws: usize,
 }
 
@@ -82,7 +35,7 @@ struct Following {
 /// What no autopilot would take, or what nobody could follow.
 pub(super) fn follow(items: &[Item], home: Geodetic, flies: bool) -> Result<Uploaded, Wrong> {
     let mission = Uploaded { home, stations: Vec::new(), ending: Ending::Stays, notes: Vec::new(), open: Vec::new() };
-    let mut following = Following { mission, speed: None, flies, took_off: false, over: None, yaws: 0 };
+    let mut following = Following { mission, speed: None, flies, took_off: false, over: None, waits: None, yaws: 0 };
     for item in items {
         following.item(item)?;
     }
@@ -97,6 +50,10 @@ impl Following {
                 self.open(words);
             }
             return Ok(());
+        }
+        // Conditions hold back what is done until the next place.
+        if item.command <= 95 {
+            self.waits = None;
         }
         match item.command {
             16 => {
@@ -128,14 +85,22 @@ impl Following {
             )),
             178 => self.change_speed(item),
             other => {
-                let (name, effect) = words::of(other);
-                let words = format!("item {} (command {other}, {name})", item.number);
-                match effect {
-                    Effect::Harmless => self.mission.notes.push(format!("{words} is passed over")),
-                    Effect::Moves => self.open(format!("{words} changes the motion and is not followed")),
-                }
+                self.pass_over(item, words::of(other));
                 Ok(())
             }
+        }
+    }
+
+    /// An item that is not followed.
+    fn pass_over(&mut self, item: &Item, (name, effect): (&str, Effect)) {
+        let words = format!("item {} (command {}, {name})", item.number, item.command);
+        match effect {
+            Effect::Harmless => self.mission.notes.push(format!("{words} is passed over")),
+            Effect::Delays => {
+                self.waits = Some(item.number);
+                self.mission.notes.push(format!("{words} is passed over: what waits for it does not move"));
+            }
+            Effect::Moves => self.open(format!("{words} changes the motion and is not followed")),
         }
     }
 
@@ -192,6 +157,8 @@ impl Following {
     fn go(&mut self, item: &Item, hold_s: Option<f64>) -> Result<(), Wrong> {
         let place = self.place(item, None)?;
         self.yaws += usize::from(item.given(4).is_some_and(|yaw| yaw != 0.0));
+        // Of a wait it is the radius of circles, which what hovers does not fly.
+        let beside = item.given(3).filter(|beside| *beside != 0.0 && item.command == 16);
         let accept_m = item.given(2).filter(|radius| *radius > 0.0);
         let next = Station { item: item.number, place, speed: self.speed, hold_s, accept_m };
         let first = self.took_off && self.mission.stations.len() == 1;
@@ -200,15 +167,21 @@ impl Following {
             Some(last) if is_one_place(&last.place, &place) && first => {
                 self.mission.notes.push(format!("item {} is where the take-off ends", item.number));
                 *last = next;
-                Ok(())
             }
-            Some(last) if is_one_place(&last.place, &place) => Err(Wrong::new(
-                format!("{}params[4..7]", item.at),
-                format!("the place of item {} again", last.item),
-                "another place: a wait is the hold time of an item",
-            )),
-            _ => self.add(item, next),
+            Some(last) if is_one_place(&last.place, &place) => {
+                return Err(Wrong::new(
+                    format!("{}params[4..7]", item.at),
+                    format!("the place of item {} again", last.item),
+                    "another place: a wait is the hold time of an item",
+                ));
+            }
+            _ => self.add(item, next)?,
         }
+        if let Some(beside) = beside {
+            let words = format!("item {} passes {} m beside its place (params[2])", item.number, beside.abs());
+            self.open(format!("{words}, which is not followed"));
+        }
+        Ok(())
     }
 
     fn add(&mut self, item: &Item, station: Station) -> Result<(), Wrong> {
@@ -271,6 +244,23 @@ impl Following {
 
     /// Speeds over ground and through the air are one without wind. −1: as it is, −2: the vehicle's own again.
     fn change_speed(&mut self, item: &Item) -> Result<(), Wrong> {
+        if let Some(condition) = self.waits {
+            self.open(format!(
+                "item {} (command 178) sets the speed when the condition of item {condition} holds, amid a leg, which \
+                 is not followed",
+                item.number
+            ));
+            return Ok(());
+        }
+        match item.given(4).unwrap_or(0.0) {
+            0.0 => {}
+            1.0 => {
+                let words = "sets a speed relative to the one before, which is not followed";
+                self.open(format!("item {} (command 178) {words}", item.number));
+                return Ok(());
+            }
+            _ => return Err(item.wrong(4, "0 (the speed itself) or 1 (relative to the one before)")),
+        }
         match item.given(1).unwrap_or(1.0) {
             0.0 | 1.0 => {}
             2.0 | 3.0 => {

@@ -11,11 +11,12 @@ pub mod parameters;
 pub mod plan;
 pub mod read_plan;
 pub mod read_wpl;
+mod uploaded;
 mod words;
 pub mod wpl;
 
-pub use follow::{Ending, Open, Station, Uploaded};
 pub use item::Wrong;
+pub use uploaded::{Ending, Open, Station, Uploaded};
 
 #[cfg(test)]
 mod tests;

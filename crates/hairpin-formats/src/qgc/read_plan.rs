@@ -2,8 +2,9 @@
 
 use serde_json::{Map, Value};
 
-use super::follow::{Uploaded, follow};
+use super::follow::follow;
 use super::item::{Frame, Item, Wrong};
+use super::uploaded::Uploaded;
 use crate::frames::Geodetic;
 
 /// Items at most.
@@ -25,8 +26,19 @@ const MODES: [(u64, &str, &[Frame]); 4] = [
 pub struct Plan {
     /// What its vehicle is sent.
     pub mission: Uploaded,
+    /// Whose it is.
+    pub whose: Whose,
     /// Where the vehicle must stay, and must not go.
     pub fences: Vec<Fence>,
+}
+
+/// Whose a plan is, by its own words.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Whose {
+    /// `MAV_AUTOPILOT` (`firmwareType`).
+    pub firmware: Option<u64>,
+    /// `MAV_TYPE` (`vehicleType`).
+    pub vehicle: Option<u64>,
 }
 
 /// A part of a geofence.
@@ -63,17 +75,17 @@ pub fn parse(text: &str) -> Result<Plan, Wrong> {
     let rally = root.table("rallyPoints")?;
     rally.is("version", &Value::from(2))?;
     let rally = rally.list("points")?.len();
-    let mut mission = mission(&root.table("mission")?)?;
+    let (mut mission, whose) = mission(&root.table("mission")?)?;
     if rally > 0 {
         mission.notes.push(format!("{rally} rally points are passed over"));
     }
-    Ok(Plan { mission, fences })
+    Ok(Plan { mission, whose, fences })
 }
 
-fn mission(keys: &Keys) -> Result<Uploaded, Wrong> {
+fn mission(keys: &Keys) -> Result<(Uploaded, Whose), Wrong> {
     keys.is("version", &Value::from(2))?;
-    keys.count("firmwareType")?;
-    let vehicle = if keys.has("vehicleType") { keys.count("vehicleType")? } else { 2 };
+    let firmware = Some(keys.count("firmwareType")?);
+    let vehicle = if keys.has("vehicleType") { Some(keys.count("vehicleType")?) } else { None };
     for speed in ["cruiseSpeed", "hoverSpeed"] {
         if keys.has(speed) {
             keys.number(speed)?;
@@ -86,9 +98,10 @@ fn mission(keys: &Keys) -> Result<Uploaded, Wrong> {
         let must = format!("at most {MOST_ITEMS} items");
         return Err(Wrong::new(keys.path("items"), format!("{} items", list.len()), must));
     }
-    let flies = !ON_THE_GROUND.contains(&vehicle);
+    let flies = !vehicle.is_some_and(|vehicle| ON_THE_GROUND.contains(&vehicle));
     let items = list.iter().enumerate().map(|(index, value)| item(value, index, flies));
-    follow(&items.collect::<Result<Vec<_>, _>>()?, home, flies)
+    let mission = follow(&items.collect::<Result<Vec<_>, _>>()?, home, flies)?;
+    Ok((mission, Whose { firmware, vehicle }))
 }
 
 fn item(value: &Value, index: usize, flies: bool) -> Result<Item, Wrong> {

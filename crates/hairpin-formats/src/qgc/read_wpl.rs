@@ -1,7 +1,8 @@
 //! Reads QGC WPL 110, the text of mission items that every ground station reads and writes.
 
-use super::follow::{Uploaded, follow};
+use super::follow::follow;
 use super::item::{Frame, Item, Wrong};
+use super::uploaded::Uploaded;
 use crate::frames::Geodetic;
 
 /// The first line.

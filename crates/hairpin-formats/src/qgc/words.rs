@@ -5,11 +5,13 @@
 pub(super) enum Effect {
     /// Nothing that is judged.
     Harmless,
+    /// Nothing by itself: it holds back what follows, up to the next place.
+    Delays,
     /// It moves otherwise than without it.
     Moves,
 }
 
-use Effect::{Harmless, Moves};
+use Effect::{Delays, Harmless, Moves};
 
 /// Commands by number: name, effect. What is followed is not among them.
 const COMMANDS: &[(u64, &str, Effect)] = &[
@@ -24,9 +26,9 @@ const COMMANDS: &[(u64, &str, Effect)] = &[
     (85, "landing of a plane that hovers", Moves),
     (92, "guided mode", Moves),
     (94, "payload place", Moves),
-    (112, "delay of the next command", Harmless),
-    (114, "distance before the next command", Harmless),
-    (115, "yaw", Harmless),
+    (112, "delay of the next command", Delays),
+    (114, "distance before the next command", Delays),
+    (115, "yaw", Delays),
     (176, "flight mode", Moves),
     (179, "home is moved", Moves),
     (181, "relay", Harmless),

@@ -60,7 +60,7 @@ use whole::{as_path, is_urdf};
 /// # Errors
 /// All mistakes of one stage: no TOML, or wrong keys and types, or values out of bounds.
 pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
-    read_from(text, file, (base, None), sets)
+    read_from(text, file, (base, None), (sets, Setup::build))
 }
 
 /// Reads the scenario that the campaign's folder `folder` keeps. As it may have come from elsewhere, all that it names,
@@ -69,13 +69,21 @@ pub fn read_setup(text: &str, file: &str, base: &Path, sets: &[(String, String)]
 /// # Errors
 /// As [`read_setup`]; a name that leads out of the folder.
 pub fn read_kept(text: &str, file: &str, folder: &Path, sets: &[(String, String)]) -> Result<Setup, Report> {
-    read_from(text, file, (folder, Some(Guest::new(folder, sets))), sets)
+    read_from(text, file, (folder, Some(Guest::new(folder, sets))), (sets, Setup::build))
 }
 
-fn read_from(text: &str, file: &str, whose: Whose<'_>, sets: &[(String, String)]) -> Result<Setup, Report> {
+/// How a setup is made of what was read.
+type Make = fn(Resolved) -> Result<Setup, Vec<Mistake>>;
+
+fn read_from(
+    text: &str,
+    file: &str,
+    whose: Whose<'_>,
+    (sets, make): (&[(String, String)], Make),
+) -> Result<Setup, Report> {
     let mut report = Report::default();
     let source = report.add_source(file, text);
-    match read(source, whose, sets, &mut report) {
+    match read(source, whose, (sets, make), &mut report) {
         Some(setup) if report.is_empty() => Ok(setup),
         _ => Err(report),
     }
@@ -94,10 +102,23 @@ pub fn shadowed(name_or_path: &str) -> Option<String> {
 /// # Errors
 /// As [`read_setup`]; nothing of that name.
 pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup, Report> {
+    setup_made(name_or_path, (sets, Setup::build))
+}
+
+/// The same for missions that are given: whatever world was set, the ends of the scenario's own `[task]` need not lie
+/// in it, as nothing is searched for between them.
+///
+/// # Errors
+/// As [`setup_for`], but for keys of `[task]`.
+pub fn setup_for_missions(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup, Report> {
+    setup_made(name_or_path, (sets, Setup::build_for_missions))
+}
+
+fn setup_made(name_or_path: &str, (sets, make): (&[(String, String)], Make)) -> Result<Setup, Report> {
     let path = Path::new(name_or_path);
     let shipped = library::scenarios().find(|shipped| shipped.name == name_or_path);
     if let Some(shipped) = shipped.filter(|_| !path.is_file()) {
-        return read_setup(shipped.text, shipped.path, Path::new(""), sets);
+        return read_from(shipped.text, shipped.path, (Path::new(""), None), (sets, make));
     }
     if path.is_dir() {
         return Err(folder(name_or_path));
@@ -110,11 +131,16 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     };
     let table = text.parse::<Table>().unwrap_or_default();
     let kind = if is_urdf(name_or_path) { Some("arm") } else { table.get("kind").and_then(|kind| kind.as_str()) };
+    if kind.is_none() && is_of_nothing(&table) {
+        return Err(of_no_kind(name_or_path));
+    }
     let Some(kind) = kind.filter(|_| !table.contains_key("hairpin")) else {
         if let Some(folder) = kept_in(name_or_path) {
-            return read_kept(&text, name_or_path, &folder, sets);
+            let guest = Guest::new(&folder, sets);
+            return read_from(&text, name_or_path, (&folder, Some(guest)), (sets, make));
         }
-        return read_setup(&text, name_or_path, path.parent().unwrap_or(Path::new("")), sets);
+        let base = path.parent().unwrap_or(Path::new(""));
+        return read_from(&text, name_or_path, (base, None), (sets, make));
     };
     // A word that no kind has is told where robots are read.
     let words = RobotKind::of_word(Some(kind)).words;
@@ -125,7 +151,7 @@ pub fn setup_for(name_or_path: &str, sets: &[(String, String)]) -> Result<Setup,
     let robot = if path.is_file() { as_path(name_or_path) } else { name_or_path.into() };
     let robot = ("robot".to_owned(), toml::Value::String(robot.into_owned()).to_string());
     let sets: Vec<_> = std::iter::once(robot).chain(sets.iter().cloned()).collect();
-    read_setup(around.text, around.path, Path::new(""), &sets)
+    read_from(around.text, around.path, (Path::new(""), None), (&sets, make))
 }
 
 /// Whether `name_or_path` means a scenario, shipped or in a file: a robot or a world is none.
@@ -175,6 +201,25 @@ pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Re
     read_setup(&bare, cell, Path::new(""), &sets)
 }
 
+/// Whether a file says neither that it is a scenario nor has anything that only scenarios have, but numbers of a robot.
+fn is_of_nothing(table: &Table) -> bool {
+    const SCENARIO: [&str; 8] = ["hairpin", "robot", "world", "task", "generate", "execute", "spec", "vary"];
+    const ROBOT: [&str; 7] = ["name", "mass_kg", "rotors", "wheels", "joints", "limits", "wheelbase_m"];
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    has(&ROBOT) && !has(&SCENARIO)
+}
+
+/// A robot's file without the key that says what it is.
+fn of_no_kind(name: &str) -> Report {
+    let kinds = "\"quadrotor\", \"rover\", \"car\", \"differential-drive\", \"boat\" or \"arm\"";
+    let mut report = Report::default();
+    report.complain_of_file(
+        name,
+        &format!("`{name}` has no `kind`: of a robot it must be {kinds}; a scenario begins with `hairpin = 1`"),
+    );
+    report
+}
+
 /// What whoever names a folder may have meant.
 fn folder(name: &str) -> Report {
     let mut report = Report::default();
@@ -212,7 +257,12 @@ fn unknown(name: &str) -> Report {
 type Whose<'a> = (&'a Path, Option<Guest<'a>>);
 
 /// The stages of [`read_setup`]; `None` after a stage with mistakes.
-fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], report: &mut Report) -> Option<Setup> {
+fn read(
+    source: usize,
+    (base, guest): Whose<'_>,
+    (sets, make): (&[(String, String)], Make),
+    report: &mut Report,
+) -> Option<Setup> {
     let mut root = tree::parse(source, report)?;
     if let Some(entries) = root.entries() {
         entries.remove("made_by");
@@ -255,7 +305,7 @@ fn read(source: usize, (base, guest): Whose<'_>, sets: &[(String, String)], repo
         let message = format!("`{}` = {}: must be {bound}", mistake.key, mistake.value);
         report.complain(&place, &mistake.key, &mistake.value, &format!("must be {bound}"), message);
     };
-    Setup::build(Resolved { scenario, attachments }).map_err(|mistakes| mistakes.into_iter().for_each(told)).ok()
+    make(Resolved { scenario, attachments }).map_err(|mistakes| mistakes.into_iter().for_each(told)).ok()
 }
 
 /// The robot's kind, where its table says it.

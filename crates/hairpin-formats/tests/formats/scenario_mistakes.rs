@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::Scenario;
 use hairpin::campaign::scenario::FlightScenario;
-use hairpin_formats::scenario::{Report, read_setup};
+use hairpin_formats::scenario::{Report, read_setup, setup_for};
 
 const FINE: &str = include_str!("../fixtures/fine.toml");
 
@@ -30,6 +30,16 @@ fn the_fixture_is_fine() {
     let scenario = read(FINE, &[]).unwrap_or_else(|report| panic!("{report}"));
     assert_eq!(scenario.length(), Some(10));
     assert_eq!(scenario.search().cases, 200);
+}
+
+#[test]
+fn a_robot_without_a_kind_is_told_so_alone() {
+    let place = tempfile::tempdir().expect("a folder of our own");
+    let file = place.path().join("five.toml");
+    std::fs::write(&file, "name = \"five\"\nmass_kg = 1.2\n").expect("a file of our own");
+    let report = setup_for(&file.to_string_lossy(), &[]).expect_err("no kind");
+    let told = report.to_string();
+    assert!(told.contains("has no `kind`") && told.contains("\"boat\"") && !told.contains("task"), "{told}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod fences;
 mod settings;
+mod vehicle;
 mod world;
 
 use hairpin::campaign::{Broken, Certainty, Demands, Passage, Setup, passes};
@@ -11,6 +12,7 @@ use hairpin_formats::missions::{Frame, Mission};
 use crate::{Problem, Watch};
 
 pub use settings::CheckSettings;
+pub(crate) use vehicle::same_vehicle;
 pub(crate) use world::open_around;
 pub(crate) use world::read_anywhere;
 
@@ -49,7 +51,8 @@ pub fn check(settings: &CheckSettings, watch: &dyn Watch) -> Result<Checked, Pro
 /// A robot whose missions are not checked.
 pub(crate) fn check_in(setup: &Setup, mission: Mission, world: String) -> Result<Checked, Problem> {
     let stops: Vec<usize> = mission.stops.iter().map(|stop| stop.waypoint).collect();
-    let asked = Demands { waypoints: &mission.waypoints, speeds: &mission.speeds, stops: &stops };
+    let Mission { waypoints, speeds, .. } = &mission;
+    let asked = Demands { waypoints, speeds, stops: &stops, hold: mission.hold() };
     let mut passage = passes(setup, &asked).map_err(|why| Problem::of_file(&mission.path, why))?;
     fences::hold(&mission, &mut passage);
     let (feasible, broken) = answer(&mission, &passage);
@@ -91,7 +94,7 @@ fn verdict(
         (Some(true), _) => {
             let length: f64 = passage.legs.iter().map(|leg| leg.length).sum();
             let time = passage.witness.as_ref().map(|witness| witness.leg_times.iter().sum::<f64>());
-            let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s"));
+            let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s")) + &waits(mission);
             let demanded =
                 if mission.speeds.iter().any(Option::is_some) { ", at the speeds that it demands" } else { "" };
             Verdict::of(
@@ -105,6 +108,15 @@ fn verdict(
             let why = broken.map(at).into_iter().chain(uncertain).collect::<Vec<_>>().join("; ");
             Verdict::of(&format!("INCONCLUSIVE {file} (not found out, {robot}): {why}"), 5)
         }
+    }
+}
+
+/// How long it waits beside what its flight takes.
+fn waits(mission: &Mission) -> String {
+    match mission.hold() {
+        0.0 => String::new(),
+        hold if hold.is_finite() => format!(" beside {hold} s of waits"),
+        _ => " beside waits without an end".into(),
     }
 }
 
@@ -172,5 +184,74 @@ mod tests {
         }
         let arm = CheckSettings { mission: "a.csv".into(), robot: "irb120".into(), ..CheckSettings::default() };
         assert!(check(&arm, &Unwatched).is_err());
+    }
+
+    const PLAN: &str = include_str!("../../../hairpin-formats/tests/fixtures/missions/cage.plan");
+
+    /// Of the mission of the fixture, changed.
+    fn of_plan(text: &str, robot: &str, sets: &[(&str, &str)]) -> Result<Checked, Problem> {
+        let place = tempfile::tempdir().unwrap();
+        let mission = place.path().join("mine.plan");
+        std::fs::write(&mission, text).unwrap();
+        let sets = sets.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        check(&CheckSettings { mission, robot: robot.to_owned(), sets, ..CheckSettings::default() }, &Unwatched)
+    }
+
+    #[test]
+    fn a_world_needs_no_room_for_the_task_of_the_shipped_scenario() {
+        let along = |z: &str| {
+            let text = format!("x_m,y_m,z_m\n2,6,2.5\n15,6,2.5\n28,6,{z}\n");
+            checked(&text, "flightgoggles", Some("straight-corridor"))
+        };
+        assert_eq!(along("2.5").feasible, Some(true), "{:?}", along("2.5").verdict);
+        let high = along("9");
+        assert_eq!((high.feasible, high.broken.unwrap().limit), (Some(false), "cage"));
+    }
+
+    #[test]
+    fn what_is_estimated_proves_nothing() {
+        let place = tempfile::tempdir().unwrap();
+        let robot = place.path().join("five.toml");
+        let corners = [(0.15, -0.15, -1), (-0.15, 0.15, -1), (0.15, 0.15, 1), (-0.15, -0.15, 1)];
+        let rotors = corners.map(|(x, y, spin)| format!("{{ x_m = {x}, y_m = {y}, spin = {spin} }}")).join(", ");
+        let text = "kind = \"quadrotor\"\nname = \"five\"\nmass_kg = 1.2\nthrust_to_weight = 2.2\n";
+        std::fs::write(&robot, format!("{text}rotors = [{rotors}]\n")).unwrap();
+        let fast = PLAN.replace("[1, 3, -1", "[1, 25, -1");
+        let of_five = of_plan(&fast, &robot.to_string_lossy(), &[]).unwrap();
+        assert_eq!((of_five.feasible, of_five.verdict.exit_code), (None, 5), "{:?}", of_five.verdict);
+        assert_eq!(of_five.passage.estimated, ["max_speed_m_s"]);
+        assert!(of_five.verdict.sentence.contains("is estimated of five, not given: max_speed_m_s"));
+        let given = of_plan(&fast, "flightgoggles", &[]).unwrap();
+        assert!(given.feasible == Some(false) && given.passage.estimated.is_empty(), "{:?}", given.verdict);
+    }
+
+    #[test]
+    fn waits_count_for_the_time_of_a_flight() {
+        let held = |hold: &str| {
+            let text = PLAN.replace("[0, 1, 0, null, 38.03364", &format!("[{hold}, 1, 0, null, 38.03364"));
+            of_plan(&text, "flightgoggles", &[("generate.limits.max_flight_time_s", "12")]).unwrap()
+        };
+        assert_eq!(held("0").feasible, Some(true), "{:?}", held("0").verdict);
+        let open = held("6");
+        assert_eq!((open.feasible, open.broken.as_ref().unwrap().limit), (None, "duration"), "{:?}", open.verdict);
+        assert!(open.verdict.sentence.contains("waits 6.0 s"), "{:?}", open.verdict);
+        // Waits alone are longer.
+        assert_eq!(held("13").feasible, Some(false), "{:?}", held("13").verdict);
+    }
+
+    #[test]
+    fn a_mission_of_another_class_of_vehicles_is_refused() {
+        let of = |vehicle: u64, robot: &str| {
+            let text = PLAN.replace("\"vehicleType\": 2", &format!("\"vehicleType\": {vehicle}"));
+            of_plan(&text, robot, &[]).map(|_| ()).map_err(|problem| problem.to_string())
+        };
+        for vehicle in [0, 2, 13, 29] {
+            assert_eq!(of(vehicle, "flightgoggles"), Ok(()), "{vehicle}");
+        }
+        for (vehicle, robot) in [(1, "flightgoggles"), (12, "x500"), (10, "x500"), (2, "rocky8"), (11, "rocky8")] {
+            let told = of(vehicle, robot).unwrap_err();
+            assert!(told.contains(&format!("mission.vehicleType: {vehicle} (")), "{vehicle} {robot}: {told}");
+        }
+        assert_eq!(of(10, "rocky8"), Ok(()));
     }
 }

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Mistake, Setup, vary};
+use hairpin::campaign::{Mistake, Setup};
 use hairpin_formats::library;
 use hairpin_formats::missions::{self, Mission};
-use hairpin_formats::scenario::{is_scenario, setup_for, shadowed};
+use hairpin_formats::scenario::{is_scenario, setup_for, setup_for_missions, shadowed};
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::settings::CheckSettings;
+use super::vehicle::same_vehicle;
 use crate::sets::Set;
 use crate::{Problem, Watch};
 
@@ -33,7 +34,7 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup
             }
             let all: Vec<Set> =
                 std::iter::once(("robot".to_owned(), quoted(robot))).chain(sets.iter().cloned()).collect();
-            (setup_for(world, &all)?, world.clone())
+            (setup_for_missions(world, &all)?, world.clone())
         }
         Some(world) => {
             let ending = Path::new(world).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -42,13 +43,14 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup
                 false => format!("{{ base = {} }}", quoted(world)),
             };
             let all: Vec<Set> = std::iter::once(("world".to_owned(), value)).chain(sets.iter().cloned()).collect();
-            (setup_for(robot, &all)?, world.clone())
+            (setup_for_missions(robot, &all)?, world.clone())
         }
-        None => (setup_for(robot, sets)?, robot.clone()),
+        None => (setup_for_missions(robot, sets)?, robot.clone()),
     };
     let given = world.is_some() || brings_a_world(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
     if given {
         let read = missions::read(mission, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
+        same_vehicle(&setup, &read)?;
         return Ok((setup, read, format!("world of {name}")));
     }
     in_the_open((&setup, sets), mission)
@@ -83,6 +85,7 @@ fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup
     let refuse = |mistake| not_open(setup, mission, mistake);
     let (somewhere, _) = open_around(setup, &[Point3::origin()]).map_err(refuse)?;
     let mut read = missions::read(mission, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)?;
+    same_vehicle(setup, &read)?;
     let (there, shift) = open_around(setup, &read.waypoints).map_err(refuse)?;
     for point in &mut read.waypoints {
         *point += shift;
@@ -111,8 +114,7 @@ fn with_its_own_limits(setup: &Setup, sets: &[Set]) -> Result<Setup, Problem> {
     if setup.has_programs() || sets.iter().any(|(key, _)| key.trim().starts_with("generate")) {
         return Ok(setup.clone());
     }
-    let scenario = vary::apply(&setup.scenario, &[("generate.limits".into(), json!({}))])?;
-    Ok(setup.changed(scenario)?)
+    Ok(setup.drawn(&[("generate.limits".into(), json!({}))])?)
 }
 
 /// A text as TOML has it; of a file where it lies, wherever the scenario does.

@@ -229,3 +229,18 @@ impl Maker<'_> {
 fn hundredths(speed: f64) -> f64 {
     ((100.0 * speed).round() / 100.0).max(0.01)
 }
+
+#[cfg(test)]
+mod tests {
+    use hairpin_formats::scenario::setup_for;
+
+    #[test]
+    fn speeds_are_the_robots_at_most() {
+        let setup = setup_for("quadrotor", &[("execute.controller".into(), "\"px4-mission\"".into())]).unwrap();
+        let speed = |most: f64| {
+            let drawn = setup.drawn(&[("robot.max_speed_m_s".into(), most.into())]).unwrap();
+            drawn.room().unwrap().speed
+        };
+        assert_eq!((speed(18.0), speed(3.0)), (Some(5.0), Some(3.0)));
+    }
+}

@@ -21,7 +21,7 @@ use crate::baseline::read_baseline;
 use crate::budget::Part;
 use crate::differences::differences;
 use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
-use crate::missions::{Compared, compare, with_compared};
+use crate::missions::{Compared, compare, doubt, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
@@ -145,7 +145,9 @@ pub(crate) fn judge_cases(
     let from_rows = judged.iter().filter(|case| case.from_rows).count();
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
-    for case in judged {
+    let missions_told = read_told(work)?;
+    for mut case in judged {
+        doubt(missions_told.as_ref(), &mut case.result);
         results.push(case.result);
         deviations.extend(case.deviations);
         met.push(case.met);

@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness, vary};
 use hairpin::judgement::Swiftness;
 use hairpin_formats::placement::Placement;
-use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for};
+use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for_missions};
 use hairpin_formats::waypoints;
 use serde_json::{Map, Value};
 
@@ -119,7 +119,7 @@ impl Ready {
             }
         };
         sets.extend(settings.sets.iter().cloned());
-        let setup = setup_for(base, &sets)?;
+        let setup = setup_for_missions(base, &sets)?;
         check_asked(&setup.scenario, file)?;
         let farthest = setup.handed().farthest;
         let (waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;

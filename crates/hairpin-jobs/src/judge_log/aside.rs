@@ -64,7 +64,8 @@ fn of_mission(setup: &Setup, in_world: bool, case: &Case) -> Result<Aside, Probl
     };
     let mut moved = case.clone();
     moved.waypoints.iter_mut().for_each(|place| *place += shift);
-    let asked = Demands { waypoints: &moved.waypoints, speeds: &vec![None; moved.waypoints.len()], stops: &[] };
+    let asked =
+        Demands { waypoints: &moved.waypoints, speeds: &vec![None; moved.waypoints.len()], stops: &[], hold: 0.0 };
     let passed = passes(&there, &asked).ok().and_then(|passage| passage.witness);
     let mut notes = Vec::new();
     match passed.filter(|passed| passed.waypoints.len() == moved.waypoints.len()) {

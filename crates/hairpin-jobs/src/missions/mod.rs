@@ -1,6 +1,7 @@
 //! Missions that were made elsewhere, in the place of generated cases: checked by the robot's own claim, executed and
 //! judged, and held beside what a search finds.
 
+mod asked;
 mod compared;
 mod leg;
 mod told;
@@ -12,15 +13,15 @@ use hairpin_formats::missions::{Mission, environment_path, read_all};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use crate::check::{Checked, check_in};
+use crate::check::{Checked, check_in, same_vehicle};
 use crate::generate::keep_cases;
 use crate::work::Work;
 use crate::{Problem, Watch};
 pub use compared::{Compared, Ranked};
 pub(crate) use compared::{compare, with_compared};
 pub(crate) use leg::Leg;
-pub(crate) use told::read_told;
 pub use told::{MissionTold, MissionsTold};
+pub(crate) use told::{doubt, read_told};
 
 /// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///
@@ -37,6 +38,7 @@ pub(crate) fn of_files(setup: &Setup, path: &Path) -> Result<Vec<Mission>, Probl
     }
     let all = read_all(path, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
     for mission in &all {
+        same_vehicle(setup, mission)?;
         if let Some(one) = mission.uncertain.first() {
             return Err(Problem::of_file(
                 &mission.path,
@@ -72,7 +74,12 @@ pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<
         if let Some(checked) = checked.as_ref().filter(|checked| checked.feasible != Some(true)) {
             watch.warn(&checked.verdict.sentence);
         }
-        legs.extend(between_stops(mission, checked));
+        for mut leg in between_stops(mission, checked) {
+            leg.unmet = asked::unmet(setup, &leg);
+            let open = "what is executed is not this mission, and its case is INCONCLUSIVE";
+            leg.unmet.iter().for_each(|words| watch.warn(&format!("Warning: {file}: {words}; {open}")));
+            legs.push(leg);
+        }
     }
     Ok(legs)
 }
@@ -81,7 +88,8 @@ pub(crate) fn read(setup: &Setup, path: &Path, watch: &dyn Watch) -> Result<Vec<
 fn between_stops(mission: Mission, checked: Option<Checked>) -> Vec<Leg> {
     if mission.stops.is_empty() {
         let (name, waypoints) = (mission.name.clone(), mission.waypoints.clone());
-        return vec![Leg { name, waypoints, checked, mission }];
+        let ends = [0, waypoints.len() - 1];
+        return vec![Leg { name, waypoints, ends, unmet: Vec::new(), checked, mission }];
     }
     let last = mission.waypoints.len() - 1;
     let ends: Vec<usize> =
@@ -89,6 +97,8 @@ fn between_stops(mission: Mission, checked: Option<Checked>) -> Vec<Leg> {
     let part = |pair: &[usize]| Leg {
         name: format!("{} {}-{}", mission.name, pair[0], pair[1]),
         waypoints: mission.waypoints[pair[0]..=pair[1]].to_vec(),
+        ends: [pair[0], pair[1]],
+        unmet: Vec::new(),
         checked: None,
         mission: mission.clone(),
     };
@@ -119,12 +129,15 @@ pub(crate) fn adopt(work: &Work, legs: &[Leg]) -> Result<(), Problem> {
 /// An environment that `setup` has no room for; a case that cannot be planned.
 pub(crate) fn cases_of(setup: &Setup, known: &[Case], legs: &[Leg]) -> Result<Vec<Case>, Problem> {
     let mut cases = Vec::with_capacity(legs.len());
-    for (number, Leg { name, waypoints, checked, mission }) in legs.iter().enumerate() {
+    for (number, leg) in legs.iter().enumerate() {
+        let Leg { name, waypoints, checked, mission, .. } = leg;
         let seed = hairpin::math::random::case_seed(setup.scenario.seed(), number as u64);
         let same = known.iter().find(|case| match mission.rounded {
             true => are_rounded(&case.waypoints, waypoints),
             false => case.waypoints == *waypoints,
         });
+        // The plan of the case is not the one that holds the speeds of the mission.
+        let same = same.filter(|_| !asked::takes_speeds_of_plan(&work.setup, leg));
         let mut case = match same {
             Some(case) => Case { number: CaseNumber(number), seed, ..case.clone() },
             None => witnessed(Case::bare(CaseNumber(number), seed, waypoints.clone()), checked.as_ref()),

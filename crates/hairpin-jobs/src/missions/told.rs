@@ -1,5 +1,6 @@
 //! What a campaign's folder keeps of its missions beside their cases: where they are from, and what their check said.
 
+use hairpin::campaign::{CaseResult, Status};
 use serde::{Deserialize, Serialize};
 
 use super::leg::Leg;
@@ -38,6 +39,9 @@ pub struct MissionTold {
     pub check: String,
     /// What of the file changes nothing that is judged.
     pub notes: Vec<String>,
+    /// What the mission asks that is not what was executed: its case is inconclusive.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unmet: Vec<String>,
 }
 
 impl MissionsTold {
@@ -61,6 +65,7 @@ impl MissionsTold {
                 evidence: evidence.into(),
                 check: checked.map_or("not checked".into(), |checked| checked.verdict.sentence.clone()),
                 notes: leg.mission.notes.clone(),
+                unmet: leg.unmet.clone(),
             }
         };
         Self { missions: legs.iter().map(one).collect() }
@@ -73,7 +78,43 @@ impl MissionsTold {
     }
 }
 
+/// A case whose mission asks for something else than what was executed says nothing of it, neither way.
+pub(crate) fn doubt(told: Option<&MissionsTold>, result: &mut CaseResult) {
+    let unmet = told.and_then(|told| told.missions.get(result.case.0)).map_or(&[][..], |one| &one.unmet);
+    if !unmet.is_empty() && matches!(result.status, Status::Pass | Status::Fail | Status::Unjudged) {
+        result.status = Status::Inconclusive;
+        result.violations.clear();
+        result.message = Some(unmet.join("; "));
+    }
+}
+
 /// What the folder of `work` keeps of its missions; `None` where its cases are none.
 pub(crate) fn read_told(work: &Work) -> Result<Option<MissionsTold>, Problem> {
     Ok(work.folder.read_missions()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use hairpin::campaign::{CaseNumber, Undone};
+
+    use super::*;
+
+    #[test]
+    fn what_was_not_executed_as_asked_says_nothing() {
+        let told = |unmet: &[&str]| {
+            let unmet = unmet.iter().map(|words| (*words).to_owned()).collect();
+            MissionsTold { missions: vec![MissionTold { unmet, ..MissionTold::default() }] }
+        };
+        let judged = |status: Status, told: &MissionsTold| {
+            let mut result =
+                CaseResult { status, message: None, ..CaseResult::undone(CaseNumber(0), Undone::NotJudged) };
+            doubt(Some(told), &mut result);
+            (result.status, result.message)
+        };
+        for status in [Status::Pass, Status::Fail, Status::Unjudged] {
+            assert_eq!(judged(status, &told(&[])), (status, None));
+            assert_eq!(judged(status, &told(&["a", "b"])), (Status::Inconclusive, Some("a; b".into())));
+        }
+        assert_eq!(judged(Status::ExecutorFailed, &told(&["a"])), (Status::ExecutorFailed, None));
+    }
 }

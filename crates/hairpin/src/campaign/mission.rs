@@ -44,8 +44,8 @@ pub struct Mission {
     /// A waypoint counts as reached inside this radius, m.
     pub accept: f64,
     /// Time limit, s.
-    /// From the number of waypoints and the plan's duration, by the scenario's patience; a run that comes to it ends
-    /// as `time`.
+    /// From the number of waypoints, the plan's duration and the way, by the scenario's patience; a run that comes to
+    /// it ends as `time`.
     pub time_limit: f64,
     /// The planned motion, for those who track it.
     /// Empty where nothing is planned in time.
@@ -80,7 +80,8 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let yaws = setup.kind().headings(case);
     let executor = varied.scenario.executor();
     let (waypoints, planned) = (case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
-    let time_limit = executor.patience.time_limit(waypoints, planned, varied.kind().slowest(waypoints));
+    let slowest = varied.kind().slowest(&case.waypoints, waypoints, planned);
+    let time_limit = executor.patience.time_limit(waypoints, planned, slowest);
     let accept = executor.accept;
     Ok(Mission {
         case: case.id(),

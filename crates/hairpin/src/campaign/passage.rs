@@ -18,6 +18,8 @@ pub struct Demands<'a> {
     pub speeds: &'a [Option<f64>],
     /// Waypoints between the ends where it comes to rest, rising.
     pub stops: &'a [usize],
+    /// How long it waits at all of them together, s; infinite where it is told to go on.
+    pub hold: f64,
 }
 
 impl Demands<'_> {
@@ -103,6 +105,8 @@ pub struct Passage {
     pub witness: Option<Passed>,
     /// What breaks and lies on no leg alone.
     pub broken: Option<Broken>,
+    /// Keys of the robot's file that were not given but derived, or told by logs, and that what breaks rests on.
+    pub estimated: Vec<String>,
     /// What the answer is about, in a sentence: model, limits, and what is left out.
     pub model: String,
 }

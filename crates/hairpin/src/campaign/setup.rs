@@ -106,7 +106,24 @@ impl Setup {
         let Resolved { scenario, attachments } = resolved;
         let attachments = attachments.into();
         let (kind, simd) = (built(&scenario, &attachments, None, Look::All)?, Simd::default());
-        Self { scenario, attachments, simd, kind, own_controller: None, program: None }.steered()?.checked()
+        Self { scenario, attachments, simd, kind, own_controller: None, program: None }.steered()?.checked(&|_| true)
+    }
+
+    /// The same for missions that are given: nothing is searched for between the ends of its `[task]`, so that these
+    /// need not lie in the world.
+    ///
+    /// # Errors
+    /// As [`Self::build`], but for keys of `[task]`.
+    pub fn build_for_missions(resolved: Resolved) -> Result<Self, Vec<Mistake>> {
+        let counts = |mistake: &Mistake| !mistake.key.starts_with("task.");
+        let Resolved { scenario, attachments } = resolved;
+        let (attachments, simd) = (attachments.into(), Simd::default());
+        let kind = match built(&scenario, &attachments, None, Look::All) {
+            Err(mistakes) if !mistakes.iter().any(counts) => built(&scenario, &attachments, None, Look::Built)?,
+            Err(mistakes) => return Err(mistakes.into_iter().filter(counts).collect()),
+            Ok(kind) => kind,
+        };
+        Self { scenario, attachments, simd, kind, own_controller: None, program: None }.steered()?.checked(&counts)
     }
 
     /// The same, which tells the first mistake alone.
@@ -230,13 +247,15 @@ impl Setup {
 
     fn check(&self, scenario: Scenario) -> Result<Self, Vec<Mistake>> {
         let kind = built(&scenario, &self.attachments, Some(self.kind()), Look::All)?;
-        self.with(scenario, kind).steered()?.checked()
+        self.with(scenario, kind).steered()?.checked(&|_| true)
     }
 
-    /// Itself, once `[vary]` was looked at.
-    fn checked(self) -> Result<Self, Vec<Mistake>> {
-        let mistakes_of =
-            |drawn: &Scenario| built(drawn, &self.attachments, Some(self.kind()), Look::All).err().unwrap_or_default();
+    /// Itself, once `[vary]` was looked at for mistakes that count.
+    fn checked(self, counts: &dyn Fn(&Mistake) -> bool) -> Result<Self, Vec<Mistake>> {
+        let mistakes_of = |drawn: &Scenario| -> Vec<Mistake> {
+            let found = built(drawn, &self.attachments, Some(self.kind()), Look::All).err().unwrap_or_default();
+            found.into_iter().filter(counts).collect()
+        };
         let mistakes = check_vary(&self.scenario, &mistakes_of);
         if mistakes.is_empty() { Ok(self) } else { Err(mistakes) }
     }

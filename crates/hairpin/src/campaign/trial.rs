@@ -21,6 +21,7 @@ use crate::math::random::named_seed;
 use crate::search::in_loop::{self, Trial};
 use crate::search::worst::Ran;
 use crate::simulation::Airborne;
+use crate::trajectory::Ended;
 
 /// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
 const CONFIRMING: usize = 1 << 20;
@@ -169,15 +170,20 @@ impl Trials<'_> {
             return Ok(in_loop::Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
         };
         let case = self.case(plan);
+        let executor = setup.scenario.executor();
+        let length = setup.scenario.length().unwrap_or_default() as usize;
+        let limit_of = |waypoints: &[Point3<f64>], planned: f64| {
+            executor.patience.time_limit(length, 0.0, setup.kind().slowest(waypoints, length, planned))
+        };
+        // Before its legs are known a run's time is that of short ones.
+        let at_start = limit_of(&case.waypoints[..1], 0.0);
         let mut airborne = match before {
             Some(before) => before.clone(),
             None => {
-                let executor = setup.scenario.executor();
-                let length = setup.scenario.length().unwrap_or_default() as usize;
                 let order = Order {
                     waypoints: &case.waypoints,
                     accept: executor.accept,
-                    time_limit: executor.patience.time_limit(length, 0.0, setup.kind().slowest(length)),
+                    time_limit: at_start,
                     seed: run_seed(case.seed, 0),
                 };
                 flying.at_start(&order).map_err(|_| legs)?
@@ -191,13 +197,13 @@ impl Trials<'_> {
         if whole {
             flying.finish(&mut airborne).map_err(|_| flown)?;
         }
-        let run = Run {
-            case: CaseNumber::default(),
-            run: 0,
-            drawn: Vec::new(),
-            outcome: Ok(airborne.so_far()),
-            full_rate: None,
-        };
+        let flight = airborne.so_far();
+        let is_longer = || limit_of(&case.waypoints, case.leg_times.iter().sum()) > at_start;
+        if whole && flight.ended == Ended::Time && is_longer() {
+            let stress = self.executed(plan).and_then(|executed| trial(setup, &executed.measures));
+            return Ok(in_loop::Ran { stress: stress.ok_or(flown)?.stress, state: None, legs: flown });
+        }
+        let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
         let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
         Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
     }

@@ -84,7 +84,8 @@ fn of_mission(text: &str, name: &str) -> Answer {
     let robot = setup_for("quadrotor", &[]).expect("shipped");
     let read = |path: &Path| {
         let mission = missions::read(path, &robot.scenario, FARTHEST_M)?;
-        Ok::<_, missions::MissionError>((mission.waypoints, mission.speeds, mission.stops, mission.uncertain))
+        let missions::Mission { waypoints, speeds, accept, stops, uncertain, .. } = mission;
+        Ok::<_, missions::MissionError>((waypoints, speeds, accept, stops, uncertain))
     };
     match of_file(text, name, read) {
         Answer::Read(told) if !told.ends_with("[])") => Answer::Open,
@@ -282,6 +283,20 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("waypoints.other-units", of_waypoints, WAYPOINTS, "x_ft,y_ft,z_ft\n0,0,1\n1,0,1\n"),
         row("waypoints.twice", of_waypoints, WAYPOINTS, "x_m,y_m,z_m\n0,0,1\n0,0,1\n"),
         item_row("plan.speed", "\"command\": 178"),
+        plan_row("plan.relative-speed", "[1, 3, -1, 0, 0, 0, 0]", "[1, 3, -1, 1, 0, 0, 0]"),
+        plan_row(
+            "plan.waiting-speed",
+            "{ \"type\": \"SimpleItem\", \"command\": 178,",
+            "{ \"type\": \"SimpleItem\", \"command\": 112, \"frame\": 2, \"autoContinue\": true, \
+             \"params\": [5, 0, 0, 0, 0, 0, 0] }, { \"type\": \"SimpleItem\", \"command\": 178,",
+        ),
+        plan_row("plan.accept", "[0, 1, 0, null, 38.0336", "[0, 3, 0, null, 38.0336"),
+        plan_row("plan.beside", "[0, 1, 0, null, 38.0336", "[0, 1, 4, null, 38.0336"),
+        plan_row(
+            "plan.flat-fence",
+            "[38.0339, -78.5076], [38.0339, -78.5082]",
+            "[38.0334, -78.5079], [38.0334, -78.5078]",
+        ),
         item_row("plan.camera", "\"command\": 206"),
         item_row("plan.moves", "\"command\": 18"),
         item_row("plan.unknown", "\"command\": 31000"),

@@ -92,6 +92,9 @@ impl Say for BoatSetup {
             margin: world.keep_in_margin_m,
             curvature: f64::INFINITY,
             speed: None,
+            timed: true,
+            // Ground stations have one class for rovers and boats.
+            vehicles: &[0, 10, 11],
         })
     }
 

@@ -6,13 +6,22 @@ use super::FlightSetup;
 use super::fit;
 use super::place::place;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, Same};
+use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, Same, Say};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
     Sortie, minimum_snap_curve,
 };
 use crate::trajectory::{Flight, Profile, Track};
+
+/// A run may take so many times its plan before it is given up.
+const SLOWNESS_OF_PLAN: f64 = 2.0;
+/// And so many times its way at the speed of who flies.
+const SLOWNESS_OF_WAY: f64 = 1.5;
+/// The mean speed of who has none of his own, m/s, or this share of the robot's top speed: polynomials from rest to
+/// rest have 16/35 of their greatest.
+const MODERATE_M_S: f64 = 3.0;
+const SHARE_OF_TOP_SPEED: f64 = 0.6;
 
 impl Act for FlightSetup {
     fn run(&self, _: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
@@ -24,10 +33,15 @@ impl Act for FlightSetup {
         }
     }
 
-    /// Legs across the whole world, at the pace of our controller.
-    fn slowest(&self, waypoints: usize) -> f64 {
-        let pace = |legs: usize| legs as f64 * controller(self).own_pace(&self.robot, self.world.size().norm());
-        if self.controller.is_some() { 0.0 } else { pace(waypoints) }
+    /// Of our controllers that have a pace of their own legs across the whole world at it; else so many times the plan,
+    /// or the way at a moderate speed.
+    fn slowest(&self, waypoints: &[Point3<f64>], length: usize, planned: f64) -> f64 {
+        let pace = || length as f64 * controller(self).own_pace(&self.robot, self.world.size().norm());
+        let own = if self.controller.is_some() { 0.0 } else { pace() };
+        let way: f64 = waypoints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let moderate = MODERATE_M_S.min(SHARE_OF_TOP_SPEED * self.robot.max_speed);
+        let speed = self.room().and_then(|room| room.speed).unwrap_or(moderate);
+        own.max(SLOWNESS_OF_PLAN * planned).max(SLOWNESS_OF_WAY * way / speed)
     }
 
     /// Of a stranger's controller nobody knows how far it looks ahead.

@@ -16,6 +16,7 @@ mod blocking;
 mod certificates;
 mod check;
 mod claim;
+mod estimated;
 mod figure;
 mod fit;
 mod fly;

@@ -12,6 +12,7 @@
 use nalgebra::Point3;
 
 use super::FlightSetup;
+use super::estimated::doubt;
 use super::legs::judge_up_to;
 use crate::campaign::bounds::LONGEST_LEG_S;
 use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
@@ -62,27 +63,48 @@ pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, St
             }
         }
     }
+    let mut estimated = Vec::new();
+    for broken in legs.iter_mut().filter_map(|leg| leg.broken.as_mut()) {
+        estimated.extend(doubt(setup, broken));
+    }
+    estimated.sort_unstable();
+    estimated.dedup();
     let whole = flight.len() == legs.len() && legs.iter().all(|leg| leg.broken.is_none());
     let flight = Profile { legs: flight };
-    if let Some(most) =
-        setup.scenario.generate.limits.max_flight_time_s.filter(|most| whole && flight.duration() > *most)
-    {
-        broken = Some(Broken {
-            waypoint: asked.waypoints.len() - 1,
-            leg: None,
-            limit: "duration",
-            unit: "s",
-            excess: Some(flight.duration() - most),
-            certainty: Certainty::NotFound,
-            words: format!("the flight takes {:.1} s, {most} s at most", flight.duration()),
-        });
+    if let Some(most) = setup.scenario.generate.limits.max_flight_time_s.filter(|_| whole) {
+        broken = too_long(asked, flight.duration(), most);
     }
     let witness = (whole && broken.is_none()).then(|| Passed {
         waypoints: asked.waypoints.to_vec(),
         leg_times: flight.legs.iter().map(|leg| leg.duration).collect(),
         witness: flight.into(),
     });
-    Ok(Passage { legs, witness, broken, model: model() })
+    Ok(Passage { legs, witness, broken, estimated, model: model() })
+}
+
+/// Flying for `duration` (s) and waiting where it is asked to takes more than `most` (s).
+///
+/// What waits alone take is sure; that no flight is quicker is not.
+fn too_long(asked: &Demands, duration: f64, most: f64) -> Option<Broken> {
+    let time = duration + asked.hold;
+    if time <= most {
+        return None;
+    }
+    let waits = match asked.hold {
+        0.0 => String::new(),
+        hold if hold.is_finite() => format!(" and waits {hold:.1} s, {time:.1} s together"),
+        _ => " and waits until it is told to go on".into(),
+    };
+    let sure = asked.hold.is_finite() && asked.hold > most;
+    Some(Broken {
+        waypoint: asked.waypoints.len() - 1,
+        leg: None,
+        limit: "duration",
+        unit: "s",
+        excess: Some(time - most).filter(|excess| excess.is_finite()),
+        certainty: if sure { Certainty::Proven } else { Certainty::NotFound },
+        words: format!("the flight takes {duration:.1} s{waits}, {most} s at most"),
+    })
 }
 
 fn model() -> String {

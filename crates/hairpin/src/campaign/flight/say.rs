@@ -111,6 +111,9 @@ impl Say for FlightSetup {
             Some(ControllerKind::FixedVelocity) => Some(execute.fixed_velocity_m_s),
             kind => kind.and_then(ControllerKind::cruise),
         };
+        // Controllers keep to the robot's limit.
+        let speed = speed.map(|speed| speed.min(self.robot.max_speed));
+        let timed = !matches!(execute.controller_in_force(), Some(kind) if kind != ControllerKind::Geometric);
         Some(Room {
             flies: true,
             low: Point3::origin(),
@@ -118,6 +121,9 @@ impl Say for FlightSetup {
             margin: self.world.keep_in_margin(),
             curvature: f64::INFINITY,
             speed,
+            timed: self.controller.is_some() || timed,
+            // What hovers by rotors alone: ground stations have one class for it.
+            vehicles: &[0, 2, 3, 4, 13, 14, 15, 29, 35],
         })
     }
 

@@ -57,9 +57,10 @@ pub(in crate::campaign) trait Act {
         self.run(nominal, case, order).map(|flight| flight.track)
     }
 
-    /// The longest (s) that a sound run over so many waypoints may take where its controller has a pace of its own,
-    /// whatever the robot could do; 0 where it has none.
-    fn slowest(&self, _waypoints: usize) -> f64 {
+    /// The longest (s) that a sound run over `waypoints` may take, of a trajectory of `length` of them that is planned
+    /// to take `planned` s: of a controller that has a pace of its own, whatever the robot could do, and of long ways;
+    /// 0 where nothing is known of it.
+    fn slowest(&self, _waypoints: &[Point3<f64>], _length: usize, _planned: f64) -> f64 {
         0.0
     }
 

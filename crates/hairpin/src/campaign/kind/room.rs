@@ -20,6 +20,10 @@ pub struct Room {
     pub curvature: f64,
     /// Speed that whoever executed goes at on every leg, m/s; `None`: the plan's.
     pub speed: Option<f64>,
+    /// Whether whoever executed keeps to the plan's times where there is a plan, or is at least handed them.
+    pub timed: bool,
+    /// `MAV_TYPE`s of missions that are its own, by MAVLink's numbers: those of its class, and 0, which is of none.
+    pub vehicles: &'static [u64],
 }
 
 /// A wall of a room, and how far from it a place is.
@@ -69,6 +73,8 @@ mod tests {
             margin: 0.5,
             curvature: f64::INFINITY,
             speed: None,
+            timed: true,
+            vehicles: &[0],
         };
         let wall = |x, y, z, floor| cage.nearest_wall(&Point3::new(x, y, z), floor);
         assert_eq!(wall(9.0, 4.0, 2.5, true), Wall { name: "x greatest", inside: 1.0 });

@@ -27,8 +27,8 @@ pub struct ExecuteSection {
     pub repeat: u64,
     /// A waypoint counts as reached inside this radius.
     pub accept_m: f64,
-    /// Time limit of a run; 9 s per waypoint if not given, and under `crazyflie-goto` what as many legs across the
-    /// world would take.
+    /// Time limit of a run; if not given 9 s per waypoint, or where that is longer twice the plan, or half as long
+    /// again as the way takes, and under `crazyflie-goto` what as many legs across the world would take.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_limit_s: Option<f64>,
     /// Step of the simulated physics.
