@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hairpin::campaign::drive::steerable;
 use hairpin::feasibility::steering::shooting::{Control, Curvatures};
-use hairpin::robot::rover::Rover;
+use hairpin::robot::rover::{Rims, Rover};
 use hairpin::world::terrain::{ElevationMap, KeepOuts};
 
 use crate::drive::{Drive, State};
@@ -135,10 +135,13 @@ impl SteerHandle {
             ));
         }
         let speed = if settings.speed_m_s > 0.0 { settings.speed_m_s } else { rover.default_speed };
-        if speed > limits.speed {
-            let sentence = format_args!("`speed_m_s` = {speed}: must be at most {} of `{}`", limits.speed, rover.name);
+        // A driven wheel at its limit leaves nothing to turn with.
+        let most = rover.rims.map_or(limits.speed, |rims| Rims::MOST_SHARE * rims.speed);
+        if speed > most {
+            let sentence = format_args!("`speed_m_s` = {speed}: must be at most {most} of `{}`", rover.name);
             return Err(Refused::new(HAIRPIN_INVALID, sentence));
         }
+        let limits = if rover.rims.is_some() { rover.limits_at(speed, 0.0) } else { *limits };
         let bounds = Curvatures { most: limits.curvature, most_rate: limits.curvature_rate };
         let shaping = steerable(&bounds, &rover, speed);
         Ok(Self { rover, map, settings, control, bounds, shaping, speed, nothing: KeepOuts::default() })

@@ -132,3 +132,18 @@ fn a_drive_is_a_mission_of_a_rover() {
     let (code, _, error) = run(place.path(), &["export", "r", "--to", "poly4d"]);
     assert!(code == 2 && error.contains("does not fly"), "{error}");
 }
+
+#[test]
+fn a_mission_says_which_legs_go_backwards() {
+    let place = tempfile::tempdir().unwrap();
+    let few = "generate.search={ method = \"beam\", score = \"curvature-change\", waypoints = 24, cases = 1 }";
+    let keys = ["--set", "task.length=3", "--set", "generate.manoeuvres=[\"reverse\"]", "--set", few];
+    run(place.path(), &[&["generate", "car", "--out", "c", "--set", ORIGIN], &keys[..]].concat());
+    let (code, out, error) = run(place.path(), &["export", "c", "--to", "plan,wpl", "--autopilot", "ardupilot"]);
+    assert!(code == 0 && format!("{out}{error}").contains("0→1, 1→2 backwards"), "{out}{error}");
+    let wpl = fs::read_to_string(place.path().join("c/export/0000.waypoints")).unwrap();
+    let reverses = wpl.lines().filter(|line| line.split('\t').nth(3) == Some("194"));
+    assert_eq!(reverses.count(), 2, "into reverse, and forwards again: {wpl}");
+    let (_, out, error) = run(place.path(), &["export", "c", "--to", "plan"]);
+    assert!(format!("{out}{error}").contains("missions of PX4 have no gear"), "{out}{error}");
+}

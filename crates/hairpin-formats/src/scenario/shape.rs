@@ -163,20 +163,21 @@ impl<'s> Shape<'s> {
     }
 
     fn unknown_key(&mut self, schema: &Value, name: &str, node: &Node, path: &str) {
-        let (hint, list) = self.instead_of(schema, name);
+        let (hint, list) = self.instead_of(schema, name, path);
         let place = node.key.as_ref().unwrap_or(&node.place);
         let message = format!("unknown key `{path}`: {hint}valid here: {list}");
         let bound = if hint.is_empty() { "no such key".into() } else { hint.trim_end().to_owned() };
         self.report.complain(place, path, &node.describe(), &bound, message);
     }
 
-    /// The key that `name`, which `schema` has not, was meant to be, as a question, and the keys that it has.
-    fn instead_of(&self, schema: &Value, name: &str) -> (String, String) {
+    /// The key that `name`, which `schema` has not at `path`, was meant to be, as a question, and the keys that it has.
+    fn instead_of(&self, schema: &Value, name: &str, path: &str) -> (String, String) {
         let known = schema["properties"].as_object();
         let here: Vec<&str> = known.into_iter().flat_map(|known| known.keys()).map(String::as_str).collect();
         let mut elsewhere = Vec::new();
         self.find_key(self.root, name, "", 0, &mut elsewhere);
-        let meant = nearest(name, here.iter().copied()).map(str::to_owned).or(elsewhere.into_iter().next());
+        let meant =
+            nearest(name, here.iter().copied()).map(str::to_owned).or(elsewhere.into_iter().find(|key| key != path));
         (meant.map_or(String::new(), |key| format!("did you mean `{key}`? ")), here.join(", "))
     }
 

@@ -136,6 +136,8 @@ fn keys_that_vary_are_told_the_nearest_one_too() {
         ("car", "robot.max_speed_m_s", "did you mean `speed_m_s`? valid in `robot`: "),
         ("car", "robot.wheelbas_m", "did you mean `wheelbase_m`? valid in `robot`: "),
         ("differential-drive", "robot.wheelbase_m", "no `robot.wheelbase_m`: "),
+        // A key of another kind under the same name is no hint.
+        ("car", "robot.slip_at_20_deg", "no `robot.slip_at_20_deg`: valid in `robot`: "),
         ("car", "execute.latncy_s", "did you mean `latency_s`? valid in `execute`: "),
         ("arm", "generate.moves.clearance", "did you mean `clearance_mm`? valid in `generate.moves`: "),
     ] {

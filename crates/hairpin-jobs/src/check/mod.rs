@@ -97,8 +97,11 @@ fn verdict(
             let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s")) + &waits(mission);
             let demanded =
                 if mission.speeds.iter().any(Option::is_some) { ", at the speeds that it demands" } else { "" };
+            let heights = heights(mission, passage);
             Verdict::of(
-                &format!("FEASIBLE {file} (witnessed, {robot}): {count} waypoints, {length:.1} m{time}{demanded}"),
+                &format!(
+                    "FEASIBLE {file} (witnessed, {robot}): {count} waypoints, {length:.1} m{time}{demanded}{heights}"
+                ),
                 0,
             )
         }
@@ -119,6 +122,20 @@ fn waits(mission: &Mission) -> String {
         _ => " beside waits without an end".into(),
     }
 }
+
+/// What is to be said of heights that the witness has not: of what drives they are the ground's.
+fn heights(mission: &Mission, passage: &Passage) -> String {
+    let Some(witness) = &passage.witness else { return String::new() };
+    let off = mission.waypoints.iter().zip(&witness.waypoints).map(|(asked, there)| (asked.z - there.z).abs());
+    let most = off.fold(0.0, f64::max);
+    match most > HEIGHT {
+        true => format!("; heights are the ground's: those of the mission, up to {most:.2} m off, are not looked at"),
+        false => String::new(),
+    }
+}
+
+/// Heights that differ by this are not the same, m.
+const HEIGHT: f64 = 0.1;
 
 /// How the mission's places became metres, in words.
 pub fn frame_in_words(mission: &Mission) -> String {
@@ -182,6 +199,9 @@ mod tests {
             assert_eq!(found.feasible, Some(true), "{robot}: {:?}", found.verdict);
             assert!(found.passage.witness.is_some(), "{robot}");
         }
+        // What drives stands on the ground, whatever height the mission has.
+        let high = checked("x_m,y_m,z_m\n0,0,3\n6,0,3\n12,2,3\n", "car", None);
+        assert!(high.verdict.sentence.contains("heights are the ground's: those of the mission, up to 3.00 m off"));
         let arm = CheckSettings { mission: "a.csv".into(), robot: "irb120".into(), ..CheckSettings::default() };
         assert!(check(&arm, &Unwatched).is_err());
     }

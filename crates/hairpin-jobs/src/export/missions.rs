@@ -56,6 +56,7 @@ pub(super) fn write(
         "{name} plans its own way between the waypoints: the timing of the plan, and its stress, are lost; --to setpoints keeps them"
     ));
     for (case, cleared) in cases.iter().zip(&hardware.cleared) {
+        let case = &with_gears(work, case, flies)?;
         let home = home(&world, cleared, case)?;
         let made = Maker { work, case, cleared, home: &home, hardware, autopilot }.make(1.0)?;
         written.told.extend(hardware.obstacle_met(case));
@@ -82,9 +83,19 @@ pub(super) fn write_slow(
     (share, autopilot): (f64, Autopilot),
 ) -> Result<Vec<PathBuf>, Problem> {
     let world = placed(work, "plan")?;
+    let case = &with_gears(work, case, hardware.room.flies)?;
     let home = home(&world, cleared, case)?;
     let made = Maker { work, case, cleared, home: &home, hardware, autopilot }.make(share)?;
     made.write(place, &format!("{}_slow", case.id()), (plan::ENDING, &plan::text(&made.mission)))
+}
+
+/// `case` with the commands of its drive, which say the gear of each leg; what flies has none.
+fn with_gears(work: &Work, case: &Case, flies: bool) -> Result<Case, Problem> {
+    let mut case = case.clone();
+    if !flies && case.witness.is_none() {
+        work.folder.read_witness(&mut case)?;
+    }
+    Ok(case)
 }
 
 /// A mission and the parameters that it asks for.

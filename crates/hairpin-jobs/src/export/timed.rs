@@ -9,7 +9,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::home::Home;
 use hairpin_formats::poly4d::{self, Fitted, compress, fit_profile, fit_track};
 use hairpin_formats::setpoints::{self, Setpoint};
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::hardware::{Hardware, home, is_witnessed, note};
 use super::placed::placed;
@@ -123,8 +123,8 @@ fn write_note(place: &Path, name: &str, note: &[(&'static str, String)]) -> Resu
     Ok(path)
 }
 
-/// Set points of a witnessed case: of a flight its own polynomials' derivatives, else differences of the planned
-/// velocities.
+/// Set points of a witnessed case: of a flight its own polynomials' derivatives, else even accelerations between the
+/// planned velocities.
 fn setpoints_of(case: &Case, planned: &Track, home: &Home, flies: bool) -> Result<Vec<Setpoint>, String> {
     let end = planned.times().last().copied().unwrap_or(0.0);
     let steps = (end * RATE).floor() as usize;
@@ -133,10 +133,9 @@ fn setpoints_of(case: &Case, planned: &Track, home: &Home, flies: bool) -> Resul
         stamps.push(end);
     }
     let profile = case.profile().filter(|_| flies);
-    let plan = Planned::of(planned).ok_or("its plan has no velocities")?;
     let one = |t: &f64| {
-        let (pose, mut velocity, mut acceleration) = plan.at(*t);
-        let mut place = pose;
+        let (position, mut velocity, mut acceleration) = planned.motion_at(*t).ok_or("its plan has no velocities")?;
+        let mut place = Isometry3::from_parts(position.into(), turned(planned, *t));
         if let Some((_, [p, v, a])) = profile.and_then(|profile| profile.motion(*t)) {
             place.translation.vector = p;
             (velocity, acceleration) = (v, a);
@@ -154,29 +153,10 @@ fn setpoints_of(case: &Case, planned: &Track, home: &Home, flies: bool) -> Resul
     stamps.iter().map(one).collect()
 }
 
-/// A planned motion between its samples.
-struct Planned<'a> {
-    track: &'a Track,
-    velocities: [&'a [f64]; 3],
-}
-
-impl<'a> Planned<'a> {
-    fn of(track: &'a Track) -> Option<Self> {
-        let [x, y, z] = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
-        (track.len() > 1).then_some(Self { track, velocities: [x?, y?, z?] })
-    }
-
-    /// Pose, velocity and acceleration at a time of the plan.
-    fn at(&self, t: f64) -> (Isometry3<f64>, Vector3<f64>, Vector3<f64>) {
-        let (times, poses) = (self.track.times(), self.track.poses());
-        let before = times.partition_point(|stamp| *stamp <= t).clamp(1, times.len() - 1) - 1;
-        let span = times[before + 1] - times[before];
-        let share = ((t - times[before]) / span).clamp(0.0, 1.0);
-        let velocity = |i: usize| Vector3::from_fn(|axis, _| self.velocities[axis][i]);
-        let (v, w) = (velocity(before), velocity(before + 1));
-        let (a, b) = (&poses[before], &poses[before + 1]);
-        let place = a.translation.vector.lerp(&b.translation.vector, share);
-        let pose = Isometry3::from_parts(place.into(), between(&a.rotation, &b.rotation, share));
-        (pose, v.lerp(&w, share), (w - v) / span)
-    }
+/// The attitude of a planned motion of two samples or more at a time of it.
+fn turned(planned: &Track, t: f64) -> UnitQuaternion<f64> {
+    let (times, poses) = (planned.times(), planned.poses());
+    let before = times.partition_point(|stamp| *stamp <= t).clamp(1, times.len() - 1) - 1;
+    let share = ((t - times[before]) / (times[before + 1] - times[before])).clamp(0.0, 1.0);
+    between(&poses[before].rotation, &poses[before + 1].rotation, share)
 }

@@ -1,10 +1,12 @@
 //! How fast a drive is driven and what that asks of the vehicle: accelerations, steering rates, wheels.
 
+use hairpin::campaign::drive::{drive_piece, wheel_rims};
 use hairpin::campaign::states::{Followed, States};
-use hairpin::feasibility::steering::shooting::{Control, SPEED_PRECISION};
-use hairpin::robot::rover::Rover;
+use hairpin::feasibility::steering::shooting::{Control, Curvatures, SPEED_PRECISION};
+use hairpin::robot::rover::{Rims, Rover};
 use hairpin::trajectory::drive::{Motion, Planar, Segment};
 use hairpin::trajectory::{Direction, SpeedError, SpeedProfile, Timing};
+use hairpin::verification::{DrivePiece, rim_breaches};
 use hairpin_formats::steering::Asked;
 
 /// How fast questions are answered to be driven, by which controls, and how closely their drives are followed.
@@ -61,23 +63,80 @@ impl Pace {
         self.acceleration.unwrap_or(f64::INFINITY).min(rover.limits.acceleration)
     }
 
-    /// The speeds of a question: constant where one is given or both are the same; a ramp between two; a trapezoid with
-    /// a cruising speed, and from rest to rest.
-    pub(super) fn profile(&self, asked: &Asked, rover: &Rover) -> Result<SpeedProfile, SpeedError> {
+    /// How hard trapezoids change a speed of `speed` m/s at most, m/s²; infinite where nothing bounds it.
+    fn slope(&self, rover: &Rover, speed: f64) -> f64 {
+        self.most_acceleration(rover).min(rover.planned_acceleration(speed))
+    }
+
+    /// The speeds of a question: constant where one is given or both are the same; a ramp between two; a trapezoid
+    /// with a cruising speed, and from rest to rest. Where the drive may stop on its way (`stops`) and the vehicle
+    /// takes time for that, a constant speed is a trapezoid that rests there.
+    pub(super) fn profile(&self, asked: &Asked, rover: &Rover, stops: bool) -> Result<SpeedProfile, SpeedError> {
         let (v0, vf) = (asked.v0.or(self.v0), asked.vf.or(self.vf));
         let usual = self.cruise.unwrap_or(rover.default_speed);
         let start = v0.or(vf.filter(|v| *v > 0.0)).unwrap_or(usual);
         let end = vf.or(v0.filter(|v| *v > 0.0)).unwrap_or(usual);
         let profile = if self.cruise.is_some() || start + end == 0.0 {
-            let acceleration = self.most_acceleration(rover);
+            let acceleration = self.slope(rover, usual);
             let acceleration = if acceleration.is_finite() { acceleration } else { usual / SPEED_UP };
             SpeedProfile::Trapezoid { start, cruise: usual, end, acceleration }
         } else if start == end {
-            SpeedProfile::Constant { speed: start }
+            match self.slope(rover, start) {
+                acceleration if stops && acceleration.is_finite() => {
+                    SpeedProfile::Trapezoid { start, cruise: start, end, acceleration }
+                }
+                _ => SpeedProfile::Constant { speed: start },
+            }
         } else {
             SpeedProfile::Ramp { start, end }
         };
         profile.checked()
+    }
+
+    /// `profile` as `segments` are driven by it: constant where nothing stops them, and from rest where they begin (or
+    /// end) with a turn in place and no speed was asked for there.
+    pub(super) fn settled(&self, asked: &Asked, profile: SpeedProfile, segments: &[Segment]) -> SpeedProfile {
+        let SpeedProfile::Trapezoid { start, cruise, end, acceleration } = profile else { return profile };
+        let turns =
+            |segment: Option<&Segment>| segment.is_some_and(|segment| matches!(segment.motion, Motion::Turn { .. }));
+        if self.cruise.is_none() && profile.is_constant() && Timing::new(&profile, segments).is_constant() {
+            return cruise.into();
+        }
+        let free = asked.v0.or(self.v0).is_none() && asked.vf.or(self.vf).is_none();
+        let rests = |segment, speed| if free && turns(segment) { 0.0 } else { speed };
+        let (start, end) = (rests(segments.first(), start), rests(segments.last(), end));
+        SpeedProfile::Trapezoid { start, cruise, end, acceleration }
+    }
+
+    /// What `rover` may bend at the speeds of a question; of two driven wheels what they leave at the highest one.
+    ///
+    /// Those at their limit would leave nothing to look for a drive with; what is found is held to them all the same.
+    pub(super) fn bounds(&self, asked: &Asked, rover: &Rover, stops: bool) -> Curvatures {
+        let limits = match (&rover.rims, self.profile(asked, rover, stops)) {
+            (Some(rims), Ok(profile)) => {
+                let top = profile.top().min(Rims::MOST_SHARE * rims.speed);
+                let even = matches!(profile, SpeedProfile::Constant { .. });
+                rover.limits_at(top, if even { 0.0 } else { rover.planned_acceleration(top) })
+            }
+            _ => rover.limits,
+        };
+        Curvatures { most: limits.curvature, most_rate: limits.curvature_rate }
+    }
+
+    /// The first limit of two driven wheels that `segments` break, and by how much.
+    pub(super) fn rims_broken(
+        &self,
+        rover: &Rover,
+        profile: &SpeedProfile,
+        segments: &[Segment],
+    ) -> Option<(&'static str, Option<f64>)> {
+        let rims = wheel_rims(rover.rims.as_ref()?);
+        let pieces: Vec<DrivePiece> = segments.iter().map(drive_piece).collect();
+        let knots = Timing::new(profile, segments).knots();
+        let breaches = rim_breaches(&pieces, &knots, turn_rate(rover, profile), &rims);
+        let names = ["wheel_speed_m_s", "wheel_acceleration_m_s2"];
+        let mut found = names.into_iter().zip(breaches);
+        found.find_map(|(name, breach)| breach.map(|breach| (name, Some(breach.value - breach.bound))))
     }
 
     /// The first limit that the speeds break along `segments`, and by how much.
@@ -87,10 +146,10 @@ impl Pace {
         profile: &SpeedProfile,
         segments: &[Segment],
     ) -> Option<(&'static str, Option<f64>)> {
-        if profile.is_constant() {
+        let timing = Timing::new(profile, segments);
+        if timing.is_constant() {
             return None;
         }
-        let timing = Timing::new(profile, segments);
         let over = timing.hardest() - self.most_acceleration(rover);
         if over > ROUNDING * timing.hardest() {
             return Some(("acceleration", over.is_finite().then_some(over)));
@@ -134,9 +193,7 @@ impl Pace {
         segments: &[Segment],
         rows: Rows,
     ) -> Followed<'a> {
-        // In place the outermost wheel goes as fast as the vehicle would ahead.
-        let arm = rover.suspension.outer_radius();
-        let turn_rate = profile.top() / if arm > 0.0 { arm } else { 1.0 };
+        let turn_rate = turn_rate(rover, &profile);
         let driving = Timing::new(&profile, segments);
         let turns: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
         let duration = driving.time_at(driving.length()) + turns / turn_rate;
@@ -164,6 +221,12 @@ pub enum Rows {
 pub(super) fn start(asked: &Asked) -> Planar {
     let [x, y, yaw] = asked.start.unwrap_or([0.0; 3]);
     Planar { x, y, yaw, curvature: asked.k0 }
+}
+
+/// Rate of turns in place, rad/s: the outermost wheel goes no faster than the vehicle would ahead.
+fn turn_rate(rover: &Rover, profile: &SpeedProfile) -> f64 {
+    let (arm, aside) = (rover.suspension.outer_radius(), rover.rims.map_or(0.0, |rims| 0.5 * rims.track));
+    profile.top() / if arm > 0.0 { arm } else { aside.max(1.0) }
 }
 
 /// The direction of travel that was asked for.

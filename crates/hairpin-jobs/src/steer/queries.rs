@@ -39,6 +39,12 @@ impl Vehicle {
         drawn: bool,
         watch: &dyn Watch,
     ) -> Result<Batch, Problem> {
+        if let Answers::File(out) | Answers::Resumed(out) = &answers
+            && same_file(path, out)
+        {
+            let bound = "another file: the answers would take the place of the queries";
+            return Err(Problem::input(format!("--out {}: must be {bound}", out.display())));
+        }
         let QueryFile { columns, blocks, count } =
             QueryFile::at(path).map_err(|error| Problem::of_file(path, error))?;
         if !columns.ignored.is_empty() {
@@ -80,6 +86,11 @@ impl Vehicle {
         }
         Ok(batch)
     }
+}
+
+/// Whether both are one file that is there.
+fn same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }
 
 /// The answers that `out` has.

@@ -4,7 +4,9 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-use hairpin_formats::steering::{self, Answer, Block, Blocks, Columns, Drive, Errors, Frame, KeptAnswer, Row, Status};
+use hairpin_formats::steering::{
+    self, Answer, Asked, Block, Blocks, Columns, Drive, Errors, Frame, KeptAnswer, Row, Status, Wrong,
+};
 use hairpin_formats::{atomic, bounds};
 use rayon::prelude::*;
 
@@ -117,6 +119,7 @@ impl Run<'_> {
         // The head is the record before the first query.
         for (number, row) in (block.before - 1..).zip(rows) {
             let (drawn, kept) = (number < self.most_drawn, self.kept.get(number));
+            let mut beyond = None;
             // What is kept is gone past in no time.
             if kept.is_none() && self.watch.stopped() {
                 whole = false;
@@ -130,6 +133,9 @@ impl Run<'_> {
                     ));
                 }
                 Some(kept) if !drawn || !kept.driven => {
+                    if let (Status::Invalid, Ok(asked)) = (kept.status, &row.asked) {
+                        beyond = wrong(asked, &self.vehicle.answer(asked));
+                    }
                     batch.count(kept.status, kept.driven.then_some(kept.time_us));
                 }
                 kept => {
@@ -139,6 +145,8 @@ impl Run<'_> {
                     {
                         batch.drawn.push((stretches(solution, asked), asked.goal));
                     }
+                    beyond =
+                        answered.as_ref().and_then(|answered| row.asked.as_ref().ok().and_then(|q| wrong(q, answered)));
                     let answer = in_file(&row, answered.as_ref());
                     batch.count(answer.status, answer.drive.is_some().then_some(answer.time_us));
                     if kept.is_none() {
@@ -147,13 +155,31 @@ impl Run<'_> {
                     }
                 }
             }
-            if let Err(wrong) = row.asked {
-                batch.wrong.push((row.line, wrong));
-            }
+            batch.wrong.extend(row.asked.err().or(beyond).map(|wrong| (row.line, wrong)));
         }
         Ok(Done { batch, rows: steering::rows(&answers).into_bytes(), whole })
     }
 }
+
+/// What is wrong with a question that is none: of its numbers the one that is beyond what can be planned, or speeds.
+fn wrong(asked: &Asked, answered: &Answered) -> Option<Wrong> {
+    let (column, _) = answered.limit.filter(|_| answered.status == Status::Invalid)?;
+    let [x, y, yaw] = asked.goal;
+    let left = asked.frame.left();
+    let (value, bound) = match column {
+        "x" => (Some(x), "finite and within ±1e6 m"),
+        "y" => (Some(left * y), "finite and within ±1e6 m"),
+        "yaw" => (Some(left * yaw), "finite and within ±1e6 rad"),
+        "v0" => (asked.v0, SPEEDS),
+        "vf" => (asked.vf, SPEEDS),
+        _ => (None, SPEEDS),
+    };
+    let value = value.map_or_else(String::new, |value| value.to_string());
+    Some(Wrong { column: column.to_owned(), value, bound })
+}
+
+/// What speeds must be to make a drive.
+const SPEEDS: &str = "speeds up to the cruising speed, one of both ends more than 0";
 
 /// The answer as a file has it.
 fn in_file(row: &Row, answered: Option<&Answered>) -> Answer {

@@ -59,6 +59,15 @@ impl Solver<'_> {
         Ok(solver)
     }
 
+    /// What may be driven with fewer of the changes of gear and turns in place that are allowed, most of them first.
+    pub(super) fn plainer(&self) -> Vec<Choices<'_>> {
+        let Choices { reversals, turns, .. } = self.choices;
+        let fewer = [(true, false), (false, true), (false, false)];
+        let fewer =
+            fewer.into_iter().filter(|(r, t)| (reversals || !r) && (turns || !t) && (*r, *t) != (reversals, turns));
+        fewer.map(|(reversals, turns)| Choices { reversals, turns, ..self.choices }).collect()
+    }
+
     /// How exactly `asked` is to be met.
     pub(super) fn precision(&self, asked: &Asked) -> Precision {
         let precision = self.ground.precision;

@@ -201,3 +201,94 @@ fn a_file_that_is_stopped_keeps_what_is_done_and_goes_on() {
     assert!(vehicle.answer_file(&queries, Answers::Resumed(&parts), false, &Unwatched).is_err());
     assert_eq!(fs::read_to_string(&parts).unwrap(), "mine\n");
 }
+
+fn vehicle(rover: &str, reversals: bool) -> Vehicle {
+    Vehicle::new(&SteerSettings { rover: rover.into(), reversals, ..SteerSettings::default() }, &Unwatched).unwrap()
+}
+
+/// A question at `speed` at both ends.
+fn at(speed: f64, to: [f64; 4]) -> hairpin_formats::steering::Asked {
+    let asked = Question { to, ..Question::default() }.asked();
+    hairpin_formats::steering::Asked { v0: Some(speed), vf: Some(speed), ..asked }
+}
+
+#[test]
+fn driven_wheels_at_their_limit_go_straight() {
+    let drive = vehicle("differential-drive", false);
+    let round = drive.answer(&at(0.22, [0.0, 0.3, std::f64::consts::PI, 0.0]));
+    let limit = round.limit.map(|(limit, _)| limit);
+    assert_eq!((round.status, limit), (Status::Infeasible, Some("wheel_speed_m_s")));
+    assert_eq!(drive.answer(&at(0.22, [1.0, 0.0, 0.0, 0.0])).status, Status::Ok);
+    // Half of the wheels' speed is left to turning, and a tenth of it: |κ| ≤ 12.5 and 1.39 1/m.
+    for (speed, most) in [(0.11, 12.5), (0.198, 2.0 * 0.022 / (0.16 * 0.198))] {
+        let bent = drive.answer(&at(speed, [0.4, 0.3, 1.5, 0.0]));
+        let (_, replay) = bent.drive.as_ref().unwrap();
+        assert!(bent.status == Status::Ok && replay.max_curvature <= most * (1.0 + 1e-9), "{replay:?}");
+        assert!(replay.max_curvature * 0.08 * speed + speed <= 0.22 * (1.0 + 1e-9), "{replay:?}");
+    }
+}
+
+#[test]
+fn a_car_that_turns_back_comes_to_rest_first() {
+    let (backing, plain) = (vehicle("car", true), vehicle("car", false));
+    let (mut turned, mut answered) = (0, 0);
+    for seed in 0..40_u64 {
+        let unit = |i: u64| hairpin::math::random::hashed_unit(seed, &[i]);
+        let to = [6.0 * unit(0) - 3.0, 6.0 * unit(1) - 3.0, 6.0 * unit(2) - 3.0, 0.0];
+        let asked = at(if seed % 2 == 0 { 1.0 } else { 4.0 }, to);
+        let drive = backing.answer(&asked);
+        // To be allowed more loses nothing.
+        if plain.answer(&asked).status == Status::Ok {
+            answered += 1;
+            assert_eq!(drive.status, Status::Ok, "seed {seed}: {to:?} {:?}", drive.limit);
+        }
+        let reversals = drive.drive.as_ref().map_or(0, |(_, replay)| replay.reversals);
+        if drive.status != Status::Ok || reversals == 0 {
+            continue;
+        }
+        turned += 1;
+        let states = backing.follow(&asked, &drive, Rows::AsAsked).unwrap().states;
+        for pair in states.windows(2) {
+            let (change, time) = (pair[1].speed - pair[0].speed, pair[1].time - pair[0].time);
+            assert!(change.abs() <= 9.51 * time * 1.01 + 1e-3, "seed {seed}: {change} m/s in {time} s");
+        }
+        let summary = backing.summary(&asked, &drive);
+        let most = summary.profile.unwrap().max_acceleration_m_s2.unwrap();
+        assert!(most > 1.0 && most <= 9.51 + 1e-9, "{most}");
+    }
+    assert!(turned > 2 && answered > 10, "{turned} {answered}");
+}
+
+#[test]
+fn only_what_can_crab_is_asked_to() {
+    let aside = Question { to: [3.0, 1.0, 0.2, 0.0], direction: 0.2, ..Question::default() }.asked();
+    for (rover, crabs) in
+        [("car", false), ("differential-drive", false), ("rocky7", false), ("rocky8", true), ("generic", true)]
+    {
+        let answered = vehicle(rover, false).answer(&aside);
+        let refused = answered.status == Status::Infeasible && answered.limit == Some(("direction_rad", None));
+        assert_eq!(refused, !crabs, "{rover}: {:?} {:?}", answered.status, answered.limit);
+    }
+    let turns = Question { to: [3.0, 1.0, 0.2, 0.0], direction_end: Some(0.1), ..Question::default() }.asked();
+    assert_eq!(vehicle("car", false).answer(&turns).status, Status::Infeasible);
+}
+
+#[test]
+fn rows_beyond_what_can_be_planned_are_told_and_queries_are_kept() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("q.csv");
+    let text = "id,x,y,yaw,k0,kf,frame\na,4,1,0.5,0,0,\nb,1e9,1,0,0,0,\nc,4,-2e7,0,0,0,ned\n";
+    fs::write(&path, text).unwrap();
+    let batch = generic().answer_file(&path, Answers::Counted, false, &Unwatched).unwrap();
+    let told: Vec<String> = batch.wrong.iter().map(|(line, wrong)| format!("{line}: {wrong}")).collect();
+    assert_eq!(batch.ended(Status::Invalid), 2);
+    assert_eq!(
+        told,
+        [
+            "3: x = \"1000000000\": must be finite and within ±1e6 m",
+            "4: y = \"-20000000\": must be finite and within ±1e6 m"
+        ]
+    );
+    let refused = generic().answer_file(&path, Answers::File(&path), false, &Unwatched).unwrap_err().to_string();
+    assert!(refused.contains("--out") && fs::read_to_string(&path).unwrap() == text, "{refused}");
+}

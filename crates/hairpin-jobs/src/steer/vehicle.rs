@@ -82,9 +82,18 @@ impl Vehicle {
 
     /// The bounds of a question.
     pub(super) fn bounds(&self, asked: &Asked) -> Curvatures {
-        let limits = &self.rover.limits;
-        let most = asked.max_curvature.map_or(limits.curvature, |most| most.min(limits.curvature));
-        Curvatures { most, most_rate: limits.curvature_rate }
+        self.bounds_by(asked, &self.solver)
+    }
+
+    fn bounds_by(&self, asked: &Asked, solver: &Solver<'_>) -> Curvatures {
+        let own = self.pace.bounds(asked, &self.rover, self.may_stop(solver));
+        let most = asked.max_curvature.map_or(own.most, |most| most.min(own.most));
+        Curvatures { most, ..own }
+    }
+
+    /// Whether a drive may stop on its way.
+    fn may_stop(&self, solver: &Solver<'_>) -> bool {
+        solver.choices.reversals || solver.choices.turns || self.pace.control == Control::TurnDriveTurn
     }
 
     /// A question in the map's own coordinates as it is asked of the map, which lies near its zero.
@@ -96,9 +105,23 @@ impl Vehicle {
         Asked { start: Some([x - east, y - north, yaw]), ..*asked }
     }
 
-    /// Answers a question that is asked of the map ([`Self::near`]) exactly, by `solver`.
+    /// Answers a question that is asked of the map ([`Self::near`]) exactly, by `solver`; where what may reverse or
+    /// turn is no answer, by what does less of that.
     pub(super) fn answer_by(&self, asked: &Asked, solver: &Solver<'_>) -> Answered {
-        self.answer_towards(asked, asked, solver.precision(asked), solver)
+        let mut first = self.answer_towards(asked, asked, solver.precision(asked), solver);
+        for choices in solver.plainer() {
+            let open = matches!(first.status, Status::Infeasible | Status::NotConverged);
+            if !open || solver.time_limit.is_some_and(|limit| first.solving >= limit) {
+                break;
+            }
+            let plainer = Solver { choices, ..*solver };
+            let second = self.answer_towards(asked, asked, plainer.precision(asked), &plainer);
+            first.solving += second.solving;
+            if second.status == Status::Ok {
+                return Answered { solving: first.solving, ..second };
+            }
+        }
+        first
     }
 
     /// Answers a question by a drive to the goal of `towards`, as exact as `aim` has it.
@@ -109,17 +132,21 @@ impl Vehicle {
         aim: Precision,
         solver: &Solver<'_>,
     ) -> Answered {
-        let (limits, bounds) = (&self.rover.limits, self.bounds(asked));
+        let (limits, bounds) = (&self.rover.limits, self.bounds_by(asked, solver));
         let most = bounds.most;
         let refused = |status, limit, excess| {
             let nearest =
                 (limit == "curvature_1_m").then(|| [asked.k0.clamp(-most, most), asked.kf.clamp(-most, most)]);
             Answered { nearest, ..Answered::new(status, Some((limit, excess)), bounds, Duration::ZERO) }
         };
-        let profile = match self.pace.profile(asked, &self.rover) {
+        let profile = match self.pace.profile(asked, &self.rover, self.may_stop(solver)) {
             Ok(profile) => profile,
             Err(wrong) => return refused(Status::Invalid, wrong.field, None),
         };
+        let travel = direction(asked);
+        if (travel.start != 0.0 || travel.end != 0.0) && !self.rover.may_crab() {
+            return refused(Status::Infeasible, "direction_rad", None);
+        }
         if profile.top() > limits.speed {
             return refused(Status::Infeasible, "speed_m_s", Some(profile.top() - limits.speed));
         }
@@ -133,7 +160,7 @@ impl Vehicle {
         };
         let precision = solver.precision(asked);
         let there = self.is_there(asked, &profile, &precision);
-        let swing = direction(asked).swing();
+        let swing = travel.swing();
         if !there
             && self.pace.control == Control::TurnDriveTurn
             && let Some(excess) = self.cannot_turn()
@@ -162,8 +189,10 @@ impl Vehicle {
             answered = self.found(asked, &task, &bounds);
         }
         if there {
-            return Answered { profile: Some(profile), ..answered };
+            return Answered { profile: Some(self.pace.settled(asked, profile, &[])), ..answered };
         }
+        let segments = answered.drive.as_ref().map(|(solution, _)| solution.segments).unwrap_or_default();
+        let profile = self.pace.settled(asked, profile, &segments);
         self.hold_to_pace(asked, answered, &profile)
     }
 
@@ -200,6 +229,7 @@ impl Vehicle {
             // On the ground the steering follows its command as fast as it can, and the replay knows.
             limit = pace.steering_excess(&self.rover, profile, segments).map(|excess| ("steering_rate", Some(excess)));
         }
+        limit = limit.or_else(|| pace.rims_broken(&self.rover, profile, segments));
         if limit.is_none() && self.rover.wheels.bounded() {
             let states = self.states(asked, &answered, Rows::Few);
             limit = states.and_then(|states| wheels_broken(&self.rover, &states));

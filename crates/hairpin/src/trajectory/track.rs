@@ -3,7 +3,7 @@
 //! A flight log, our own simulator and a planned path come to this one form, so that a judge of tracks judges them all.
 //! Units are in the names of channels, as they are in columns of files.
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use thiserror::Error;
 
 /// Channel, 1 throughout, of tracks whose attitudes nobody told: their rotations mean nothing.
@@ -39,6 +39,9 @@ pub struct Track {
     poses: Vec<Isometry3<f64>>,
     channels: Vec<Channel>,
 }
+
+/// Share of the way between two stamps by which velocities may lead elsewhere and still be those of that way.
+const EVEN: f64 = 0.05;
 
 /// Why columns are no track.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -147,6 +150,29 @@ impl Track {
         self
     }
 
+    /// Place, velocity and acceleration at `t` (s) of a track with the channels `vx_m_s`, `vy_m_s`, `vz_m_s`; beyond
+    /// its ends as there. `None` without them, or of fewer than two stamps.
+    ///
+    /// In m, m/s and m/s². Between two stamps of places p, q and velocities v, w the acceleration is even, (w − v)/h,
+    /// where that leads from p to q; where velocities jump on the way, the way is even and goes by (q − p)/h.
+    pub fn motion_at(&self, t: f64) -> Option<(Point3<f64>, Vector3<f64>, Vector3<f64>)> {
+        let [x, y, z] = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| self.channel(name));
+        let [x, y, z] = [x?, y?, z?];
+        let last = self.len().checked_sub(1).filter(|last| *last > 0)?;
+        let at = self.times.partition_point(|stamp| *stamp <= t).clamp(1, last) - 1;
+        let velocity = |i: usize| Vector3::new(x[i], y[i], z[i]);
+        let span = self.times[at + 1] - self.times[at];
+        let share = ((t - self.times[at]) / span).clamp(0.0, 1.0);
+        let (p, v, w) = (self.position(at), velocity(at), velocity(at + 1));
+        let way = self.position(at + 1) - p;
+        let even = (0.5 * span * (v + w) - way).norm() <= EVEN * way.norm() + 1e-9;
+        if !even {
+            return Some((p + way * share, way / span, Vector3::zeros()));
+        }
+        let bent = 0.5 * span * (w - v) * (share * share - share);
+        Some((p + way * share + bent, v.lerp(&w, share), (w - v) / span))
+    }
+
     /// Number of stamps.
     pub fn len(&self) -> usize {
         self.times.len()
@@ -170,6 +196,21 @@ fn finite(column: &str, values: impl Iterator<Item = f64>) -> Result<(), TrackEr
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn between_stamps_acceleration_is_even_unless_velocities_jump() {
+        let channel = |name: &str, values: &[f64]| Channel { name: name.into(), values: values.to_vec() };
+        // From rest to 2 m/s in a second, and back at once at that speed.
+        let poses = [0.0, 1.0, -1.0].map(|x| Isometry3::translation(x, 0.0, 0.0)).to_vec();
+        let zeros = [0.0; 3];
+        let channels = vec![channel("vx_m_s", &[0.0, 2.0, -2.0]), channel("vy_m_s", &zeros), channel("vz_m_s", &zeros)];
+        let track = Track::new(vec![0.0, 1.0, 2.0], poses, channels).unwrap();
+        let at = |t: f64| track.motion_at(t).map(|(p, v, a)| [p.x, v.x, a.x]).unwrap();
+        assert_eq!(at(0.0), [0.0, 0.0, 2.0]);
+        assert_eq!(at(0.5), [0.25, 1.0, 2.0]);
+        assert_eq!((at(1.5), at(9.0)), ([0.0, -2.0, 0.0], [-1.0, -2.0, 0.0]));
+        assert!(Track::new(vec![0.0], vec![Isometry3::identity()], vec![]).unwrap().motion_at(0.0).is_none());
+    }
 
     #[test]
     fn refuses_what_is_no_track() {

@@ -5,6 +5,7 @@ use super::finding::{Collector, Finding, Proof, Worst, note};
 use super::ground::replay_ground;
 use super::ground_claim::{GroundClaim, GroundVehicle};
 use super::pace::{PaceClaim, check_speeds};
+use super::rims::{WheelRims, rim_breaches};
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
@@ -91,6 +92,8 @@ pub struct DriveTolerances {
     pub directions: [f64; 2],
     /// Largest change of speed, m/s²; infinite where drives do not stop for changes of gear and turns in place.
     pub most_acceleration: f64,
+    /// The driven wheels of a differential drive; `None` of others.
+    pub rims: Option<WheelRims>,
 }
 
 /// Waypoints are written with all their digits.
@@ -105,8 +108,8 @@ const ROUNDING: f64 = 1e-6;
 /// or more each.
 ///
 /// Per leg: joint (position, heading, curvature, direction of travel), speeds and stops, direction within bounds, |κ|,
-/// |κ′| and jumps of κ of the commands, then the replay on the ground: end pose and curvature, tilt, wheel torque. Of a
-/// leg that cannot be replayed `stopped_after` tells after how many metres.
+/// |κ′| and jumps of κ of the commands, speed and acceleration of driven rims, then the replay on the ground: end pose
+/// and curvature, tilt, wheel torque. Of a leg that cannot be replayed `stopped_after` tells after how many metres.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,
@@ -149,6 +152,7 @@ pub fn verify_drives<T: Terrain>(
         found.above("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
         found.above("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
         found.above("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
+        check_rims(leg, claim.turn_rate, tolerances.rims.as_ref(), &mut found);
         match replay_ground(&leg.pieces, vehicle, terrain, &leg.ground()) {
             Err(stopped) => found.above("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
             Ok(replay) => {
@@ -165,6 +169,17 @@ pub fn verify_drives<T: Terrain>(
         }
     }
     proof
+}
+
+/// Both driven wheels keep their speed and their acceleration.
+fn check_rims(leg: &DriveLegClaim, turn_rate: f64, rims: Option<&WheelRims>, found: &mut Collector) {
+    let Some(rims) = rims else { return };
+    let breaches = rim_breaches(&leg.pieces, &leg.speed, turn_rate, rims);
+    for (breach, (field, unit)) in breaches.iter().zip([("wheel_speed", "m/s"), ("wheel_acceleration", "m/s²")]) {
+        if let Some(breach) = breach {
+            found.unless(false, field, breach.value, breach.bound, unit);
+        }
+    }
 }
 
 /// A leg begins at its waypoint, and as the one before ends.
@@ -201,6 +216,7 @@ mod tests {
         most_torque: f64::INFINITY,
         directions: [0.0, 0.0],
         most_acceleration: f64::INFINITY,
+        rims: None,
     };
 
     /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint
@@ -266,6 +282,18 @@ mod tests {
         assert!(jumps.contains("legs[1].joint") && jumps.contains("legs[1].end.position"), "{jumps}");
         legs[1].direction[0] = f64::NAN;
         assert!(told(prove_within(&legs, &wide)).contains("legs[1].direction.start.excess"));
+    }
+
+    /// A wheel half a metre beside the middle goes at 1.25 m/s on a radius of 2 m.
+    #[test]
+    fn driven_wheels_are_held_to_their_rims() {
+        let rims = |speed_m_s| Some(WheelRims { half_track_m: 0.5, speed_m_s, acceleration_m_s2: 1.0 });
+        let sound = DriveTolerances { rims: rims(1.25), ..TOLERANCES };
+        assert!(prove_within(&legs(), &sound).ok());
+        let fast = prove_within(&legs(), &DriveTolerances { rims: rims(1.24), ..TOLERANCES });
+        let fields: Vec<&str> = fast.findings.iter().map(|finding| finding.field.as_str()).collect();
+        assert_eq!(fields, ["legs[0].wheel_speed", "legs[1].wheel_speed"]);
+        assert!((fast.findings[0].value - 1.25).abs() < 1e-12 && fast.findings[0].bound == 1.24);
     }
 
     #[test]

@@ -14,6 +14,7 @@
 //! | a flight's polynomials are flyable | [`verify`], [`open_loop_with_lag`] | knots, rotor speeds, end states, path |
 //! | a flight keeps off solids | [`verify_clear`] | distances between samples, Taylor sums |
 //! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, speeds, tilt |
+//! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |
 //! | a drive keeps off discs | [`verify_clear_ground`] | chords and what leaves them |
 //! | an arm's program or graph holds | [`verify_arm_program`], [`verify_arm_graph`] | bounds, margins, cell, targets |
 //! | no path is heavier | [`verify_heaviest`], [`verify_walk`], [`verify_triples`] | every bound, or its own search |
@@ -48,6 +49,7 @@ mod peak;
 mod proof;
 mod quadrature;
 mod replay;
+mod rims;
 mod rotors;
 mod stand;
 mod stretch;
@@ -78,5 +80,6 @@ pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
 pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
 pub use proof::{open_loop_with_lag, verify};
+pub use rims::{RimBreach, WheelRims, rim_breaches};
 pub use stand::Stand;
 pub use walk::{SplitClaim, WalkClaim, WalkStepClaim, verify_walk};

@@ -34,7 +34,7 @@ impl<'s> Shape<'s> {
         match table["properties"].get(first) {
             Some(schema) => self.unknown(schema, node.and_then(|node| node.get(first)), rest, &here),
             None if table["additionalProperties"].as_bool() == Some(false) => {
-                let (hint, list) = self.instead_of(table, first);
+                let (hint, list) = self.instead_of(table, first, &here);
                 let place = if path.is_empty() { String::new() } else { format!(" in `{path}`") };
                 Some(format!("a key of the scenario, which has no `{here}`: {hint}valid{place}: {list}"))
             }

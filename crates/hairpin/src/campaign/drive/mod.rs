@@ -44,4 +44,4 @@ mod walking;
 
 pub use held::{broken, steerable};
 pub use setup::DriveSetup;
-pub use site::{Site, drive_piece, flat_claim, replay_flat, replay_pieces};
+pub use site::{Site, drive_piece, flat_claim, replay_flat, replay_pieces, wheel_rims};

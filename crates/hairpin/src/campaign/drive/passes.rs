@@ -106,7 +106,9 @@ impl Looked<'_> {
     /// m/s, at most the scenario's and the robot's limit.
     fn settings_of(&self, leg: usize) -> DriveSettings {
         let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.most_speed()));
-        DriveSettings { speed, ..self.settings.clone() }
+        // At another speed it bends otherwise.
+        let bounds = if speed > self.settings.speed { self.setup.bounds_at(speed) } else { self.settings.bounds };
+        DriveSettings { speed, bounds, ..self.settings.clone() }
     }
 
     fn most_speed(&self) -> f64 {

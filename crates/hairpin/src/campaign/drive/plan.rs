@@ -1,6 +1,6 @@
 //! The planned motion of a drive: its commands followed on the ground by the vehicle that was planned with.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::DriveSetup;
 use crate::campaign::{Case, PlanError, Timed};
@@ -14,11 +14,11 @@ use crate::trajectory::{Drive, DriveLeg, Track};
 /// # Errors
 /// A drive that the ground does not carry, as a folder that was edited may hold.
 ///
-/// Poses are the settled body's, step by step of the motion prediction; velocities are differences of places over
-/// time.
+/// Poses are the settled body's, step by step of the motion prediction; velocities are the planned speeds along its
+/// way.
 pub(super) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
     let drive = drive_of(setup, case);
-    Ok(planned_track(&setup.planner, &setup.map, &drive)?.with_velocities())
+    Ok(planned_track(&setup.planner, &setup.map, &drive)?)
 }
 
 /// The commands of `case`, or the straight way where it has none.
@@ -35,25 +35,17 @@ pub(super) fn headings(setup: &DriveSetup, case: &Case) -> Vec<f64> {
 
 /// The timed reference of a mission at `rate` (Hz).
 ///
-/// At t = k / rate up to the drive's end; places linear between the track's stamps, velocities those of the later one.
-/// Empty for a drive that the ground does not carry.
+/// At t = k / rate up to the drive's end, by even accelerations between the track's stamps
+/// ([`Track::motion_at`]). Empty for a drive that the ground does not carry.
 pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
     let Ok(track) = track(setup, case) else { return Vec::new() };
-    let column = |name| track.channel(name).unwrap_or_default();
-    let velocities = [column("vx_m_s"), column("vy_m_s"), column("vz_m_s")];
-    let times = track.times();
-    let count = (times[times.len() - 1] * rate).floor() as usize;
-    (0..=count)
-        .map(|k| k as f64 / rate)
-        .map(|t| {
-            let after = times.partition_point(|time| *time < t).min(times.len() - 1);
-            let before = after.saturating_sub(1);
-            let span = times[after] - times[before];
-            let share = if span > 0.0 { ((t - times[before]) / span).clamp(0.0, 1.0) } else { 1.0 };
-            let position = track.position(before) + (track.position(after) - track.position(before)) * share;
-            Timed { t, position, velocity: Vector3::from_fn(|axis, _| velocities[axis][after]) }
-        })
-        .collect()
+    let end = track.times().last().copied().unwrap_or_default();
+    let count = (end * rate).floor() as usize;
+    let row = |k: usize| {
+        let t = k as f64 / rate;
+        track.motion_at(t).map(|(position, velocity, _)| Timed { t, position, velocity })
+    };
+    (0..=count).filter_map(row).collect()
 }
 
 /// Turns towards each waypoint and straight lines to it, from rest to rest.

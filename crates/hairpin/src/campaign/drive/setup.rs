@@ -20,6 +20,9 @@ use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 
 use super::Site;
 
+/// Curvature that is none, 1/m: what is left to wheels that go as fast as they can.
+const STRAIGHT: f64 = 1e-6;
+
 /// A resolved scenario of drives and what it describes.
 ///
 /// What [`Setup::own`](crate::campaign::setup::Setup::own) gives for rovers, cars and differential drives.
@@ -51,14 +54,15 @@ impl DriveSetup {
     ///
     /// The scenario's or else the robot's default, and no more than the robot's limit.
     pub fn speed(&self) -> f64 {
-        self.scenario.generate.limits.speed_m_s.unwrap_or(self.rover.default_speed).min(self.rover.limits.speed)
+        commanded(&self.scenario, &self.rover)
     }
 
     /// Commanded rate of turns in place, rad/s: the outermost wheel goes at [`Self::speed`].
     ///
     /// v / r with r the distance of the outermost wheel from the origin, at least [`LEAST_RADIUS_M`].
     pub fn turn_rate(&self) -> f64 {
-        self.speed() / self.rover.suspension.outer_radius().max(LEAST_RADIUS_M)
+        let aside = self.rover.rims.map_or(0.0, |rims| 0.5 * rims.track);
+        self.speed() / self.rover.suspension.outer_radius().max(aside).max(LEAST_RADIUS_M)
     }
 
     /// How speeds follow each other along a drive.
@@ -68,7 +72,7 @@ impl DriveSetup {
     /// Accelerations in m/s²; speeds through waypoints in m/s, [`Self::speed`] where no range is given.
     pub fn pace(&self) -> Pace {
         let given = &self.scenario.generate.speed;
-        let acceleration = given.acceleration_m_s2.unwrap_or(self.rover.limits.acceleration);
+        let acceleration = given.acceleration_m_s2.unwrap_or(self.rover.planned_acceleration(self.speed()));
         let slopes = Slopes { waypoints: given.waypoint_m_s.unwrap_or([self.speed(); 2]), acceleration };
         match given.profile {
             Some(ProfileName::Constant) => Pace::Constant,
@@ -84,13 +88,22 @@ impl DriveSetup {
         self.scenario.generate.direction_deg.bounds().map(f64::to_radians)
     }
 
-    /// Bounds of the commands' curvature: the scenario's or the robot's, whichever is smaller.
+    /// Bounds of the commands' curvature: the scenario's or the robot's at the commanded speed, whichever is smaller.
     ///
     /// 1/m and 1/m²; infinite where neither bounds.
     pub fn bounds(&self) -> Curvatures {
-        let (given, own) = (&self.scenario.generate.limits, &self.rover.limits);
+        self.bounds_at(self.speed())
+    }
+
+    /// [`Self::bounds`] at `speed`, m/s.
+    pub(super) fn bounds_at(&self, speed: f64) -> Curvatures {
+        let acceleration = match self.pace() {
+            Pace::Constant => 0.0,
+            Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
+        };
+        let (given, own) = (&self.scenario.generate.limits, self.rover.limits_at(speed, acceleration));
         Curvatures {
-            most: given.curvature_1_m.unwrap_or(f64::INFINITY).min(own.curvature),
+            most: given.curvature_1_m.unwrap_or(f64::INFINITY).min(own.curvature.max(STRAIGHT)),
             most_rate: given.curvature_rate_1_m2.unwrap_or(f64::INFINITY).min(own.curvature_rate),
         }
     }
@@ -139,10 +152,13 @@ impl DriveSetup {
         let kinematics = keys.generate.kinematics;
         if let Some(known) = known
             && (&known.scenario.robot, known.scenario.generate.kinematics) == (&keys.robot, kinematics)
+            && known.scenario.generate.limits.speed_m_s == keys.generate.limits.speed_m_s
         {
             return Ok([known.rover.clone(), known.planner.clone()]);
         }
-        let rover = Rover { kinematics, ..rover_of(&keys.robot)? };
+        let mut rover = Rover { kinematics, ..rover_of(&keys.robot)? };
+        // What it can bend at the speed that is commanded; what is left for steering depends on the plan.
+        rover.limits.curvature = rover.limits_at(commanded(keys, &rover), 0.0).curvature;
         let planner = planner_of(&rover);
         Ok([rover, planner].map(Arc::new))
     }
@@ -191,6 +207,11 @@ fn rover_of(source: &RobotSource<GroundDescription>) -> Result<Rover, Mistake> {
         value: wrong.value,
         bound: wrong.bound,
     })
+}
+
+/// The scenario's speed or else the robot's default, and no more than the robot's limit, m/s.
+fn commanded(keys: &DriveScenario, rover: &Rover) -> f64 {
+    keys.generate.limits.speed_m_s.unwrap_or(rover.default_speed).min(rover.limits.speed)
 }
 
 /// `rover` as plans have it.

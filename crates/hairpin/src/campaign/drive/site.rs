@@ -7,12 +7,12 @@
 use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
-use crate::robot::rover::{Kinematics, Rover, Suspension};
+use crate::robot::rover::{Kinematics, Limits, Rims, Rover, Suspension};
 use crate::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
-    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, replay_drive,
-    replay_ground,
+    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, WheelRims,
+    replay_drive, replay_ground,
 };
 use crate::world::terrain::{ElevationMap, Rationed};
 
@@ -46,9 +46,14 @@ impl<'a> Site<'a> {
 }
 
 impl Site<'_> {
-    /// The curvatures that the vehicle keeps.
+    /// The curvatures that the vehicle keeps at its highest speed here.
+    ///
+    /// With what the change of that speed takes of driven rims.
     pub fn bounds(&self) -> Curvatures {
-        Curvatures { most: self.rover.limits.curvature, most_rate: self.rover.limits.curvature_rate }
+        let top = self.speed.top();
+        let acceleration = if self.speed.is_constant() { 0.0 } else { self.rover.planned_acceleration(top) };
+        let Limits { curvature: most, curvature_rate: most_rate, .. } = self.rover.limits_at(top, acceleration);
+        Curvatures { most, most_rate }
     }
 
     /// Commands that drive forward from `start` to `goal` within the vehicle's own bounds.
@@ -267,6 +272,13 @@ pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
         exact: rover.kinematics == Kinematics::Exact,
         haul: haul(rover),
     }
+}
+
+/// Driven rims for the judge of drives.
+///
+/// m, m/s and m/s².
+pub fn wheel_rims(rims: &Rims) -> WheelRims {
+    WheelRims { half_track_m: 0.5 * rims.track, speed_m_s: rims.speed, acceleration_m_s2: rims.acceleration }
 }
 
 /// What the wheels of `rover` carry, as the replay has it.

@@ -61,7 +61,7 @@ impl Steered for Rover {
         (state.t, state_of)
     }
 
-    /// Velocities and accelerations from the samples next to it.
+    /// Velocities are the planned speeds; past the end it rests.
     fn planned(plan: &Track, t: f64) -> Option<Planned> {
         let (times, poses) = (plan.times(), plan.poses());
         let last = times.len().checked_sub(1)?;
@@ -69,23 +69,15 @@ impl Steered for Rover {
         let next = (at + 1).min(last);
         let span = times[next] - times[at];
         let share = if span > 0.0 { ((t - times[at]) / span).clamp(0.0, 1.0) } else { 0.0 };
-        let place = plan.position(at) + (plan.position(next) - plan.position(at)) * share;
         // The shorter way round.
         let turn = libm::remainder(yaw(&poses[next]) - yaw(&poses[at]), TAU);
+        let (place, v, a) = plan.motion_at(t)?;
         let moves = t <= times[last];
-        let velocity = |from: usize, to: usize| match times[to] - times[from] {
-            span if span > 0.0 => (plan.position(to) - plan.position(from)) / span,
-            _ => Vector3::zeros(),
-        };
-        let v = if moves { velocity(at, next) } else { Vector3::zeros() };
-        let (before, after) = (at.saturating_sub(1), (next + 1).min(last));
-        let around = (times[after] + times[next] - times[at] - times[before]) / 2.0;
-        let change = velocity(next, after) - velocity(before, at);
-        let a = if moves && around > 0.0 && before < at && next < after { change / around } else { Vector3::zeros() };
+        let still = |vector: Vector3<f64>| if moves { vector } else { Vector3::zeros() };
         Some(Planned {
             p_m: Some(place.coords.into()),
-            v_m_s: Some(v.into()),
-            a_m_s2: Some(a.into()),
+            v_m_s: Some(still(v).into()),
+            a_m_s2: Some(still(a).into()),
             yaw_rad: Some(yaw(&poses[at]) + share * turn),
             ..Planned::default()
         })

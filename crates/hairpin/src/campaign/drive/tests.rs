@@ -13,7 +13,7 @@ use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
-use crate::trajectory::drive::Gear;
+use crate::trajectory::drive::{Gear, Motion};
 use crate::trajectory::{Drive, Track};
 
 /// A shipped robot's table.
@@ -104,6 +104,111 @@ fn drives_are_drawn_by_numbers_and_are_feasible() {
         }
         assert!(drive(&solver.draw(2, &Stop::never()).unwrap()) == drive(&drawn[2]), "a number is a drive");
     }
+}
+
+/// A differential drive on a plain, at 0.2 of 0.22 m/s: the outer wheel leaves |κ| ≤ 1.25 1/m.
+fn two_wheels() -> Value {
+    json!({
+        "hairpin": 1, "robot": robot("ground/differential-drive"), "seed": 3,
+        "world": { "terrain": { "generator": "flat", "size_m": 20, "cell_m": 0.1 } },
+        "task": { "start": { "x_m": 10, "y_m": 10, "yaw_deg": 0 }, "length": 4, "leg_m": [1, 4] },
+        "generate": { "manoeuvres": ["forward", "turn-in-place"], "limits": { "speed_m_s": 0.2 },
+            "speed": { "profile": "trapezoid" }, "search": { "waypoints": 40 } },
+        "execute": { "controller": "pure-pursuit" },
+        "spec": { "limits": { "path_deviation_m": 0.3 } },
+    })
+}
+
+/// The keys that are wrong with a changed scenario, with what they must be.
+fn wrong(mut value: Value, changes: &[(&str, Value)]) -> Vec<(String, String)> {
+    for (key, new) in changes {
+        KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
+    }
+    let scenario: Scenario = serde_json::from_value(value).unwrap();
+    let mistakes = Setup::build(scenario.into()).expect_err("something is wrong");
+    mistakes.into_iter().map(|mistake| (mistake.key, mistake.bound)).collect()
+}
+
+#[test]
+fn driven_wheels_keep_their_limits_at_the_commanded_speed() {
+    for profile in ["trapezoid", "constant"] {
+        let setup = setup(two_wheels(), &[("generate.speed.profile", json!(profile))]);
+        let own = setup.own::<DriveSetup>().unwrap();
+        assert!((own.bounds().most - 1.25).abs() < 1e-9, "{:?}", own.bounds());
+        let solver = solver(&setup);
+        for number in 0..3 {
+            hold(&setup, &solver.draw(number, &Stop::never()).unwrap(), profile);
+        }
+    }
+    // As it was bounded at 0.11 m/s: the outer wheel would go at 0.4 m/s.
+    let setup = setup(two_wheels(), &[]);
+    let plan = solver(&setup).draw(0, &Stop::never()).unwrap();
+    let mut case = plan.case(3, 0, 0);
+    let mut drive = case.commands().cloned().unwrap();
+    let arc = drive.legs.iter_mut().flat_map(|leg| &mut leg.segments).find_map(|segment| match &mut segment.motion {
+        Motion::Arc { curvature, length_m } if *length_m > 0.0 => Some(curvature),
+        _ => None,
+    });
+    arc.expect("it drives")[0] = 12.5;
+    case.witness = Some(drive.into());
+    let findings = verify(&setup, &case).proof.expect("a witness").findings;
+    assert!(findings.iter().any(|finding| finding.field.ends_with(".wheel_speed")), "{findings:?}");
+    let told = wrong(two_wheels(), &[("generate.limits.speed_m_s", json!(0.22))]);
+    assert!(told[0].0 == "generate.limits.speed_m_s" && told[0].1.contains("wheel_speed_m_s"), "{told:?}");
+    let told = wrong(two_wheels(), &[("generate.speed.acceleration_m_s2", json!(2.5))]);
+    assert_eq!(told[0].0, "generate.speed.acceleration_m_s2", "nothing is left to steer with");
+}
+
+/// κ′ = δ̇/(L v): at 4 m/s half of what it is at the car's own 2 m/s.
+#[test]
+fn cars_bend_as_slowly_as_they_steer() {
+    let setup = setup(car(), &[("generate.limits", json!({ "speed_m_s": 4.0 }))]);
+    let rate = setup.own::<DriveSetup>().unwrap().bounds().most_rate;
+    assert!((rate - 183.3_f64.to_radians() / (0.3302 * 4.0)).abs() < 1e-9, "{rate}");
+    hold(&setup, &solver(&setup).draw(0, &Stop::never()).unwrap(), "at 4 m/s");
+}
+
+/// The plan's speeds are those of its timing, from rest to rest: no difference of places tells them.
+#[test]
+fn planned_velocities_are_those_of_the_timing() {
+    for (manoeuvres, number) in [(json!(["forward", "reverse"]), 0), (json!(["forward"]), 1), (json!(["reverse"]), 2)] {
+        let setup = setup(car(), &[("generate.manoeuvres", manoeuvres)]);
+        let own = setup.own::<DriveSetup>().unwrap();
+        let case = &solver(&setup).draw(number, &Stop::never()).unwrap().case(7, 0, 0);
+        let track = super::plan::track(own, case).unwrap();
+        let [x, y] = ["vx_m_s", "vy_m_s"].map(|name| track.channel(name).unwrap());
+        let speeds: Vec<f64> = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).collect();
+        assert!(speeds[0] == 0.0 && speeds[speeds.len() - 1] < 1e-6, "from rest to rest");
+        assert!(speeds.iter().all(|speed| *speed <= 1.5 + 1e-9));
+        for (pair, times) in speeds.windows(2).zip(track.times().windows(2)) {
+            let acceleration = (pair[1] - pair[0]).abs() / (times[1] - times[0]);
+            assert!(acceleration <= 1.0 + 1e-3, "{acceleration} m/s²");
+        }
+        // From rest by 1 m/s²: v = t, s = t²/2.
+        for row in super::plan::timed(own, case, 50.0).iter().take(8) {
+            let way = (row.position - case.waypoints[0]).norm();
+            assert!((row.velocity.norm() - row.t).abs() < 1e-3, "{} at {} s", row.velocity.norm(), row.t);
+            assert!((way - 0.5 * row.t * row.t).abs() < 1e-3, "{way} m at {} s", row.t);
+        }
+    }
+}
+
+#[test]
+fn keys_without_meaning_for_the_robot_or_its_ground_are_refused() {
+    for (changes, key) in [
+        (vec![("generate.limits.tilt_deg", json!(20))], "generate.limits.tilt_deg"),
+        (vec![("generate.limits.belly_clearance_m", json!(0.1))], "generate.limits.belly_clearance_m"),
+        (vec![("world.terrain.relief_m", json!(3))], "world.terrain.relief_m"),
+        (vec![("world.terrain.rock_cover", json!(0.3))], "world.terrain.rock_cover"),
+        (vec![("world.terrain.origin_m", json!([100, 100]))], "world.terrain.origin_m"),
+        (vec![("world.terrain.height_m", json!([0, 1]))], "world.terrain.height_m"),
+    ] {
+        let told = wrong(car(), &changes);
+        assert!(told.len() == 1 && told[0].0 == key, "{told:?}");
+    }
+    let rocks = [("world.terrain.generator", json!("fractal")), ("world.terrain.rock_cover", json!(0.01))];
+    setup(rover(), &rocks);
+    setup(car(), &[("world.terrain.relief_m", json!(0))]);
 }
 
 /// A plan in reverse is told as that; one that goes forward, driven with the nose behind, as what was not planned.

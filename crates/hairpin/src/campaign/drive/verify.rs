@@ -1,7 +1,7 @@
 //! Hands the written drives to the verification room, as plain numbers.
 
 use super::DriveSetup;
-use super::site::{drive_piece, ground_vehicle};
+use super::site::{drive_piece, ground_vehicle, wheel_rims};
 use crate::campaign::scenario::DriveEnvironmentSection;
 use crate::campaign::{Case, Environment};
 use crate::feasibility::reach::drive::Pace;
@@ -35,6 +35,7 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
             Pace::Constant => f64::INFINITY,
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
         },
+        rims: setup.rover.rims.as_ref().map(wheel_rims),
     };
     Some(verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances))
 }

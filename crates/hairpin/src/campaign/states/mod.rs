@@ -97,7 +97,9 @@ impl Followed<'_> {
         let finest = self.most_steps.max(16) as f64;
         let step = self.time_step.max(states.last().map_or(0.0, |last| last.time) / finest);
         let wheels = self.rover.suspension.wheels(&[0.0; 3]).1;
-        Ok(States { states: sampled(&states, step), wheels, peaks: peaks.or(&others) })
+        // Without time to stop in, speed jumps where the gear changes.
+        let jumps = Timing::new(&self.speed, &driven).is_constant();
+        Ok(States { states: sampled(&states, step, jumps), wheels, peaks: peaks.or(&others) })
     }
 
     /// The states of commands that act at once, as finely as they are predicted, and the place where they end.

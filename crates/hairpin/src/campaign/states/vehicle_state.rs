@@ -43,8 +43,9 @@ pub struct WheelState {
     pub speed: f64,
 }
 
-/// `states` at every `step` seconds, linear between, and at both ends.
-pub(super) fn sampled(states: &[VehicleState], step: f64) -> Vec<VehicleState> {
+/// `states` at every `step` seconds, linear between, and at both ends; `jumps`: speeds of different sign are not
+/// passed between.
+pub(super) fn sampled(states: &[VehicleState], step: f64, jumps: bool) -> Vec<VehicleState> {
     let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
     let mut sampled = vec![*first];
     let mut pairs = states.windows(2).peekable();
@@ -54,14 +55,15 @@ pub(super) fn sampled(states: &[VehicleState], step: f64) -> Vec<VehicleState> {
         let time = i as f64 * step;
         while pairs.next_if(|pair| pair[1].time < time).is_some() {}
         let Some(pair) = pairs.peek() else { break };
-        sampled.push(between(&pair[0], &pair[1], time));
+        sampled.push(between(&pair[0], &pair[1], time, jumps));
     }
     sampled.push(*last);
     sampled
 }
 
-/// Linear in all but speeds of different sign, which jump to the later one. Yaw is continuous, not wrapped.
-fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
+/// Linear in all but, where it `jumps`, speeds of different sign, which are the later one then. Yaw is continuous, not
+/// wrapped.
+fn between(a: &VehicleState, b: &VehicleState, time: f64, jumps: bool) -> VehicleState {
     let share = if b.time > a.time { (time - a.time) / (b.time - a.time) } else { 0.0 };
     let mix = |a: f64, b: f64| a + share * (b - a);
     let at = Planar {
@@ -85,8 +87,8 @@ fn between(a: &VehicleState, b: &VehicleState, time: f64) -> VehicleState {
         s: mix(a.s, b.s),
         at,
         settled,
-        // Where a vehicle turns back its speed jumps.
-        speed: if a.speed * b.speed > 0.0 { mix(a.speed, b.speed) } else { b.speed },
+        // What stops by an even acceleration starts by the same: its speed is linear through rest.
+        speed: if !jumps || a.speed * b.speed > 0.0 { mix(a.speed, b.speed) } else { b.speed },
         direction: mix(a.direction, b.direction),
         tilt: mix(a.tilt, b.tilt),
         clearance: if a.clearance.is_finite() { mix(a.clearance, b.clearance) } else { b.clearance },

@@ -160,7 +160,7 @@ impl Car {
     /// steering keeps at every angle.
     ///
     /// dκ/ds = δ̇ (1 + tan²δ)/(L v) is least at δ = 0, so that the bound is kept at every angle. Speed is the default
-    /// one: faster drives of the same path would steer faster.
+    /// one: faster drives of the same path would steer faster, and have bounds of their own ([`Rover::limits_at`]).
     pub fn vehicle(&self) -> Rover {
         let limits = Limits {
             curvature: libm::tan(self.steering) / self.wheelbase,
@@ -175,6 +175,10 @@ impl Car {
         let overhang = 0.5 * (self.length - self.wheelbase);
         let outline =
             Belly { front: self.wheelbase + overhang, rear: -overhang, half_width: 0.5 * self.width, height: 0.0 };
-        Named { name, caveat, source, estimated, outline }.vehicle(limits, self.response, self.default_speed)
+        Named { name, caveat, source, estimated, outline, rims: None }.vehicle(
+            limits,
+            self.response,
+            self.default_speed,
+        )
     }
 }

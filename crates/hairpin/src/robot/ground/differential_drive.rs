@@ -7,9 +7,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{GroundResponse, Named, estimates, named};
-use crate::math::power::square;
 use crate::robot::estimated::EstimatedNumber;
-use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rover, RoverError, within};
+use crate::robot::rover::{Belly, Limits, MOST_SPEED, Response, Rims, Rover, RoverError, within};
 
 /// The `kind` of a differential drive's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -112,7 +111,7 @@ impl DifferentialDriveDescription {
             wheel_speed,
             wheel_acceleration: within("limits.wheel_acceleration_m_s2", limits.wheel_acceleration_m_s2, 1e-3, 1e3)?,
             // A wheel at its limit leaves nothing to turn with.
-            default_speed: within("speed_m_s", speed, 1e-3 * wheel_speed, 0.99 * wheel_speed)?,
+            default_speed: within("speed_m_s", speed, 1e-3 * wheel_speed, Rims::MOST_SHARE * wheel_speed)?,
             response: GroundResponse::build(response, wheels)?,
             estimated: derived.chain(estimates(&self.estimated, response)?).collect(),
         })
@@ -128,12 +127,14 @@ impl DifferentialDrive {
     /// The drive as the generator steers it, at its default speed v: the outer wheel keeps its limits, so that
     /// |κ| ≤ 2 (v_w − v)/(b v) and |κ′| ≤ 2 a_w/(b v²).
     ///
-    /// From v ± ω b/2 within ±v_w with ω = κ v; and with v constant, v̇_r = ½ b v² κ′ within a_w.
+    /// From v ± ω b/2 within ±v_w with ω = κ v; and with v constant, v̇_r = ½ b v² κ′ within a_w. At other speeds, and
+    /// where v changes, it has the bounds of [`Rover::limits_at`].
     pub fn vehicle(&self) -> Rover {
         let v = self.default_speed;
+        let rims = Rims { track: self.track, speed: self.wheel_speed, acceleration: self.wheel_acceleration };
         let limits = Limits {
-            curvature: 2.0 * (self.wheel_speed - v) / (self.track * v),
-            curvature_rate: 2.0 * self.wheel_acceleration / (self.track * square(v)),
+            curvature: rims.curvature(v),
+            curvature_rate: rims.curvature_rate(v, 0.0, 0.0),
             speed: self.wheel_speed,
             acceleration: self.wheel_acceleration,
             tilt: f64::INFINITY,
@@ -143,6 +144,6 @@ impl DifferentialDrive {
         let Self { name, caveat, source, estimated, .. } = self;
         // The circle as the rectangle of no width that has its radius.
         let outline = Belly { front: self.radius, rear: -self.radius, ..Belly::default() };
-        Named { name, caveat, source, estimated, outline }.vehicle(limits, self.response, v)
+        Named { name, caveat, source, estimated, outline, rims: Some(rims) }.vehicle(limits, self.response, v)
     }
 }

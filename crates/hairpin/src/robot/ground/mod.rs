@@ -17,7 +17,9 @@ pub use response::GroundResponse;
 use std::collections::BTreeMap;
 
 use crate::robot::estimated::{EstimatedNumber, OWN_NUMBERS, estimated_keys};
-use crate::robot::rover::{Belly, Body, Kinematics, Limits, Response, Rover, RoverError, Slip, Suspension, Wheels};
+use crate::robot::rover::{
+    Belly, Body, Kinematics, Limits, Response, Rims, Rover, RoverError, Slip, Suspension, Wheels,
+};
 
 fn named(name: &str) -> Result<String, RoverError> {
     if name.trim().is_empty() {
@@ -44,6 +46,8 @@ struct Named<'a> {
     estimated: &'a [&'static str],
     /// Its outline, seen from above.
     outline: Belly,
+    /// Its two driven wheels, where they steer it.
+    rims: Option<Rims>,
 }
 
 impl Named<'_> {
@@ -57,6 +61,7 @@ impl Named<'_> {
             wheels: Wheels::default(),
             limits,
             response,
+            rims: self.rims,
             slip: Slip::default(),
             weight: None,
             kinematics: Kinematics::default(),

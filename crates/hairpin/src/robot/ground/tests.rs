@@ -46,6 +46,30 @@ fn vehicles_for_the_generator_keep_the_limits() {
     assert!(vehicle.limits.turns_in_place);
 }
 
+/// v (1 + κ b/2) and v̇ (1 + κ b/2) + ½ b v² κ′ at the outer rim, whatever the speed and its change.
+#[test]
+fn bounds_follow_the_speed_that_is_driven() {
+    let drive = drive();
+    let vehicle = drive.vehicle();
+    assert_eq!(vehicle.limits_at(vehicle.default_speed, 0.0), vehicle.limits, "its own at its default speed");
+    for share in [0.1, 0.3, 0.5, 0.8, 0.99] {
+        let v = share * drive.wheel_speed;
+        let a = vehicle.planned_acceleration(v);
+        for a in [0.0, a] {
+            let limits = vehicle.limits_at(v, a);
+            let outer = 1.0 + 0.5 * drive.track * limits.curvature;
+            assert!(v * outer <= drive.wheel_speed * (1.0 + 1e-12) && limits.curvature > 0.0, "{v}: {limits:?}");
+            let rim = a * outer + 0.5 * drive.track * v * v * limits.curvature_rate;
+            assert!(rim <= drive.wheel_acceleration * (1.0 + 1e-12) && limits.curvature_rate > 0.0, "{v}: {rim}");
+        }
+    }
+    assert_eq!(vehicle.limits_at(drive.wheel_speed, 0.0).curvature, 0.0, "straight ahead at most");
+    let car = car();
+    let fast = car.vehicle().limits_at(2.0 * car.default_speed, 0.0);
+    assert!((fast.curvature_rate - 0.5 * car.vehicle().limits.curvature_rate).abs() < 1e-12);
+    assert_eq!(car.vehicle().limits_at(0.1, 0.0), car.vehicle().limits);
+}
+
 #[test]
 fn numbers_that_make_no_robot_are_refused_by_key() {
     let text_of = text("car");

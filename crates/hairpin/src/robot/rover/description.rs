@@ -210,6 +210,7 @@ impl RoverDescription {
             wheels,
             limits,
             response,
+            rims: None,
             slip: self.slip()?,
             weight,
             kinematics: Kinematics::default(),

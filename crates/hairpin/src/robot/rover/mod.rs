@@ -22,6 +22,7 @@
 //! | [`Rates`], [`Slip`], [`Kinematics`] | the body's motion over the ground |
 //! | [`Wheels`], [`Twist`], [`WheelMotion`] | the wheels' motion that belongs to it |
 //! | [`Weight`], [`Effort`] | what it takes |
+//! | [`Rims`] | what two driven wheels leave at a speed |
 //! | [`Body`], [`Belly`] | centre of mass, underside |
 //!
 //! After T. Howard and A. Kelly, "Optimal rough terrain trajectory generation for wheeled mobile robots", IJRR 26(2),
@@ -37,6 +38,7 @@ mod kinematics;
 mod motion;
 mod response;
 mod rest;
+mod rims;
 mod rocker_bogie;
 mod rolling;
 mod stability;
@@ -58,6 +60,7 @@ pub use motion::{RateSlopes, Rates, rate_slopes, rates, slip_share};
 pub use response::Response;
 pub(super) use response::Unplanned;
 pub use rest::{Gradient, Settled, Unsettled};
+pub use rims::Rims;
 pub use rocker_bogie::RockerBogie;
 pub use rolling::{Twist, WheelMotion};
 pub use suspension::Suspension;
@@ -109,6 +112,8 @@ pub struct Rover {
     pub limits: Limits,
     /// How commands become motion.
     pub response: Response,
+    /// The two driven wheels of a differential drive, which bound how it turns at a speed; `None` of others.
+    pub rims: Option<Rims>,
     /// How the ground gives way.
     pub slip: Slip,
     /// What the wheels carry and overcome; `None` where no force is asked for.

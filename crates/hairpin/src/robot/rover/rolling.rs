@@ -160,6 +160,13 @@ impl Rover {
         }
     }
 
+    /// Whether it can travel aside of where it looks: it steers all wheels, or is a point without any.
+    pub fn may_crab(&self) -> bool {
+        let (_, wheels, _) = self.suspension.wheels(&[0.0; 3]);
+        let point = wheels == 0 && self.rims.is_none() && self.response.steering_rate.is_infinite();
+        self.wheels.steering == Steering::AllWheel || point
+    }
+
     /// The largest |κ| straight ahead, 1/m, that the steer joints can reach: infinite without a limit below a right
     /// angle.
     ///

@@ -75,7 +75,7 @@ pub(super) struct Plan {
     pub(super) sections: Vec<Section>,
     /// Duration as commanded, s.
     pub(super) duration: f64,
-    /// Poses in time with the channel `leg`.
+    /// Poses in time with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`.
     pub(super) track: Track,
 }
 
@@ -89,16 +89,19 @@ struct Draft {
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     legs: Vec<f64>,
+    velocities: [Vec<f64>; 3],
 }
 
 /// Where the commands of `drive` lead the vehicle `nominal`, leg after leg from each leg's own start: poses over time
-/// with the channel `leg`. It is the path that a run is to be compared with ([`crate::trajectory::Track`] of
-/// `judgement::Reference::Path`), at the speeds that were planned. Latency is left out.
+/// with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`. It is the path that a run is to be compared with
+/// ([`crate::trajectory::Track`] of `judgement::Reference::Path`), at the speeds that were planned. Latency is left
+/// out.
 ///
 /// # Errors
 /// A drive without legs or with numbers that are none; a place where the vehicle cannot stand.
 ///
-/// World frame, m and s; the channel `leg` counts from 0. About one pose every 2 cm, and every 0.05 rad of turns in
+/// World frame, m and s; the channel `leg` counts from 0. Velocities are the planned speeds along the way that the body
+/// takes there, 0 where it rests. About one pose every 2 cm, and every 0.05 rad of turns in
 /// place.
 pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> Result<Track, SimulationError> {
     Ok(Plan::new(nominal, terrain, drive)?.track)
@@ -128,12 +131,15 @@ impl Plan {
                 SimulationError::new("drive.legs", format!("leg {leg}"), bound)
             })?;
         }
-        let Draft { sections, duration, times, poses, legs } = draft;
+        let Draft { sections, duration, times, poses, legs, velocities } = draft;
         if times.len() < 2 {
             return Err(SimulationError::new("drive.legs", "no motion".into(), "of some length"));
         }
         let legs = Channel { name: "leg".into(), values: legs };
-        let track = Track::new(times, poses, vec![legs]).expect("our own samples are finite and in order");
+        let velocities = ["vx_m_s", "vy_m_s", "vz_m_s"].into_iter().zip(velocities);
+        let velocities = velocities.map(|(name, values)| Channel { name: name.into(), values });
+        let channels = std::iter::once(legs).chain(velocities).collect();
+        let track = Track::new(times, poses, channels).expect("our own samples are finite and in order");
         Ok(Self { sections, duration, track })
     }
 
@@ -165,7 +171,12 @@ impl Draft {
         let DriveLeg { from, direction, .. } = &drive.legs[leg];
         let mut plant = Plant::new(vehicle, terrain, direction.start, from)?;
         if self.times.is_empty() {
-            self.note(&plant, leg);
+            let first = drive.legs[leg].segments.iter().find(|segment| !is_nothing(segment));
+            let speed = first.map_or(0.0, |segment| match segment.motion {
+                Motion::Arc { .. } => segment.gear.sign() * timing.speed_at(0.0),
+                Motion::Turn { .. } => 0.0,
+            });
+            self.note(&plant, [speed, 0.0], leg);
         }
         for segment in &drive.legs[leg].segments {
             match segment.motion {
@@ -183,10 +194,11 @@ impl Draft {
                         ..DriveCommand::default()
                     };
                     plant.speed = 0.0;
-                    for _ in 0..parts as usize {
+                    for part in 1..=parts as usize {
                         plant.advance(&command, time)?;
                         self.duration += time;
-                        self.note(&plant, leg);
+                        let rate = if part < parts as usize { command.turn_rate } else { 0.0 };
+                        self.note(&plant, [0.0, rate], leg);
                     }
                     plant.turn_rate = 0.0;
                 }
@@ -241,7 +253,7 @@ impl Draft {
             if !lags {
                 plant.steer_at_once(segment.curvature_at(done));
             }
-            self.note(plant, leg);
+            self.note(plant, [gear * timing.speed_at(driven + done), 0.0], leg);
             if let Some(Section::Way { stations, .. }) = self.sections.last_mut() {
                 let s = stations.last().map_or(0.0, |last| last.s) + step * STEPS as f64;
                 stations.push(station(plant, s, done));
@@ -253,11 +265,22 @@ impl Draft {
 
     /// A pose of the track, now.
     ///
-    /// At the time that is planned.
-    fn note(&mut self, plant: &Plant, leg: usize) {
+    /// At the time that is planned, with the velocity that belongs to the speed (m/s, signed) and the rate of a turn in
+    /// place (rad/s) there.
+    fn note(&mut self, plant: &Plant, pace: [f64; 2], leg: usize) {
+        let velocity = plant.velocity_at(pace);
+        self.velocities.iter_mut().zip(velocity.iter()).for_each(|(column, value)| column.push(*value));
         self.times.push(self.duration);
         self.poses.push(plant.world_from_body());
         self.legs.push(leg as f64);
+    }
+}
+
+/// Whether `segment` is too short for time to pass.
+fn is_nothing(segment: &Segment) -> bool {
+    match segment.motion {
+        Motion::Arc { length_m, .. } => length_m <= NOTHING,
+        Motion::Turn { angle_rad } => angle_rad.abs() <= NOTHING,
     }
 }
 

@@ -308,11 +308,16 @@ impl<'a> Plant<'a> {
     }
 
     /// Velocity of the body's origin, m/s, world frame.
+    pub(super) fn velocity(&self) -> Vector3<f64> {
+        self.velocity_at([self.speed, self.turn_rate])
+    }
+
+    /// The same where its wheels went at `speed` (m/s, signed) and it turned in place at `turn` (rad/s).
     ///
     /// ż from the suspension's gradient, for a point from the slope of the ground.
-    pub(super) fn velocity(&self) -> Vector3<f64> {
+    pub(super) fn velocity_at(&self, [speed, turn]: [f64; 2]) -> Vector3<f64> {
         let stands = (&self.pose, &self.gradient);
-        let moved = self.motion(stands, self.yaw, self.speed, self.curvature(), self.turn_rate);
+        let moved = self.motion(stands, self.yaw, speed, self.curvature(), turn);
         let climb = match self.terrain.patch(self.x, self.y) {
             Ok(ground) if self.vehicle.suspension == Suspension::Level => {
                 ground.slope[0] * moved[0] + ground.slope[1] * moved[1]

@@ -1,23 +1,25 @@
 //! The bounds of every key of a drive.
 
 mod environment;
+mod pace;
 mod places;
 
 use std::sync::Arc;
 
+use self::pace::{check_limits, check_speed};
 use super::DriveSetup;
 use crate::campaign::attachments::Attachments;
 use crate::campaign::bounds::MOST_OF_A_DRIVE;
 use crate::campaign::check::{Findings, check_executed, check_search};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{
-    ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED, GroundReach,
-    GroundSection, Keys, Manoeuvre, Mistake, ProfileName, SearchMethod, SpeedSection,
+    ControlName, DirectionDeg, DriveExecute, DriveGenerate, DriveScenario, DriveSpec, DriveTask, EXECUTED,
+    GeneratorName, GroundReach, GroundSection, Keys, Manoeuvre, Mistake, SearchMethod,
 };
 use crate::feasibility::reach::drive::GroundScore;
 use crate::math::simd::Simd;
 use crate::robot::rover::{MOST_SPEED, Rover, Steering};
-use crate::world::terrain::{ElevationMap, KeepOuts};
+use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
 
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
@@ -116,9 +118,18 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
         ("unit", terrain.unit.is_some()),
         ("height_unit", terrain.height_unit.is_some()),
         ("offset_m", terrain.offset_m.is_some()),
+        ("origin_m", terrain.origin_m.is_some()),
+        ("height_m", terrain.height_m.is_some()),
     ] {
         let fine = !given || terrain.file.is_some();
         found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for a map's file");
+    }
+    let flat = terrain.generator == Some(GeneratorName::Flat);
+    for (key, given) in [("relief_m", terrain.relief_m), ("rock_cover", terrain.rock_cover)] {
+        if let Some(value) = given.filter(|value| flat && *value != 0.0) {
+            let bound = "0 or left out: flat ground has neither heights nor rocks; fractal and craters do";
+            found.require(false, &format!("world.terrain.{key}"), value, bound);
+        }
     }
     for (axis, part) in terrain.offset_m.iter().flatten().enumerate() {
         found.from(&format!("world.terrain.offset_m[{axis}]"), *part, -MOST_OFFSET, MOST_OFFSET, " m");
@@ -144,7 +155,7 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     let search = &generate.search;
     found.count("generate.headings", generate.headings, 1, 64);
     check_controls(generate, rover, found);
-    check_speed(&generate.speed, rover, found);
+    check_speed(generate, rover, found);
     let most = if search.method == SearchMethod::Beam { MOST_NODES } else { MOST_NODES / 4 };
     found.count("generate.search.waypoints", search.waypoints, 1, most);
     let nodes = search.waypoints.saturating_mul(generate.headings);
@@ -157,23 +168,7 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
     found.above("generate.step_s", generate.step_s, 0.0, 1000.0, " s");
     let gears = generate.manoeuvres.iter().any(|m| matches!(m, Manoeuvre::Forward | Manoeuvre::Reverse));
     found.require(gears, "generate.manoeuvres", "no gear", "forward or reverse at least");
-    let limits = &generate.limits;
-    for (key, value, most, unit) in [
-        ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
-        ("curvature_rate_1_m2", limits.curvature_rate_1_m2, 1e6, " 1/m²"),
-        ("tilt_deg", limits.tilt_deg, 89.0, "°"),
-    ] {
-        if let Some(value) = value {
-            found.above(&format!("generate.limits.{key}"), value, 0.0, most, unit);
-        }
-    }
-    if let Some(speed) = limits.speed_m_s {
-        // Beside the robot's own, which holds where this is higher. Slower, and a drive would be days of samples.
-        found.from("generate.limits.speed_m_s", speed, 1e-3, MOST_SPEED, " m/s");
-    }
-    if let Some(clearance) = limits.belly_clearance_m {
-        found.from("generate.limits.belly_clearance_m", clearance, 0.0, 10.0, " m");
-    }
+    check_limits(&generate.limits, rover, found);
     let solver = &generate.solver;
     found.above("generate.solver.position_m", solver.position_m, 1e-6, 1.0, " m");
     found.above("generate.solver.yaw_rad", solver.yaw_rad, 1e-6, 1.0, " rad");
@@ -220,32 +215,6 @@ fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings
     };
     let crabs = generate.direction_deg.bounds() == [0.0; 2] || rover.wheels.steering == Steering::AllWheel;
     found.require(crabs, key, value, "0: the robot does not steer all wheels (steering = \"all-wheel\")");
-}
-
-/// Profiles that change speed need an acceleration, the robot's or the scenario's, which is no larger than the robot's.
-fn check_speed(speed: &SpeedSection, rover: Option<&Rover>, found: &mut Findings) {
-    if let Some([low, high]) = speed.waypoint_m_s {
-        found.from("generate.speed.waypoint_m_s[0]", low, 0.0, MOST_SPEED, " m/s");
-        found.above("generate.speed.waypoint_m_s[1]", high, 0.0, MOST_SPEED, " m/s");
-        found.require(
-            low <= high,
-            "generate.speed.waypoint_m_s",
-            format!("[{low}, {high}]"),
-            "rising: [least, greatest]",
-        );
-    }
-    let Some(rover) = rover else { return };
-    let own = rover.limits.acceleration;
-    if let Some(acceleration) = speed.acceleration_m_s2 {
-        found.above("generate.speed.acceleration_m_s2", acceleration, 0.0, own.min(1e3), " m/s²");
-    }
-    let bounded = own.is_finite() || speed.acceleration_m_s2.is_some();
-    let changes = matches!(speed.profile, Some(ProfileName::Ramp | ProfileName::Trapezoid));
-    let bound = "given: the robot's own acceleration is not bounded";
-    found.require(!changes || bounded, "generate.speed.acceleration_m_s2", "left out", bound);
-    let idle = !matches!(speed.profile, Some(ProfileName::Constant)) && bounded;
-    let given = speed.waypoint_m_s.is_some();
-    found.require(idle || !given, "generate.speed.waypoint_m_s", "given", "left out where the speed is constant");
 }
 
 /// Hairpin's own controller or a command, not both.
