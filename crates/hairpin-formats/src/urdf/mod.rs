@@ -21,6 +21,7 @@
 
 mod arm;
 mod element;
+mod mass;
 mod outline;
 mod pairs;
 mod shapes;
