@@ -57,6 +57,11 @@ pub(super) fn points_of(
             cloud.iter().enumerate().map(|(index, given)| point(index, given)).collect()
         }
         PointsSource::List(list) => {
+            if let Some((index, mm)) = list.iter().enumerate().find(|(index, mm)| list[..*index].contains(mm)) {
+                let bound = "a point that the list has not before: programs tell points apart by where they are";
+                let key = format!("task.points[{index}]");
+                return Err(Mistake { key, value: format!("{mm:?}"), bound: bound.into() });
+            }
             let bare = |mm: &[f64; 3]| CloudPoint { mm: *mm, q1_q4: None, configuration: None };
             list.iter().enumerate().map(|(index, mm)| point(index, &bare(mm))).collect()
         }
