@@ -243,6 +243,7 @@ fn what_is_not_there_is_refused_by_name() {
         ("generate.moves.zones=[\"z11\"]", "generate.moves.zones[0]"),
         ("generate.search.visits=17", "generate.search.visits"),
         ("world.keep_out_mm=[\"x^2 <\"]", "world.keep_out_mm[0]"),
+        ("task.points=[[300,0,400],[350,0,400],[300,0,400]]", "task.points[2]"),
         ("world.tool.q1_q4=[1, 1, 0, 0]", "world.tool.q1_q4"),
         ("task.home_deg=[0, 0, 0, 0, 300, 0]", "task.home_deg"),
         ("spec.regression={ baseline = \"7.14\" }", "there is no such folder"),

@@ -91,3 +91,20 @@ pub(super) fn costs(table: &mut CostTable, find: &dyn Fn(&str) -> PathBuf) -> Re
     let matrix = CostMatrix { points: read.points, costs: read.costs, unit };
     Ok(attached(Arc::new(matrix), bytes, &table.table, &file))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robtargets_of_another_frame_than_the_base_are_not_taken_for_its_own() {
+        let text = "MODULE c\nTASK PERS wobjdata wT := [FALSE,TRUE,\"\",[[0,0,100],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n\
+            CONST robtarget a := [[300,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+            PROC main()\n  MoveJ a, v200, fine, tool0 \\WObj:=wT;\nENDPROC\nENDMODULE\n";
+        let told = of_module(text.as_bytes(), false).unwrap_err();
+        assert!(told.starts_with("line 5: robtarget `a` is met in work object `wT`"), "{told}");
+        assert_eq!(of_module(text.as_bytes(), true).unwrap().len(), 1);
+        let in_base = text.replace("\\WObj:=wT", "");
+        assert_eq!(of_module(in_base.as_bytes(), false).unwrap().len(), 1);
+    }
+}

@@ -169,6 +169,13 @@ fn demanded_configurations_are_held_to() {
     assert_eq!(faults(&arm, &asked), []);
 }
 
+#[test]
+fn a_bound_that_is_passed_by_little_is_told_so() {
+    let [angle, bound] = [70.00001_f64, 70.0].map(f64::to_radians);
+    let refusal = Refusal::JointLimit { axis: 2, angle, bound, at: 1.0 };
+    assert_eq!(refusal.in_words(&[]).to_string(), "axis 3 at 70.00001° > 70.00000° at 100 % of the move");
+}
+
 /// What a cfx means of a chain nobody knows: it is no finding that another one is demanded, and it is told once.
 #[test]
 fn configurations_of_a_chain_are_not_found_out() {
