@@ -47,6 +47,15 @@ pub enum CloudError {
         /// The header found.
         header: String,
     },
+    /// Orientations under other names.
+    #[error(
+        "line 1: column `{column}`: orientations are read from q1,q2,q3,q4 (a unit quaternion, scalar first) alone; \
+         write them as these, or take the column out"
+    )]
+    Orientation {
+        /// The column found.
+        column: String,
+    },
     /// A row is longer or shorter than the header.
     #[error("line {line}: {found} values, the header has {expected}")]
     Width {
@@ -156,6 +165,9 @@ pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
             return Err(refuse(column));
         }
     }
+    if let Some(column) = names.cells().find(|name| places[3].is_none() && is_orientation(name)) {
+        return Err(CloudError::Orientation { column: quote::cell(column) });
+    }
     let mut points = Points::default();
     for row in rows {
         if row.len() != names.len() {
@@ -164,6 +176,14 @@ pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
         points.push(PointRow { line: row.line, row, places: &places }.point()?)?;
     }
     points.done()
+}
+
+/// Whether a column is called as orientations are elsewhere: `qw`, `rx_deg`, `yaw`.
+fn is_orientation(column: &str) -> bool {
+    const NAMES: [&str; 11] = ["q0", "qw", "qx", "qy", "qz", "rx", "ry", "rz", "roll", "pitch", "yaw"];
+    let name = column.to_ascii_lowercase();
+    let stem = ["_deg", "_rad"].iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(&name);
+    NAMES.contains(&stem)
 }
 
 /// The robtargets of a module, in the order of their declaration, by line, name and target.
@@ -351,6 +371,8 @@ mod tests {
             ("x_m,y_m,z_m\n1,2,3\n", "no column `x_mm`"),
             ("x_mm,y_mm,z_mm,q1,q2,q3\n1,2,3,1,0,0\n", "no column `q4`"),
             ("x_mm,y_mm,z_mm,cfx\n1,2,3,1\n", "no column `cf1`"),
+            ("x_mm,y_mm,z_mm,qw,qx,qy,qz\n1,2,3,1,0,0,0\n", "line 1: column `qw`: orientations are read from q1"),
+            ("x_mm,y_mm,z_mm,Rx_deg\n1,2,3,90\n", "line 1: column `Rx_deg`"),
             ("x_mm,y_mm,z_mm\n", "no points"),
             ("x_mm,y_mm,z_mm\n1,2\n", "line 2: 2 values, the header has 3"),
             ("x_mm,y_mm,z_mm\n1,2,3\n1,NaN,3\n", "line 3, column `y_mm`: `NaN`"),

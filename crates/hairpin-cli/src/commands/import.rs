@@ -166,9 +166,13 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
         program.name,
         if program.procedure.is_empty() { "none" } else { &program.procedure }
     ));
-    if let Some(Follow { arm, parts, checked, .. }) = followed {
+    if let Some(Follow { arm, parts, words, checked, .. }) = followed {
         let caveat = if arm.caveat.is_empty() { String::new() } else { format!(" ({})", arm.caveat) };
         let around = match parts {
+            Some(parts) if *words > 0 => format!(
+                "held against {} obstacles and keep-outs, of which the {words} in words hold for the tool alone",
+                parts.len()
+            ),
             Some(parts) => format!("held against {} obstacles and keep-outs", parts.len()),
             None => "obstacles are not looked at (--cell)".into(),
         };
@@ -216,10 +220,11 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfo
         None => false,
     };
     let estimated = if rests { ", estimated: not all links' shapes are known" } else { "" };
-    let not_found_out = match open.len() {
-        0 => String::new(),
-        1 => ", 1 meeting of estimated shapes alone not found out".into(),
-        count => format!(", {count} meetings of estimated shapes alone not found out"),
+    let not_found_out = match (open.len(), open.iter().all(|finding| finding.estimated)) {
+        (0, _) => String::new(),
+        (1, true) => ", 1 meeting of estimated shapes alone not found out".into(),
+        (count, true) => format!(", {count} meetings of estimated shapes alone not found out"),
+        (count, false) => format!(", {count} not found out"),
     };
     let is_open = !open.is_empty() || unfollowed.is_some();
     let not_found_out = unfollowed.map_or(String::new(), |why| format!(", {why}")) + &not_found_out;

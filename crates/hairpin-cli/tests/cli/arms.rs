@@ -36,6 +36,7 @@ fn what_new_writes_runs_and_can_be_verified_and_exported() {
     let verdict = json(&stress)["verdict"].as_str().unwrap().to_owned();
     assert!(verdict.starts_with("PASS 2/2 (simulated, irb120 stand-in, virtual controller, 2 runs each)"), "{verdict}");
     assert!(verdict.contains(" mm ≤ 15.00 mm") && verdict.ends_with("all 2 clear: all links"), "{verdict}");
+    assert!(verdict.contains("; keep-outs in words hold for the tool alone; "), "{verdict}");
     let verified = hairpin(place.path(), &["verify", "out/arm", "--json"]);
     assert_eq!((code(&verified), json(&verified)["checked"].as_u64()), (0, Some(2)));
     // Every move of the graph is followed again, those to and from home as well.
@@ -242,6 +243,7 @@ fn what_is_not_there_is_refused_by_name() {
         ("generate.moves.zones=[\"z11\"]", "generate.moves.zones[0]"),
         ("generate.search.visits=17", "generate.search.visits"),
         ("world.keep_out_mm=[\"x^2 <\"]", "world.keep_out_mm[0]"),
+        ("task.points=[[300,0,400],[350,0,400],[300,0,400]]", "task.points[2]"),
         ("world.tool.q1_q4=[1, 1, 0, 0]", "world.tool.q1_q4"),
         ("task.home_deg=[0, 0, 0, 0, 300, 0]", "task.home_deg"),
         ("spec.regression={ baseline = \"7.14\" }", "there is no such folder"),

@@ -86,7 +86,8 @@ fn collisions_with_a_cell_are_told_by_line() {
     let file = module(folder.path(), "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,120,0),v100,z5,tool0;");
     assert_eq!(run(folder.path(), &["import", &file, "--check"]).0, 0);
     let (code, out, error) = run(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);
-    assert!(code == 1 && out.contains("held against 2 obstacles and keep-outs"), "{out}{error}");
+    let held = "held against 2 obstacles and keep-outs, of which the 1 in words hold for the tool alone\n";
+    assert!(code == 1 && out.contains(held), "{out}{error}");
     assert!(out.contains("line 9: COLLISION p10→"), "{out}");
     assert!(out.contains(" meets rod at ") && out.contains("FAIL: 1 finding in 3 moves"), "{out}");
     let object = json(folder.path(), &["import", &file, "--check", "--cell", "cell.toml"]);

@@ -34,6 +34,10 @@ pub struct Clocking<'a> {
     pub home: &'a JointTarget,
     /// The point that is driven to from home and from which home is driven to.
     pub start: usize,
+    /// Whether configurations of points are demanded.
+    pub configured: bool,
+    /// Joint angles that the start is driven to from home with, in the place of its pose.
+    pub at_start: Option<&'a JointTarget>,
     /// Speed of the arcs.
     pub speed: &'a Speed,
     /// Comments at its head.
@@ -69,7 +73,11 @@ pub fn arc_clock(clocking: &Clocking<'_>) -> Result<Clocked, RapidError> {
     let approach = Speed::predefined("v200").unwrap_or_else(|| clocking.speed.clone());
     let mut program = Program::new(clocking.name, PROCEDURE, clocking.tool.clone(), clocking.work_object.clone());
     let home = |speed: &Speed| Move::new(Motion::AbsoluteJoint(clocking.home.clone()), speed.clone(), Zone::stop());
-    let to_start = Move::new(Motion::Joint(named(clocking.start)), approach.clone(), Zone::stop());
+    let start = match clocking.at_start {
+        Some(joints) => Motion::AbsoluteJoint(joints.clone()),
+        None => Motion::Joint(named(clocking.start)),
+    };
+    let to_start = Move::new(start, approach.clone(), Zone::stop());
     program.moves = vec![home(&approach), to_start, home(&approach)];
     let arcs = walk.iter().map(|point| Move::new(Motion::Linear(named(*point)), clocking.speed.clone(), Zone::stop()));
     let all = Program { moves: program.moves.iter().cloned().chain(arcs).collect(), ..program.clone() };
@@ -82,6 +90,9 @@ pub fn arc_clock(clocking: &Clocking<'_>) -> Result<Clocked, RapidError> {
         writer.reserve("variable", name)?;
     }
     writer.data.extend(["LOCAL VAR iodev arc_log;".into(), "LOCAL VAR clock arc_clk;".into()]);
+    if !clocking.configured {
+        writer.lines.extend(["ConfJ \\Off;".into(), "ConfL \\Off;".into()]);
+    }
     writer.go(&program, 0, &program.moves[0])?;
     writer.go(&program, 1, &program.moves[1])?;
     writer.lines.push(format!("Open \"HOME:\" \\File:=\"{LOG_FILE}\", arc_log \\Write;"));

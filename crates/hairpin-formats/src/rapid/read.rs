@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use hairpin::campaign::Scenario;
 use hairpin::trajectory::program::{Program, Tool, WorkObject};
+use nalgebra::Isometry3;
 use thiserror::Error;
 
 use super::kinds::DataKind;
@@ -46,6 +47,13 @@ impl Frames {
         frames.tools.retain(|tool| !tool.name.eq_ignore_ascii_case("tool0"));
         frames.work_objects.retain(|object| !object.name.eq_ignore_ascii_case("wobj0"));
         frames
+    }
+
+    /// The same with user frames as controllers have them, in the world in which the base stands at `world_from_base`,
+    /// m.
+    pub fn in_world(mut self, world_from_base: &Isometry3<f64>) -> Self {
+        self.work_objects.iter_mut().for_each(|object| object.user = world_from_base * object.user);
+        self
     }
 
     /// How modules are read that find them.

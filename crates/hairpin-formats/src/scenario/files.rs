@@ -27,9 +27,9 @@ pub(super) fn read(
         return (Attachments::default(), wrong);
     }
     let terms = user_controller::Terms::of(&scenario.executor());
-    let Named { map, cloud, costs, meshes, score, target, controller, baseline } = scenario.named();
+    let Named { map, cloud, in_object, costs, meshes, score, target, controller, baseline } = scenario.named();
     let map = map.and_then(|keys| noting(terrain::read(keys, find), &mut wrong));
-    let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, find), &mut wrong));
+    let cloud = cloud.and_then(|(file, checksum)| noting(cell::cloud(file, checksum, in_object, find), &mut wrong));
     let costs = costs.and_then(|table| noting(cell::costs(table, find), &mut wrong));
     let mut parts = 0;
     for keys in meshes {

@@ -69,7 +69,7 @@ pub fn kept_in(name_or_path: &str) -> Option<PathBuf> {
 
 /// Every file that a scenario names, by its key.
 fn names(named: &Named<'_>) -> Vec<(String, String)> {
-    let Named { map, cloud, costs, meshes, score, target, controller, baseline } = named;
+    let Named { map, cloud, in_object: _, costs, meshes, score, target, controller, baseline } = named;
     let mut all: Vec<(String, String)> = Vec::new();
     let mut add = |key: &str, name: &str| all.push((key.to_owned(), name.to_owned()));
     if let Some(file) = map.as_ref().and_then(|map| map.file.as_ref()) {

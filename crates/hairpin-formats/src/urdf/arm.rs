@@ -6,12 +6,12 @@ use std::ops::Range;
 use hairpin::math::rotation::euler_from_quaternion;
 use hairpin::robot::arm::{
     ArmDescription, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, HullDescription, JointsDescription,
-    MassDescription,
 };
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use roxmltree::Node;
 
-use super::element::{UrdfError, at, at_attribute, child, number, origin, told};
+use super::element::{UrdfError, at, at_attribute, child, number, told};
+use super::mass::Masses;
 use super::shapes::{Reader, Shape};
 use super::stand::{Held, Stand};
 use super::tip::{AXES, Way};
@@ -42,7 +42,7 @@ pub(super) struct Built {
     capsules: Vec<CapsuleDescription>,
     hulls: Vec<HullDescription>,
     stand_ins: Vec<usize>,
-    masses: Vec<MassDescription>,
+    masses: Masses,
     said: Vec<String>,
     places: BTreeMap<String, Range<usize>>,
 }
@@ -97,6 +97,14 @@ impl Built {
                     "joint {}: lower and upper are 0, as SolidWorks' exporter leaves them: the joint could not turn; \
                      write its limits here (rad, and rad/s in velocity)",
                     joint.told()
+                );
+                return Err(at(&limit, &what));
+            }
+            if lower.abs().max(upper.abs()) > UNBOUNDED.to_radians() {
+                let what = format!(
+                    "joint {}: lower = {lower}, upper = {upper}: URDF has radians, {:.0} at most; are these degrees?",
+                    joint.told(),
+                    UNBOUNDED.to_radians()
                 );
                 return Err(at(&limit, &what));
             }
@@ -162,6 +170,13 @@ impl Built {
             self.say(format!("link {link} ({}) is a stand-in: no <collision>", named.join(", ")));
             self.stand_in(link);
         }
+        if let Some(link) = self.masses.of_all_or_none() {
+            let named: Vec<String> = names[link].iter().take(3).map(|name| format!("`{}`", told(name))).collect();
+            self.say(format!(
+                "joint effort is of accelerations, not of torques: link {link} ({}) has no <inertial>",
+                named.join(", ")
+            ));
+        }
         self.stand_ins.sort_unstable();
         Ok(())
     }
@@ -225,43 +240,16 @@ impl Built {
         self.places.insert(key.to_owned(), node.range());
     }
 
-    /// Joins the mass with what the link already has: centre of both, moments by Steiner's theorem; products of inertia
-    /// are left out.
     fn mass(&mut self, stand: &Stand, inertial: &Node) -> Result<(), UrdfError> {
-        let link = stand.of;
-        let mass = child(inertial, "mass").map_or(Ok(0.0), |node| number(&node, "value"))?;
-        let centre = (stand.pose * origin(inertial)? * Point3::origin()).coords * 1e3;
-        let moments = match child(inertial, "inertia") {
-            Some(node) => [number(&node, "ixx")?, number(&node, "iyy")?, number(&node, "izz")?],
-            None => [0.0; 3],
-        };
-        let Some(known) = self.masses.iter_mut().find(|known| known.link == link) else {
-            let place = inertial.range();
-            self.places.insert(format!("masses[{}]", self.masses.len()), place);
-            let centre_mm = centre.into();
-            self.masses.push(MassDescription { link, mass_kg: mass, centre_mm, inertia_kg_m2: moments });
-            return Ok(());
-        };
-        let whole = known.mass_kg + mass;
-        if whole > 0.0 {
-            let before = Vector3::from(known.centre_mm);
-            let reduced = known.mass_kg * mass / whole;
-            let apart = (centre - before) * 1e-3;
-            for (axis, moment) in known.inertia_kg_m2.iter_mut().enumerate() {
-                *moment += moments[axis] + reduced * (apart.norm_squared() - apart[axis] * apart[axis]);
-            }
-            known.centre_mm = ((before * known.mass_kg + centre * mass) / whole).into();
-            known.mass_kg = whole;
+        if let Some(index) = self.masses.add(stand, inertial)? {
+            self.place(&format!("masses[{index}]"), inertial);
         }
         Ok(())
     }
 
     /// The arm's file.
-    pub(super) fn finish(mut self, name: &str, flange: &Isometry3<f64>, exclude: Vec<[usize; 2]>) -> UrdfArm {
+    pub(super) fn finish(self, name: &str, flange: &Isometry3<f64>, exclude: Vec<[usize; 2]>) -> UrdfArm {
         let limit = |which: usize| std::array::from_fn(|axis| self.limits[axis][which].to_degrees());
-        if self.masses.len() != AXES {
-            self.masses.clear();
-        }
         let description = ArmDescription {
             kind: ArmKind::Arm,
             name: if name.trim().is_empty() { "arm".into() } else { told(name) },
@@ -288,7 +276,7 @@ impl Built {
             no_body: Vec::new(),
             exclude,
             estimates: self.said,
-            masses: self.masses,
+            masses: self.masses.all,
             estimated: Default::default(),
         };
         UrdfArm { description, places: self.places }

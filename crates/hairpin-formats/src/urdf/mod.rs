@@ -24,6 +24,7 @@ mod arm;
 mod element;
 mod follower;
 mod known;
+mod mass;
 mod outline;
 mod pairs;
 mod shapes;

@@ -311,3 +311,39 @@ fn many_joints_take_time_in_proportion() {
     // Quadratic was 42 s.
     assert!(started.elapsed().as_secs() < 15, "{:?}", started.elapsed());
 }
+
+#[test]
+fn degrees_are_told_from_radians_where_they_can_be() {
+    let degrees = irb120().replacen(&format!("lower='{}'", (-165.0_f64).to_radians()), "lower='-165'", 1);
+    let error = told(&degrees);
+    assert!(
+        error.contains("lower = -165") && error.contains("URDF has radians, 63 at most; are these degrees?"),
+        "{error}"
+    );
+}
+
+/// A tensor that is turned is the one in the link's axes, and where one link has none, that no torques are counted is
+/// told.
+#[test]
+fn moments_are_turned_and_missing_ones_told() {
+    let inertial = "<inertial><origin xyz='0 0 0' rpy='0 0 1.5707963267948966'/><mass value='2'/>\
+                    <inertia ixx='0.1' ixy='0.01' iyy='0.2' izz='0.3'/></inertial>";
+    let mut text = irb120();
+    for k in 1..=6 {
+        let link = format!("<link name='link_{k}'/>");
+        text = text.replace(&link, &format!("<link name='link_{k}'>{inertial}</link>"));
+    }
+    let mass = read(&text).unwrap().description.masses[0];
+    let off = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
+    assert!(off(mass.inertia_kg_m2, [0.2, 0.1, 0.3]) < 1e-12, "{mass:?}");
+    assert!(off(mass.products_kg_m2, [-0.01, 0.0, 0.0]) < 1e-12, "{mass:?}");
+    // What is fixed to a link, a quarter about y from it, turns with it: 72 mm on, of the same mass.
+    text = text.replace("<link name='tool0'/>", &format!("<link name='tool0'>{inertial}</link>"));
+    let last = *read(&text).unwrap().description.masses.iter().find(|mass| mass.link == 6).unwrap();
+    let across = 4.0 * 0.036 * 0.036;
+    assert!(off(last.inertia_kg_m2, [0.2 + 0.3, 0.1 + 0.1 + across, 0.3 + 0.2 + across]) < 1e-12, "{last:?}");
+    let bare = text.replacen(inertial, "", 1);
+    let read = read(&bare).unwrap().description;
+    let told = "joint effort is of accelerations, not of torques: link 1 (`link_1`) has no <inertial>";
+    assert!(read.masses.is_empty() && read.estimates.iter().any(|said| said == told), "{:?}", read.estimates);
+}

@@ -89,8 +89,10 @@ fn poses_speeds_and_corners_are_those_of_the_program() {
 
 #[test]
 fn what_controllers_refuse_is_not_written() {
-    let named = Program { procedure: "end".into(), ..program() };
-    assert!(matches!(text(&named, &Settings::default(), &[]), Err(UrscriptError::Name { .. })));
+    for name in ["end", "set_tcp"] {
+        let named = Program { procedure: name.into(), ..program() };
+        assert!(matches!(text(&named, &Settings::default(), &[]), Err(UrscriptError::Name { .. })), "{name}");
+    }
     let settings = Settings { acceleration: 0.0, ..Settings::default() };
     assert!(matches!(text(&program(), &settings, &[]), Err(UrscriptError::Setting { field: "acceleration", .. })));
     let mut broken = program();

@@ -41,7 +41,10 @@ pub enum UrscriptError {
     #[error(transparent)]
     Program(#[from] ProgramError),
     /// The procedure's name cannot be a function's.
-    #[error("`{name}` must begin with a letter, consist of ASCII letters, digits and underscores, and be no keyword")]
+    #[error(
+        "`{name}` must begin with a letter, consist of ASCII letters, digits and underscores, and be no keyword \
+             and no function of URScript"
+    )]
     Name {
         /// The name.
         name: String,
@@ -61,6 +64,27 @@ const KEYWORDS: [&str; 22] = [
     "not", "or", "return", "sec", "thread", "True", "while", "xor",
 ];
 
+/// Functions of URScript that programs call, or that a controller runs on its own: a program of that name would call
+/// itself.
+const FUNCTIONS: [&str; 16] = [
+    "get_forward_kin",
+    "get_inverse_kin",
+    "movec",
+    "movej",
+    "movel",
+    "movep",
+    "pose_inv",
+    "pose_trans",
+    "set_payload",
+    "set_tcp",
+    "sleep",
+    "stopj",
+    "stopl",
+    "sync",
+    "textmsg",
+    "norm",
+];
+
 /// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, and to none
 /// where a segment's length takes the arm's kinematics: blends that overlap stop the robot.
 ///
@@ -73,7 +97,8 @@ pub fn text(program: &Program, settings: &Settings, header: &[String]) -> Result
     let name = &program.procedure;
     let spelt = name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
-        && !KEYWORDS.contains(&name.as_str());
+        && !KEYWORDS.contains(&name.as_str())
+        && !FUNCTIONS.contains(&name.as_str());
     if !spelt {
         return Err(UrscriptError::Name { name: name.clone() });
     }

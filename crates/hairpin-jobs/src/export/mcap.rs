@@ -7,7 +7,7 @@ use hairpin::campaign::report::surroundings;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::mcap::{JointMotion, McapError, Recording, foxglove, ros2};
 
-use super::programs::{PlannedJoints, planned_joints};
+use super::programs::{PlannedJoints, planned_joints, stands_aside};
 use super::written::Written;
 use crate::Problem;
 use crate::execute::runs_with_motion;
@@ -22,6 +22,12 @@ pub(super) enum For {
 
 /// `CASE.mcap` or `CASE.ros2.mcap`: the planned motion where there is a timed one, and every run.
 pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], reader: For) -> Result<Written, Problem> {
+    if stands_aside(work) {
+        return Err(Problem::input(
+            "--to mcap, mcap-ros2: motions are in the arm's base, which `world.base_frame` puts elsewhere than at the \
+             origin of the file's frame `world`; --to csv and tum are in the base",
+        ));
+    }
     let mut written = Written::default();
     for case in cases {
         let planned =

@@ -105,9 +105,9 @@ pub(super) fn write_tum(work: &Work, place: &Path, cases: &[&Case]) -> Result<Wr
     }
 }
 
-/// Whether attitudes are planned: only a witness has them.
+/// Whether attitudes are planned: a witness has them, and so has an arm's program.
 fn is_planned(case: &Case) -> bool {
-    case.evidence == Evidence::Witnessed
+    matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere)
 }
 
 /// Whether the executor sent no attitudes.

@@ -8,6 +8,7 @@ use hairpin::campaign::{Case, Evidence};
 use hairpin::robot::arm::{AXES, Joints};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
+use nalgebra::Isometry3;
 
 use super::written::Written;
 use crate::Problem;
@@ -25,6 +26,10 @@ pub enum Language {
     /// CASE.joint_trajectory.json: the planned joints every 10 ms as a ROS 2 message.
     JointTrajectory,
 }
+
+/// What modules of arms say whose configurations no controller knows.
+const UNCONFIGURED: &str = "The arm has no opw: its configurations are not known, moves in joints go to joint angles, \
+    ConfL and ConfJ are Off";
 
 /// Time between the points of joint trajectories, s.
 const SAMPLE: f64 = 0.01;
@@ -56,6 +61,8 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
             Err(why) => written.missing.push(format!("case {}: {why}", case.id())),
         }
     }
+    let unconfigured = arm_of(work).is_ok_and(|arm| !arm.tells_configurations());
+    written.told.extend((unconfigured && language == Language::Rapid).then(|| UNCONFIGURED.into()));
     written.or_refused()
 }
 
@@ -72,7 +79,8 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
         ArmMode::Joint => Evidence::ClearAllLinks,
         ArmMode::Cartesian => Evidence::ClearToolSphere,
     };
-    let header = [format!("Evidence of every move: {}", evidence.word())];
+    let mut header = vec![format!("Evidence of every move: {}", evidence.word())];
+    header.extend((!clock.configured).then(|| UNCONFIGURED.into()));
     let clocked = rapid::arc_clock(&rapid::Clocking {
         name: "hairpin_clock",
         tool: &clock.tool,
@@ -81,6 +89,8 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
         arcs: &clock.arcs,
         home: &clock.home,
         start: clock.start,
+        configured: clock.configured,
+        at_start: clock.at_start.as_ref(),
         speed: &clock.speed,
         header: &header,
     });
@@ -88,6 +98,7 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
     let path = place.join("arc_clock.mod");
     atomic::write(&path, clocked.text.as_bytes())?;
     let mut written = Written::all(vec![path]);
+    written.told.extend((!clock.configured).then(|| UNCONFIGURED.into()));
     if !clocked.left_out.is_empty() {
         let count = clocked.left_out.len();
         written.missing.push(format!(
@@ -101,7 +112,8 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
 /// Names and texts of a program's files.
 fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Result<Vec<(String, String)>, String> {
     let id = case.id();
-    let header = [format!("Evidence: {}", case.claim())];
+    let mut header = vec![format!("Evidence: {}", case.claim())];
+    let arm = arm_of(work)?;
     Ok(match language {
         Language::Urscript => {
             let text = urscript::text(program, &urscript::Settings::default(), &header);
@@ -114,10 +126,13 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
-            let files = krl::files(program, &krl::Settings::default(), &header).map_err(|error| error.to_string())?;
+            let program = Program { moves: program.moves.clone(), ..arm.for_controller(program) };
+            let files = krl::files(&program, &krl::Settings::default(), &header).map_err(|error| error.to_string())?;
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }
         Language::Rapid => {
+            let program = &arm.for_controller(program);
+            header.extend((!arm.tells_configurations()).then(|| UNCONFIGURED.into()));
             let module = rapid::module(program, &header).map_err(|error| error.to_string())?;
             let cap = Speed::predefined(rapid::FIRST_RUN).ok_or("no speed for the first run")?;
             let slow = rapid::module(&rapid::slow(program, &cap), &header).map_err(|error| error.to_string())?;
@@ -143,9 +158,18 @@ pub(super) struct PlannedJoints {
     pub(super) rows: Vec<Joints>,
 }
 
+fn arm_of(work: &Work) -> Result<&ArmSetup, &'static str> {
+    work.setup.own::<ArmSetup>().ok_or("it is no arm's")
+}
+
+/// Whether an arm's base stands elsewhere than at the origin of its world.
+pub(super) fn stands_aside(work: &Work) -> bool {
+    arm_of(work).is_ok_and(|arm| arm.world_from_base() != Isometry3::identity())
+}
+
 /// The planned joints of an arm's case every 10 ms.
 pub(super) fn planned_joints(work: &Work, case: &Case) -> Result<PlannedJoints, String> {
-    let arm = work.setup.own::<ArmSetup>().ok_or("it is no arm's")?;
+    let arm = arm_of(work)?;
     let (times_s, rows) = arm.planned_joints(case, SAMPLE).map_err(|error| error.to_string())?;
     Ok(PlannedJoints { names: arm.station.arm.joint_names.clone(), times_s, rows })
 }

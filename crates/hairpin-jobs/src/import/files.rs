@@ -133,6 +133,11 @@ pub(super) fn is_program_by_name(file: &Path) -> bool {
     is_rapid_by_name(file) || ["pgf", "src", "dat", "script"].contains(&ending(file).as_str())
 }
 
+/// Whether the language's poses are in the arm's base: of others they are in frames of the world.
+pub(super) fn is_in_base(files: &[PathBuf]) -> bool {
+    files.iter().any(|file| ending(file) == "script")
+}
+
 /// Whether a file is called as RAPID's are.
 fn is_rapid_by_name(file: &Path) -> bool {
     ["mod", "sys", "prg"].contains(&ending(file).as_str())

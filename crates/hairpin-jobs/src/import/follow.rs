@@ -5,8 +5,9 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
-use hairpin_formats::listing::Module;
+use hairpin::trajectory::program::Program;
 use hairpin_formats::scenario::arm_with;
+use nalgebra::Isometry3;
 
 use crate::Problem;
 use crate::sets::Set;
@@ -26,30 +27,49 @@ pub struct Follow {
     pub arm: Arm,
     /// Names of the cell's parts, where one was given.
     pub parts: Option<Vec<String>>,
+    /// How many of them are words, which the tool alone is held against.
+    pub words: usize,
     /// What it made of the moves that are certain.
     pub checked: Checked,
     /// Whether bodies of it are estimated: what is clear of them is as well.
     pub estimated: bool,
 }
 
-/// Follows the moves that are certain, in the cell if one is given, which is `setup`.
+fn arm_of(setup: Option<&Setup>) -> Option<&ArmSetup> {
+    setup.and_then(|setup| setup.own::<ArmSetup>())
+}
+
+/// Where the arm's base stands in the world of its cell, where that is not at its origin.
+pub(super) fn stands(cell: Option<&Setup>) -> Option<Isometry3<f64>> {
+    let world_from_base = arm_of(cell)?.world_from_base();
+    (world_from_base != Isometry3::identity()).then_some(world_from_base)
+}
+
+/// The program with work objects as the base sees them: wobj0, and all user frames, stand in the world.
+pub(super) fn in_base(program: &Program, world_from_base: &Isometry3<f64>) -> Program {
+    let mut seen = program.clone();
+    seen.work_objects.iter_mut().for_each(|object| object.user = world_from_base.inverse() * object.user);
+    seen
+}
+
+/// Follows the moves that are certain, so many of the program's, in the cell if one is given, which is `setup`.
 pub(super) fn follow(
     follower: &Follower,
     setup: Option<&Setup>,
     sets: &[Set],
-    module: &Module,
+    (program, certain): (&Program, usize),
 ) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
     let cell = match follower {
         Follower::Robot(robot) => {
             let arm = arm_with(robot, sets)?;
-            let checked = check(&arm, &module.program, module.certain, &Surroundings::default(), &settings);
+            let checked = check(&arm, program, certain, &Surroundings::default(), &settings);
             let estimated = arm.has_stand_ins();
-            return Ok(Follow { arm, parts: None, checked, estimated });
+            return Ok(Follow { arm, parts: None, words: 0, checked, estimated });
         }
         Follower::Cell(cell) => cell,
     };
-    let Some(arm) = setup.and_then(|setup| setup.own::<ArmSetup>()) else {
+    let Some(arm) = arm_of(setup) else {
         return Err(Problem::input(format!("--cell {cell}: is no arm's")));
     };
     let around = Surroundings {
@@ -57,8 +77,9 @@ pub(super) fn follow(
         tool_radius: arm.station.tool.radius,
         clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
     };
-    let checked = check(&arm.station.arm, &module.program, module.certain, &around, &settings);
+    let checked = check(&arm.station.arm, program, certain, &around, &settings);
+    let words = arm.scenario.world.keep_out_mm.len();
     let (parts, arm) = (Some(arm.part_names()), arm.station.arm.clone());
     let estimated = arm.has_stand_ins();
-    Ok(Follow { arm, parts, checked, estimated })
+    Ok(Follow { arm, parts, words, checked, estimated })
 }

@@ -94,9 +94,15 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         Some(Follower::Cell(cell)) => Some(setup_for(cell, &settings.sets)?),
         _ => None,
     };
+    let stands = follow::stands(cell.as_ref());
     let frames = cell.as_ref().map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
+    let frames = stands.iter().fold(frames, Frames::in_world);
     let module = files::read(&settings.files, settings.procedure.as_deref(), &frames)?;
-    let follow = |follower| follow::follow(follower, cell.as_ref(), &settings.sets, &module);
+    let program = match stands.filter(|_| !files::is_in_base(&settings.files)) {
+        Some(stands) => follow::in_base(&module.program, &stands),
+        None => module.program.clone(),
+    };
+    let follow = |follower| follow::follow(follower, cell.as_ref(), &settings.sets, (&program, module.certain));
     let followed = settings.check.as_ref().map(follow).transpose()?;
     let findings = findings::findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
@@ -135,6 +141,30 @@ mod tests {
         CONST robtarget p1 := [[300,0,300],[0.70710678,0,0.70710678,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
         CONST robtarget far := [[3000,0,300],[0.70710678,0,0.70710678,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
         PROC main()\n  MoveJ p1, v100, fine, tool0;\n  MoveL far, v100, fine, tool0;\nENDPROC\nENDMODULE\n";
+
+    /// Frames of a module stand in the world, as a controller has them.
+    #[test]
+    fn a_base_that_stands_aside_is_seen_from_the_world() {
+        let place = tempfile::tempdir().unwrap();
+        let (file, cell) = (place.path().join("m.mod"), place.path().join("cell.toml"));
+        let scenario = "hairpin = 1\nrobot = \"irb120\"\n[world]\nbase_frame = { mm = [1000, 0, 0], q1_q4 = [1, 0, 0, 0] }\n\
+            [task]\npoints = [[350, 0, 400]]\n[spec]\npath = { max_mm = 5 }\n";
+        fs::write(&cell, scenario).unwrap();
+        let reaches = |x: f64, object: &str| {
+            let text = format!(
+                "MODULE m\nTASK PERS wobjdata wT := [FALSE,TRUE,\"\",[[1000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n\
+                CONST robtarget p1 := [[{x},0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+                PROC main()\n  ConfJ \\Off;\n  MoveJ p1, v100, fine, tool0 \\WObj:={object};\nENDPROC\nENDMODULE\n"
+            );
+            fs::write(&file, text).unwrap();
+            let check = Some(Follower::Cell(cell.display().to_string()));
+            let settings = ImportSettings { files: vec![file.clone()], check, ..ImportSettings::default() };
+            let Imported::Program(read) = import(&settings).unwrap() else { panic!("it is a program") };
+            read.findings.iter().all(|finding| finding.kind != "reach")
+        };
+        assert!(reaches(300.0, "wT") && reaches(1300.0, "wobj0"));
+        assert!(!reaches(1300.0, "wT") && !reaches(300.0, "wobj0"));
+    }
 
     #[test]
     fn what_an_arm_cannot_do_is_found_by_line() {

@@ -373,7 +373,7 @@ impl Setup {
         self.robot_words().battery
     }
 
-    /// What of its shape a claim rests on that is not known, in a few words.
+    /// What of its shape a claim rests on that is not known, or leaves out, in a few words.
     pub fn unknown_shapes(&self) -> Option<&'static str> {
         self.robot_words().unknown_shapes
     }

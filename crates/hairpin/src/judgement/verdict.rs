@@ -106,7 +106,7 @@ pub struct Judged<'a> {
     pub claims: &'a [Claim<'a>],
     /// How often violations come again, where they were run again.
     pub reruns: Option<&'a str>,
-    /// What the claims rest on that is not known: `link shapes estimated`.
+    /// What the claims rest on that is not known, or leave out: `link shapes estimated`.
     pub estimated: Option<&'a str>,
     /// How far from the best the cases' scores can be, where every case has a proof: `optimal`, `gap at most 3.1 %`.
     pub proof: Option<&'a str>,

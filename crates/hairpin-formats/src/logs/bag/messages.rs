@@ -1,5 +1,7 @@
 //! Messages of ROS 2 that tell a motion, by their definitions in `common_interfaces`.
 
+use std::collections::HashSet;
+
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 use super::cdr::{Cdr, NoMessage};
@@ -105,7 +107,9 @@ pub(super) fn joints<'a>(cdr: &mut Cdr<'a>) -> Result<(i64, Vec<&'a str>, Vec<f6
     let Header { stamp_ns, .. } = header(cdr)?;
     let names = (0..cdr.length(4)?).map(|_| cdr.string()).collect::<Result<Vec<_>, _>>()?;
     let positions = (0..cdr.length(8)?).map(|_| cdr.f64()).collect::<Result<Vec<_>, _>>()?;
-    if names.len() != positions.len() || !positions.iter().all(|q| q.is_finite()) {
+    // Of a joint that is named twice nobody knows which position is its own.
+    let each_once = names.iter().collect::<HashSet<_>>().len() == names.len();
+    if names.len() != positions.len() || !each_once || !positions.iter().all(|q| q.is_finite()) {
         return Err(NoMessage);
     }
     Ok((stamp_ns, names, positions))

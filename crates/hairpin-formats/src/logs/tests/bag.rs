@@ -34,6 +34,22 @@ fn odometry_and_joints_are_read_however_they_are_packed() {
     }
 }
 
+/// Of a joint that is named twice nobody knows which position is its own.
+#[test]
+fn messages_that_name_a_joint_twice_are_not_read() {
+    let joints = |seconds: u32, second: &str| {
+        let head = Cdr::new(true).header(seconds, 0, "").u32(2).text("q_a").text(second);
+        head.u32(2).numbers(&[1.0, 2.0]).u32(0).u32(0).bytes()
+    };
+    let kind = "sensor_msgs/msg/JointState";
+    let messages = [(7, "q_b"), (8, "q_b"), (9, "q_a")]
+        .map(|(seconds, second)| ("/j", kind, u64::from(seconds) * 1_000_000_000, joints(seconds, second)));
+    let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+    assert_eq!(read.joints[0].times_s.len(), 2);
+    let told = read.notes.join("\n");
+    assert!(told.contains("/j: 1 messages that are none of its type"), "{told}");
+}
+
 #[test]
 fn times_are_when_they_were_recorded_where_headers_have_none() {
     let kind = "geometry_msgs/msg/PoseStamped";

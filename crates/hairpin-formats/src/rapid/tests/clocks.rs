@@ -21,6 +21,8 @@ fn clock(count: usize, arcs: &[(usize, usize)], start: usize) -> Result<super::s
         arcs,
         home: &JointTarget { name: Some("home".into()), joints: [0.0; 6], external: NO_EXTERNAL },
         start,
+        configured: true,
+        at_start: None,
         speed: &Speed::predefined("v1000").unwrap(),
         header: &[],
     })

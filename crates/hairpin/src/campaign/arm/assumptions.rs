@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
-use crate::campaign::scenario::{ArmMode, Keys, PathFrom, ProgramMethod};
+use crate::campaign::scenario::{ArmMode, CostName, CostSection, Keys, PathFrom, ProgramMethod};
 use crate::campaign::{Case, Tally};
 use crate::robot::arm::{Outline, WorkObject, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
@@ -27,6 +27,12 @@ pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
     });
     if !setup.scenario.world.keep_out_mm.is_empty() {
         said.push("Keep-outs in words hold for the tool; the arm's own links may be in them.".into());
+    }
+    if counts_effort(&generate.cost) && !setup.station.arm.has_masses() {
+        said.push(
+            "Joint effort is of squared accelerations, not of torques: the robot's file has not the masses of all six links."
+                .into(),
+        );
     }
     let declared = |declare: bool| if declare { "declared in every program" } else { "expected on the controller" };
     said.push(format!(
@@ -72,6 +78,14 @@ pub(super) fn misnamed(setup: &ArmSetup) -> Option<String> {
 /// Whether a frame is another one than that which it is given in, by a nanometre or a nanoradian.
 fn is_elsewhere(frame: &Isometry3<f64>) -> bool {
     frame.translation.vector.norm() > 1e-9 || frame.rotation.angle() > 1e-9
+}
+
+fn counts_effort(cost: &CostSection) -> bool {
+    match cost {
+        CostSection::Named(name) => *name == CostName::JointEffort,
+        CostSection::Weighted(weights) => weights.joint_effort > 0.0,
+        CostSection::Table(_) | CostSection::Learned(_) => false,
+    }
 }
 
 /// Which links are none of these.

@@ -77,5 +77,15 @@ fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mi
     };
     let fits = |pose: &Isometry3<f64>| at_home && stands(&station, scenario, pose);
     station.points = points_of(scenario, files, &station.work_object, reach, fits)?;
-    Ok(station)
+    match station.points.iter().position(|point| point.configuration.is_some() && !station.arm.knows_configurations()) {
+        Some(index) => Err(Mistake {
+            key: format!("task.points[{index}]"),
+            value: format!("configuration {:?}", station.points[index].configuration.unwrap_or_default()),
+            bound:
+                "without a configuration (a table of x_mm,y_mm,z_mm,q1,q2,q3,q4): which posture it means is known of \
+                    arms with `opw` alone"
+                    .into(),
+        }),
+        None => Ok(station),
+    }
 }

@@ -22,6 +22,10 @@ pub struct ArcClock {
     pub home: JointTarget,
     /// The row that home is left for and reached from.
     pub start: usize,
+    /// Whether configurations are demanded.
+    pub configured: bool,
+    /// Joint angles at the start, where no configuration tells them.
+    pub at_start: Option<JointTarget>,
     /// Of the moves: the first of the scenario's.
     pub speed: Speed,
 }
@@ -46,11 +50,18 @@ impl ArmSetup {
         let near_home = (0..n).filter(|row| graph.from_home[*row] && graph.to_home[*row]);
         let start = near_home.max_by_key(|row| (leaving(*row), n - row));
         let start = start.ok_or("no point that home can be left for and reached from")?;
-        let (tool, work_object) = self.frames();
+        let (tool, mut work_object) = self.frames();
         let object_from_base = work_object.base_from_object().inverse();
-        let points = (0..n).map(|row| self.target(&object_from_base, row, graph.configuration(self, row))).collect();
+        let point = |row| self.target(&object_from_base, row, graph.configuration(self, row));
+        let mut points: Vec<PoseTarget> = (0..n).map(point).collect();
+        let configured = self.tells_configurations();
+        let at_start = if configured { None } else { self.joints_at(&work_object, &points[start]) };
+        if !configured {
+            points.iter_mut().for_each(|point| point.configuration = None);
+        }
+        self.in_world(&mut work_object);
         let speed = self.scenario.generate.moves.speeds.first().and_then(|name| Speed::predefined(name));
         let speed = speed.ok_or("`generate.moves.speeds` is empty")?;
-        Ok(ArcClock { tool, work_object, points, arcs, home: self.home(), start, speed })
+        Ok(ArcClock { tool, work_object, points, arcs, home: self.home(), start, configured, at_start, speed })
     }
 }

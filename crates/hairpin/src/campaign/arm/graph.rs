@@ -336,7 +336,10 @@ fn unit_of(cost: &Cost, setup: &ArmSetup) -> (f64, String) {
     match cost {
         Cost::Distance => (1e-3, "mm".into()),
         Cost::Time => (1e-6, "s".into()),
-        Cost::ControllerLoad | Cost::JointEffort => (1.0, cost.unit().into()),
+        Cost::ControllerLoad => (1.0, cost.unit().into()),
+        // As squared torques and squared accelerations are scaled to whole numbers.
+        Cost::JointEffort if setup.station.arm.has_masses() => (1.0, "effort of torques (10⁻⁶ N² m² s)".into()),
+        Cost::JointEffort => (1.0, "effort of accelerations (10⁻³ rad²/s³; not all links have masses)".into()),
         Cost::Sum(_) => (1e-6, "weighted".into()),
         Cost::Table(_) => match &setup.scenario.generate.cost {
             CostSection::Table(table) => {

@@ -59,6 +59,7 @@ pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
         Refusal::Configuration { .. } | Refusal::ArrivesOtherwise { .. } => {
             (Stage::Limits, "configuration change".into())
         }
+        Refusal::UnknownConfiguration { .. } => (Stage::Limits, "a configuration that is not known".into()),
         Refusal::NoSuchConfiguration { .. } => (Stage::Limits, "no posture in the demanded configuration".into()),
         Refusal::NoArc(_) | Refusal::Turned { .. } => (Stage::Limits, "no arc".into()),
         Refusal::OtherBranch { .. } => (Stage::Limits, "another configuration than most points".into()),

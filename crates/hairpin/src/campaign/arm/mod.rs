@@ -6,6 +6,7 @@
 //!           drawn and bred instead: ways ─▶ draw, alter ─▶ program
 //!   Act:    execute ─▶ simulation::arm, or recorded: a log of the real arm
 //!   judge:  plan (path with its zones) ─▶ judgement::moves; hidden: what a log does not show; regression: two releases
+//!   out:    handed: as controllers take programs
 //!   proof:  verify, retrace ─▶ verification, as plain numbers (written)
 //!   Say:    say, assumptions, figure, losses, obstructions, doubt, knobs
 //! ```
@@ -28,6 +29,7 @@ mod execute;
 mod figure;
 mod fit;
 mod graph;
+mod handed;
 mod hidden;
 mod judge;
 mod knobs;

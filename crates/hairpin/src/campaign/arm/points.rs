@@ -1,5 +1,6 @@
 //! The cloud: poses of the tool in the base frame, read, listed or drawn.
 
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -57,6 +58,14 @@ pub(super) fn points_of(
             cloud.iter().enumerate().map(|(index, given)| point(index, given)).collect()
         }
         PointsSource::List(list) => {
+            let mut seen = HashSet::new();
+            // Adding zero makes −0 the 0 that it equals.
+            let mut again = |mm: &[f64; 3]| !seen.insert(mm.map(|x| (x + 0.0).to_bits()));
+            if let Some((index, mm)) = list.iter().enumerate().find(|(_, mm)| again(mm)) {
+                let bound = "a point that the list has not before: programs tell points apart by where they are";
+                let key = format!("task.points[{index}]");
+                return Err(Mistake { key, value: format!("{mm:?}"), bound: bound.into() });
+            }
             let bare = |mm: &[f64; 3]| CloudPoint { mm: *mm, q1_q4: None, configuration: None };
             list.iter().enumerate().map(|(index, mm)| point(index, &bare(mm))).collect()
         }

@@ -28,12 +28,18 @@ impl Say for ArmSetup {
         let arm = &self.station.arm;
         // In Cartesian mode no link is looked at.
         let looked_at = self.scenario.generate.mode == ArmMode::Joint && arm.has_stand_ins();
+        let words = !self.scenario.world.keep_out_mm.is_empty() && self.scenario.generate.mode == ArmMode::Joint;
         RobotWords {
             name: &arm.name,
             caveat: &arm.caveat,
             estimated: arm.estimated.iter().map(String::as_str).collect(),
             has_sides: false,
-            unknown_shapes: looked_at.then_some("link shapes estimated"),
+            unknown_shapes: match (looked_at, words) {
+                (true, true) => Some("link shapes estimated; keep-outs in words hold for the tool alone"),
+                (true, false) => Some("link shapes estimated"),
+                (false, true) => Some("keep-outs in words hold for the tool alone"),
+                (false, false) => None,
+            },
             loops: Arm::LOOPS,
             battery: None,
         }

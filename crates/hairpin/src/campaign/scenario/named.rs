@@ -10,6 +10,8 @@ pub struct Named<'a> {
     pub map: Option<&'a mut TerrainSection>,
     /// `task.points` and `task.checksum`.
     pub cloud: Option<(&'a mut String, &'a mut Option<String>)>,
+    /// Whether the points are said to be in the work object, as robtargets may be.
+    pub in_object: bool,
     /// `generate.cost`, where it is a table.
     pub costs: Option<&'a mut CostTable>,
     /// Meshes of obstacles.

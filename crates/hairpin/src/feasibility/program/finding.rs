@@ -2,6 +2,22 @@
 
 use crate::feasibility::reachability::Refusal;
 
+/// What came of a program.
+///
+/// `followed` + `ends_only` is the number of moves looked at; a program is executable if `findings` is empty and all
+/// moves were followed.
+///
+/// Nothing is executed: a program that passes is one that the arm can follow in its cell, blends aside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checked {
+    /// Moves that were looked at as a whole.
+    pub followed: usize,
+    /// Moves of which only the end was looked at, since where they begin is not known.
+    pub ends_only: usize,
+    /// What the arm cannot do, and what is not found out, in the program's order.
+    pub findings: Vec<Finding>,
+}
+
 /// Another configuration in which the move fits.
 ///
 /// \[cf1, cf4, cf6, cfx\].
@@ -34,7 +50,7 @@ pub struct Finding {
     pub fit: Option<Fit>,
     /// What it rests on that is estimated, in words.
     pub estimated: Option<String>,
-    /// Whether it rests on nothing but what is estimated, so that it is no finding but not found out.
+    /// Whether it rests on nothing but what is estimated or assumed, so that it is no finding but not found out.
     pub open: bool,
 }
 
@@ -57,8 +73,7 @@ impl Finding {
     }
 
     /// `line 8: UNREACHABLE p10→p20: …`, of what meets something `line 8: COLLISION …`, of what rests on estimates
-    /// alone
-    /// `line 8: INCONCLUSIVE …`.
+    /// alone, or on a posture that is assumed, `line 8: INCONCLUSIVE …`.
     pub fn in_words(&self, parts: &[String]) -> String {
         let line = self.line.map_or(String::new(), |line| format!("line {line}: "));
         let named = |name: &Option<String>, nameless: &str| name.clone().unwrap_or_else(|| nameless.into());

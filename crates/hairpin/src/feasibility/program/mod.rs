@@ -12,5 +12,5 @@ mod walk;
 #[cfg(test)]
 mod tests;
 
-pub use finding::{Finding, Fit};
-pub use walk::{Checked, Surroundings, check};
+pub use finding::{Checked, Finding, Fit};
+pub use walk::{Surroundings, check};

@@ -18,14 +18,25 @@ pub(super) fn within_limits(arm: &Arm, flange: &Isometry3<f64>, near: &Joints) -
 
 /// Whether `q` has the configuration, quadrants as far as rounding lets one tell.
 ///
-/// cf1, cf4, cf6 are ⌊angle / 90°⌋ of the axes; within 10⁻³ rad of a border both neighbours are right.
+/// cf1, cf4, cf6 are ⌊angle / 90°⌋ of the axes; within 10⁻³ rad of a border both neighbours are right. Of arms whose
+/// cfx is not known the quadrants alone are looked at.
 pub(super) fn has(arm: &Arm, q: &Joints, configuration: &[i32; 4]) -> bool {
     let quadrant = |axis: usize, cf: i32| {
         let from = f64::from(cf) * std::f64::consts::FRAC_PI_2;
         (from - BORDER..=from + std::f64::consts::FRAC_PI_2 + BORDER).contains(&q[axis])
     };
     let [cf1, cf4, cf6, cfx] = *configuration;
-    quadrant(0, cf1) && quadrant(3, cf4) && quadrant(5, cf6) && i32::from(arm.branch(q).cfx()) == cfx
+    quadrant(0, cf1) && quadrant(3, cf4) && quadrant(5, cf6) && is_branch(arm, q, cfx)
+}
+
+/// Whether `q` is in the branch, as far as one knows.
+fn is_branch(arm: &Arm, q: &Joints, cfx: i32) -> bool {
+    !arm.knows_configurations() || i32::from(arm.branch(q).cfx()) == cfx
+}
+
+/// A posture as what would do instead, if there is a configuration to ask for it by.
+fn fit(arm: &Arm, q: &Joints) -> Option<Fit> {
+    arm.knows_configurations().then(|| Fit { configuration: arm.configuration(q).numbers(), margin: room(arm, q) })
 }
 
 /// Least distance of any axis from its bounds, rad.
@@ -54,13 +65,13 @@ pub(super) fn choose(
         return Ok(*q);
     }
     let best = possible.iter().max_by(|a, b| room(arm, a).total_cmp(&room(arm, b)));
-    let fit = best.map(|q| Fit { configuration: arm.configuration(q).numbers(), margin: room(arm, q) });
+    let fit = best.and_then(|q| fit(arm, q));
     let solutions = arm.inverse(flange, &[0.0; AXES]);
     if solutions.is_empty() {
         return Err((Refusal::OutOfReach { at: 1.0 }, None));
     }
     // Of the solutions that the target means, the one that is least far beyond a bound.
-    let meant = |q: &&Joints| demanded.is_none_or(|cf| i32::from(arm.branch(q).cfx()) == cf[3]);
+    let meant = |q: &&Joints| demanded.is_none_or(|cf| is_branch(arm, q, cf[3]));
     let beyond = solutions.iter().filter(meant).filter_map(|q| Some((q, arm.outside_limits(q)?)));
     match (beyond.min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b)), demanded) {
         (Some((q, (axis, _))), _) => {

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use super::{Surroundings, check};
 use crate::feasibility::reachability::Refusal;
 use crate::feasibility::reachability::joint::FollowSettings;
-use crate::robot::arm::{Arm, ArmDescription, Joints, Singularity};
+use crate::robot::arm::{Arm, ArmDescription, Joints, Kinematics, Singularity};
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
@@ -167,6 +167,37 @@ fn demanded_configurations_are_held_to() {
     assert_eq!(found, [(2, Refusal::ArrivesOtherwise { demanded: [0, 1, -1, 0], arrives })]);
     asked.moves[2].configuration_demanded = false;
     assert_eq!(faults(&arm, &asked), []);
+}
+
+#[test]
+fn a_bound_that_is_passed_by_little_is_told_so() {
+    let [angle, bound] = [70.00001_f64, 70.0].map(f64::to_radians);
+    let refusal = Refusal::JointLimit { axis: 2, angle, bound, at: 1.0 };
+    assert_eq!(refusal.in_words(&[]).to_string(), "axis 3 at 70.00001° > 70.00000° at 100 % of the move");
+}
+
+/// What a cfx means of a chain nobody knows: it is no finding that another one is demanded, and it is told once.
+#[test]
+fn configurations_of_a_chain_are_not_found_out() {
+    let arm = arm();
+    let start = at(&arm, [10.0, 5.0, 10.0, 20.0, 50.0, -30.0], "a");
+    let chain = Arm { kinematics: Kinematics::Chain, ..arm };
+    let other = PoseTarget { configuration: Some([0, 0, -1, 4]), ..start };
+    let ways = || vec![Motion::Joint(other.clone()), Motion::Linear(shifted(&other, 0.0, 0.02, 0.0))];
+    let mut asked = program(ways());
+    let found =
+        |asked: &Program| check(&chain, asked, asked.moves.len(), &Surroundings::default(), &settings()).findings;
+    let once = found(&asked);
+    let [only] = &once[..] else { panic!("{once:?}") };
+    assert_eq!((only.index, only.refusal), (1, Refusal::UnknownConfiguration { demanded: [0, 0, -1, 4] }));
+    assert!(only.open && only.fit.is_none() && only.in_words(&[]).starts_with("line 11: INCONCLUSIVE home→a: "));
+    // A posture that is assumed fails nothing for certain: with other bounds the same way is not found out either.
+    let mut narrow = chain.clone();
+    narrow.limits[4].upper = 50.0_f64.to_radians() + 1e-3;
+    let all = check(&narrow, &program(ways()), 3, &Surroundings::default(), &settings()).findings;
+    assert!(all.iter().all(|finding| finding.open), "{all:?}");
+    asked.moves[1..].iter_mut().for_each(|m| m.configuration_demanded = false);
+    assert_eq!(found(&asked).len(), 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::finding::{Finding, Fit};
+use super::finding::{Checked, Finding, Fit};
 use super::posture::{self, beyond};
 use crate::feasibility::reachability::Refusal;
 use crate::feasibility::reachability::joint::{
@@ -11,22 +11,6 @@ use crate::feasibility::reachability::joint::{
 use crate::robot::arm::{AXES, Arm, Joints, Tool};
 use crate::trajectory::program::{Motion, Move, PoseTarget, Program};
 use crate::world::cell::Cell;
-
-/// What came of a program.
-///
-/// `followed` + `ends_only` is the number of moves looked at; a program is executable if `findings` is empty and all
-/// moves were followed.
-///
-/// Nothing is executed: a program that passes is one that the arm can follow in its cell, blends aside.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Checked {
-    /// Moves that were looked at as a whole.
-    pub followed: usize,
-    /// Moves of which only the end was looked at, since where they begin is not known.
-    pub ends_only: usize,
-    /// What the arm cannot do, and what is not found out, in the program's order.
-    pub findings: Vec<Finding>,
-}
 
 /// What stands around the arm, and what its tool takes up.
 #[derive(Debug, Clone, Copy, Default)]
@@ -74,7 +58,18 @@ pub fn check(
     };
     let tools: Vec<Carried> = program.tools.iter().map(of).collect();
     let checked = Checked { followed: 0, ends_only: 0, findings: Vec::new() };
-    let mut walk = Walk { arm, program, tools: &tools, settings, at: None, last: None, from: None, checked };
+    let mut walk = Walk {
+        arm,
+        program,
+        tools: &tools,
+        settings,
+        at: None,
+        last: None,
+        from: None,
+        assumed: false,
+        told: false,
+        checked,
+    };
     for (index, m) in program.moves.iter().take(count).enumerate() {
         walk.step(index, m);
         walk.from = m.motion.name().map(Into::into);
@@ -103,6 +98,10 @@ struct Walk<'a> {
     last: Option<Joints>,
     /// Name of where it stands.
     from: Option<String>,
+    /// Whether it stands there in a posture that a configuration would tell, if one knew what that means.
+    assumed: bool,
+    /// Whether it was told that configurations are not known.
+    told: bool,
     checked: Checked,
 }
 
@@ -111,10 +110,7 @@ impl Walk<'_> {
         *(if self.at.is_some() { &mut self.checked.followed } else { &mut self.checked.ends_only }) += 1;
         let tcp = &self.program.tools[m.tool].tcp;
         match (&m.motion, self.at) {
-            (Motion::AbsoluteJoint(to), _) => match beyond(self.arm, &to.joints, 1.0) {
-                Some(refusal) => self.refuse(index, m, refusal, None, None),
-                None => self.turn(index, m, to.joints),
-            },
+            (Motion::AbsoluteJoint(to), _) => self.stand_as_told(index, m, &to.joints),
             (Motion::Joint(to), _) => self.arrive(index, m, to, to.configuration.filter(|_| m.configuration_demanded)),
             (Motion::Linear(to) | Motion::Circular { to, .. }, None) => {
                 let demanded = to.configuration.filter(|_| m.configuration_demanded);
@@ -134,6 +130,29 @@ impl Walk<'_> {
                 }
             }
         }
+    }
+
+    /// Takes the arm to a posture that the program tells.
+    fn stand_as_told(&mut self, index: usize, m: &Move, joints: &Joints) {
+        let refusal = beyond(self.arm, joints, 1.0);
+        if refusal.is_none() {
+            // The way there begins where the arm may only be assumed to stand.
+            self.turn(index, m, *joints);
+        }
+        self.assumed = false;
+        if let Some(refusal) = refusal {
+            self.refuse(index, m, refusal, None, None);
+        }
+    }
+
+    /// Whether what is demanded is not known to be a posture; told once.
+    fn is_unknown(&mut self, index: usize, m: &Move, demanded: Option<[i32; 4]>) -> bool {
+        let Some(demanded) = demanded.filter(|_| !self.arm.knows_configurations()) else { return false };
+        if !self.told {
+            self.told = true;
+            self.record(index, m, Refusal::UnknownConfiguration { demanded }, None, None);
+        }
+        true
     }
 
     /// Where a posture was never known, the first turns of all axes.
@@ -201,12 +220,17 @@ impl Walk<'_> {
     fn arrive(&mut self, index: usize, m: &Move, to: &PoseTarget, demanded: Option<[i32; 4]>) {
         // Nobody demands it, but where nothing else is known it is what the program's maker saw.
         let seen = to.configuration.filter(|_| demanded.is_none() && self.last.is_none());
+        let unknown = self.is_unknown(index, m, demanded);
         let chosen = match seen {
             Some(_) => self.choose(m, to, seen).or_else(|_| self.choose(m, to, None)),
+            None if unknown => self.choose(m, to, demanded).or_else(|_| self.choose(m, to, None)),
             None => self.choose(m, to, demanded),
         };
         match chosen {
-            Ok(q) => self.turn(index, m, q),
+            Ok(q) => {
+                self.assumed |= unknown;
+                self.turn(index, m, q);
+            }
             Err((refusal, fit)) => self.refuse(index, m, refusal, to.configuration, fit),
         }
     }
@@ -218,6 +242,9 @@ impl Walk<'_> {
                 self.doubt(index, m, way, start);
                 self.stand(Some(followed.end));
                 let demanded = to.configuration.filter(|_| m.configuration_demanded);
+                if self.is_unknown(index, m, demanded) {
+                    return;
+                }
                 if let Some(demanded) = demanded.filter(|cf| !posture::has(self.arm, &followed.end, cf)) {
                     let arrives = self.arm.configuration(&followed.end).numbers();
                     self.refuse(index, m, Refusal::ArrivesOtherwise { demanded, arrives }, Some(demanded), None);
@@ -233,7 +260,7 @@ impl Walk<'_> {
 
     /// The posture at the move's start from which it fits with the most room.
     fn remedy(&self, m: &Move, way: &Way, start: &Joints) -> Option<Fit> {
-        if self.checked.findings.len() >= MOST_REMEDIES {
+        if self.checked.findings.len() >= MOST_REMEDIES || !self.arm.knows_configurations() {
             return None;
         }
         let others = posture::within_limits(self.arm, &self.arm.forward(start), start);
@@ -246,7 +273,8 @@ impl Walk<'_> {
     fn record(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
         let to = m.motion.name().map(Into::into);
         let worth = Worth::of(self.arm, &self.tools[m.tool].tool, &refusal);
-        let (estimated, open) = (worth.in_words(self.arm), matches!(worth, Worth::Undecidable(_)));
+        let unknown = self.assumed || matches!(refusal, Refusal::UnknownConfiguration { .. });
+        let (estimated, open) = (worth.in_words(self.arm), unknown || matches!(worth, Worth::Undecidable(_)));
         let (line, from) = (m.line, self.from.clone());
         self.checked.findings.push(Finding { index, line, from, to, refusal, tried, fit, estimated, open });
     }
@@ -256,6 +284,7 @@ impl Walk<'_> {
         self.record(index, m, refusal, tried, fit);
         let at = m.motion.end().and_then(|to| {
             let demanded = to.configuration.filter(|_| m.configuration_demanded);
+            self.assumed |= demanded.is_some() && !self.arm.knows_configurations();
             self.choose(m, to, demanded).or_else(|_| self.choose(m, to, None)).ok()
         });
         self.stand(at);

@@ -96,6 +96,11 @@ pub enum Refusal {
         /// The one in which it arrives.
         arrives: [i32; 4],
     },
+    /// The target demands a configuration of an arm of which it is not known what that means.
+    UnknownConfiguration {
+        /// \[cf1, cf4, cf6, cfx\] of the target.
+        demanded: [i32; 4],
+    },
 }
 
 impl Refusal {
@@ -113,7 +118,8 @@ impl Refusal {
             | Self::NoArc(_)
             | Self::Turned { .. }
             | Self::NoSuchConfiguration { .. }
-            | Self::ArrivesOtherwise { .. } => {}
+            | Self::ArrivesOtherwise { .. }
+            | Self::UnknownConfiguration { .. } => {}
         }
         self
     }
@@ -131,7 +137,8 @@ impl Refusal {
             Self::Configuration { .. }
             | Self::OtherBranch { .. }
             | Self::NoSuchConfiguration { .. }
-            | Self::ArrivesOtherwise { .. } => "configuration",
+            | Self::ArrivesOtherwise { .. }
+            | Self::UnknownConfiguration { .. } => "configuration",
         }
     }
 
@@ -164,12 +171,10 @@ pub struct InWords<'r> {
     parts: &'r [String],
 }
 
-struct Degrees(f64);
-
-impl fmt::Display for Degrees {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.1}°", self.0.to_degrees())
-    }
+/// Two angles with as many decimals as tell them apart, 1 to 9.
+fn degrees(a: f64, b: f64) -> [String; 2] {
+    let told = |decimals: usize| [a, b].map(|angle| format!("{:.decimals$}°", angle.to_degrees()));
+    (1..9).map(told).find(|[a, b]| a != b).unwrap_or_else(|| told(9))
 }
 
 impl fmt::Display for InWords<'_> {
@@ -186,8 +191,8 @@ impl fmt::Display for InWords<'_> {
             Refusal::OutOfReach { at } => write!(f, "out of reach {}", percent(at)),
             Refusal::JointLimit { axis, angle, bound, at } => {
                 let sign = if angle > bound { '>' } else { '<' };
-                let axis = axis + 1;
-                write!(f, "axis {axis} at {} {sign} {} {}", Degrees(angle), Degrees(bound), percent(at))
+                let (axis, [angle, bound]) = (axis + 1, degrees(angle, bound));
+                write!(f, "axis {axis} at {angle} {sign} {bound} {}", percent(at))
             }
             Refusal::Singular { margin, least, at } => {
                 let measure = match margin.of {
@@ -207,13 +212,8 @@ impl fmt::Display for InWords<'_> {
                 write!(f, "{} and {} {verb} {}", body_name(a), body_name(b), percent(at))
             }
             Refusal::Configuration { axis, arrives, wanted } => {
-                write!(
-                    f,
-                    "configuration change: axis {} arrives at {}, not {}",
-                    axis + 1,
-                    Degrees(arrives),
-                    Degrees(wanted)
-                )
+                let [arrives, wanted] = degrees(arrives, wanted);
+                write!(f, "configuration change: axis {} arrives at {arrives}, not {wanted}", axis + 1)
             }
             Refusal::OtherBranch { cfx } => write!(f, "reached in other configurations than cfx {cfx} only"),
             Refusal::NoArc(why) => write!(f, "no arc: {why}"),
@@ -226,6 +226,12 @@ impl fmt::Display for InWords<'_> {
             Refusal::ArrivesOtherwise { demanded, arrives } => {
                 write!(f, "arrives in the configuration {}, the target demands {}", list(arrives), list(demanded))
             }
+            Refusal::UnknownConfiguration { demanded } => write!(
+                f,
+                "the configuration {} is demanded, and which posture that is of an arm without `opw` is not known; \
+                 here and from here on the nearest is taken",
+                list(demanded)
+            ),
         }
     }
 }

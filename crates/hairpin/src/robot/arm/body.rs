@@ -1,6 +1,6 @@
 //! Links as capsules and hulls, how well these are known, and masses where they are.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::chain::Chain;
 use super::joints::{AXES, Joints};
@@ -64,8 +64,8 @@ pub struct Mass {
     pub mass: f64,
     /// Centre of mass, m.
     pub centre: Point3<f64>,
-    /// Principal moments about the centre along the link's axes, kg m².
-    pub inertia: Vector3<f64>,
+    /// Tensor of inertia about the centre in the link's axes, kg m².
+    pub inertia: Matrix3<f64>,
 }
 
 /// One link.

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -202,8 +202,6 @@ pub struct HullDescription {
 }
 
 /// Mass of a link.
-///
-/// Products of inertia are taken to be 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MassDescription {
@@ -216,6 +214,21 @@ pub struct MassDescription {
     /// Moments of inertia about the centre along the link's axes; a point if not given.
     #[serde(default)]
     pub inertia_kg_m2: [f64; 3],
+    /// Products of inertia about the centre, the tensor's xy, xz and yz; 0 if not given.
+    #[serde(default, skip_serializing_if = "are_zero")]
+    pub products_kg_m2: [f64; 3],
+}
+
+fn are_zero(numbers: &[f64; 3]) -> bool {
+    *numbers == [0.0; 3]
+}
+
+impl MassDescription {
+    /// The tensor of inertia about the centre, kg m².
+    pub fn tensor(&self) -> Matrix3<f64> {
+        let ([xx, yy, zz], [xy, xz, yz]) = (self.inertia_kg_m2, self.products_kg_m2);
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
 }
 
 /// What is no more than this (m) larger than a shape is taken for it.
@@ -382,10 +395,13 @@ impl ArmDescription {
             for moment in given.inertia_kg_m2 {
                 within(&key("inertia_kg_m2"), moment, 0.0, 1e6)?;
             }
+            for product in given.products_kg_m2 {
+                within(&key("products_kg_m2"), product, -1e6, 1e6)?;
+            }
             masses[given.link] = Some(Mass {
                 mass: within(&key("mass_kg"), given.mass_kg, 0.0, 1e5)?,
                 centre: (place(&key("centre_mm"), &given.centre_mm)? * 1e-3).into(),
-                inertia: given.inertia_kg_m2.into(),
+                inertia: given.tensor(),
             });
         }
         let given = masses.iter().flatten().count();

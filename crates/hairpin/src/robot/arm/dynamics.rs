@@ -3,7 +3,7 @@
 //! Masses are seldom public: where a file has none, costs that would take torques say that they take accelerations
 //! instead.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::{AXES, Arm, Joints, Tool};
 
@@ -22,8 +22,8 @@ impl Arm {
     /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul,
     /// "On-line computational scheme for mechanical manipulators", 1980.)
     ///
-    /// q in rad, q̇ in rad/s, q̈ in rad/s². The tool is a point mass at its centre of mass; links have principal axes
-    /// along their frames.
+    /// q in rad, q̇ in rad/s, q̈ in rad/s². The tool is a point mass at its centre of mass; links have whole tensors of
+    /// inertia.
     pub fn torques(&self, tool: &Tool, q: &Joints, speed: &Joints, acceleration: &Joints) -> Option<Joints> {
         let frames = self.chain.frames(q);
         let axes = self.chain.axes(&frames);
@@ -41,7 +41,7 @@ impl Arm {
             spin += axis * speed[k];
             let mass = self.links[k + 1].mass?;
             let rotation = frames[k + 1].rotation.to_rotation_matrix();
-            let inertia = rotation.matrix() * Matrix3::from_diagonal(&mass.inertia) * rotation.matrix().transpose();
+            let inertia = rotation.matrix() * mass.inertia * rotation.matrix().transpose();
             centres[k] = frames[k + 1] * mass.centre;
             forces[k] = (linear + acceleration_at(&turning, &spin, &(centres[k] - origin))) * mass.mass;
             moments[k] = inertia * turning + spin.cross(&(inertia * spin));
@@ -82,6 +82,7 @@ mod tests {
                 mass_kg: 7.0 - link as f64,
                 centre_mm: [10.0 * link as f64, -5.0, 40.0],
                 inertia_kg_m2: [0.02, 0.03, 0.01 * link as f64],
+                products_kg_m2: [0.004, -0.003, 0.002],
             })
             .collect();
         let tool = Tool::new("t", [0.0, 0.0, 100.0], [1.0, 0.0, 0.0, 0.0], 0.0, 1.5, [20.0, 0.0, 60.0]).unwrap();
@@ -109,7 +110,7 @@ mod tests {
                     * (after[link].rotation * before[link].rotation.inverse())
                     * now[link].rotation;
                 let spin = turn.scaled_axis() / (2.0 * h);
-                sum += 0.5 * spin.component_mul(&spin).dot(&mass.inertia);
+                sum += 0.5 * spin.dot(&(mass.inertia * spin));
             }
         }
         sum

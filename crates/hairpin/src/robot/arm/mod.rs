@@ -146,6 +146,14 @@ impl Arm {
         }
     }
 
+    /// Whether it is known which posture a controller's cfx means.
+    ///
+    /// cfx counts from wrist, elbow and shoulder, which only arms with a closed form have: of others [`Arm::branch`]
+    /// tells postures apart here, and no controller.
+    pub fn knows_configurations(&self) -> bool {
+        matches!(self.kinematics, Kinematics::Opw(_))
+    }
+
     /// Which solution `q` is. Without a closed form only the sign of axis 5 tells.
     pub fn branch(&self, q: &Joints) -> Branch {
         match &self.kinematics {

@@ -377,7 +377,13 @@ fn files_are_held_to_their_bounds() {
     assert_eq!(wrong(&|arm| arm.joints.speed_deg_s[5] = 0.0), "joints.speed_deg_s[5]");
     let capsule = CapsuleDescription { link: 7, a_mm: [0.0; 3], b_mm: [0.0; 3], radius_mm: 10.0, larger_mm: 0.0 };
     assert_eq!(wrong(&|arm| arm.capsules = vec![capsule]), "capsules[0].link");
-    let mass = MassDescription { link: 1, mass_kg: 3.0, centre_mm: [0.0; 3], inertia_kg_m2: [0.0; 3] };
+    let mass = MassDescription {
+        link: 1,
+        mass_kg: 3.0,
+        centre_mm: [0.0; 3],
+        inertia_kg_m2: [0.0; 3],
+        products_kg_m2: [0.0; 3],
+    };
     assert_eq!(wrong(&|arm| arm.masses = vec![mass]), "masses");
     assert_eq!(wrong(&|arm| arm.masses = vec![mass, mass]), "masses[1].link");
     let joint = ChainJoint { xyz_mm: [0.0, 0.0, 100.0], rpy_deg: [0.0; 3], axis: [0.0, 0.0, 0.0] };

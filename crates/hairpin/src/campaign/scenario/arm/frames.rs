@@ -27,8 +27,15 @@ impl ArmScenario {
         let (user, frame) = ((object.uframe_mm, object.uframe_q1_q4), (object.oframe_mm, object.oframe_q1_q4));
         let object = WorkObject::new(&object.name, user, frame).map_err(|error| mistake("world.wobj", error))?;
         // User frames stand in the world; the arm's programs are in its base.
-        let world_from_base = frame_of("world.base_frame", &self.world.base_frame)?;
-        Ok(WorkObject { user: world_from_base.inverse() * object.user, ..object })
+        Ok(WorkObject { user: self.world_from_base()?.inverse() * object.user, ..object })
+    }
+
+    /// Where the arm's base stands.
+    ///
+    /// # Errors
+    /// The key of `world.base_frame` whose value makes none.
+    pub(in crate::campaign) fn world_from_base(&self) -> Result<Isometry3<f64>, Mistake> {
+        frame_of("world.base_frame", &self.world.base_frame)
     }
 
     /// The same as programs have them.

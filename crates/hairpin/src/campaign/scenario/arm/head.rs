@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{ArmControllerKind, ArmScenario, CostSection, PointsSource, ProgramMethod};
+use super::{ArmControllerKind, ArmScenario, CostSection, PointsFrame, PointsSource, ProgramMethod};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
@@ -128,7 +128,8 @@ impl Keys for ArmScenario {
         };
         let controller = Steering::users_mut(self.execute.controller.as_mut());
         let (target, baseline) = (self.generate.search.target.as_mut(), self.spec.regression.as_mut());
-        Named { map: None, cloud, costs, meshes: meshes.collect(), score, target, controller, baseline }
+        let (meshes, in_object) = (meshes.collect(), self.task.points_in.frame == PointsFrame::Wobj);
+        Named { map: None, cloud, in_object, costs, meshes, score, target, controller, baseline }
     }
 
     fn frames(&self) -> Option<(Tool, WorkObject)> {

@@ -16,7 +16,8 @@ pub struct CellSection {
     /// What the arm must not touch.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<CellObstacle>,
-    /// Inequations over x, y, z in mm, such as `x^2 + y^2 < 190^2 and z < 480`: where they hold nothing may be.
+    /// Inequations over x, y, z in mm, such as `x^2 + y^2 < 190^2 and z < 480`: where they hold the tool may not be.
+    /// Links are not held against them: around the base they would forbid the arm itself; shapes in `obstacles` are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keep_out_mm: Vec<String>,
 }
