@@ -137,7 +137,7 @@ pub(crate) fn cases_of(setup: &Setup, known: &[Case], legs: &[Leg]) -> Result<Ve
             false => case.waypoints == *waypoints,
         });
         // The plan of the case is not the one that holds the speeds of the mission.
-        let same = same.filter(|_| !asked::takes_speeds_of_plan(&work.setup, leg));
+        let same = same.filter(|_| !asked::takes_speeds_of_plan(setup, leg));
         let mut case = match same {
             Some(case) => Case { number: CaseNumber(number), seed, ..case.clone() },
             None => witnessed(Case::bare(CaseNumber(number), seed, waypoints.clone()), checked.as_ref()),

@@ -18,8 +18,8 @@ use crate::campaign::scenario::{
 };
 use crate::feasibility::reach::drive::GroundScore;
 use crate::math::simd::Simd;
-use crate::robot::rover::{MOST_SPEED, Rover, Steering};
-use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
+use crate::robot::rover::{Rover, Steering};
+use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
 const MOST_NODES: u64 = 5_000;
