@@ -1,5 +1,5 @@
-//! Velocities are told beside places, and have to be theirs: over every stretch of a flight they add up to the way. What
-//! does not is in another unit or another frame, and accelerations would be judged that nobody flew.
+//! Velocities are told beside places, and have to be theirs: over every stretch of a flight they add up to the way.
+//! What does not is in another unit or another frame, and accelerations would be judged that nobody flew.
 //!
 //! Told velocities v and places p of a stretch of about two seconds, along each axis of the world:
 //!
@@ -8,10 +8,10 @@
 //! ```
 //!
 //! The second term is what any honest way of integrating may differ by: it takes either end's velocity for the whole
-//! step h, or speeds up and brakes within it by a = 4 m/s². A stretch is off that exceeds the right side, over all axes,
-//! by more than a tenth of its way; where more than a third of those that move are off the promise is broken: velocities
-//! are in another unit throughout, and a place that jumps once is for the judge. Steps longer than 0.2 s are left out: a
-//! robot may stop at each of their ends.
+//! step h, or speeds up and brakes within it by a = 4 m/s². A stretch is off that exceeds the right side, over all
+//! axes, by more than a tenth of its way; where more than a third of those that move are off the promise is broken:
+//! velocities are in another unit throughout, and a place that jumps once is for the judge. Steps longer than 0.2 s
+//! are left out: a robot may stop at each of their ends.
 
 use std::fmt;
 
@@ -172,6 +172,9 @@ fn stretches(times: &[f64], poses: &[Isometry3<f64>], velocities: &[[f64; 3]]) -
     all
 }
 
+/// What a slip made of a stretch's way, undone.
+type Image = fn(&Stretch) -> Vector3<f64>;
+
 /// The slip whose mending comes nearest to the places, if it comes near.
 fn misread(stretches: &[Stretch]) -> Misread {
     let sum = |of: &dyn Fn(&Stretch) -> f64| stretches.iter().map(of).sum::<f64>();
@@ -179,7 +182,7 @@ fn misread(stretches: &[Stretch]) -> Misread {
     if sum(&|one| one.told.norm()) < 0.01 * whole {
         return Misread::Zero;
     }
-    let images: [(Misread, fn(&Stretch) -> Vector3<f64>); 5] = [
+    let images: [(Misread, Image); 5] = [
         (Misread::KilometresAnHour, |one| one.told / 3.6),
         (Misread::Ned, |one| Vector3::new(one.told.y, one.told.x, -one.told.z)),
         (Misread::Down, |one| Vector3::new(one.told.x, one.told.y, -one.told.z)),
@@ -215,12 +218,12 @@ mod tests {
         disagreement(&times, &poses, &velocities)
     }
 
+    type Read<'a> = dyn Fn(Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64> + 'a;
+
     /// Each slip is named; what is right passes however it is sampled, delayed or noisy.
     #[test]
     fn velocities_are_those_of_the_places() {
-        let slip = |read: &dyn Fn(Vector3<f64>, &UnitQuaternion<f64>) -> Vector3<f64>| {
-            [0.01, 0.05, 0.1].map(|step| told(step, read).map(|found| found.slip))
-        };
+        let slip = |read: &Read<'_>| [0.01, 0.05, 0.1].map(|step| told(step, read).map(|found| found.slip));
         let ned = |v: Vector3<f64>| Vector3::new(v.y, v.x, -v.z);
         assert_eq!(slip(&|v, _| v), [None; 3]);
         assert_eq!(slip(&|v, _| 1.1 * v), [None; 3]);

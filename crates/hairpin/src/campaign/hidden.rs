@@ -1,8 +1,8 @@
-//! What may hide between the samples of a program's flight: who flies it samples as he likes, and five poses of a flight
-//! keep any limit.
+//! What may hide between the samples of a program's flight: who flies it samples as he likes, and five poses of a
+//! flight keep any limit.
 //!
-//! Bounded as what hides in a log is ([`look_closely`]). Our own simulators sample as their integration goes, and nothing
-//! is asked of them.
+//! Bounded as what hides in a log is ([`look_closely`]). Our own simulators sample as their integration goes, and
+//! nothing is asked of them.
 
 use nalgebra::Point3;
 
@@ -11,10 +11,9 @@ use super::digits::number;
 use crate::judgement::{JudgementError, Measures, Settings, Swiftness, look_closely, measure, told};
 use crate::trajectory::Track;
 
-/// Measures a track and, where a program of the user's told it, the largest deviation that may hide between its samples.
-///
-/// Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is. A model's top speed is no
-/// bound of another simulator's.
+/// Measures a track and, where a program of the user's told it, the largest deviation that may hide between its
+/// samples.  Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is. A model's top
+/// speed is no bound of another simulator's.
 pub(super) fn sampled(
     setup: &Setup,
     track: &Track,

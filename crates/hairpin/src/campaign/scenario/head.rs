@@ -236,7 +236,8 @@ pub trait Keys: Any {
         self.head().confidence
     }
 
-    /// Confidence of all intervals that are told of its cases, runs and draws: that of the spec, 0.95 where it says none.
+    /// Confidence of all intervals that are told of its cases, runs and draws: that of the spec, 0.95 where it says
+    /// none.
     fn confidence_of_intervals(&self) -> f64 {
         self.confidence().unwrap_or(CONFIDENCE)
     }

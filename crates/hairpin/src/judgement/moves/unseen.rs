@@ -7,7 +7,8 @@
 //! sample.
 //!
 //! Data flow: plan and recording are aligned (`align`) → gaps, ends, moves without samples, what was left out → each
-//! is held against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict open.
+//! is held against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict
+//! open.
 
 mod left_out;
 

@@ -138,8 +138,8 @@ impl QuadrotorDescription {
     ///
     /// # Errors
     /// The first key whose value is out of bounds, with the bound: not finite, absurd in magnitude, a layout that
-    /// cannot make roll, pitch and yaw, less thrust than weight, a robot that cannot hover level, a ball around the body
-    /// that does not hold its rotors' hubs.
+    /// cannot make roll, pitch and yaw, less thrust than weight, a robot that cannot hover level, a ball around the
+    /// body that does not hold its rotors' hubs.
     pub fn build(&self) -> Result<Quadrotor, QuadrotorError> {
         if self.name.trim().is_empty() {
             return Err(QuadrotorError::new("name", "\"\"", "a name for reports"));
