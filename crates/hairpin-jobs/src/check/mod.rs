@@ -123,13 +123,17 @@ fn waits(mission: &Mission) -> String {
     }
 }
 
-/// What is to be said of heights that the witness has not: of what drives they are the ground's.
+/// What is to be said of heights that the witness has not: of what drives they are the ground's, which in the open is
+/// level wherever the mission begins.
 fn heights(mission: &Mission, passage: &Passage) -> String {
     let Some(witness) = &passage.witness else { return String::new() };
-    let off = mission.waypoints.iter().zip(&witness.waypoints).map(|(asked, there)| (asked.z - there.z).abs());
-    let most = off.fold(0.0, f64::max);
-    match most > HEIGHT {
-        true => format!("; heights are the ground's: those of the mission, up to {most:.2} m off, are not looked at"),
+    let off = mission.waypoints.iter().zip(&witness.waypoints).map(|(asked, there)| asked.z - there.z);
+    let (least, most) = off.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), off| (a.min(off), b.max(off)));
+    match most - least > HEIGHT {
+        true => format!(
+            "; heights are the ground's: those of the mission, which leave it by {:.2} m, are not looked at",
+            most - least
+        ),
         false => String::new(),
     }
 }
@@ -200,8 +204,9 @@ mod tests {
             assert!(found.passage.witness.is_some(), "{robot}");
         }
         // What drives stands on the ground, whatever height the mission has.
-        let high = checked("x_m,y_m,z_m\n0,0,3\n6,0,3\n12,2,3\n", "car", None);
-        assert!(high.verdict.sentence.contains("heights are the ground's: those of the mission, up to 3.00 m off"));
+        let high = checked("x_m,y_m,z_m\n0,0,0\n6,0,3\n12,2,3\n", "car", None);
+        let words = "heights are the ground's: those of the mission, which leave it by 3.00 m";
+        assert!(high.verdict.sentence.contains(words), "{}", high.verdict.sentence);
         let arm = CheckSettings { mission: "a.csv".into(), robot: "irb120".into(), ..CheckSettings::default() };
         assert!(check(&arm, &Unwatched).is_err());
     }

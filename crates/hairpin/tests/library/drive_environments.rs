@@ -28,9 +28,11 @@ fn setup(asked: Asked) -> Setup {
     let search = json!({
         "method": "in-loop", "waypoints": 24, "cases": asked.cases, "executions": asked.executions, "stress": "clearance",
     });
+    // The wheels of the differential drive go at 0.22 m/s.
+    let speed = if asked.robot == "differential-drive" { 0.2 } else { 1.5 };
     let generate = json!({
         "reach": asked.reach, "step_s": 2.0, "headings": 2, "speed": { "profile": "trapezoid" },
-        "limits": { "speed_m_s": 1.5, "curvature_1_m": 1.0, "curvature_rate_1_m2": 1.5 },
+        "limits": { "speed_m_s": speed, "curvature_1_m": 1.0, "curvature_rate_1_m2": 1.5 },
         "search": search, "environment": { "obstacles": { "count": 2, "radius_m": 0.3 } },
     });
     let scenario = json!({

@@ -75,9 +75,9 @@ pub(super) fn misnamed(setup: &ArmSetup) -> Option<String> {
     is_misnamed.then(|| other("world.wobj", "wobj0", "the world", "a frame"))
 }
 
-/// Whether a frame is another one than that which it is given in, by a nanometre or a nanoradian.
+/// Whether a frame is another one than that which it is given in, by a nanometre or some nanoradians.
 fn is_elsewhere(frame: &Isometry3<f64>) -> bool {
-    frame.translation.vector.norm() > 1e-9 || frame.rotation.angle() > 1e-9
+    frame.translation.vector.norm() > 1e-9 || frame.rotation.vector().norm() > 1e-9
 }
 
 fn counts_effort(cost: &CostSection) -> bool {

@@ -28,6 +28,7 @@
 //! After T. Howard and A. Kelly, "Optimal rough terrain trajectory generation for wheeled mobile robots", IJRR 26(2),
 //! 2007.
 
+mod at_speed;
 mod body;
 mod contact;
 mod description;

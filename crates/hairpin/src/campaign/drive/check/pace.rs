@@ -1,10 +1,10 @@
-//! Bounds of speeds, and of the limits of a drive, with what of them the vehicle has a use for.
+//! Bounds of speeds, and of the limits of a drive.
 
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{DriveGenerate, DriveLimits, ProfileName};
-use crate::robot::rover::{MOST_SPEED, Rims, Rover, Suspension};
+use crate::robot::rover::{MOST_SPEED, Rims, Rover};
 
-/// Limits that the vehicle can break; those of its speed leave its wheels room to turn.
+/// Limits within what is meant by them; those of speed leave driven wheels room to turn.
 pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &mut Findings) {
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
@@ -29,13 +29,6 @@ pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &
     }
     if let Some(clearance) = limits.belly_clearance_m {
         found.from("generate.limits.belly_clearance_m", clearance, 0.0, 10.0, " m");
-    }
-    let level = rover.is_some_and(|rover| rover.suspension == Suspension::Level);
-    for (key, given) in [("tilt_deg", limits.tilt_deg), ("belly_clearance_m", limits.belly_clearance_m)] {
-        if let Some(value) = given.filter(|_| level) {
-            let bound = "left out: the robot has no suspension, so that it stands level on all ground";
-            found.require(false, &format!("generate.limits.{key}"), value, bound);
-        }
     }
 }
 
