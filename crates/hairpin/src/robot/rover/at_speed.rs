@@ -7,7 +7,7 @@ impl Rover {
     /// its default speed.
     ///
     /// What depends on the speed are the curvatures of vehicles without a suspension: the outer rim of a differential
-    /// drive keeps its limits ([`Rims`]), the steering of a car its rate, |κ′| ≤ δ̇/(L v).
+    /// drive keeps its limits ([`Rims`](super::Rims)), the steering of a car its rate, |κ′| ≤ δ̇/(L v).
     pub fn limits_at(&self, speed: f64, acceleration: f64) -> Limits {
         let mut limits = self.limits;
         if let Some(rims) = &self.rims {
