@@ -186,20 +186,7 @@ mod tests {
     use super::*;
 
     fn saved(status: Status) -> Replayed {
-        let result = CaseResult {
-            case: CaseNumber(0),
-            status,
-            run: 0,
-            measures: None,
-            ended: status.word().into(),
-            left_world: None,
-            violations: Vec::new(),
-            drawn: Vec::new(),
-            message: None,
-            reruns: None,
-            draws: None,
-        };
-        Replayed { file: "0000.json".into(), result }
+        Replayed { file: "0000.json".into(), result: CaseResult::bare(CaseNumber(0), status) }
     }
 
     /// The gravest leads, nothing that is no pass is left out, and the campaign's own violation stays first.

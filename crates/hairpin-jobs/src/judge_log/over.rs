@@ -27,17 +27,11 @@ pub(super) fn of_flight(
 ) -> Result<JudgedLog, Problem> {
     let flown = judged.found.as_ref().and_then(|found| found.flown.as_ref());
     let result = CaseResult {
-        case: case.number,
-        status: judged.outcome.status(),
-        run: 0,
         measures: flown.map(|flown| flown.measures.clone()),
         ended: judged.found.as_ref().map_or("", ended).into(),
-        left_world: None,
         violations: flown.map_or_else(Vec::new, |flown| flown.violations.clone()),
-        drawn: Vec::new(),
         message: why(&judged),
-        reruns: None,
-        draws: None,
+        ..CaseResult::bare(case.number, judged.outcome.status())
     };
     let begins = judged.found.as_ref().and_then(|found| found.span_s).map_or(0.0, |[from, _]| from);
     let moment = judged.found.as_ref().and_then(moment);

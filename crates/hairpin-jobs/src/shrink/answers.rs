@@ -193,13 +193,12 @@ impl Answer {
             at: v.at_s,
             leg: v.leg,
         };
+        let status = match (&self.unflown, self.violations.is_empty()) {
+            (Some(_), _) => Status::ExecutorFailed,
+            (None, true) => Status::Pass,
+            (None, false) => Status::Fail,
+        };
         CaseResult {
-            case,
-            status: match (&self.unflown, self.violations.is_empty()) {
-                (Some(_), _) => Status::ExecutorFailed,
-                (None, true) => Status::Pass,
-                (None, false) => Status::Fail,
-            },
             run,
             measures: Some(Measures {
                 max_deviation: self.max_deviation_m,
@@ -208,12 +207,9 @@ impl Answer {
                 ..Measures::default()
             }),
             ended: self.ended.clone(),
-            left_world: None,
             violations: self.violations.iter().map(violation).collect(),
-            drawn: Vec::new(),
             message: self.unflown.clone(),
-            reruns: None,
-            draws: None,
+            ..CaseResult::bare(case, status)
         }
     }
 }

@@ -432,20 +432,29 @@ impl Undone {
 }
 
 impl CaseResult {
-    /// The result of a case of which something was left undone: neither pass nor fail.
-    pub fn undone(case: CaseNumber, what: Undone) -> Self {
+    /// A result of which there is no more than the status, in whose word it also ended: of run 0, nothing measured.
+    pub fn bare(case: CaseNumber, status: Status) -> Self {
         Self {
             case,
-            status: Status::Inconclusive,
+            status,
             run: 0,
             measures: None,
-            ended: what.word().into(),
+            ended: status.word().into(),
             left_world: None,
             violations: Vec::new(),
             drawn: Vec::new(),
-            message: Some(format!("{}: the budget of time was used up", what.word().replace('-', " "))),
+            message: None,
             reruns: None,
             draws: None,
+        }
+    }
+
+    /// The result of a case of which something was left undone: neither pass nor fail.
+    pub fn undone(case: CaseNumber, what: Undone) -> Self {
+        Self {
+            ended: what.word().into(),
+            message: Some(format!("{}: the budget of time was used up", what.word().replace('-', " "))),
+            ..Self::bare(case, Status::Inconclusive)
         }
     }
 

@@ -140,17 +140,9 @@ mod tests {
 
     fn results(of: &[Option<f64>], measure: fn(f64) -> Measures) -> Vec<CaseResult> {
         let one = |(number, value): (usize, &Option<f64>)| CaseResult {
-            case: CaseNumber(number),
-            status: Status::Unjudged,
-            run: 0,
             measures: value.map(measure),
             ended: "done".into(),
-            left_world: None,
-            violations: Vec::new(),
-            drawn: Vec::new(),
-            message: None,
-            reruns: None,
-            draws: None,
+            ..CaseResult::bare(CaseNumber(number), Status::Unjudged)
         };
         of.iter().enumerate().map(one).collect()
     }

@@ -257,18 +257,12 @@ mod tests {
                 Violation { what: "deviation".into(), value: deviation, limit, unit: "m".into(), at: 1.0, leg: 0 };
             let ways = vec![Point3::origin(), Point3::new(number as f64, 0.0, 0.0)];
             let case = Case::bare(CaseNumber(number), number as u64, ways);
+            let status = if fails { Status::Fail } else { Status::Pass };
             let result = CaseResult {
-                case: CaseNumber(number),
-                status: if fails { Status::Fail } else { Status::Pass },
-                run: 0,
                 measures: Some(Measures { max_deviation: deviation, ..Measures::default() }),
                 ended: "done".into(),
-                left_world: None,
                 violations: if fails { vec![violation] } else { Vec::new() },
-                drawn: Vec::new(),
-                message: None,
-                reruns: None,
-                draws: None,
+                ..CaseResult::bare(CaseNumber(number), status)
             };
             (case, result)
         };

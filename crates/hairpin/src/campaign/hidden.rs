@@ -12,8 +12,10 @@ use crate::judgement::{JudgementError, Measures, Settings, Swiftness, look_close
 use crate::trajectory::Track;
 
 /// Measures a track and, where a program of the user's told it, the largest deviation that may hide between its
-/// samples.  Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is. A model's top
-/// speed is no bound of another simulator's.
+/// samples.
+///
+/// Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is. A model's top speed is no
+/// bound of another simulator's.
 pub(super) fn sampled(
     setup: &Setup,
     track: &Track,

@@ -101,17 +101,11 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             draws,
         },
         None => CaseResult {
-            case: case.number,
-            status,
             run: runs.first().map_or(0, |run| run.run),
-            ended: status.word().into(),
-            left_world: None,
-            measures: None,
-            violations: Vec::new(),
             drawn: runs.first().map_or_else(Vec::new, |run| run.drawn.clone()),
             message,
-            reruns: None,
             draws,
+            ..CaseResult::bare(case.number, status)
         },
     };
     Ok((result, deviations))

@@ -54,17 +54,9 @@ mod tests {
 
     fn results(of: &[f64], measure: fn(f64) -> Measures) -> Vec<CaseResult> {
         let one = |(number, value): (usize, &f64)| CaseResult {
-            case: CaseNumber(number),
-            status: Status::Unjudged,
-            run: 0,
             measures: Some(measure(*value)),
             ended: "done".into(),
-            left_world: None,
-            violations: Vec::new(),
-            drawn: Vec::new(),
-            message: None,
-            reruns: None,
-            draws: None,
+            ..CaseResult::bare(CaseNumber(number), Status::Unjudged)
         };
         of.iter().enumerate().map(one).collect()
     }
