@@ -13,7 +13,7 @@ use std::sync::Arc;
 use arrow_array::types::{Float32Type, Float64Type};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
 use hairpin::campaign::CaseNumber;
-use hairpin::trajectory::bends::period;
+use hairpin::trajectory::between::period;
 use hairpin::trajectory::{Channel, Tolerances, Track, bends};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 

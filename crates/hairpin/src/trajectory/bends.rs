@@ -1,15 +1,10 @@
-//! The rows of a track where it bends, and the motion between them: a few rows say what thousands do.
-//!
-//! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, and of
-//! everything else, the straight line. Attitudes are the line's, made rotations again.
+//! The rows of a track where it bends: a few of them say what thousands do, by the motion
+//! [between](super::between) them.
 
 use std::collections::BTreeSet;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
-
-use super::track::{Channel, Track};
-
-const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
+use super::between::{VELOCITY, dot, nearer, place, rate, velocity_of};
+use super::track::Track;
 
 /// How far the motion between rows may be from the rows that are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,12 +25,29 @@ impl Default for Tolerances {
 }
 
 /// The rows to keep so that the motion between them stays within `tolerances` of all others: both ends, those in
-/// `marked`, those before and after every change of the channel `leg` and of whether `saturated` is 0, and where the
-/// rest is worst met, one after the other.
+/// `marked`, those before and after every change of the channel `leg` and of whether `saturated` is 0, and of the rest
+/// from each row the farthest one that the motion reaches within them.
 ///
-/// Linear in rows, columns and the logarithm of the rows that are kept.
+/// Farthest as doubled and halved strides find it. Where nearer rows are reached whenever farther ones are, no choice
+/// has fewer rows. Linear in rows and columns, times the logarithm of the longest stride.
 pub fn bends(track: &Track, marked: &BTreeSet<usize>, tolerances: &Tolerances) -> Vec<usize> {
     let Some(last) = track.len().checked_sub(1) else { return Vec::new() };
+    let columns = Columns::of(track, tolerances);
+    let (mut rows, mut stride, mut errors) = (vec![0], 1, Vec::new());
+    for end in always(track, marked, last).into_iter().skip(1) {
+        while let from = rows[rows.len() - 1]
+            && from < end
+        {
+            let to = columns.reach(from, end, stride, &mut errors);
+            stride = to - from;
+            rows.push(to);
+        }
+    }
+    rows
+}
+
+/// The rows that are kept whatever the motion does, both ends among them.
+fn always(track: &Track, marked: &BTreeSet<usize>, last: usize) -> BTreeSet<usize> {
     let mut kept: BTreeSet<usize> = marked.iter().copied().filter(|row| *row <= last).collect();
     kept.extend([0, last]);
     let mut at_changes = |channel: &str, differ: fn(f64, f64) -> bool| {
@@ -44,16 +56,7 @@ pub fn bends(track: &Track, marked: &BTreeSet<usize>, tolerances: &Tolerances) -
     };
     at_changes("leg", |a, b| a != b);
     at_changes("saturated", |a, b| (a == 0.0) != (b == 0.0));
-    let columns = Columns::of(track, tolerances);
-    let mut open: Vec<(usize, usize)> = kept.iter().copied().zip(kept.iter().copied().skip(1)).collect();
-    let mut errors = Vec::new();
-    while let Some((from, to)) = open.pop() {
-        if let Some(worst) = columns.worst_between(from, to, &mut errors) {
-            kept.insert(worst);
-            open.extend([(from, worst), (worst, to)]);
-        }
-    }
-    kept.into_iter().collect()
+    kept
 }
 
 /// The columns of a track, side by side.
@@ -92,14 +95,37 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The row between two that are kept where the motion between them is farthest off; `None` where it is near enough
-    /// everywhere. Errors are squares of tolerances.
-    fn worst_between(&self, from: usize, to: usize, errors: &mut Vec<f64>) -> Option<usize> {
+    /// The farthest row, `end` at most, that the motion from `from` reaches with all rows between within tolerance.
+    ///
+    /// Strides grow from `stride` by doubling what is added, and are halved between the last that was and the first that
+    /// was not within.
+    fn reach(&self, from: usize, end: usize, stride: usize, errors: &mut Vec<f64>) -> usize {
+        let (mut within, mut beyond, mut more) = (from + 1, end + 1, (stride / 8).max(1));
+        let mut next = (from + stride).clamp(within, end);
+        loop {
+            if self.within(from, next, errors) {
+                within = next
+            } else {
+                beyond = next
+            }
+            if beyond - within <= 1 {
+                return within;
+            }
+            next = if beyond > end { (within + more).min(end) } else { within.midpoint(beyond) };
+            more *= 2;
+        }
+    }
+
+    /// Whether all rows between two are within tolerance of the motion between these.
+    ///
+    /// Column by column, as most spans that are too long are so in the first ones. Errors are squares of tolerances.
+    fn within(&self, from: usize, to: usize, errors: &mut Vec<f64>) -> bool {
         if to - from < 2 {
-            return None;
+            return true;
         }
         let (inside, span) = (from + 1..to, self.times[to] - self.times[from]);
         let share = |row: usize| (self.times[row] - self.times[from]) / span;
+        let none_over = |errors: &[f64]| errors.iter().all(|error| *error <= 1.0);
         errors.clear();
         errors.resize(inside.len(), 0.0);
         for axis in 0..3 {
@@ -110,6 +136,9 @@ impl<'a> Columns<'a> {
                 let off = place(share(row), ends, speeds) - values[row];
                 *error += off * off * self.position_scale;
             }
+        }
+        if !none_over(errors) {
+            return false;
         }
         if let Some(columns) = self.velocity {
             for ((axis, values), scale) in columns.into_iter().enumerate().zip(self.velocity_scale) {
@@ -129,15 +158,12 @@ impl<'a> Columns<'a> {
             let cosine = dot(&at, &q).abs() / (dot(&at, &at) * dot(&q, &q)).sqrt();
             *error = error.max(2.0 * (1.0 - cosine) * self.attitude_scale);
         }
-        for (values, scale) in &self.others {
-            let (a, slope) = (values[from], values[to] - values[from]);
-            for (error, row) in errors.iter_mut().zip(inside.clone()) {
-                let off = (a + slope * share(row) - values[row]) * scale;
-                *error = error.max(off * off);
-            }
-        }
-        let worst = errors.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-        (*worst.1 > 1.0).then_some(from + 1 + worst.0)
+        none_over(errors)
+            && self.others.iter().all(|(values, scale)| {
+                let (a, slope) = (values[from], values[to] - values[from]);
+                let off = |row: usize| (a + slope * share(row) - values[row]) * scale;
+                inside.clone().all(|row| off(row).abs() <= 1.0)
+            })
     }
 
     fn attitude_of(&self, row: usize) -> [f64; 4] {
@@ -145,160 +171,12 @@ impl<'a> Columns<'a> {
     }
 }
 
-fn velocity_of(track: &Track) -> Option<[&[f64]; 3]> {
-    let [x, y, z] = VELOCITY.map(|name| track.channel(name));
-    Some([x?, y?, z?])
-}
-
-/// Between the `ends` at `share`: on the cubic that has both ways a span at their `speeds`, or on the line.
-fn place(share: f64, [a, b]: [f64; 2], speeds: Option<[f64; 2]>) -> f64 {
-    let line = a + (b - a) * share;
-    let Some([v, w]) = speeds else { return line };
-    let (back, way) = (1.0 - share, b - a);
-    line + share * back * (back * (v - way) - share * (w - way))
-}
-
-/// The derivative of [`place`] by the share.
-fn rate(share: f64, [a, b]: [f64; 2], [v, w]: [f64; 2]) -> f64 {
-    let (back, way) = (1.0 - share, b - a);
-    let (p, q) = (v - way, w - way);
-    way + (back - share) * (back * p - share * q) - share * back * (p + q)
-}
-
-fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// `b` or −b, whichever is on the side of `a`: both are the same attitude.
-fn nearer(a: &[f64; 4], b: [f64; 4]) -> [f64; 4] {
-    if dot(a, &b) < 0.0 { b.map(|v| -v) } else { b }
-}
-
-/// The median time between rows, s, in whole nanoseconds; `None` of less than two.
-pub fn period(track: &Track) -> Option<f64> {
-    let mut steps: Vec<f64> = track.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let middle = steps.len().checked_sub(1)? / 2;
-    let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-    let nanoseconds = (*median * 1e9).round();
-    Some(if nanoseconds >= 1.0 { nanoseconds / 1e9 } else { *median })
-}
-
-/// Rows at most, where a file claims a period that is none.
-const MOST_ROWS: f64 = 1e7;
-
-impl Track {
-    /// The rows with these numbers, which rise.
-    pub fn picked(&self, rows: &[usize]) -> Self {
-        let of = |values: &[f64]| rows.iter().map(|row| values[*row]).collect::<Vec<_>>();
-        let channels = self.channels().iter().map(|c| Channel { name: c.name.clone(), values: of(&c.values) });
-        let poses = rows.iter().map(|row| self.poses()[*row]).collect();
-        Self::new(of(self.times()), poses, channels.collect()).expect("rows of a track are a track")
-    }
-
-    /// The motion that the rows stand for, every `period` s from the first row on, and at the last. A row that stands
-    /// at such a stamp comes back as it is; a leg lasts until the next row.
-    pub fn at_period(&self, period: f64) -> Self {
-        let (Some(first), Some(last)) = (self.times().first(), self.times().last()) else { return self.clone() };
-        let steps = ((last - first) / period).floor();
-        if !(period > 0.0 && steps <= MOST_ROWS) || self.len() < 2 {
-            return self.clone();
-        }
-        let near = 1e-3 * period;
-        let mut stamps: Vec<f64> = (0..=steps as usize).map(|i| first + i as f64 * period).collect();
-        if last - stamps[stamps.len() - 1] > near {
-            stamps.push(*last);
-        }
-        let between = Between::of(self);
-        let mut rows = Rows::default();
-        let mut after = 1;
-        for stamp in stamps {
-            while after + 1 < self.len() && self.times()[after] <= stamp + near {
-                after += 1;
-            }
-            let row = [after, after - 1].into_iter().find(|row| (self.times()[*row] - stamp).abs() <= near);
-            match row {
-                Some(row) => rows.take(self, row),
-                None => rows.fill(&between, after - 1, stamp),
-            }
-        }
-        rows.into_track(self)
-    }
-}
-
-/// A track between its rows.
-struct Between<'a> {
-    track: &'a Track,
-    velocity: Option<[&'a [f64]; 3]>,
-}
-
-impl<'a> Between<'a> {
-    fn of(track: &'a Track) -> Self {
-        Self { track, velocity: velocity_of(track) }
-    }
-
-    /// Pose and channels at `stamp`, between the rows `from` and `from` + 1.
-    fn at(&self, from: usize, stamp: f64) -> (Isometry3<f64>, Vec<f64>) {
-        let (times, poses) = (self.track.times(), self.track.poses());
-        let span = times[from + 1] - times[from];
-        let share = ((stamp - times[from]) / span).clamp(0.0, 1.0);
-        let [a, b] = [from, from + 1].map(|row| poses[row]);
-        let ends = |axis: usize| [a.translation.vector[axis], b.translation.vector[axis]];
-        let speeds = |axis: usize| self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]);
-        let [x, y, z] = [0, 1, 2].map(|axis| place(share, ends(axis), speeds(axis)));
-        let [p, q] = [a, b].map(|pose| std::array::from_fn(|i| pose.rotation.coords[i]));
-        let q = nearer(&p, q);
-        let [i, j, k, w] = std::array::from_fn(|n| p[n] + (q[n] - p[n]) * share);
-        let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
-        let value = |channel: &Channel| {
-            let [a, b] = [channel.values[from], channel.values[from + 1]];
-            match VELOCITY.iter().position(|name| *name == channel.name) {
-                _ if channel.name == "leg" => a,
-                Some(axis) => speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span),
-                None => a + (b - a) * share,
-            }
-        };
-        let values = self.track.channels().iter().map(value).collect();
-        (Isometry3::from_parts(Translation3::new(x, y, z), rotation), values)
-    }
-}
-
-/// Rows being gathered.
-#[derive(Default)]
-struct Rows {
-    times: Vec<f64>,
-    poses: Vec<Isometry3<f64>>,
-    values: Vec<Vec<f64>>,
-}
-
-impl Rows {
-    fn take(&mut self, track: &Track, row: usize) {
-        if self.times.last().is_some_and(|before| *before >= track.times()[row]) {
-            return;
-        }
-        self.times.push(track.times()[row]);
-        self.poses.push(track.poses()[row]);
-        self.values.push(track.channels().iter().map(|channel| channel.values[row]).collect());
-    }
-
-    fn fill(&mut self, between: &Between, from: usize, stamp: f64) {
-        let (pose, values) = between.at(from, stamp);
-        self.times.push(stamp);
-        self.poses.push(pose);
-        self.values.push(values);
-    }
-
-    fn into_track(self, of: &Track) -> Track {
-        let column = |(place, channel): (usize, &Channel)| Channel {
-            name: channel.name.clone(),
-            values: self.values.iter().map(|row| row[place]).collect(),
-        };
-        let channels = of.channels().iter().enumerate().map(column).collect();
-        Track::new(self.times, self.poses, channels).expect("stamps rise, and what is between finite numbers is finite")
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+
+    use super::super::between::period;
+    use super::super::track::Channel;
     use super::*;
 
     /// A helix that is flown ever faster, turning as it goes.

@@ -15,6 +15,7 @@
 //! from 0 = start, leg k joins waypoints k and k + 1.
 
 pub mod bends;
+pub mod between;
 pub mod direction;
 pub mod drive;
 pub mod flight;

@@ -1,0 +1,162 @@
+//! The motion between rows of a track, and its rows at even times.
+//!
+//! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, and of
+//! everything else, the straight line. Attitudes are the line's, made rotations again.
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use super::track::{Channel, Track};
+
+pub(super) const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
+
+pub(super) fn velocity_of(track: &Track) -> Option<[&[f64]; 3]> {
+    let [x, y, z] = VELOCITY.map(|name| track.channel(name));
+    Some([x?, y?, z?])
+}
+
+/// Between the `ends` at `share`: on the cubic that has both ways a span at their `speeds`, or on the line.
+pub(super) fn place(share: f64, [a, b]: [f64; 2], speeds: Option<[f64; 2]>) -> f64 {
+    let line = a + (b - a) * share;
+    let Some([v, w]) = speeds else { return line };
+    let (back, way) = (1.0 - share, b - a);
+    line + share * back * (back * (v - way) - share * (w - way))
+}
+
+/// The derivative of [`place`] by the share.
+pub(super) fn rate(share: f64, [a, b]: [f64; 2], [v, w]: [f64; 2]) -> f64 {
+    let (back, way) = (1.0 - share, b - a);
+    let (p, q) = (v - way, w - way);
+    way + (back - share) * (back * p - share * q) - share * back * (p + q)
+}
+
+pub(super) fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `b` or −b, whichever is on the side of `a`: both are the same attitude.
+pub(super) fn nearer(a: &[f64; 4], b: [f64; 4]) -> [f64; 4] {
+    if dot(a, &b) < 0.0 { b.map(|v| -v) } else { b }
+}
+
+/// The median time between rows, s, in whole nanoseconds; `None` of less than two.
+pub fn period(track: &Track) -> Option<f64> {
+    let mut steps: Vec<f64> = track.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = steps.len().checked_sub(1)? / 2;
+    let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    let nanoseconds = (*median * 1e9).round();
+    Some(if nanoseconds >= 1.0 { nanoseconds / 1e9 } else { *median })
+}
+
+/// Rows at most, where a file claims a period that is none.
+const MOST_ROWS: f64 = 1e7;
+
+impl Track {
+    /// The rows with these numbers, which rise.
+    pub fn picked(&self, rows: &[usize]) -> Self {
+        let of = |values: &[f64]| rows.iter().map(|row| values[*row]).collect::<Vec<_>>();
+        let channels = self.channels().iter().map(|c| Channel { name: c.name.clone(), values: of(&c.values) });
+        let poses = rows.iter().map(|row| self.poses()[*row]).collect();
+        Self::new(of(self.times()), poses, channels.collect()).expect("rows of a track are a track")
+    }
+
+    /// The motion that the rows stand for, every `period` s from the first row on, and at the last. A row that stands
+    /// at such a stamp comes back as it is; a leg lasts until the next row.
+    pub fn at_period(&self, period: f64) -> Self {
+        let (Some(first), Some(last)) = (self.times().first(), self.times().last()) else { return self.clone() };
+        let steps = ((last - first) / period).floor();
+        if !(period > 0.0 && steps <= MOST_ROWS) || self.len() < 2 {
+            return self.clone();
+        }
+        let near = 1e-3 * period;
+        let mut stamps: Vec<f64> = (0..=steps as usize).map(|i| first + i as f64 * period).collect();
+        if last - stamps[stamps.len() - 1] > near {
+            stamps.push(*last);
+        }
+        let between = Between::of(self);
+        let mut rows = Rows::default();
+        let mut after = 1;
+        for stamp in stamps {
+            while after + 1 < self.len() && self.times()[after] <= stamp + near {
+                after += 1;
+            }
+            let row = [after, after - 1].into_iter().find(|row| (self.times()[*row] - stamp).abs() <= near);
+            match row {
+                Some(row) => rows.take(self, row),
+                None => rows.fill(&between, after - 1, stamp),
+            }
+        }
+        rows.into_track(self)
+    }
+}
+
+/// A track between its rows.
+struct Between<'a> {
+    track: &'a Track,
+    velocity: Option<[&'a [f64]; 3]>,
+}
+
+impl<'a> Between<'a> {
+    fn of(track: &'a Track) -> Self {
+        Self { track, velocity: velocity_of(track) }
+    }
+
+    /// Pose and channels at `stamp`, between the rows `from` and `from` + 1.
+    fn at(&self, from: usize, stamp: f64) -> (Isometry3<f64>, Vec<f64>) {
+        let (times, poses) = (self.track.times(), self.track.poses());
+        let span = times[from + 1] - times[from];
+        let share = ((stamp - times[from]) / span).clamp(0.0, 1.0);
+        let [a, b] = [from, from + 1].map(|row| poses[row]);
+        let ends = |axis: usize| [a.translation.vector[axis], b.translation.vector[axis]];
+        let speeds = |axis: usize| self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]);
+        let [x, y, z] = [0, 1, 2].map(|axis| place(share, ends(axis), speeds(axis)));
+        let [p, q] = [a, b].map(|pose| std::array::from_fn(|i| pose.rotation.coords[i]));
+        let q = nearer(&p, q);
+        let [i, j, k, w] = std::array::from_fn(|n| p[n] + (q[n] - p[n]) * share);
+        let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
+        let value = |channel: &Channel| {
+            let [a, b] = [channel.values[from], channel.values[from + 1]];
+            match VELOCITY.iter().position(|name| *name == channel.name) {
+                _ if channel.name == "leg" => a,
+                Some(axis) => speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span),
+                None => a + (b - a) * share,
+            }
+        };
+        let values = self.track.channels().iter().map(value).collect();
+        (Isometry3::from_parts(Translation3::new(x, y, z), rotation), values)
+    }
+}
+
+/// Rows being gathered.
+#[derive(Default)]
+struct Rows {
+    times: Vec<f64>,
+    poses: Vec<Isometry3<f64>>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    fn take(&mut self, track: &Track, row: usize) {
+        if self.times.last().is_some_and(|before| *before >= track.times()[row]) {
+            return;
+        }
+        self.times.push(track.times()[row]);
+        self.poses.push(track.poses()[row]);
+        self.values.push(track.channels().iter().map(|channel| channel.values[row]).collect());
+    }
+
+    fn fill(&mut self, between: &Between, from: usize, stamp: f64) {
+        let (pose, values) = between.at(from, stamp);
+        self.times.push(stamp);
+        self.poses.push(pose);
+        self.values.push(values);
+    }
+
+    fn into_track(self, of: &Track) -> Track {
+        let column = |(place, channel): (usize, &Channel)| Channel {
+            name: channel.name.clone(),
+            values: self.values.iter().map(|row| row[place]).collect(),
+        };
+        let channels = of.channels().iter().enumerate().map(column).collect();
+        Track::new(self.times, self.poses, channels).expect("stamps rise, and what is between finite numbers is finite")
+    }
+}
