@@ -231,6 +231,20 @@ mod tests {
         }
     }
 
+    /// Each row is as far from the one before as it may be: none can be left out.
+    #[test]
+    fn no_row_is_to_spare() {
+        let (track, tolerances) = (helix(1001), Tolerances::default());
+        let rows = bends(&track, &BTreeSet::new(), &tolerances);
+        let (columns, always, mut errors) =
+            (Columns::of(&track, &tolerances), always(&track, &[].into(), 1000), vec![]);
+        for three in rows.windows(3) {
+            assert!(columns.within(three[0], three[1], &mut errors), "{three:?}");
+            let spare = columns.within(three[0], three[2], &mut errors) && !always.contains(&three[1]);
+            assert!(!spare, "row {} of {three:?}", three[1]);
+        }
+    }
+
     #[test]
     fn stamps_that_are_uneven_become_even() {
         let track = helix(401).picked(&(0..401).filter(|row| row % 7 != 3 || *row == 0).collect::<Vec<_>>());
