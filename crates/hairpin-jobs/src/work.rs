@@ -110,8 +110,10 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let search = setup.scenario.search();
     tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
     // Of programs of arms these are none of their keys.
-    for (key, value) in search.passed_over().into_iter().filter(|_| !setup.has_programs()) {
-        watch.warn(&format!("`generate.search.{key}` = {value} is passed over: the method `worst` has no use for it"));
+    let passed_over = search.passed_over(setup.scenario.score());
+    for (key, value) in passed_over.into_iter().filter(|_| !setup.has_programs()) {
+        let method = search.method.word();
+        watch.warn(&format!("`generate.search.{key}` = {value} is passed over: `{method}` has no use for it here"));
     }
     may_make(&path, &setup, settings.if_there)?;
     for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {

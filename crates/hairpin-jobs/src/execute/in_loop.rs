@@ -86,8 +86,9 @@ pub(crate) fn in_the_loop<T: Send>(
     };
     let told = program.all();
     tell(&told, watch);
-    // What others have flown was not flown in vain.
-    let goes_on = stopped() || rounds.is_some_and(Rounds::any_flown);
+    // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says
+    // nothing for a program that flew nothing in it.
+    let goes_on = watch.stopped() || rounds.is_some_and(Rounds::any_flown);
     Ok((found, trouble(&program, &told, goes_on).or_else(|| rounds?.trouble())))
 }
 

@@ -57,6 +57,28 @@ fn a_search_that_was_stopped_executes_nothing_twice_and_finds_what_it_would_have
     assert!(!executed.exists(), "nothing is left to go on with");
 }
 
+/// A broken simulator is told as one also where the time is over before all of the search was in vain.
+#[cfg(unix)]
+#[test]
+fn a_program_that_flew_nothing_in_its_time_has_failed() {
+    let place = tempfile::tempdir().unwrap();
+    let program = r#"while read -r line; do case "$line" in
+        *'"hello"'*) echo '{"type":"ready","protocol":1,"name":"broken"}';;
+        *'"mission"'*) echo '{"type":"error","message":"no licence"}';;
+        *'"bye"'*) exit;;
+    esac; done"#;
+    std::fs::write(place.path().join("broken.sh"), program).unwrap();
+    let mut settings = small(&place);
+    settings.scenario = crate::testing::small_hull(place.path());
+    let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 100000 }";
+    let command = format!("'sh {}'", place.path().join("broken.sh").display());
+    settings.sets.push(("generate.search".into(), search.into()));
+    settings.sets.push(("execute.command".into(), command));
+    settings.time_limit_s = Some(0.6);
+    let Err(Problem::Executor(told)) = generate(&settings, &Unwatched).map(|_| ()) else { panic!("it flew") };
+    assert!(told.starts_with("broken: none of ") && told.contains("no licence"), "{told}");
+}
+
 #[test]
 fn a_proof_that_is_out_of_time_is_claimed_no_more_until_it_is_there() {
     let place = tempfile::tempdir().unwrap();

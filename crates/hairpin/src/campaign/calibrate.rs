@@ -136,11 +136,14 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
         let none =
             |reason: String| Proposal { field: key.key, value: None, interval: None, cases, reason: Some(reason) };
         let few = format!("{cases} cases were measured");
+        // Of what ends badly it is not known whether it would have been measured.
+        let ended_well = || outcomes.iter().filter(|outcome| !outcome.ended_badly);
+        let unmeasured = badly < outcomes.len() && ended_well().all(|outcome| outcome.worst[place].is_none());
         let limit = match exceeded_by(&values, broken, CONFIDENCE) {
+            _ if unmeasured => return none("it is not measured in this scenario".into()),
             _ if cases == badly && cases > 0 => {
                 return none("every case crashes or does not finish".into());
             }
-            _ if cases == 0 && !outcomes.is_empty() => return none("it is not measured in this scenario".into()),
             _ if cases < LEAST => return none(format!("{few}, and {LEAST} are the least that a limit follows from")),
             None => return none(format!("{few}, too few for an interval of what {} % break", 100.0 * broken)),
             Some(limit) => limit,
@@ -243,6 +246,9 @@ mod tests {
         assert!(reason(&outcomes(200, 0), 0.01).contains("too few for an interval of what 1 % break"));
         assert!(reason(&outcomes(200, 9), 0.05).contains("9 of 200 cases crash"));
         assert!(reason(&outcomes(300, 300), 0.05).contains("every case crashes"));
+        let mut blind = outcomes(300, 118);
+        blind[118..].iter_mut().for_each(|outcome| outcome.worst[0] = None);
+        assert!(reason(&blind, 0.05).contains("it is not measured in this scenario"));
         assert!(reason(&[], 0.05).contains("0 cases were measured"));
         let found = propose(&setup, &outcomes(200, 0), 0.05);
         assert_eq!(json!(spec(&setup, &found)), json!({ "deviation": { "max_m": 1.89 } }));

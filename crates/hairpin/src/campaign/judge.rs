@@ -14,6 +14,7 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
+use super::gravity::Gravity;
 use super::hidden::{hidden, sampled};
 use super::influence::RunDeviation;
 use super::scenario::{Asked, DeviationFrom, Terms};
@@ -22,8 +23,9 @@ use crate::judgement::moves::Measured;
 use crate::judgement::{self, Clearance, JudgementError, Late, Measures, Reference, Settings, Violation};
 use crate::trajectory::{Flight, PlannedPath, Track};
 
-/// The result of a case: its worst run. A run with a violation is worse than one without, a crash is worse than any
-/// other violation, and among equals the larger deviation is worse; the first of equals.
+/// The result of a case: its worst run by its gravity. A run with a violation is worse than one without, a crash is
+/// worse than any other violation, and among equals what breaks a limit by the larger share of it; of runs within spec
+/// what the first limit bounds, the deviation if it is limited. The first of equals.
 ///
 /// # Errors
 /// Values drawn for a run that the scenario's keys do not take, as happens with a folder that was edited.
@@ -132,35 +134,14 @@ struct JudgedRun {
     open: Option<String>,
     ended: String,
     left_world: Option<f64>,
-    crashed: bool,
+    /// What it is compared by where it violates nothing: what the first limit bounds.
+    within: f64,
     moves: Option<Measured>,
 }
 
 impl JudgedRun {
     fn gravity(&self) -> Gravity {
-        Gravity {
-            violates: !self.violations.is_empty(),
-            crashed: self.crashed,
-            max_deviation: self.measures.max_deviation,
-        }
-    }
-}
-
-/// How bad a run was: the order in which the worst is looked for.
-///
-/// Compared in the order of its fields.
-#[derive(PartialEq)]
-pub(super) struct Gravity {
-    pub(super) violates: bool,
-    pub(super) crashed: bool,
-    /// In the order of `total_cmp`, m.
-    pub(super) max_deviation: f64,
-}
-
-impl PartialOrd for Gravity {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        let flags = (self.violates, self.crashed).cmp(&(other.violates, other.crashed));
-        Some(flags.then(self.max_deviation.total_cmp(&other.max_deviation)))
+        Gravity::of(&self.violations, self.measures.max_deviation, self.within)
     }
 }
 
@@ -224,7 +205,7 @@ fn judge_run(
             violations,
             ended: flight.ended.word().into(),
             left_world: flight.left_world,
-            crashed: flight.ended.is_crash(),
+            within: terms.gauge().of(&measures).unwrap_or(measures.max_deviation),
             measures,
             moves,
         }

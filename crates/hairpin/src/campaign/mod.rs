@@ -52,6 +52,7 @@ pub mod full_rate;
 pub mod generate;
 pub mod goals;
 mod graph;
+mod gravity;
 mod hidden;
 pub mod influence;
 pub mod judge;

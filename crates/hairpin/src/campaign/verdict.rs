@@ -6,7 +6,7 @@
 use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
-use super::judge::Gravity;
+use super::gravity::Gravity;
 use super::scenario::{Asked, UNMEASURED};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
@@ -174,10 +174,7 @@ pub(super) struct Named {
 /// By [`Gravity`]. `None` where nothing was measured, or nothing is limited and nothing violated.
 pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     let mut worst: Option<(&CaseResult, &Measures)> = None;
-    let gravity = |result: &CaseResult, measures: &Measures| {
-        let crashed = result.violations.first().is_some_and(Violation::is_crash);
-        Gravity { violates: !result.violations.is_empty(), crashed, max_deviation: measures.max_deviation }
-    };
+    let gravity = |result: &CaseResult, measures: &Measures| Gravity::of_result(&result.violations, Some(measures));
     for result in results {
         let Some(measures) = &result.measures else { continue };
         if worst.is_none_or(|(so_far, old)| gravity(result, measures) > gravity(so_far, old)) {

@@ -139,8 +139,13 @@ impl Violation {
             _ if self.is_unfinished() => 1,
             _ => 0,
         };
+        (rank, self.relative_excess())
+    }
+
+    /// How far the limit is broken, as a share of it: |value − limit|/|limit|; of a limit of 0 |value|.
+    pub fn relative_excess(&self) -> f64 {
         let excess = if self.is_lower_limit() { self.limit - self.value } else { self.value - self.limit };
-        (rank, if self.limit.abs() > 0.0 { excess / self.limit.abs() } else { excess })
+        if self.limit.abs() > 0.0 { excess / self.limit.abs() } else { excess }
     }
 }
 

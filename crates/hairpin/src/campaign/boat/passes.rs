@@ -115,19 +115,26 @@ pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
 /// One where it rests or a speed is demanded (the smaller of both legs'), else [`SHARES`] of the top speed.
 fn states(judge: &BoatJudge, asked: &Demands, number: usize) -> Vec<Reached> {
     let points = asked.waypoints;
-    let reached = |velocity: [f64; 2]| Reached { end: judge.end(&points[number], velocity), cost: 0.0, from: None };
-    if asked.rests(number) {
-        return vec![reached([0.0; 2])];
+    let reached = |end: BoatEnd| Reached { end, cost: 0.0, from: None };
+    if number == 0 || number + 1 == points.len() {
+        return vec![reached(judge.end(&points[number], [0.0; 2]))];
     }
     let unit = |from: usize| (points[from + 1] - points[from]).xy().try_normalize(1e-9).unwrap_or_else(Vector2::x);
     let (before, after) = (unit(number - 1), unit(number));
     let along = (before + after).try_normalize(1e-6).unwrap_or(after);
     let demanded = [asked.speed(number - 1), asked.speed(number)].into_iter().flatten().reduce(f64::min);
     let speeds = match demanded {
+        _ if asked.rests(number) => vec![0.0],
         Some(speed) => vec![speed],
         None => SHARES.map(|share| share * judge.top_speed()).to_vec(),
     };
-    speeds.into_iter().map(|speed| reached((along * speed).into())).collect()
+    let passing = |speed: f64| {
+        let (place, velocity): (_, [f64; 2]) = (&points[number], (along * speed).into());
+        // At rest in still water both legs have it along the bend.
+        let still = || BoatEnd { heading: Some(libm::atan2(along.y, along.x)), ..judge.end(place, velocity) };
+        judge.between(place, velocity).unwrap_or_else(still)
+    };
+    speeds.into_iter().map(|speed| reached(passing(speed))).collect()
 }
 
 /// The legs along the quickest chain of `table`.

@@ -1,7 +1,10 @@
 //! A campaign of boats in small: keys and their bounds, cases that are proven, runs that repeat.
 
+use nalgebra::Point3;
 use serde_json::{Value, json};
 
+use crate::campaign::passage::Demands;
+use crate::campaign::passes::passes;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::{Known, OwnSimulator, Scenario, Setup, Stop, execute_run, generate, judge, verify};
 use crate::trajectory::ProfileLeg;
@@ -90,5 +93,20 @@ fn cases_are_proven_sailed_and_judged_and_what_is_tampered_with_is_found() {
         };
         tampered.witness = Some(crate::trajectory::Profile { legs: profile.legs.iter().map(bent).collect() }.into());
         assert!(!verify(&setup, &tampered).proof.expect("a witness").ok());
+    }
+}
+
+/// A boat that stops amid a mission does not turn there in no time, whichever way the water flows.
+#[test]
+fn a_stop_leaves_the_bow_where_it_is() {
+    for current in [[0.05, 0.02], [0.0, 0.0]] {
+        let setup = changed(&[("world.current_m_s", json!(current))]).expect("a setup");
+        let waypoints = [[3.0, 3.0], [8.0, 4.0], [6.0, 11.0]].map(|[x, y]| Point3::new(x, y, 0.0));
+        let asked = Demands { waypoints: &waypoints, speeds: &[None, None], stops: &[1], hold: 0.0 };
+        let passed = passes(&setup, &asked).expect("an answer").witness.expect("a witness");
+        let [before, after] = passed.witness.profile().expect("a profile").legs.as_slice() else { panic!("two legs") };
+        let turned = after.derivative(0.0, 0).z - before.derivative(before.duration, 0).z;
+        assert!(libm::remainder(turned, std::f64::consts::TAU).abs() < 1e-9, "{current:?}: {turned} rad");
+        assert!(after.derivative(0.0, 1).norm() < 1e-12, "it stops there");
     }
 }

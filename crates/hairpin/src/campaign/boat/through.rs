@@ -24,12 +24,14 @@ pub(super) fn through(
         _ => nalgebra::Vector3::zeros(),
     };
     let last = points.len() - 1;
-    let ends: Vec<_> = (points.iter().enumerate())
-        .map(|(k, point)| {
-            let passing = if k == 0 || k == last { nalgebra::Vector3::zeros() } else { velocity(indices[k]) };
-            judge.end(point, [passing.x, passing.y])
-        })
-        .collect();
+    let state = |(k, point): (usize, &Point3<f64>)| {
+        if k == 0 || k == last {
+            return Some(judge.end(point, [0.0; 2]));
+        }
+        let passing = velocity(indices[k]);
+        judge.between(point, [passing.x, passing.y])
+    };
+    let ends = points.iter().enumerate().map(state).collect::<Option<Vec<_>>>()?;
     let leg = |pair: &[_]| rungs.iter().find_map(|rung| judge.judge(&pair[0], &pair[1], *rung).ok());
     let legs: Option<Vec<_>> = ends.windows(2).map(leg).collect();
     Some(Profile { legs: legs? })

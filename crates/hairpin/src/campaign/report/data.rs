@@ -6,6 +6,7 @@ use nalgebra::Point3;
 
 use super::length::{Length, length};
 use super::text::{attitude, violation};
+use crate::campaign::gravity::Gravity;
 use crate::campaign::judge::reference;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
@@ -15,7 +16,7 @@ use crate::campaign::{
 };
 use crate::judgement::moves::Regression;
 use crate::judgement::{
-    JudgementError, Measures, Reference, Settings, Statistics, Stress, Verdict, Violation, deviation_of_samples,
+    JudgementError, Measures, Reference, Settings, Statistics, Stress, Verdict, deviation_of_samples,
 };
 use crate::trajectory::Track;
 
@@ -239,7 +240,8 @@ pub struct Pieces<'a> {
     pub asked: Option<CaseNumber>,
 }
 
-/// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first.
+/// The results' order in tables: failures, then doubts, then passes, each by its deviation, the largest first, failures
+/// by the largest share of a limit that it is broken by.
 ///
 /// Within each, crashes come before all else, and equals in the order of their numbers. Executors that failed are last:
 /// they say nothing of the robot.
@@ -250,15 +252,10 @@ pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
         Status::Pass | Status::Unjudged => 2,
         Status::ExecutorFailed => 3,
     };
-    let crashed = |result: &CaseResult| result.violations.first().is_some_and(Violation::is_crash);
-    let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
+    let gravity = |result: &CaseResult| Gravity::of_result(&result.violations, result.measures.as_ref());
     let mut ordered: Vec<&CaseResult> = results.iter().collect();
-    ordered.sort_by(|a, b| {
-        (rank(a).cmp(&rank(b)))
-            .then(crashed(b).cmp(&crashed(a)))
-            .then(deviation(b).total_cmp(&deviation(a)))
-            .then(a.case.cmp(&b.case))
-    });
+    ordered
+        .sort_by(|a, b| rank(a).cmp(&rank(b)).then_with(|| gravity(b).against(&gravity(a))).then(a.case.cmp(&b.case)));
     ordered
 }
 

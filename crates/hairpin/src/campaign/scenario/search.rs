@@ -227,6 +227,18 @@ pub enum SearchMethod {
 }
 
 impl SearchMethod {
+    /// The word in scenarios.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Worst => "worst",
+            Self::Beam => "beam",
+            Self::Exact => "exact",
+            Self::Uniform => "uniform",
+            Self::InLoop => "in-loop",
+            Self::Adaptive => "adaptive",
+        }
+    }
+
     /// Whether trajectories are executed while they are searched for.
     pub fn executes(self) -> bool {
         matches!(self, Self::Worst | Self::InLoop | Self::Adaptive)
@@ -265,20 +277,26 @@ impl SearchSection {
         self.executions.saturating_mul(self.cases)
     }
 
-    /// Keys that stand there with another value than the usual one and that the method `worst` has no use for, with
-    /// their values; none of other methods.
-    pub fn passed_over(&self) -> Vec<(&'static str, String)> {
+    /// Keys that stand there with another value than the usual one and that the method has no use for under `score`,
+    /// with their values.
+    pub fn passed_over(&self, score: &str) -> Vec<(&'static str, String)> {
         let usual = Self::default();
+        let (pools, executes) = (self.method == SearchMethod::Worst, self.executes(score));
+        let no_rounds = self.method != SearchMethod::Adaptive;
         let beside_target = self.target.is_some() && self.stress != usual.stress;
         let given = [
-            ("width", (self.width != usual.width).then(|| self.width.to_string())),
-            ("per_graph", (self.per_graph != usual.per_graph).then(|| self.per_graph.to_string())),
-            ("aggregate", (self.aggregate == Aggregate::Max).then(|| "\"max\"".to_owned())),
-            ("rounds", self.rounds.map(|rounds| rounds.to_string())),
-            ("stress", beside_target.then(|| format!("\"{}\"", self.stress.word()))),
+            ("width", pools && self.width != usual.width, self.width.to_string()),
+            ("per_graph", pools && self.per_graph != usual.per_graph, self.per_graph.to_string()),
+            ("aggregate", pools && self.aggregate == Aggregate::Max, "\"max\"".to_owned()),
+            ("executions", !executes && self.executions != usual.executions, self.executions.to_string()),
+            ("confirm", !executes && self.confirm != usual.confirm, self.confirm.to_string()),
+            ("move_waypoints", !executes && self.move_waypoints == Some(true), "true".to_owned()),
+            ("rounds", no_rounds && self.rounds.is_some(), self.rounds.unwrap_or_default().to_string()),
+            ("explore", no_rounds && self.explore.to_bits() != usual.explore.to_bits(), self.explore.to_string()),
+            ("time_s", no_rounds && self.time_s.is_some(), self.time_s.unwrap_or_default().to_string()),
+            ("stress", pools && beside_target, format!("\"{}\"", self.stress.word())),
         ];
-        let worst = self.method == SearchMethod::Worst;
-        given.into_iter().filter_map(|(key, value)| Some((key, value.filter(|_| worst)?))).collect()
+        given.into_iter().filter(|(_, idle, _)| *idle).map(|(key, _, value)| (key, value)).collect()
     }
 
     /// Whether waypoints are moved off their graphs.
@@ -297,15 +315,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_worst_has_no_use_for_is_known() {
+    fn what_a_method_has_no_use_for_is_known() {
         let usual = SearchSection { method: SearchMethod::Worst, ..SearchSection::default() };
-        assert!(usual.passed_over().is_empty());
+        let under = |search: &SearchSection, score| {
+            search.passed_over(score).into_iter().map(|(key, _)| key).collect::<Vec<_>>()
+        };
+        let keys = |search: &SearchSection| under(search, "random");
+        assert!(keys(&usual).is_empty());
         let idle = SearchSection { per_graph: 3, rounds: Some(2), stress: Stress::Time, ..usual };
-        let keys = |search: &SearchSection| search.passed_over().into_iter().map(|(key, _)| key).collect::<Vec<_>>();
         assert_eq!(keys(&idle), ["per_graph", "rounds"], "a stress without a target is what is searched for");
         let aimed = SearchSection { target: Some(Target::Deviation), ..idle };
         assert_eq!(keys(&aimed), ["per_graph", "rounds", "stress"]);
-        assert_eq!(keys(&SearchSection { method: SearchMethod::Beam, ..aimed }), Vec::<&str>::new());
+        // What never executes has no use for executions.
+        let beam = SearchSection { executions: 30, confirm: 2, move_waypoints: Some(true), ..SearchSection::default() };
+        assert_eq!(beam.passed_over("random")[0], ("executions", "30".to_owned()));
+        assert_eq!(keys(&beam), ["executions", "confirm", "move_waypoints"]);
+        assert!(under(&beam, EXECUTED).is_empty() && keys(&SearchSection::default()).is_empty());
+        let rounds = SearchSection { explore: 0.3, time_s: Some(9.0), rounds: Some(2), ..SearchSection::default() };
+        assert_eq!(keys(&rounds), ["rounds", "explore", "time_s"]);
+        assert!(keys(&SearchSection { method: SearchMethod::Adaptive, ..rounds }).is_empty());
     }
 
     #[test]

@@ -40,6 +40,11 @@ impl Terms {
         }
     }
 
+    /// What runs that violate nothing are compared by: what the first limit bounds, the deviation where there is none.
+    pub(in crate::campaign) fn gauge(&self) -> Stress {
+        self.limited().first().map_or(Stress::default(), |(stress, _)| *stress)
+    }
+
     /// The limits that there are, each with the stress that it bounds: as stresses are, more being worse.
     ///
     /// Limits that must not be fallen short of (clearance, tip-over margin) are turned.

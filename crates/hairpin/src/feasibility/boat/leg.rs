@@ -9,7 +9,6 @@ use super::proof::{ForceLimits, motion};
 use super::space::FreeWaters;
 use super::waters::BoatWaters;
 use crate::math::polynomial::{derivatives, septic};
-use crate::math::power::square;
 use crate::robot::boat::Boat;
 use crate::trajectory::ProfileLeg;
 
@@ -17,14 +16,15 @@ use crate::trajectory::ProfileLeg;
 /// without rate, acceleration or jerk.
 ///
 /// Bow into its motion through the water, so that at a waypoint a force ahead is all it takes, and forces go on
-/// continuously from leg to leg. At rest any heading will do: that of the leg to the other waypoint.
+/// continuously from leg to leg. At rest at either end of a trip any heading will do: that of the leg to the other
+/// waypoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoatEnd {
     /// m.
     pub place: [f64; 2],
     /// Over ground, m/s.
     pub velocity: [f64; 2],
-    /// ψ, rad; `None` at rest.
+    /// ψ, rad; `None` where it is the leg's.
     pub heading: Option<f64>,
 }
 
@@ -33,6 +33,13 @@ impl BoatEnd {
     pub fn speed(&self) -> f64 {
         libm::hypot(self.velocity[0], self.velocity[1])
     }
+}
+
+/// Slower is at rest, m/s: what a polynomial leaves of a velocity of 0.
+const REST: f64 = 1e-9;
+
+fn is_motion(velocity: [f64; 2]) -> bool {
+    libm::hypot(velocity[0], velocity[1]) > REST
 }
 
 /// Judges legs of one boat in one stretch of water under one set of limits.
@@ -69,13 +76,24 @@ impl BoatJudge {
         self.map.fastest().min(self.limits.max_speed)
     }
 
-    /// The state at `place` with `velocity` over ground.
+    /// The state at `place`, where a trip begins or ends, with `velocity` over ground.
     pub fn end(&self, place: &Point3<f64>, velocity: [f64; 2]) -> BoatEnd {
-        let moves = square(velocity[0]) + square(velocity[1]) > 0.0;
-        let [x, y] = self.map.through_water(velocity);
-        // Drifting with the water it may as well point where it drifts.
-        let [x, y] = if libm::hypot(x, y) > 1e-9 { [x, y] } else { velocity };
-        BoatEnd { place: [place.x, place.y], velocity, heading: moves.then(|| libm::atan2(y, x)) }
+        let heading = self.bow(velocity).filter(|_| is_motion(velocity));
+        BoatEnd { place: [place.x, place.y], velocity, heading }
+    }
+
+    /// The state at `place`, between the ends of a trip, with `velocity` over ground: of the leg that leads there and of
+    /// the one that goes on, so that at rest its bow points into the current.
+    ///
+    /// `None` at rest in still water, where the two legs would turn it to a heading each.
+    pub fn between(&self, place: &Point3<f64>, velocity: [f64; 2]) -> Option<BoatEnd> {
+        Some(BoatEnd { heading: Some(self.bow(velocity)?), ..self.end(place, velocity) })
+    }
+
+    /// The heading of the motion through the water, rad; drifting with the water it may as well point where it drifts.
+    fn bow(&self, velocity: [f64; 2]) -> Option<f64> {
+        let [x, y] = [self.map.through_water(velocity), velocity].into_iter().find(|motion| is_motion(*motion))?;
+        Some(libm::atan2(y, x))
     }
 
     /// The one leg from `from` to `to` in `duration` (s, > 0), not judged: it turns the shorter way round.

@@ -62,6 +62,10 @@ impl ProveLegs for BoatJudge {
         self.end(place, [velocity.x, velocity.y])
     }
 
+    fn passing(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> Option<BoatEnd> {
+        self.between(place, [velocity.x, velocity.y])
+    }
+
     /// Towards another waypoint.
     fn aimed(&self, points: &[Point3<f64>], w: usize, speed: f64, _longest: f64, random: &mut Stream) -> Vector3<f64> {
         let way = points[another(points, w, f64::INFINITY, random)] - points[w];

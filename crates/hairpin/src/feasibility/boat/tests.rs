@@ -7,6 +7,7 @@ use wide::f64x4;
 use super::proof::motion;
 use super::*;
 use crate::feasibility::reach::Reach;
+use crate::feasibility::reach::mend::{MendedWaypoint, OldLeg, mend};
 use crate::feasibility::steering::LegTiming;
 use crate::math::interval::Enclosure;
 use crate::math::polynomial::derivatives;
@@ -150,6 +151,26 @@ fn at_waypoints_a_force_ahead_is_all_it_takes() {
     ));
     let told = judge.judge(&from, &to, 9.0).expect_err("too fast for its thrusters").to_string();
     assert!(told.contains("violated by"), "{told}");
+}
+
+/// A boat does not turn in no time: at rest between two legs it has the heading that both of them know.
+#[test]
+fn both_legs_of_a_waypoint_share_its_heading() {
+    let (boat, timing) = (cybership(), LegTiming::ladder(10.0, 80.0));
+    let at_rest = |x, y| MendedWaypoint { place: Point3::new(x, y, 0.0), velocity: Vector3::zeros(), kept: true };
+    let waypoints = [at_rest(15.0, 4.0), at_rest(20.0, 4.0), at_rest(20.0, 12.0)];
+    let over = |judge: &BoatJudge| mend(judge, &timing, &waypoints, |_| OldLeg::None);
+    let [before, after] = <[ProfileLeg; 2]>::try_from(over(&judge(&boat)).expect("two legs").legs).expect("two legs");
+    let headings = [before.derivative(before.duration, 0).z, after.derivative(0.0, 0).z];
+    let into_the_current = libm::atan2(-CURRENT[1], -CURRENT[0]);
+    for heading in headings {
+        let off = libm::remainder(heading - into_the_current, std::f64::consts::TAU);
+        assert!(off.abs() < 1e-9, "{headings:?}, {into_the_current}");
+    }
+    // In still water nothing says which, so that it is passed in motion.
+    let still = BoatJudge::new(&boat, &BoatWaters { current: [0.0; 2], ..waters() }, BoatLimits::default());
+    assert!(over(&still).is_none() && still.between(&Point3::origin(), [1e-17, 0.0]).is_none());
+    assert!(still.between(&Point3::origin(), [0.1, 0.0]).is_some_and(|end| end.heading == Some(0.0)));
 }
 
 #[test]

@@ -140,7 +140,10 @@ pub(crate) fn mend<'o, J: ProveLegs>(
         let times = || took.iter().chain(&rungs);
         let mut layer = Vec::with_capacity(choices.len());
         for velocity in choices {
-            let there = judge.state(&waypoint.place, &velocity);
+            let goes_on = k + 1 < waypoints.len();
+            let passed = || judge.passing(&waypoint.place, &velocity);
+            let state = if goes_on { passed() } else { Some(judge.state(&waypoint.place, &velocity)) };
+            let Some(there) = state else { continue };
             let mut best: Option<(f64, usize, ProfileLeg)> = None;
             for (number, here) in before.iter().enumerate() {
                 let leg = known.clone().or_else(|| times().find_map(|time| judge.leg(&here.end, &there, *time).ok()));

@@ -71,6 +71,11 @@ pub(crate) trait ProveLegs {
     /// The state at `place` with `velocity`, m/s.
     fn state(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> Self::End;
 
+    /// The same between two legs, which both have it at their end; `None` where there is none that both could have.
+    fn passing(&self, place: &Point3<f64>, velocity: &Vector3<f64>) -> Option<Self::End> {
+        Some(self.state(place, velocity))
+    }
+
     /// A velocity of `speed` (m/s) at waypoint number `w` of `points`, in a direction drawn at random; a leg takes
     /// `longest` s at most.
     fn aimed(&self, points: &[Point3<f64>], w: usize, speed: f64, longest: f64, random: &mut Stream) -> Vector3<f64>;

@@ -109,7 +109,8 @@ impl<J: ProveLegs> Walker<'_, J> {
             }
             let speed = judge.top_speed() * unit(random);
             let velocity = judge.aimed(points, waypoint, speed, longest, random);
-            let passed = Passed { waypoint, end: judge.state(&points[waypoint], &velocity), leg: None };
+            let Some(end) = judge.passing(&points[waypoint], &velocity) else { continue };
+            let passed = Passed { waypoint, end, leg: None };
             if let Some(leg) = self.leg(from, &passed) {
                 return Some(Passed { leg: Some(leg), ..passed });
             }

@@ -1,0 +1,93 @@
+//! How bad a run was: the order in which the worst run of a case, and the worst case of a campaign, are looked for.
+//!
+//! | of two | the graver |
+//! | --- | --- |
+//! | one violates something | that one |
+//! | one crashed | that one |
+//! | both crashed, or neither broke a measured limit | the one with the larger deviation |
+//! | else | the one that breaks a measured limit by the larger share of it |
+//!
+//! Where the deviation alone is limited that is the larger deviation; where others are as well, what is told as the
+//! worst of a limit is the worst of it. Of runs that violate nothing what the first limit bounds may stand in the
+//! deviation's place.
+
+use std::cmp::Ordering;
+
+use crate::judgement::{Measures, Violation};
+
+/// Compared in the order of its fields.
+#[derive(Debug, PartialEq)]
+pub(super) struct Gravity {
+    violates: bool,
+    crashed: bool,
+    /// The largest excess over a limit as a share of it; −∞ where that is not what decides.
+    excess: f64,
+    /// m, or the unit of what runs within spec are compared by.
+    size: f64,
+}
+
+impl Gravity {
+    /// Of a run with these violations; without one by `within`.
+    pub(super) fn of(violations: &[Violation], max_deviation: f64, within: f64) -> Self {
+        let crashed = violations.iter().any(Violation::is_crash);
+        let measured = violations.iter().filter(|one| !crashed && one.event().is_none());
+        Self {
+            violates: !violations.is_empty(),
+            crashed,
+            excess: measured.map(Violation::relative_excess).fold(f64::NEG_INFINITY, f64::max),
+            size: if violations.is_empty() { within } else { max_deviation },
+        }
+    }
+
+    /// Of a case's worst run; nothing measured is no deviation.
+    pub(super) fn of_result(violations: &[Violation], measures: Option<&Measures>) -> Self {
+        let max_deviation = measures.map_or(0.0, |measures| measures.max_deviation);
+        Self::of(violations, max_deviation, max_deviation)
+    }
+
+    /// Greater is graver.
+    pub(super) fn against(&self, other: &Self) -> Ordering {
+        let flags = (self.violates, self.crashed).cmp(&(other.violates, other.crashed));
+        flags.then(self.excess.total_cmp(&other.excess)).then(self.size.total_cmp(&other.size))
+    }
+}
+
+impl PartialOrd for Gravity {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.against(other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_of_a_limit_is_the_worst_of_it() {
+        let one = |what: &str, value, limit| Violation {
+            what: what.into(),
+            value,
+            limit,
+            unit: String::new(),
+            at: 0.0,
+            leg: 0,
+        };
+        let of = |violations: &[Violation], max_deviation| Gravity::of(violations, max_deviation, max_deviation);
+        // Rising: what takes long is compared by its time, whatever it deviates.
+        let rising = [
+            of(&[], 1.0),
+            of(&[], 2.0),
+            of(&[one("unfinished", 3.0, 9.0)], 1.0),
+            of(&[one("left-world", 4.0, 0.0)], 1.9),
+            of(&[one("deviation", 2.1, 2.0)], 2.1),
+            of(&[one("total-time", 30.0, 26.0), one("deviation", 2.2, 2.0)], 2.2),
+            of(&[one("total-time", 33.0, 26.0)], 1.0),
+            of(&[one("unfinished", 3.0, 9.0), one("deviation", 3.0, 2.0)], 3.0),
+            of(&[one("clearance", 0.1, 0.5)], 0.5),
+            of(&[one("crash", 4.0, 0.0)], 0.5),
+            of(&[one("crash", 2.0, 0.0), one("clearance", -0.1, 0.5)], 0.6),
+        ];
+        assert!(rising.windows(2).all(|pair| pair[0] < pair[1]), "{rising:?}");
+        assert!(Gravity::of(&[], 1.0, 30.0) > Gravity::of(&[], 2.0, 20.0), "within spec by what is limited");
+    }
+}
