@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::out_campaign::{campaign, planned};
-use hairpin::campaign::{Case, CaseNumber, Run, Witness};
+use hairpin::campaign::{Case, CaseNumber, Run, Tally, Witness};
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError, Landed};
 use hairpin_formats::parquet::track;
 
@@ -63,6 +63,21 @@ fn generated_cases_stand_without_results() {
     assert!(folder.has_cases());
     assert_eq!(folder.read_cases().unwrap(), campaign().cases);
     assert!(folder.read_results().unwrap().is_empty());
+}
+
+/// A case that is nowhere in the results would be judged by nobody, be it the only one that violates.
+#[test]
+fn results_that_lost_cases_are_refused_once_the_search_is_over() {
+    let place = tempfile::tempdir().unwrap();
+    let (folder, campaign) = (written(place.path()), campaign());
+    for kept in [0, 2] {
+        folder.write_results(&campaign.cases[..kept], &[]).unwrap();
+        folder.write_tally(&Tally { complete: false, ..campaign.tally.clone() }).unwrap();
+        assert_eq!(folder.read_cases().unwrap().len(), kept, "a kill amid a checkpoint costs no more");
+        folder.write_tally(&Tally { complete: true, ..campaign.tally.clone() }).unwrap();
+        let told = folder.read_cases().unwrap_err().to_string();
+        assert!(told.contains(&format!("waypoints.parquet: case 000{kept} is not in results.parquet")), "{told}");
+    }
 }
 
 #[test]
