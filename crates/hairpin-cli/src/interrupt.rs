@@ -1,6 +1,8 @@
 //! Ctrl-C: the first one asks to stop and keeps what is done, the second one quits and takes the user's programs with
 //! it.
 
+#[cfg(unix)]
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::console;
@@ -11,7 +13,9 @@ static ASKED: AtomicUsize = AtomicUsize::new(0);
 /// Listens from now on to what asks to stop. What whoever started hairpin has it ignore, as `nohup` does, it ignores.
 #[cfg(unix)]
 pub(crate) fn listen() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    // A file that may not grow further ends the process without a word; heard, the write fails, and is told.
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
     let heard = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     // It fails only where the system has no signals to listen to; then Ctrl-C quits at once.
     let Ok(mut signals) = signal_hook::iterator::Signals::new(heard) else { return };

@@ -20,6 +20,8 @@ pub struct Replayed {
     pub file: PathBuf,
     /// Its result.
     pub result: CaseResult,
+    /// Whether `spec.violation_share` allows its violation: the campaign saved it by itself, of those that it allows.
+    pub allowed: bool,
 }
 
 /// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of
@@ -67,7 +69,10 @@ pub(crate) fn replay_saved(
         None => ours.par_iter().map(run).collect(),
         Some(_) => replay_together(&ours, watch),
     };
-    let replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
+    let mut replayed: Vec<Replayed> = replayed?.into_iter().flatten().collect();
+    // Whoever names a folder wants of it that nothing violates any more; what a campaign saves are cases of its own.
+    let allows = named.is_none() && setup.scenario.head().violation_share.is_some_and(|share| share > 0.0);
+    replayed.iter_mut().for_each(|one| one.allowed = allows);
     if !replayed.is_empty() {
         tell(&replayed, watch);
     }
@@ -118,7 +123,7 @@ impl Saved {
     fn judge(&self, flown: &Run) -> Result<Option<Replayed>, Problem> {
         let Some(setup) = &self.setup else { return Ok(None) };
         let result = campaign::judge(setup, &self.case, std::slice::from_ref(flown))?;
-        Ok(Some(Replayed { file: self.file.clone(), result }))
+        Ok(Some(Replayed { file: self.file.clone(), result, allowed: false }))
     }
 }
 
@@ -139,16 +144,18 @@ impl Replayed {
 }
 
 /// The verdict of a command that came to `verdict` and ran `replayed` before: a saved case that violates still is a
-/// violation, one that was not flown or that nothing can be said of is no pass.
+/// violation unless a share of violations allows it, one that was not flown or that nothing can be said of is no pass.
 ///
 /// What is graver than what the campaign's own cases came to is the first that is read; the rest is told behind it.
 pub fn with_saved(verdict: &Verdict, replayed: &[Replayed]) -> Verdict {
     let Verdict { sentence, exit_code } = verdict;
     let mut told = Verdict::clone(verdict);
     for (status, [outcome, they, behind], code, graver_than) in OUTCOMES {
-        let count = replayed.iter().filter(|one| one.result.status == status).count();
+        let such = || replayed.iter().filter(|one| one.result.status == status);
+        let count = such().count();
         let words = format!("{count}/{} saved cases", replayed.len());
-        let leads = told.exit_code == *exit_code && graver_than.contains(exit_code);
+        let counts = such().any(|one| status != Status::Fail || !one.allowed);
+        let leads = counts && told.exit_code == *exit_code && graver_than.contains(exit_code);
         match count {
             0 => {}
             _ if leads => told = Verdict { sentence: format!("{outcome} {words}{they}; {sentence}"), exit_code: code },
@@ -186,7 +193,7 @@ mod tests {
     use super::*;
 
     fn saved(status: Status) -> Replayed {
-        Replayed { file: "0000.json".into(), result: CaseResult::bare(CaseNumber(0), status) }
+        Replayed { file: "0000.json".into(), result: CaseResult::bare(CaseNumber(0), status), allowed: false }
     }
 
     /// The gravest leads, nothing that is no pass is left out, and the campaign's own violation stays first.
@@ -213,5 +220,33 @@ mod tests {
             let found = with_saved(&Verdict::of("own", code), &replayed);
             assert_eq!((found.sentence.as_str(), found.exit_code), (sentence, told), "{code} {cases:?}");
         }
+    }
+
+    /// The violations that a share allows are told, and decide nothing; what was not flown is no pass all the same.
+    #[test]
+    fn allowed_violations_of_saved_cases_are_told_behind() {
+        let allowed = |status| Replayed { allowed: true, ..saved(status) };
+        let found = with_saved(&Verdict::of("PASS", 0), &[allowed(Status::Fail), allowed(Status::Pass)]);
+        assert_eq!((found.sentence.as_str(), found.exit_code), ("PASS; 1/2 saved cases violate", 0));
+        let found = with_saved(&Verdict::of("PASS", 0), &[allowed(Status::Fail), saved(Status::Fail)]);
+        assert_eq!((found.sentence.as_str(), found.exit_code), ("FAIL 2/2 saved cases violate; PASS", 1));
+        assert_eq!(with_saved(&Verdict::of("PASS", 0), &[allowed(Status::ExecutorFailed)]).exit_code, 4);
+    }
+
+    /// A campaign that passes within its share passes when it is run again beside what it saved itself.
+    #[test]
+    fn a_share_holds_for_what_the_campaign_saved_itself() {
+        let (place, folder) = crate::testing::violating();
+        let mut settings = crate::testing::small(&place);
+        settings.if_there = crate::work::IfThere::Replace;
+        let sets = [("spec.violation_share", "0.5"), ("spec.deviation.max_m", "0.0001")];
+        settings.sets.extend(sets.map(|(key, value)| (key.to_owned(), value.to_owned())));
+        let setup = crate::work::plan(&settings, &crate::Unwatched).unwrap().setup;
+        let allowed = |named| {
+            let replayed = replay_saved(&setup, &folder, named, &crate::Unwatched).unwrap();
+            replayed.iter().map(|one| (one.result.status, one.allowed)).collect::<Vec<_>>()
+        };
+        assert_eq!(allowed(None), [(Status::Fail, true); 2]);
+        assert_eq!(allowed(Some(folder.join("repro").as_path())), [(Status::Fail, false); 2]);
     }
 }

@@ -99,14 +99,20 @@ impl CampaignFolder {
             (case.waypoints, case.leg_times, case.seen) = (route.waypoints, route.leg_times, route.seen);
             all.push(case);
         }
-        // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short.
+        // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short. A search that
+        // came to its end leaves none.
         let last = all.iter().map(|case| case.number).max();
         match routes.keys().next() {
-            Some(&number) if last.is_some_and(|last| number < last) => {
+            Some(&number) if last.is_some_and(|last| number < last) || self.is_complete() => {
                 Err(contradiction(number, "is not in results.parquet"))
             }
             _ => Ok(all),
         }
+    }
+
+    /// Whether the search came to its end, and what it found stands in all tables.
+    fn is_complete(&self) -> bool {
+        self.has_tally() && self.read_tally().is_ok_and(|tally| tally.complete)
     }
 
     /// Reads the control witness of `case`, of a flight or of a drive, into it; leaves it without one where there is

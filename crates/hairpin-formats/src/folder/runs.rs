@@ -150,6 +150,13 @@ impl CampaignFolder {
             (true, None) => return Err(self.missing(case, run)),
             (true, Some(part)) => match part.table((case, run))? {
                 Some(rows) => {
+                    if !track::ends_at(&rows, facts.end_s)? {
+                        return Err(self.contradiction(
+                            case,
+                            run,
+                            "has a run of whose motion the last rows are missing",
+                        ));
+                    }
                     // Of what was measured only the rows are there where it bends.
                     let period = facts.full_rate.as_ref().map(|_| part.period().unwrap_or(USUAL_PERIOD));
                     track::sampled(&rows, period)?

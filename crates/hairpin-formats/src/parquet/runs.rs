@@ -259,7 +259,7 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
 /// Reads the facts of runs.
 ///
 /// # Errors
-/// Missing columns, values of another type.
+/// Missing columns, values of another type, a run twice: which of its rows is right nobody knows.
 pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>, TableError> {
     let table = Table::read(path)?;
     let cases = table.cases()?;
@@ -282,8 +282,12 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
     let still = table.numbers_or_none("still_s")?;
     let (unknown, recorded) = (flags("attitude_unknown", false)?, flags("recorded", true)?);
     let full_rate = read_full_rate(&table)?;
+    let mut seen = BTreeSet::new();
     let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).zip(full_rate).enumerate();
     rows.map(|(row, ((((ended, message), reached), drawn), full_rate))| {
+        if !seen.insert((cases[row], runs[row])) {
+            return Err(table.refuse("run", row, runs[row], format!("there once in case {}", cases[row])));
+        }
         if ended != EXECUTOR_FAILED && Ended::from_word(&ended).is_none() {
             return Err(table.refuse("ended", row, format!("`{ended}`"), "done, time, ground, obstacle, wall, …"));
         }

@@ -116,6 +116,13 @@ pub(crate) fn sampled(table: &Table, period: Option<f64>) -> Result<Track, Table
     })
 }
 
+/// Whether the last row in `table` stands at `end`, s, as near as single precision has it; where no end is known any
+/// row does.
+pub(crate) fn ends_at(table: &Table, end: Option<f64>) -> Result<bool, TableError> {
+    let last = table.numbers("t_s")?.last().copied();
+    Ok(end.is_none_or(|end| last.is_some_and(|last| (last - end).abs() <= 1e-7 * end.abs())))
+}
+
 pub(crate) fn from_table(table: &Table) -> Result<Track, TableError> {
     let times = table.numbers("t_s")?;
     let pose = POSE.iter().map(|name| table.numbers(name)).collect::<Result<Vec<_>, _>>()?;

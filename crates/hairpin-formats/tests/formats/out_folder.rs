@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use crate::out_campaign::{campaign, planned};
-use hairpin::campaign::{Case, CaseNumber, Run, Witness};
+use hairpin::campaign::{Case, CaseNumber, Run, Tally, Witness};
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError, Landed};
+use hairpin_formats::parquet::runs::{self, RunFacts};
 use hairpin_formats::parquet::track;
 
 const PART: &str = "executions/part-00000.parquet";
@@ -65,6 +66,21 @@ fn generated_cases_stand_without_results() {
     assert!(folder.read_results().unwrap().is_empty());
 }
 
+/// A case that is nowhere in the results would be judged by nobody, be it the only one that violates.
+#[test]
+fn results_that_lost_cases_are_refused_once_the_search_is_over() {
+    let place = tempfile::tempdir().unwrap();
+    let (folder, campaign) = (written(place.path()), campaign());
+    for kept in [0, 2] {
+        folder.write_results(&campaign.cases[..kept], &[]).unwrap();
+        folder.write_tally(&Tally { complete: false, ..campaign.tally.clone() }).unwrap();
+        assert_eq!(folder.read_cases().unwrap().len(), kept, "a kill amid a checkpoint costs no more");
+        folder.write_tally(&Tally { complete: true, ..campaign.tally.clone() }).unwrap();
+        let told = folder.read_cases().unwrap_err().to_string();
+        assert!(told.contains(&format!("waypoints.parquet: case 000{kept} is not in results.parquet")), "{told}");
+    }
+}
+
 #[test]
 fn the_same_campaign_is_the_same_bytes() {
     let (first, second) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
@@ -100,6 +116,21 @@ fn a_run_is_valid_only_if_it_is_whole() {
     fs::remove_file(&facts).unwrap();
     fs::write(&part, bytes).unwrap();
     assert!(!reopened().has_valid_run(CaseNumber(0), 1), "nothing says how it ended");
+}
+
+/// A motion that lost its end would be exported, drawn and measured as one that ended earlier.
+#[test]
+fn a_motion_that_lost_its_last_rows_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = written(place.path());
+    let known = campaign().cases.into_iter().flat_map(|case| folder.facts_of(case.number).unwrap());
+    // As if each had flown a hundredth of a second longer than its rows go.
+    let longer = known.map(|facts| RunFacts { end_s: facts.end_s.map(|end| end + 0.01), ..facts });
+    runs::write_facts(&place.path().join(PART_OF_RUNS), &longer.collect::<Vec<_>>()).unwrap();
+    let reopened = CampaignFolder::open(place.path()).unwrap();
+    let told = reopened.read_runs(CaseNumber(0)).unwrap_err().to_string();
+    assert!(told.contains("the last rows are missing"), "{told}");
+    assert_eq!(reopened.read_runs(CaseNumber(1)).unwrap().len(), 1, "what was not flown has no rows");
 }
 
 /// Whatever the order in which runs land, and whatever an interruption left, the files are the same.

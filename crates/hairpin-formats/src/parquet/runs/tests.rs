@@ -40,3 +40,15 @@ fn what_stood_still_has_stalled_without_its_motion_too() {
         assert_eq!(found(bare.outcome.as_ref().unwrap()), expected, "without its motion: {moving} {left:?}");
     }
 }
+
+#[test]
+fn a_run_that_is_there_twice_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("part-00000.parquet");
+    let facts = RunFacts::of(&run(6, None));
+    write_facts(&path, &[facts.clone(), RunFacts { run: 1, ..facts.clone() }]).unwrap();
+    assert_eq!(read_facts(&path).unwrap().len(), 2);
+    write_facts(&path, &[facts.clone(), RunFacts { ended: "crash".into(), ..facts }]).unwrap();
+    let told = read_facts(&path).unwrap_err().to_string();
+    assert!(told.contains("column `run`, row 1: 0, must be there once in case 0000"), "{told}");
+}
