@@ -60,7 +60,8 @@ pub enum CostsError {
     },
     /// A cost times the common scale has no room in 64 bits.
     #[error(
-        "{}, line {line}, column {column}: `{value}` × {scale} (the scale at which all costs are whole) overflows 64 bits",
+        "{}, line {line}, column {column}: `{value}` × {scale} (the scale at which all costs are whole) overflows 64 \
+         bits: round all costs to fewer decimals, or give them in a coarser unit",
         path.display()
     )]
     Overflow {

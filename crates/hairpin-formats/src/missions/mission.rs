@@ -112,7 +112,8 @@ impl Outline {
 impl Mission {
     /// How long it waits at all of its stops together, s; infinite where it is told to go on.
     pub fn hold(&self) -> f64 {
-        self.stops.iter().map(|stop| stop.hold_s).sum()
+        // The sum of none is −0.
+        self.stops.iter().map(|stop| stop.hold_s).sum::<f64>() + 0.0
     }
 
     /// Where waypoint `number` stands in the file: `waypoint 3 (item 5)`.

@@ -83,7 +83,8 @@ fn speeds_holds_and_endings_are_kept() {
     // A hold at the waypoint between the ends; one at the last ends the mission anyway.
     let held = with("3\t0\t3\t16\t0\t", "3\t0\t3\t16\t2.5\t");
     assert!(matches!(held.stops[..], [stop] if stop.waypoint == 1 && stop.hold_s == 2.5), "{:?}", held.stops);
-    assert!(with("4\t0\t3\t16\t0\t", "4\t0\t3\t16\t2.5\t").stops.is_empty());
+    let without = with("4\t0\t3\t16\t0\t", "4\t0\t3\t16\t2.5\t");
+    assert!(without.stops.is_empty() && without.hold() == 0.0 && without.hold().is_sign_positive());
     // 19: loiter for a time; a pause at an item that does not go on lasts until somebody says so.
     assert_eq!(with("3\t0\t3\t16\t0\t", "3\t0\t3\t19\t7\t").stops[0].hold_s, 7.0);
     let waits = with("38.03364000\t-78.50784000\t6.000000\t1", "38.03364000\t-78.50784000\t6.000000\t0");

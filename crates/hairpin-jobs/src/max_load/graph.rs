@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::search::heaviest::Arcs;
+use hairpin::search::heaviest::{Arcs, ArcsMistake, WalkMistake};
 use hairpin_formats::costs::{self, Costs};
 use serde_json::Value;
 
@@ -23,12 +23,16 @@ impl Graph {
     pub fn read(path: &Path) -> Result<Self, Problem> {
         let costs = costs::read(path).map_err(Problem::input)?;
         let arcs = Arcs::new(costs.points, &costs.costs);
-        let arcs = arcs.map_err(|error| {
-            let scale = costs.scale();
-            let scaled = if scale > 1 { format!(" (costs × {scale})") } else { String::new() };
-            Problem::of_file(path, format!("{error}{scaled}"))
-        })?;
+        let arcs = arcs.map_err(|mistake| Problem::of_file(path, in_its_unit(&costs, &mistake)))?;
         Ok(Self { arcs, costs })
+    }
+
+    /// What is wrong with a question of points that come several times.
+    pub(super) fn refused(&self, mistake: &WalkMistake) -> Problem {
+        match mistake {
+            WalkMistake::Arcs(mistake) => Problem::input(in_its_unit(&self.costs, mistake)),
+            WalkMistake::Visits { .. } => Problem::input(mistake),
+        }
     }
 
     /// The power of ten that makes all costs whole.
@@ -54,5 +58,61 @@ impl Graph {
     pub(super) fn at_least(&self, text: &str) -> Result<i64, Problem> {
         let least = self.costs.at_least(text);
         least.ok_or_else(|| Problem::input(format!("--min-cost `{text}`, must be a decimal number ≥ 0 within 64 bits")))
+    }
+}
+
+/// A mistake with the cost as it stands in its file, and what gives it room.
+fn in_its_unit(costs: &Costs, mistake: &ArcsMistake) -> String {
+    let ArcsMistake::Overflow { from, to, cost, bound, points } = *mistake else { return mistake.to_string() };
+    let (line, column) = (from + 1, to + 1);
+    let [cost, most] = [cost, bound].map(|whole| costs.text(whole));
+    let way = match decimals_within(costs, bound) {
+        Some(decimals) => format!("with {} decimals; rounded to {decimals} all costs are", costs.decimals),
+        None => "in whole numbers; in a coarser unit all costs are".to_owned(),
+    };
+    format!(
+        "line {line}, column {column}: cost {cost} of the arc {from}→{to}, must be at most {most} for sums over \
+         {points} points to be exact {way}"
+    )
+}
+
+/// The most decimals with which no cost, rounded, is more than `bound` whole numbers.
+fn decimals_within(costs: &Costs, bound: i64) -> Option<usize> {
+    let largest = costs.costs.iter().flatten().max()?;
+    (0..costs.decimals).rev().find(|decimals| largest / 10i64.pow((costs.decimals - decimals) as u32) < bound)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Unwatched;
+    use crate::max_load::{MaxLoadSettings, max_load};
+
+    /// As Python writes 158.01 + 0.01 and 9.699…: the digits that make a double.
+    #[test]
+    fn costs_without_room_are_told_as_they_stand_with_the_decimals_that_have_it() {
+        let place = tempfile::tempdir().unwrap();
+        let graph = place.path().join("costs.csv");
+        let refused = |text: &str, visits: usize| {
+            std::fs::write(&graph, text).unwrap();
+            let settings = MaxLoadSettings { graph: graph.clone(), visits, ..MaxLoadSettings::default() };
+            max_load(&settings, &Unwatched).err().map(|problem| problem.to_string())
+        };
+        for (text, visits, at, bound, way) in [
+            (
+                ",9.699254132161325\n158.019999999999996,\n",
+                1,
+                "line 2, column 1: cost 158.0",
+                "72.057594037927935",
+                "14",
+            ),
+            (",9.699254132161325\n58.019999999999996,\n", 2, "line 2, column 1: cost 58.0", "36.028797018963967", "14"),
+            (",7.000000000000000001\n3,\n", 1, "line 1, column 2: cost 7.000000000000000001 ", "0.0720", "16"),
+        ] {
+            let said = refused(text, visits).unwrap();
+            let words = [at, bound, &format!("; rounded to {way} all costs are")];
+            assert!(words.iter().all(|words| said.contains(*words)), "{said}");
+        }
+        assert!(refused(",9000000000000000000\n1,\n", 1).unwrap().contains("in a coarser unit"));
+        assert_eq!(refused(",9.69925413216133\n158.02,\n", 1), None);
     }
 }

@@ -61,7 +61,7 @@ pub fn max_load(settings: &MaxLoadSettings, watch: &dyn Watch) -> Result<MaxLoad
     let (found, walk) = if walks {
         let HeaviestSettings { ends, programs, most_nodes, proof, .. } = search;
         let settings = WalkSettings { ends, visits: settings.visits, min_cost, programs, most_nodes, proof };
-        heaviest_walk(&graph.arcs, &settings, &stop).map_err(Problem::input)?
+        heaviest_walk(&graph.arcs, &settings, &stop).map_err(|mistake| graph.refused(&mistake))?
     } else {
         (heaviest(&graph.arcs, &search, &stop).map_err(Problem::input)?, None)
     };

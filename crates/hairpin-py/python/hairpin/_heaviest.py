@@ -79,7 +79,8 @@ def max_load(
 
     Args:
         matrix: costs, shape (n, n), row = from, column = to, ≥ 0; NaN: no arc. The diagonal has no meaning. Decimals become whole
-            numbers exactly, all times the same power of ten.
+            numbers exactly, all times the same power of ten; for the 17 digits of computed ones there is mostly no room: ``np.round``
+            them.
         cloud: an arm's points in its base's frame, shape (n, 3), m, or (n, 7) with the tool's orientation as a unit quaternion w, x,
             y, z; or a file as `--cloud` takes it (CSV in mm, a RAPID module). Decimals become those of millimetres exactly.
         cell: with `cloud`: the arm, or the scenario around it.

@@ -28,7 +28,8 @@ impl Timing {
     /// caller's.
     pub fn new(profile: &SpeedProfile, segments: &[Segment]) -> Self {
         let rest = SpeedProfile::from(1.0).over(0.0);
-        let length = segments.iter().map(Segment::length_m).sum();
+        // The sum of none is −0.
+        let length = segments.iter().map(Segment::length_m).sum::<f64>() + 0.0;
         let mut timing = Self { stretches: [(0.0, rest); MOST_STRETCHES], len: 0, constant: None, length };
         if let SpeedProfile::Constant { speed } = *profile {
             timing.constant = Some(speed);
@@ -176,6 +177,8 @@ mod tests {
             knots.windows(2).all(|pair| pair[0][0] <= pair[1][0]) && knots.last() == Some(&[21.0, 0.5]),
             "{knots:?}"
         );
+        let none = Timing::new(&SpeedProfile::from(1.0), &[]);
+        assert!(none.length().is_sign_positive() && none.time_at(none.length()).is_sign_positive());
         // The same speed all along, but for the stops.
         let stopping = SpeedProfile::Trapezoid { start: 1.5, cruise: 1.5, end: 1.5, acceleration: 0.5 };
         let timing = Timing::new(&stopping, &drive);

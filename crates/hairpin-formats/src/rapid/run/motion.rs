@@ -150,9 +150,19 @@ impl Machine<'_> {
         };
         let value = self.evaluate(expression, at).into_kind(kind).map_err(|what| self.about(expression, what))?;
         if value == Value::Unknown {
-            return Err(self.about(expression, "is not known from this file".into()));
+            let unknown = self.unknown_in(expression, at);
+            return Err(self.about(unknown, "is not known from this file".into()));
         }
         Ok((value, name))
+    }
+
+    /// What makes a value one that is not known: the first variable in it that is not, or all of it.
+    fn unknown_in<'e>(&mut self, expression: &'e Expression, at: At) -> &'e Expression {
+        let mut found = Vec::new();
+        variables(expression, &mut found);
+        let unknown =
+            |part: &&Expression| matches!(part, Expression::Path(path) if self.look(path, at) == Value::Unknown);
+        found.into_iter().find(unknown).unwrap_or(expression)
     }
 
     /// The reason with the name of what it is about.
@@ -240,4 +250,30 @@ fn moved_beside(motion: &Motion) -> Option<Doubt> {
         Motion::Joint(to) | Motion::Linear(to) | Motion::Circular { to, .. } => &to.external,
     };
     beside(external, ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"])
+}
+
+/// The variables of a value, from left to right.
+fn variables<'e>(expression: &'e Expression, found: &mut Vec<&'e Expression>) {
+    match expression {
+        Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => {}
+        Expression::Path(_) => found.push(expression),
+        Expression::Aggregate(parts) => parts.iter().for_each(|part| variables(part, found)),
+        Expression::Unary { of, .. } => variables(of, found),
+        Expression::Chain { first, rest } => {
+            variables(first, found);
+            rest.iter().for_each(|(_, part)| variables(part, found));
+        }
+        Expression::Call { arguments, .. } => {
+            arguments.iter().filter_map(handed).for_each(|part| variables(part, found));
+        }
+    }
+}
+
+/// The value of an argument that has one of its own.
+fn handed(argument: &Argument) -> Option<&Expression> {
+    match argument {
+        Argument::Placed(value) => Some(value),
+        Argument::Named { value, .. } => value.as_ref(),
+        Argument::IfGiven { .. } => None,
+    }
 }

@@ -189,6 +189,9 @@ fn what_depends_on_the_cell_is_told_where_it_matters() {
         ("MoveL p10,v5,fine,tool0\\Corr;", 0, "\\corr"),
         ("MoveL p10,v55,fine,tool0;", 0, "`v55` is not declared"),
         ("MoveL CRobT(),v5,fine,tool0;", 0, "`CRobT` is not known from this file"),
+        ("MoveL Offs(CRobT(),1,0,0),v5,fine,tool0;", 0, "`Offs` is not known from this file"),
+        ("MoveL Offs(p10,0,part1.h,0),v5,fine,tool0;", 0, "`part1` is not known from this file"),
+        ("MoveL RelTool(p10,0,0,1\\Rz:=2*gap),v5,fine,tool0;", 0, "`gap` is not known from this file"),
         ("MoveL home,v5,fine,tool0;", 0, "`home` is no robtarget"),
         ("MoveL p10,v5,fine;", 0, "4 arguments"),
         (
