@@ -82,8 +82,8 @@ impl BoatJudge {
         BoatEnd { place: [place.x, place.y], velocity, heading }
     }
 
-    /// The state at `place`, between the ends of a trip, with `velocity` over ground: of the leg that leads there and of
-    /// the one that goes on, so that at rest its bow points into the current.
+    /// The state at `place`, between the ends of a trip, with `velocity` over ground: of the leg that leads there and
+    /// of the one that goes on, so that at rest its bow points into the current.
     ///
     /// `None` at rest in still water, where the two legs would turn it to a heading each.
     pub fn between(&self, place: &Point3<f64>, velocity: [f64; 2]) -> Option<BoatEnd> {
