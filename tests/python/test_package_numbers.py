@@ -127,6 +127,8 @@ def test_the_heaviest_path_is_that_of_enumeration_and_of_the_command(tmp_path):
 def test_no_arc_and_bad_matrices():
     nothing = hairpin.max_load([[np.nan, np.nan], [np.nan, np.nan]], start=0, end=1)
     assert nothing.path is None and nothing.cost is None and nothing.feasible is False
+    # The diagonal has no meaning, whatever stands there.
+    assert hairpin.max_load([[-1, 1.5], [2, np.inf]]).cost == 2
     for matrix, field in (
         ([[0, -1.0], [1, 0]], "matrix[0, 1]"),
         (np.zeros((2, 3)), "matrix"),

@@ -128,8 +128,8 @@ pub(crate) fn whole(cell: &str, decimals: usize) -> Option<i64> {
     if number.decimals() <= decimals { number.times(decimals) } else { None }
 }
 
-/// Reads a file. Blank lines at its end are skipped, spaces around numbers too; the diagonal has no meaning but must be
-/// a cost or empty.
+/// Reads a file. Blank lines at its end are skipped, spaces around numbers too; the diagonal has no meaning: any number
+/// may stand there, NaN and infinity too, or nothing.
 ///
 /// # Errors
 /// The first thing wrong, with line and column.
@@ -224,11 +224,12 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
             return Err(width(row + 1, cells.len()));
         }
         for (column, cell) in cells.cells().enumerate() {
-            if !cell.is_empty() {
+            if row == column && !is_idle(cell) {
+                return Err(wrong(row, column, cell));
+            }
+            if row != column && !cell.is_empty() {
                 let number = Decimal::parse(cell).ok_or_else(|| wrong(row, column, cell))?;
-                if row != column {
-                    numbers.push((row, column, cell, number));
-                }
+                numbers.push((row, column, cell, number));
             }
         }
     }
@@ -245,6 +246,11 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
         })?);
     }
     Ok(Costs { points, costs, decimals })
+}
+
+/// Whether it may stand where no arc can be. Words may not: they are those of a header or of a column of names.
+fn is_idle(cell: &str) -> bool {
+    cell.is_empty() || cell.parse::<f64>().is_ok()
 }
 
 /// A table of nothing but digits, points, commas and line ends, without a mistake; of another, which [`parse`] reads by
@@ -351,6 +357,15 @@ mod tests {
         for text in ["", "\n", "0,1\n\n2,0\n", "0,1\n2\n", "1,2,3\n", ",.\n1,", ",1e3\n1,", ",12345678901234567890\n1,"]
         {
             assert_eq!(plain(text, 0), None, "{text:?}");
+        }
+    }
+
+    /// Tools fill it with what can be no cost, so that it is never chosen.
+    #[test]
+    fn any_number_may_stand_on_the_diagonal() {
+        let plain = read(",1.5\n2,\n").unwrap();
+        for idle in ["-1", "nan", "NaN", "inf", "-inf", "0.001", "1e300"] {
+            assert_eq!(read(&format!("{idle},1.5\n2,{idle}\n")), Ok(plain.clone()), "{idle}");
         }
     }
 

@@ -28,9 +28,14 @@ pub struct ReplayedRepro {
 }
 
 impl ReplayedRepro {
-    /// Whether it violates as it did.
+    /// Whether it violates as it did, or as then does not.
     pub fn reproduces(&self) -> bool {
-        self.same && self.result.status == Status::Fail
+        self.same && (self.result.status == Status::Fail || self.was_fine() && self.result.message.is_none())
+    }
+
+    /// Whether there was no violation: a case that was kept within spec may be flown again as well.
+    pub fn was_fine(&self) -> bool {
+        self.repro.expected.violations.is_empty()
     }
 }
 
@@ -95,7 +100,8 @@ fn campaign_of(file: &Path) -> PathBuf {
 mod tests {
     use super::*;
     use crate::Unwatched;
-    use crate::testing::violating;
+    use crate::judge::judge;
+    use crate::testing::{executed, violating};
 
     #[test]
     fn a_violation_comes_again() {
@@ -111,5 +117,14 @@ mod tests {
         std::fs::write(&file, other).unwrap();
         let refused = replay(&file, Simd::Portable, &Consent::default(), &Unwatched).unwrap_err();
         assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
+    }
+
+    #[test]
+    fn a_case_within_spec_comes_again() {
+        let (_place, folder) = executed();
+        judge(&folder, &[("spec.deviation.max_m".to_owned(), "500".to_owned())]).unwrap();
+        let again = replay_case((&folder, CaseNumber(0)), Simd::Widest, &Consent::default(), &Unwatched).unwrap();
+        assert_eq!(again.result.status, Status::Pass, "{again:?}");
+        assert!(again.was_fine() && again.same && again.reproduces(), "{again:?}");
     }
 }

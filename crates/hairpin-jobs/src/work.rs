@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{CallersCode, Scenario, Setup, Tally, vary};
+use hairpin::campaign::{CallersCode, PassedOver, Scenario, Setup, Tally, vary};
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
@@ -114,6 +114,9 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     for (key, value) in passed_over.into_iter().filter(|_| !setup.has_programs()) {
         let method = search.method.word();
         watch.warn(&format!("`generate.search.{key}` = {value} is passed over: `{method}` has no use for it here"));
+    }
+    for PassedOver { key, value, why } in setup.passed_over() {
+        watch.warn(&format!("`execute.{key}` = {value} is passed over: {why}"));
     }
     may_make(&path, &setup, settings.if_there)?;
     for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {

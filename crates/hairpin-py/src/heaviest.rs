@@ -43,7 +43,10 @@ pub(crate) fn max_load<'py>(
     waiting: Waiting,
 ) -> PyResult<Bound<'py, PyAny>> {
     let costs: Vec<f64> = table.as_chunks().0.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect();
-    if let Some(place) = costs.iter().position(|cost| *cost < 0.0 || cost.is_infinite()) {
+    if let Some(place) = costs.iter().enumerate().position(|(at, cost)| {
+        // The diagonal has no meaning.
+        at % (points + 1) != 0 && (*cost < 0.0 || cost.is_infinite())
+    }) {
         let (field, value) = (format!("matrix[{}, {}]", place / points, place % points), costs[place].to_string());
         let bound = "a finite number ≥ 0, or NaN for no arc";
         return Err(wrong(py, &format!("`{field}` = {value}: must be {bound}"), &field, &value, bound));

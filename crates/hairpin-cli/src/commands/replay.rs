@@ -25,11 +25,19 @@ pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
     let (repro, result) = (&replayed.repro, &replayed.result);
     let again: Vec<String> = result.violations.iter().map(violation).collect();
     let message = result.message.as_deref().unwrap_or_default();
-    let was = repro.expected.violations.join("; ");
+    let was = match &repro.expected.violations[..] {
+        [] => "no violation".to_owned(),
+        violations => violations.join("; "),
+    };
     let (code, sentence) = match result.status {
         Status::Fail if replayed.same => (FINDING, format!("FAIL 1/1: reproduces: {}", again.join("; "))),
         Status::Fail => {
             (FINDING, format!("FAIL 1/1: violates again, but not equally: {} (was: {was})", again.join("; ")))
+        }
+        Status::Pass if replayed.reproduces() => (DONE, "PASS 1/1: as before: no violation".into()),
+        Status::Pass if replayed.was_fine() => (DONE, "PASS 1/1: not equally, but no violation as before".into()),
+        Status::Unjudged if replayed.reproduces() => {
+            (DONE, "UNJUDGED 1: as before: no crash, and no more was asked for".into())
         }
         Status::Pass => (DONE, format!("PASS 1/1: does not reproduce: no violation now (was: {was})")),
         Status::Unjudged => {

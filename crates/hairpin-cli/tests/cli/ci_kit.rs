@@ -33,6 +33,9 @@ fn junit_goes_where_it_is_asked_for_with_the_commands_that_reproduce() {
     assert_eq!(run(here, &lax).0, 0);
     let junit = fs::read_to_string(here.join("again.xml")).unwrap();
     assert!(junit.contains("tests=\"4\" failures=\"0\"") && !junit.contains("again:"), "{junit}");
+    // It may be flown again all the same, as it is.
+    let (code, out, error) = run(here, &["replay", "my out", "--case", "0002"]);
+    assert_eq!((code, out.trim_end()), (0, "PASS 1/1: as before: no violation"), "{error}");
     fs::create_dir(here.join("taken")).unwrap();
     refused(here, &["judge", "my out", "--junit", "taken"], &["--junit taken", "name a file"]);
 }

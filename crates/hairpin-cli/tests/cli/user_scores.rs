@@ -94,6 +94,7 @@ fn what_goes_wrong_is_told_with_file_and_line() {
         ("def score(leg):\n    return leg['speed']\n", &["line 2", "KeyError: 'speed'"]),
         ("def score(leg):\n    return 'much'\n", &["generate.score", "could not convert"]),
         ("def score(leg)\n", &["line 1", "SyntaxError"]),
+        ("def score(leg):\n    raise ValueError('no\\n  score')\n", &["line 2", "ValueError: no score"]),
         ("import sys\nsys.exit(3)\n", &["generate.score", "SystemExit: 3"]),
         ("def score(leg):\n    return float('nan')\n", &["nan is no finite number, of the leg", "'climb_m'"]),
         ("x = 1\n", &["it defines no function score(leg)"]),

@@ -13,6 +13,8 @@ import traceback
 
 # Sums over a trajectory stay finite.
 LARGEST = 1e100
+# Letters of what went wrong: it stands in a sentence.
+MOST_SAID = 1000
 
 
 def number(value, of):
@@ -134,9 +136,12 @@ def main(path, alone, what):
 if __name__ == "__main__":
     try:
         main(sys.argv[1], sys.argv[2] == "alone", sys.argv[3])
-    except BaseException:
+    except BaseException as error:
         lines = traceback.format_exc().strip().splitlines()
-        # The place in the user's file, and what is wrong there.
+        # The place in the user's file, and what is wrong there: its kind and all its lines in one. What is indented is
+        # the place of a mistake of syntax.
         places = [line.strip() for line in lines if line.strip().startswith("File ")]
-        sys.stderr.write((places[-1] + ": " if places else "") + lines[-1] + "\n")
+        words = [part for part in traceback.format_exception_only(type(error), error) if not part.startswith(" ")]
+        said = " ".join("".join(words).split())
+        sys.stderr.write((places[-1] + ": " if places else "") + said[:MOST_SAID] + "\n")
         sys.exit(1)

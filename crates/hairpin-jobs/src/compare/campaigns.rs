@@ -79,8 +79,11 @@ pub(super) fn pairs(
 fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> {
     let cases = work.folder.read_cases_without_profiles()?;
     let results = work.folder.read_results()?;
-    if results.len() < cases.len() || cases.is_empty() {
+    if results.len() < cases.len() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", path.display())));
+    }
+    if cases.is_empty() {
+        return Err(Problem::input(format!("{} has no case: there is nothing to compare", path.display())));
     }
     let mut results: HashMap<_, _> = results.into_iter().map(|result| (result.case, result)).collect();
     let pair = |case: Case| results.remove(&case.number).map(|result| (case, result));

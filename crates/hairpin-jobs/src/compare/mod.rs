@@ -11,7 +11,9 @@ pub use page::write_page;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{executed, violating};
+    use crate::Unwatched;
+    use crate::generate::generate;
+    use crate::testing::{executed, small, violating};
 
     #[test]
     fn a_campaign_is_equal_to_itself() {
@@ -33,5 +35,15 @@ mod tests {
         let (_place, folder) = executed();
         let refused = compare(&folder, &folder, 0.0).unwrap_err();
         assert!(refused.to_string().starts_with("not judged yet"), "{refused}");
+    }
+
+    #[test]
+    fn where_nothing_is_feasible_nothing_is_compared() {
+        let place = tempfile::tempdir().unwrap();
+        let mut settings = small(&place);
+        settings.sets.push(("generate.limits.max_speed_m_s".to_owned(), "0.01".to_owned()));
+        let folder = generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned();
+        let refused = compare(&folder, &folder, 0.0).unwrap_err().to_string();
+        assert!(refused.contains("has no case: there is nothing to compare"), "{refused}");
     }
 }

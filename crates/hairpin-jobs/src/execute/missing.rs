@@ -88,6 +88,9 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
         .iter()
         .flat_map(|(case, run, known)| (*known..wanted).map(move |again| Job { case, run: *run, again: Some(again) }));
     let jobs: Vec<Job> = jobs.collect();
+    if let Some(why) = work.setup.repeats().filter(|_| !jobs.is_empty()) {
+        watch.warn(&format!("violations are run again, each time as the same run: {why}"));
+    }
     let (all_stay, again) = (work.setup.scenario.executor().record.is_all(), comes_again(&work.setup));
     let keeps = |run: &Run| all_stay || is_indispensable(run, again);
     fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &keeps }, watch)

@@ -102,7 +102,7 @@ pub use generate::{Known, Optimum, generate, optima};
 pub use graph::{Losses, Lost, Stage};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{judge, judge_runs};
-pub use kind::{PlanError, Verified};
+pub use kind::{PassedOver, PlanError, Verified};
 pub use landed::at_full_rate;
 pub use mission::{Mission, mission, mission_again, planned};
 pub use own_controller::AnyController;

@@ -18,7 +18,7 @@ use serde_json::Value;
 use super::attachments::{Attachments, Resolved};
 use super::case::Case;
 use super::check::check_vary;
-use super::kind::{Build, Drawing, Given, Handed, Kind, Programs, RobotWords, Room};
+use super::kind::{Build, Drawing, Given, Handed, Kind, PassedOver, Programs, RobotWords, Room};
 use super::own_controller::AnyController;
 use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
 use super::user_code::UserCode;
@@ -296,6 +296,17 @@ impl Setup {
     /// How fast its robot can be and become.
     pub fn swiftness(&self) -> Swiftness {
         self.kind.swiftness()
+    }
+
+    /// Why runs of other seeds are the same run, a sentence's part; `None` where they may differ, as by noise, gusts
+    /// and code of the user's.
+    pub fn repeats(&self) -> Option<&'static str> {
+        self.kind.repeats()
+    }
+
+    /// Keys under `execute` that are given, and that no run reads.
+    pub fn passed_over(&self) -> Vec<PassedOver> {
+        self.kind.passed_over()
     }
 
     /// Where its vehicle may be; `None` of what is none, as arms are.

@@ -55,7 +55,7 @@ pub fn verdict_on(
     let proof = gaps.map(|gaps| gap_word(gaps.into_iter().fold(0.0, f64::max), "gap at most"));
     let confidence = setup.scenario.confidence_of_intervals();
     let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
-    let reruns = rerun_words(results, confidence);
+    let reruns = rerun_words(results, confidence, setup.repeats());
     let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
     let undone = |what: Undone| results.iter().filter(|result| result.is_undone(what)).count();
     let undone = [undone(Undone::NotExecuted), undone(Undone::NotJudged)];
@@ -112,7 +112,9 @@ fn cut_words(tally: &Tally, [not_executed, not_judged]: [usize; 2], of: usize) -
 }
 
 /// `violations run again 10 times each: 5 of 7 violate every time, least often 0117, 3/10 [6.7, 65.2] %`.
-fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
+///
+/// Where they are all the same run, and why, is told as well: they say nothing of how often it comes again.
+fn rerun_words(results: &[CaseResult], confidence: f64, the_same: Option<&str>) -> Option<String> {
     let again: Vec<(&CaseResult, Reruns)> = results
         .iter()
         .filter_map(|result| Some((result, result.reruns?)))
@@ -132,6 +134,9 @@ fn rerun_words(results: &[CaseResult], confidence: f64) -> Option<String> {
     // A limit that became tighter since makes violations of what was not one.
     if failed > again.len() {
         words += &format!(", {} not run again", failed - again.len());
+    }
+    if let Some(why) = the_same {
+        words += &format!(", each the same run: {why}");
     }
     Some(words)
 }
@@ -237,4 +242,18 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
         return judgement::inconclusive("0", &[&rests_on, setup.scenario.reach()], &format!("{what}; {open}"));
     }
     judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, change)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reruns_without_chance_are_told_to_be_the_same_run() {
+        let reruns = Some(Reruns { violated: 3, of: 3 });
+        let results = [CaseResult { reruns, ..CaseResult::bare(CaseNumber(0), Status::Fail) }];
+        let words = |the_same| rerun_words(&results, 0.95, the_same).expect("they were run again");
+        assert_eq!(words(None), "violations run again 3 times each: 1 of 1 violate every time");
+        assert!(words(Some("no gusts")).ends_with("violate every time, each the same run: no gusts"));
+    }
 }

@@ -325,6 +325,7 @@ pub(crate) fn samples() -> Vec<Sample> {
         wpl_row("wpl.comment", "110\n", "110\n# made by hand\n"),
         wpl_row("wpl.hold", "3\t16\t0\t1", "3\t16\t5\t1"),
         row("costs.no-arc", of_costs, "0,1\n2,0\n", "0,1\n,0\n"),
+        row("costs.diagonal", of_costs, "0,1\n2,0\n", "-1,1\n2,nan\n"),
         row("costs.not-square", of_costs, "0,1\n2,0\n", "0,1,3\n2,0,3\n"),
         row("clock.readings", of_clock, "arc_ms;2\n0;1;20\n", "arc_ms;2\n0;1;20\n0;1;30\n"),
         row("clock.no-point", of_clock, "arc_ms;2\n0;1;20\n", "arc_ms;2\n0;5;20\n"),

@@ -11,7 +11,13 @@ const FIXED: &[(&str, &str)] = &[
     ("seed", "all draws come from it"),
     ("vary", "it says what varies"),
     ("robot", "its numbers may, such as \"robot.mass_kg\""),
+    ("robot.kind", "it is a word, which no run reads"),
+    ("robot.name", "it is a word, which no run reads"),
+    ("robot.source", "it is a word, which no run reads"),
+    ("robot.caveat", "it is a word, which no run reads"),
+    ("robot.estimated", "it is a list of words, which no run reads"),
     ("world.base", "it is merged before anything is drawn"),
+    ("world.origin", "it is where all cases lie on Earth"),
     ("generate.search.cases", "it is the number of cases"),
     ("generate.search.graphs", "it is a budget of the whole search"),
     ("generate.search.per_graph", "it is the number of cases of a graph"),
@@ -22,6 +28,7 @@ const FIXED: &[(&str, &str)] = &[
     ("execute.repeat", "it is the number of runs"),
     ("execute.baseline", "it is the number of cases to compare with"),
     ("execute.record", "it belongs to the whole campaign"),
+    ("execute.flaky", "it is how often violations are run again"),
     ("execute.timeout_s", "one program flies all runs"),
     ("execute.processes", "one program flies all runs"),
     ("execute.workers", "one program flies all runs"),
@@ -34,6 +41,8 @@ const FIXED: &[(&str, &str)] = &[
     ("world.terrain.file", "one map is read for all cases"),
     ("world.terrain.checksum", "one map is read for all cases"),
 ];
+/// Those of which nothing may that is within them.
+const FIXED_WITHIN: [&str; 3] = ["vary", "world.origin", "execute.flaky"];
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;
 /// Smallest share of draws that a truncation may keep.
@@ -64,8 +73,10 @@ fn check_entry(
         return refuse(format!("\"{key}\""), "a dotted key of the scenario, such as \"world.wind_m_s\"".into());
     };
     let whole_key = path.to_string();
-    let within_vary = path.segments()[0] == "vary";
-    if let Some((_, why)) = FIXED.iter().find(|(fixed, _)| *fixed == whole_key || (within_vary && *fixed == "vary")) {
+    let is_within = |fixed: &str| {
+        FIXED_WITHIN.contains(&fixed) && whole_key.strip_prefix(fixed).is_some_and(|rest| rest.starts_with(['.', '[']))
+    };
+    if let Some((_, why)) = FIXED.iter().find(|(fixed, _)| *fixed == whole_key || is_within(fixed)) {
         return refuse(
             format!("\"{key}\""),
             format!("a key that may differ between cases or runs; this one may not: {why}"),

@@ -1,7 +1,7 @@
 //! What a flight's claim, execution and limits rest on, said from the run's own settings.
 
-use super::FlightSetup;
 use super::fly::makes_own_curve;
+use super::{FlightSetup, idle};
 use crate::campaign::Case;
 use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
 
@@ -56,6 +56,15 @@ pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>)
     }
 }
 
+/// What `execute.noise` comes to.
+fn noise_word(setup: &FlightSetup) -> &'static str {
+    match (setup.scenario.execute.noise, idle::is_noiseless(&setup.robot)) {
+        (false, _) => "off",
+        (true, false) => "on",
+        (true, true) => "on, of which the robot has none",
+    }
+}
+
 /// Who flew them.
 pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
@@ -69,7 +78,7 @@ pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     said.push(format!(
         "Simulated: rigid body with rotor lag and drag at {} s, controller {who}{faster}{late}; noise {}.",
         execute.step_s,
-        if execute.noise { "on" } else { "off" }
+        noise_word(setup)
     ));
 }
 

@@ -4,9 +4,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::FlightSetup;
 use super::fit;
+use super::idle;
 use super::place::place;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, Same, Say};
+use crate::campaign::kind::{Act, Fittable, LegByLeg, Order, PassedOver, Same, Say};
 use crate::campaign::placement::Placement;
 use crate::simulation::{
     self, Airborne, Conditions, ControllerKind, ControllerSettings, DiscreteGust, FlySettings, Gusts, SimulationError,
@@ -51,6 +52,14 @@ impl Act for FlightSetup {
 
     fn fittable(&self) -> Result<Fittable, String> {
         fit::fittable(self, &controller(self))
+    }
+
+    fn repeats(&self) -> Option<&'static str> {
+        idle::repeats(self)
+    }
+
+    fn passed_over(&self) -> Vec<PassedOver> {
+        idle::passed_over(self)
     }
 
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {

@@ -21,6 +21,7 @@ mod figure;
 mod fit;
 mod fly;
 mod graph;
+mod idle;
 mod knobs;
 mod legs;
 mod losses;

@@ -28,6 +28,19 @@ pub(in crate::campaign) struct Order<'a> {
     pub(in crate::campaign) seed: u64,
 }
 
+/// A key under `execute` that is given, and that no run reads.
+///
+/// Told before anything runs: who gave it believes that it acts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PassedOver {
+    /// Its name under `execute`.
+    pub key: &'static str,
+    /// The value that stands there, as JSON.
+    pub value: String,
+    /// Why nobody reads it, a sentence's part.
+    pub why: String,
+}
+
 /// How missions are carried out in our own simulator.
 ///
 /// Run on the setup as it was drawn for the run; the plan stays that of `nominal`, so that a controller meets what
@@ -70,6 +83,16 @@ pub(in crate::campaign) trait Act {
     /// `None` of controllers that get the whole plan at once: what they do on a first leg depends on the last.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         None
+    }
+
+    /// Why runs of other seeds are the same run, a sentence's part; `None` where they may differ.
+    fn repeats(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Keys under `execute` that are given, and that no run reads.
+    fn passed_over(&self) -> Vec<PassedOver> {
+        Vec::new()
     }
 
     /// What logs may tell of it.

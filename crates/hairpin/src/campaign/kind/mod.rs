@@ -40,6 +40,7 @@ mod same;
 mod say;
 mod solid;
 
+pub use act::PassedOver;
 pub(super) use act::{Act, LegByLeg, Order};
 pub use axis::Axis;
 pub(super) use build::{Build, Given};

@@ -12,7 +12,7 @@ mod world;
 
 use std::sync::Arc;
 
-use super::FlightSetup;
+use super::{FlightSetup, idle};
 use crate::campaign::check::{Findings, check_spec};
 use crate::campaign::kind::{Build, Given};
 use crate::campaign::scenario::{FlightScenario, Mistake};
@@ -43,6 +43,7 @@ impl Build for FlightSetup {
         found.rounds(keys.generate.search.method, ("generate.score", named), keys.vary.keys());
         environment::check(keys, &mut found);
         execute::check(&keys.execute, &mut found);
+        idle::check_varied(keys, robot.as_deref(), &mut found);
         check_spec(&keys.spec, 1e6, &mut found);
         match (robot, world) {
             (Some(robot), Some(world)) if found.0.is_empty() => Ok(Self::of(given, robot, world)),

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::testing::quadrotor;
-use crate::campaign::{Scenario, Setup};
+use crate::campaign::{Mistake, Scenario, Setup};
 
 fn scenario() -> Value {
     json!({
@@ -23,13 +23,17 @@ fn tetrahedron(from: [f64; 3], edge: f64) -> Value {
         "triangles": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] } })
 }
 
-fn mistakes(changes: &[(&str, Value)]) -> Vec<String> {
+fn built(changes: &[(&str, Value)]) -> Result<Setup, Vec<Mistake>> {
     let mut value = scenario();
     for (key, new) in changes {
         KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
     }
     let scenario: Scenario = serde_json::from_value(value).unwrap();
-    Setup::build(scenario.into()).err().unwrap_or_default().iter().map(ToString::to_string).collect()
+    Setup::build(scenario.into())
+}
+
+fn mistakes(changes: &[(&str, Value)]) -> Vec<String> {
+    built(changes).err().unwrap_or_default().iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -188,6 +192,15 @@ fn vary_is_tried_before_anything_flies() {
         ("spec.deviation.max_m", json!({ "uniform": [-1.0, 5.0] }), "within bounds: spec.deviation.max_m = -1"),
         ("spec.confidence", json!({ "uniform": [0.9, 0.95] }), "this one may not: it judges all cases together"),
         ("vary.x", json!({ "uniform": [1, 5] }), "this one may not: it says what varies"),
+        ("robot.name", json!({ "choice": ["a", "b"] }), "this one may not: it is a word, which no run reads"),
+        ("world.origin.lat_deg", json!({ "uniform": [1, 5] }), "this one may not: it is where all cases lie on Earth"),
+        ("execute.flaky.reruns", json!({ "uniform": [1, 5] }), "it is how often violations are run again"),
+        ("world.keep_in_margin_m", json!({ "uniform": [1, 2] }), "a key that runs read: plans keep the margin"),
+        ("robot.battery.endurance_s", json!({ "uniform": [60, 90] }), "a key that runs read: no run drains a battery"),
+        ("execute.noise", json!({ "choice": [true, false] }), "a key that runs read: the robot has no noise"),
+        ("execute.fixed_velocity_m_s", json!({ "uniform": [1, 5] }), "`stable-waypoint` has no use for it"),
+        ("execute.segment_times", json!({ "choice": ["length"] }), "`stable-waypoint` has no use for it"),
+        ("execute.goto_speed_m_s", json!({ "uniform": [1, 5] }), "`stable-waypoint` has no use for it"),
         ("a b", json!({ "uniform": [1, 5] }), "a dotted key"),
     ];
     for (key, distribution, words) in table {
@@ -200,4 +213,50 @@ fn vary_is_tried_before_anything_flies() {
         "robot.mass_kg": { "normal": [1, 0.1], "min": 0.8 }, "world.obstacles.0.box.size_m[2]": { "choice": [4, 8] },
         "generate.limits.max_speed_m_s": { "uniform": [5, 8] } });
     assert_eq!(mistakes(&[("vary", fine)]), Vec::<String>::new());
+}
+
+/// Each varies once somebody reads it.
+#[test]
+fn what_somebody_reads_may_vary() {
+    let speeds = json!({ "execute.fixed_velocity_m_s": { "uniform": [1, 5] } });
+    assert_eq!(mistakes(&[("vary", speeds), ("execute.controller", json!("fixed-velocity"))]), Vec::<String>::new());
+    let either = json!({ "execute.segment_times": { "choice": ["length", "sqrt-length"] },
+        "execute.controller": { "choice": ["geometric", "anafi"] } });
+    assert_eq!(mistakes(&[("vary", either)]), Vec::<String>::new());
+    let noise = json!({ "execute.noise": { "choice": [true, false] } });
+    let noisy = ("robot.moment_noise_n2_m2_s", json!(1e-7));
+    assert_eq!(mistakes(&[("vary", noise), noisy]), Vec::<String>::new());
+}
+
+#[test]
+fn what_nobody_reads_is_told() {
+    let told = |changes: &[(&str, Value)]| -> Vec<String> {
+        let found = built(changes).expect("a scenario").passed_over();
+        found.into_iter().map(|one| format!("{} = {}: {}", one.key, one.value, one.why)).collect()
+    };
+    let noise = ("execute.noise", json!(true));
+    let noisy = ("robot.force_noise_n2_s", json!(5e-4));
+    let no_noise = "noise = true: the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s)";
+    assert_eq!(told(std::slice::from_ref(&noise)), [no_noise]);
+    assert_eq!(told(&[noise, noisy]), Vec::<String>::new());
+    let speed = ("execute.fixed_velocity_m_s", json!(3.0));
+    assert_eq!(told(std::slice::from_ref(&speed)), ["fixed_velocity_m_s = 3.0: `stable-waypoint` has no use for it"]);
+    assert_eq!(told(&[speed, ("execute.controller", json!("fixed-velocity"))]), Vec::<String>::new());
+    let ways = [("execute.segment_times", json!("length")), ("execute.goto_speed_m_s", json!(1.0))];
+    assert_eq!(told(&ways).len(), 2);
+}
+
+/// Flights of other seeds differ by noise and gusts alone.
+#[test]
+fn flights_without_chance_repeat() {
+    let repeats = |changes: &[(&str, Value)]| built(changes).expect("a scenario").repeats().is_some();
+    assert!(repeats(&[]) && repeats(&[("world.wind_m_s", json!([1.0, 0.0, 0.0]))]));
+    for chance in [
+        ("world.gusts", json!({ "std_m_s": 0.5, "correlation_s": 1.0 })),
+        ("robot.force_noise_n2_s", json!(5e-4)),
+        ("execute.command", json!("python3 sim.py")),
+        ("vary", json!({ "robot.moment_noise_n2_m2_s": { "uniform": [0, 1e-7] } })),
+    ] {
+        assert!(!repeats(std::slice::from_ref(&chance)), "{chance:?}");
+    }
 }

@@ -1,0 +1,91 @@
+//! Keys of flights that no run reads: who flies has no use for them, or they say nothing of what happens.
+//!
+//! Given, they are told to be passed over. Drawn, they are refused: what they were drawn for never saw them, and the
+//! verdict would count draws that are none.
+
+use serde_json::json;
+
+use super::FlightSetup;
+use crate::campaign::check::Findings;
+use crate::campaign::kind::PassedOver;
+use crate::campaign::scenario::{CONTROLLER_KEY, ExecuteSection, FlightScenario, KeyPath};
+use crate::robot::quadrotor::Quadrotor;
+use crate::simulation::ControllerKind;
+
+/// Keys under `execute` that few of our controllers read, and which.
+const OF_FEW: [(&str, &[ControllerKind]); 3] = [
+    ("fixed_velocity_m_s", &[ControllerKind::FixedVelocity]),
+    ("segment_times", &[ControllerKind::MinimumSnap, ControllerKind::Geometric]),
+    ("goto_speed_m_s", &[ControllerKind::CrazyflieGoto]),
+];
+const NO_NOISE: &str = "the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s)";
+const ALL_THE_SAME: &str = "the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s), the world no gusts";
+
+/// Whether `execute.noise` does nothing to it.
+pub(super) fn is_noiseless(robot: &Quadrotor) -> bool {
+    robot.force_noise <= 0.0 && robot.moment_noise <= 0.0
+}
+
+/// Why flights of other seeds are the same flight; `None` where noise, gusts or code of the user's may differ.
+pub(super) fn repeats(setup: &FlightSetup) -> Option<&'static str> {
+    let keys = &setup.scenario;
+    let is_ours = setup.controller.is_none() && keys.execute.controller_in_force().is_some();
+    let has_gusts = keys.world.gusts.is_some_and(|gusts| gusts.std_m_s > 0.0);
+    let is_drawn = keys.vary.keys().any(|key| key.contains("gusts") || key.contains("noise"));
+    (is_ours && !has_gusts && !is_drawn && is_noiseless(&setup.robot)).then_some(ALL_THE_SAME)
+}
+
+/// Keys under `execute` that are given and that nobody reads.
+pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
+    let (keys, usual) = (&setup.scenario, ExecuteSection::default());
+    let execute = &keys.execute;
+    let given = [
+        (execute.fixed_velocity_m_s != usual.fixed_velocity_m_s).then(|| json!(execute.fixed_velocity_m_s)),
+        (execute.segment_times != usual.segment_times).then(|| json!(execute.segment_times)),
+        execute.goto_speed_m_s.map(|speed| json!(speed)),
+    ];
+    let who = execute.controller_word().unwrap_or("a program");
+    let is_idle = |of: &[ControllerKind]| !is_read(keys, of);
+    let of_few = OF_FEW.iter().zip(given).filter(|((_, of), _)| is_idle(of));
+    let of_few = of_few.filter_map(|((key, _), value)| Some((*key, value?, format!("`{who}` has no use for it"))));
+    let noise = execute.noise && execute.command.is_none() && is_noiseless(&setup.robot);
+    let noise = (noise && !draws(keys, "noise_n")).then(|| ("noise", json!(true), NO_NOISE.to_owned()));
+    of_few.chain(noise).map(|(key, value, why)| PassedOver { key, value: value.to_string(), why }).collect()
+}
+
+/// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs.
+pub(super) fn check_varied(keys: &FlightScenario, robot: Option<&Quadrotor>, found: &mut Findings) {
+    if keys.execute.controller_in_force().is_none() {
+        return;
+    }
+    for key in keys.vary.keys() {
+        let why = KeyPath::parse(key).and_then(|path| unread(&path, keys, robot));
+        let bound = format!("a key that runs read: {}", why.as_deref().unwrap_or_default());
+        found.require(why.is_none(), &KeyPath::of(&["vary", key]).to_string(), format!("\"{key}\""), &bound);
+    }
+}
+
+/// Why no run reads it.
+fn unread(path: &KeyPath, keys: &FlightScenario, robot: Option<&Quadrotor>) -> Option<String> {
+    let within: Vec<&str> = path.segments().iter().map(String::as_str).collect();
+    match within[..] {
+        ["world", "keep_in_margin_m"] => Some("plans keep the margin, and none is made anew for a run".into()),
+        ["robot", "battery", ..] => Some("no run drains a battery".into()),
+        ["execute", "noise"] if robot.is_some_and(is_noiseless) && !draws(keys, "noise_n") => Some(NO_NOISE.into()),
+        ["execute", key] => {
+            let (_, of) = OF_FEW.iter().find(|(of_few, _)| *of_few == key)?;
+            let who = keys.execute.controller_word().unwrap_or_default();
+            (!is_read(keys, of)).then(|| format!("`{who}` has no use for it"))
+        }
+        _ => None,
+    }
+}
+
+/// Whether one of those flies, or may be drawn to.
+fn is_read(keys: &FlightScenario, of: &[ControllerKind]) -> bool {
+    draws(keys, CONTROLLER_KEY) || keys.execute.controller_in_force().is_some_and(|ours| of.contains(&ours))
+}
+
+fn draws(keys: &FlightScenario, part: &str) -> bool {
+    keys.vary.keys().any(|key| key.contains(part))
+}
