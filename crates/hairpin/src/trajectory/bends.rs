@@ -97,8 +97,8 @@ impl<'a> Columns<'a> {
 
     /// The farthest row, `end` at most, that the motion from `from` reaches with all rows between within tolerance.
     ///
-    /// Strides grow from `stride` by doubling what is added, and are halved between the last that was and the first that
-    /// was not within.
+    /// Strides grow from `stride` by doubling what is added, and are halved between the last that was within and the
+    /// first that was not.
     fn reach(&self, from: usize, end: usize, stride: usize, errors: &mut Vec<f64>) -> usize {
         let (mut within, mut beyond, mut more) = (from + 1, end + 1, (stride / 8).max(1));
         let mut next = (from + stride).clamp(within, end);
