@@ -5,6 +5,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
 
 mod baseline;
+pub mod bounds;
 mod budget;
 pub mod calibrate;
 pub mod certificate;

@@ -16,12 +16,19 @@ mod steering;
 mod tables;
 mod wait;
 
+use hairpin_jobs::bounds;
 use pyo3::prelude::*;
 
 /// Everything that the Python sources of the package call.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("THREADS", bounds::THREADS.into_inner())?;
+    module.add("GRAPHS", bounds::GRAPHS.into_inner())?;
+    module.add("VISITS", bounds::VISITS.into_inner())?;
+    module.add("PROGRAMS", bounds::PROGRAMS.into_inner())?;
+    module.add("LARGEST_SEED", bounds::LARGEST_SEED)?;
+    module.add("LONGEST", bounds::LONGEST)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
     module.add_function(wrap_pyfunction!(campaigns::stress, module)?)?;
     module.add_function(wrap_pyfunction!(campaigns::generate, module)?)?;

@@ -1,6 +1,7 @@
 //! `hairpin explain`.
 
 use clap::Args;
+use hairpin_jobs::bounds;
 use hairpin_jobs::explain::ExplainSettings;
 
 use super::commands::Commands;
@@ -18,7 +19,7 @@ pub(crate) struct Explain {
     #[command(flatten)]
     pub(crate) keys: Keys,
     /// Graphs that are sampled and searched; with every change the same ones
-    #[arg(long, value_name = "N", default_value_t = ExplainSettings::default().graphs, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = ExplainSettings::default().graphs, value_parser = clap::value_parser!(u64).range(bounds::GRAPHS))]
     pub(crate) graphs: u64,
     /// Seconds after which no further change is tried
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]

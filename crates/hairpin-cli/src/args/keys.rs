@@ -1,8 +1,7 @@
 //! Scenario keys that are typed.
 
 use clap::Args;
-
-use super::numbers::LARGEST_SEED;
+use hairpin_jobs::bounds::LARGEST_SEED;
 
 /// What is changed of a scenario.
 #[derive(Debug, Args)]

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use hairpin_jobs::bounds::{self, LARGEST_SEED};
 
-use super::numbers::{LARGEST_SEED, seconds};
+use super::numbers::seconds;
 use super::resources::Threads;
 
 /// The path through a graph that costs most, in which no point comes twice (or --visits). Points may be left out; ends
@@ -44,10 +45,10 @@ pub(crate) struct MaxLoad {
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub(crate) min_cost: Option<String>,
     /// How often a point may come; with more than once no move is used twice, there and back being two
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=16))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(bounds::VISITS))]
     pub(crate) visits: u16,
     /// How many pairwise different paths, the heaviest first
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u16).range(bounds::PROGRAMS))]
     pub(crate) programs: u16,
     /// How to search
     #[arg(long, value_enum, default_value_t = SearchMethod::Auto, conflicts_with = "cell")]

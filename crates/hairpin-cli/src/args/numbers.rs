@@ -1,10 +1,6 @@
 //! Numbers as they are typed, each refused with what it must be.
 
-/// Longest time limit, ms: eleven days.
-const LONGEST_MS: f64 = 1e9;
-
-/// Whole numbers of TOML end here, and the seed is written to scenario.toml.
-pub(super) const LARGEST_SEED: u64 = i64::MAX as u64;
+use hairpin_jobs::bounds::LONGEST;
 
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -26,13 +22,13 @@ pub(super) fn duration(text: &str) -> Result<f64, String> {
         Some(number * unit(ending)?)
     });
     parsed
-        .filter(|seconds| *seconds > 0.0 && *seconds <= LONGEST_MS)
+        .filter(|seconds| *seconds > 0.0 && *seconds <= LONGEST)
         .ok_or_else(|| "must be a time > 0 with its unit, s, m or h, such as 90s, 5m or 1h".into())
 }
 
 pub(super) fn milliseconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(ms) if (0.0..=LONGEST_MS).contains(&ms) => Ok(ms),
+        Ok(ms) if (0.0..=LONGEST).contains(&ms) => Ok(ms),
         _ => Err("must be a number of milliseconds, 0 … 1e9".into()),
     }
 }

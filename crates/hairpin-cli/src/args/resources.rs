@@ -1,15 +1,13 @@
 //! How the machine is used.
 
 use clap::Args;
-
-/// More than any machine has cores for; each takes memory, and graphs that are searched ahead.
-const MOST_THREADS: i64 = 1024;
+use hairpin_jobs::bounds;
 
 /// Threads of the computation.
 #[derive(Debug, Args)]
 pub(crate) struct Threads {
     /// Threads; all cores if not given. The results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(bounds::THREADS))]
     pub(crate) threads: Option<u16>,
 }
 

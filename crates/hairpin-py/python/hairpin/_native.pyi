@@ -6,6 +6,12 @@ __all__ = [
     "Table",
     "Vehicle",
     "__version__",
+    "THREADS",
+    "GRAPHS",
+    "VISITS",
+    "PROGRAMS",
+    "LARGEST_SEED",
+    "LONGEST",
     "run",
     "stress",
     "generate",
@@ -25,6 +31,12 @@ __all__ = [
 ]
 
 __version__: str
+THREADS: tuple[int, int]
+GRAPHS: tuple[int, int]
+VISITS: tuple[int, int]
+PROGRAMS: tuple[int, int]
+LARGEST_SEED: int
+LONGEST: float
 
 _Path = str | PathLike[str]
 
