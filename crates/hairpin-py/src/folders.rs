@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use hairpin::campaign::report::violation;
+use hairpin::campaign::report::{violation, worst_first};
 use hairpin::campaign::{CaseNumber, CaseResult};
 use hairpin::judgement::Stress;
 use hairpin_cli::commands::answer::Answer;
@@ -179,6 +179,7 @@ pub(crate) fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>
     let found = py.detach(|| -> Result<Value, Problem> {
         let work = open_to_read(&folder)?;
         let rows: HashMap<_, _> = work.folder.read_rows()?.into_iter().map(|row| (row.case.number, row)).collect();
+        let results: Vec<CaseResult> = rows.values().filter_map(|row| row.result.clone()).collect();
         let cases = work.folder.read_cases_without_profiles()?;
         let limits: Vec<String> = work.setup.scenario.head().limits.iter().map(ToString::to_string).collect();
         let of_case = |case: &hairpin::campaign::Case| {
@@ -203,6 +204,7 @@ pub(crate) fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>
             "folder": folder, "robot": work.setup.robot_name(), "controller": work.setup.controller(),
             "limits": limits, "judged": !rows.is_empty() && rows.values().all(|row| row.result.is_some()),
             "cases": cases.iter().map(of_case).collect::<Vec<_>>(),
+            "worst_first": worst_first(&results).iter().map(|result| result.case.0).collect::<Vec<_>>(),
         }))
     });
     object(py, &found.map_err(|problem| raised(py, &problem))?)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from hairpin import _native
+from hairpin._asked import function, place, place_or_none, seconds, whole, wrong
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
 from hairpin._many import takes_many
@@ -20,8 +21,6 @@ from hairpin._picture import picture
 from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation, margin_of
 from hairpin._scenario import sets_of
 from hairpin._tables import Table
-
-_ORDER = {"executor-failed": 0, "fail": 1, "inconclusive": 2, "pass": 3, "unjudged": 4, "generated": 5}
 
 
 class Campaign:
@@ -37,7 +36,7 @@ class Campaign:
     def __init__(
         self, folder: str | os.PathLike[str], *, brought: Brought | None = None, said: Mapping[str, Any] | None = None
     ) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(place("folder", folder))
         self._brought = brought
         self._said = dict(said or {})
         self._facts: dict[str, Any] = _native.read(self.folder)
@@ -75,12 +74,18 @@ class Campaign:
     @property
     def worst(self) -> Case | None:
         """The worst case, as the command orders them; ``None`` without any."""
-        return min(self.cases, key=_badness, default=None)
+        return next(iter(self._worst_first), None)
 
     @property
     def failing(self) -> tuple[Case, ...]:
-        """Cases that violate, the worst first."""
-        return tuple(sorted((case for case in self.cases if case.status == "fail"), key=_badness))
+        """Cases that violate, the worst first, as the command orders them: by the largest share of a limit that is broken."""
+        return tuple(case for case in self._worst_first if case.status == "fail")
+
+    @cached_property
+    def _worst_first(self) -> tuple[Case, ...]:
+        """All cases in the order of the command's tables; behind them those that are not judged, by number."""
+        places = {number: place for place, number in enumerate(self._facts["worst_first"])}
+        return tuple(sorted(self.cases, key=lambda case: (places.get(case.number, len(places)), case.number)))
 
     def __len__(self) -> int:
         return len(self.cases)
@@ -93,9 +98,7 @@ class Campaign:
         for one in self.cases:
             if one.id == case or one.number == case:
                 return one
-        raise InputError(
-            f"`case` = {case!r}: must be one of {len(self)} cases from 0000", "case", repr(case), f"one of {len(self)} cases"
-        )
+        raise wrong("case", case, f"one of {len(self)} cases from 0000")
 
     def __repr__(self) -> str:
         return f"Campaign({str(self.folder)!r}: {self.verdict or f'{len(self)} cases'})"
@@ -140,7 +143,7 @@ class Campaign:
         Rows are those where the motion bends, as the folder keeps them.
         """
         one = self[case]
-        wanted = (one.run if run is None else run) or 0
+        wanted = whole("run", (one.run or 0) if run is None else run, 0)
         rows = self.table("executions", case=case, run=wanted).to_numpy()
         numbers = {name: values for name, values in rows.items() if values.dtype != object and name not in ("case", "run")}
         return {name: np.asarray(values, dtype=np.float64) for name, values in numbers.items()}
@@ -172,6 +175,7 @@ class Campaign:
 
         Nothing is written.
         """
+        function("judge", judge, "a function of a run")
         asked = judge if takes_many(judge) else lambda runs: [judge(run) for run in runs]
         found: dict[tuple[str, int], float | None] = {}
         runs = self._runs()
@@ -210,10 +214,11 @@ class Campaign:
         one = case if isinstance(case, Case) else (self[case] if case is not None else next(iter(self.failing), None))
         if one is None:
             raise InputError("`case`: no case violates, there is nothing to shrink", "case", "", "a case that violates")
+        effort = (whole("budget", budget, 1), seconds("time_limit_s", time_limit_s), place_or_none("out", out))
         try:
             found = _native.shrink(
                 (self.folder, one.number),
-                (budget, time_limit_s, None if out is None else os.fspath(out)),
+                effort,
                 means(self._brought, portable, allow_commands),
                 waiting(threads, progress),
             )
@@ -232,7 +237,7 @@ class Campaign:
             repro=Path(found["repro"]),
         )
 
-    def compare(self, other: Campaign | str | os.PathLike[str], *, tolerance_m: float = 0.0) -> Comparison:
+    def compare(self, other: Campaign | str | os.PathLike[str], *, tolerance_m: float = 1e-6) -> Comparison:
         """This campaign before, `other` after; see :func:`hairpin.compare`."""
         from hairpin._jobs import compare
 
@@ -247,6 +252,7 @@ class Campaign:
 
     def show(self, case: str | int | Case | None = None, *, height: int = 720) -> Report:
         """The report as a cell shows it, opened at a case; of the worst if none is named."""
+        height = whole("height", height, 1)
         path = self.folder / "report.html"
         if not path.is_file():
             path = self.report()
@@ -277,7 +283,7 @@ class Campaign:
         return axes
 
     def _repr_html_(self) -> str:
-        rows = sorted(self.cases, key=_badness)[:5]
+        rows = self._worst_first[:5]
         cells = "".join(
             f"<tr><td>{one.id}</td><td>{html.escape(one.status)}</td><td>{_metres(one.max_deviation_m)}</td>"
             f"<td>{_metres(one.t_worst_s)}</td><td>{len(one.waypoints_m)}</td><td>{html.escape(one.evidence)}</td></tr>"
@@ -316,11 +322,6 @@ def _case(one: Mapping[str, Any]) -> Case:
         "message",
     )
     return Case(id=one["case"], waypoints_m=waypoints, violations=violations, **{name: one[name] for name in names})
-
-
-def _badness(one: Case) -> tuple[int, float, int]:
-    deviation = one.max_deviation_m if one.max_deviation_m is not None else -1.0
-    return (_ORDER.get(one.status, 9), -deviation, one.number)
 
 
 def _metres(value: float | None) -> str:
