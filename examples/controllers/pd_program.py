@@ -1,6 +1,9 @@
 """The same as a program, in any language: `execute.controller = "command: python3 pd_program.py"`."""
 import json
+import signal
 import sys
+
+signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # once nobody listens any more it ends without a word
 
 STIFFNESS, DAMPING = 2.0, 2.5  # 1/s², 1/s
 FASTEST = 4.0  # m/s

@@ -36,7 +36,11 @@ mixer = controller(force_torque2rotor_vel, DRONE)
 
 
 def say(**message):
-    print(json.dumps(message, allow_nan=False), file=answers, flush=True)
+    try:
+        print(json.dumps(message, allow_nan=False), file=answers, flush=True)
+    except BrokenPipeError:  # nobody listens any more: what is left to say goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), answers.fileno())
+        sys.exit()
 
 
 class Reference:

@@ -25,7 +25,11 @@ BATCH, LINGER_S, APPROACH_S = 200, 2.0, 120.0
 
 
 def say(**message):
-    print(json.dumps(message, allow_nan=False), file=answers, flush=True)
+    try:
+        print(json.dumps(message, allow_nan=False), file=answers, flush=True)
+    except BrokenPipeError:  # nobody listens any more: what is left to say goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), answers.fileno())
+        sys.exit()
 
 
 class Executor:

@@ -4,11 +4,16 @@
 """
 import json
 import math
+import os
 import sys
 
 
 def say(**message):
-    print(json.dumps(message), flush=True)
+    try:
+        print(json.dumps(message), flush=True)
+    except BrokenPipeError:  # nobody listens any more: what is left to say goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        sys.exit()
 
 
 def fly(mission, speed=2.0, step=0.02):

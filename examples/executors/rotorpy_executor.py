@@ -10,6 +10,7 @@ What rotorpy cannot express is left out, and said once on stderr: aerodynamic mo
 import bisect
 import json
 import math
+import os
 import sys
 
 import numpy as np
@@ -26,7 +27,11 @@ def log(text):
 
 
 def say(**message):
-    print(json.dumps(message, allow_nan=False), flush=True)
+    try:
+        print(json.dumps(message, allow_nan=False), flush=True)
+    except BrokenPipeError:  # nobody listens any more: what is left to say goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        sys.exit()
 
 
 def quad_params(robot):

@@ -45,7 +45,11 @@ os.dup2(2, 1)
 
 
 def say(**message):
-    print(json.dumps(message, allow_nan=False), file=protocol, flush=True)
+    try:
+        print(json.dumps(message, allow_nan=False), file=protocol, flush=True)
+    except BrokenPipeError:  # nobody listens any more: what is left to say goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), protocol.fileno())
+        sys.exit()
 
 
 def fly(mission, of):

@@ -17,6 +17,10 @@ LARGEST = 1e100
 MOST_SAID = 1000
 
 
+class Unheard(BaseException):
+    """Nobody listens any more."""
+
+
 def number(value, of):
     if not abs(float(value)) <= LARGEST:
         wanted = f"must be within ±{LARGEST:g}" if math.isfinite(float(value)) else "is no finite number"
@@ -123,7 +127,12 @@ def main(path, alone, what):
         return space
 
     def say(line):
-        print(line, file=answers, flush=True)
+        try:
+            print(line, file=answers, flush=True)
+        except BrokenPipeError:
+            # What is left to say goes nowhere.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), answers.fileno())
+            raise Unheard from None
 
     if what == "controller":
         return steer(load, questions, say)
@@ -136,6 +145,8 @@ def main(path, alone, what):
 if __name__ == "__main__":
     try:
         main(sys.argv[1], sys.argv[2] == "alone", sys.argv[3])
+    except Unheard:
+        pass
     except BaseException as error:
         lines = traceback.format_exc().strip().splitlines()
         # The place in the user's file, and what is wrong there: its kind and all its lines in one. What is indented is

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from hairpin._errors import InputError
+from hairpin._asked import finite, floats, function, unmasked
 from hairpin._many import Together, takes_many
 from hairpin._scenario import texts
 
@@ -35,9 +35,7 @@ def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
     if executor is None or isinstance(executor, str):
         yield executor
         return
-    if not callable(executor):
-        bound = "a command or a function of a mission"
-        raise InputError(f"`executor` = {executor!r}: must be {bound}", "executor", repr(executor), bound)
+    function("executor", executor, "a command or a function of a mission")
     given = getattr(executor, "__name__", type(executor).__name__)
     plain = "".join(c if c.isalnum() or c in "_-." else "_" for c in given) or "executor"
     with _lock:
@@ -73,8 +71,9 @@ def _listen(server: socket.socket) -> None:
 
 def _serve(connection: socket.socket) -> None:
     """One program's missions, of the executor that its first line names."""
-    with connection, connection.makefile("r", encoding="utf-8") as asked, connection.makefile("w", encoding="utf-8") as said:
-        with contextlib.suppress(OSError, ValueError):
+    # A program may end at any time, and what was left to be said to it is said nowhere, not even where the line is closed.
+    with contextlib.suppress(OSError, ValueError):
+        with connection, connection.makefile("r", encoding="utf-8") as asked, connection.makefile("w", encoding="utf-8") as said:
             name = asked.readline().strip()
             executor = _executors.get(name)
             if executor is None:
@@ -98,18 +97,32 @@ def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -
             yield {"type": "error", "message": f"{type(error).__name__}: {error}"}
 
 
-def _told(flown: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    t_s, p_m = np.asarray(flown["t_s"], dtype=np.float64), np.asarray(flown["p_m"], dtype=np.float64)
+def _told(flown: Any) -> Iterator[dict[str, Any]]:
+    if not isinstance(flown, Mapping):
+        raise TypeError(f"{flown!r} is no dictionary, of the executor")
+    t_s, p_m = (_numbers(key, flown[key]) for key in ("t_s", "p_m"))
     if t_s.ndim != 1 or p_m.shape != (len(t_s), 3) or not len(t_s):
         raise ValueError(f"t_s of shape {t_s.shape} and p_m of shape {p_m.shape}: must be (n,) and (n, 3)")
     poses = [{"type": "pose", "t_s": t, "p_m": p} for t, p in zip(t_s.tolist(), p_m.tolist(), strict=True)]
     for key, shape in (("q_wxyz", (len(t_s), 4)), ("v_m_s", (len(t_s), 3)), ("leg", (len(t_s),))):
         if flown.get(key) is None:
             continue
-        values = np.asarray(flown[key])
+        values = _legs(flown[key]) if key == "leg" else _numbers(key, flown[key])
         if values.shape != shape:
             raise ValueError(f"{key} of shape {values.shape}: must be {shape}")
         for pose, value in zip(poses, values.tolist(), strict=True):
             pose[key] = value
     yield from poses
     yield {"type": "end", "reason": flown.get("ended", "done")}
+
+
+def _numbers(key: str, values: Any) -> Any:
+    """An array of a flight; of what is masked or no number there is no flight."""
+    numbers = floats(key, values, "an array of numbers")
+    finite(key, numbers, "a finite number")
+    return numbers
+
+
+def _legs(values: Any) -> Any:
+    unmasked("leg", values, "a whole number")
+    return np.asarray(values)

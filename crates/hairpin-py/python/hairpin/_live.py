@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from typing import Any
 
@@ -13,8 +14,10 @@ class _Line:
     def __call__(self, what: str, done: int, of: int) -> None:
         text = f"{what} {done}/{of}"
         end = "\n" if done >= of else ""
-        sys.stderr.write("\r" + text.ljust(self._width) + end)
-        sys.stderr.flush()
+        # Who looks on no more, or never did, stops no job.
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            sys.stderr.write("\r" + text.ljust(self._width) + end)
+            sys.stderr.flush()
         self._width = 0 if end else len(text)
 
 

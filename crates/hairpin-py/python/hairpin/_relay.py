@@ -38,11 +38,11 @@ def main() -> int:
 
 
 def _gone(name: str) -> int:
-    print(f"the executor {name} lives in a Python process: go on from there, with the same executor", file=sys.stderr)
+    with contextlib.suppress(OSError):
+        print(f"the executor {name} lives in a Python process: go on from there, with the same executor", file=sys.stderr, flush=True)
     return 1
 
 
 if __name__ == "__main__":
-    sys.stdout.flush()
     # A thread may still wait for a line.
     os._exit(main())
