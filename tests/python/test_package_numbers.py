@@ -1,9 +1,11 @@
 """`steer` and `max_load` of the package against the command, and against what they must be."""
 
+import copy
 import csv
 import itertools
 import json
 import os
+import pickle
 import subprocess
 
 import numpy as np
@@ -33,6 +35,21 @@ def test_one_drive_meets_its_goal_by_its_own_curvature():
     assert np.sin(at).sum() * step == pytest.approx(1.0, abs=1e-3)
     assert yaw[-1] == pytest.approx(0.5, abs=1e-3)
     assert np.isnan(drive.curvature(drive.length_m + 1.0)) and drive.curvature.shape == (len(drive.segments), 6)
+
+
+def test_a_drive_is_the_same_once_it_was_pickled_or_copied():
+    drive = hairpin.steer("generic", x=4.0, y=1.0, yaw=0.5, k0=0.1, kf=-0.2)
+    many = hairpin.steer("generic", queries=questions(3))
+    places = np.linspace(0.0, drive.length_m, 7)
+    again = [pickle.loads(pickle.dumps(drive, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+    for one in (*again, copy.copy(drive), copy.deepcopy(drive)):
+        np.testing.assert_array_equal(one.curvature(places), drive.curvature(places))
+        assert type(one.curvature) is hairpin.Curvature and np.isfinite(one.curvature(places)).all()
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(many))[1].curvature(0.5), many[1].curvature(0.5))
+    # What is only a part of the numbers is no drive's curvature.
+    assert type(drive.curvature[:1]) is np.ndarray and np.array_equal([*drive.curvature], np.asarray(drive.curvature))
+    with pytest.raises(TypeError, match="no drive's"):
+        np.sum(drive.curvature, axis=0)(1.0)
 
 
 def test_many_are_what_the_command_answers(tmp_path):

@@ -12,11 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from hairpin import _native
+from hairpin._asked import Floats, flag, floats, place_or_none, real, vector, wrong
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
-from hairpin._scenario import Robot
-
-Floats = npt.NDArray[np.float64]
+from hairpin._scenario import Robot, described
 
 STATUSES = ("ok", "infeasible", "not_converged", "time_limit", "invalid")
 """What comes of a question, as the command has it; `status_code` of many counts them from 0."""
@@ -41,8 +40,20 @@ class Curvature(np.ndarray):
     def __array_finalize__(self, other: Any) -> None:
         self.lengths = getattr(other, "lengths", np.empty(0))
 
+    def __getitem__(self, key: Any) -> Any:
+        # A part of the numbers is no drive's curvature: it knows not where it begins.
+        return np.asarray(self)[key]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _curvature, (np.array(self), self.lengths)
+
+    def __reduce_ex__(self, protocol: Any) -> tuple[Any, ...]:
+        return self.__reduce__()
+
     def __call__(self, s_m: npt.ArrayLike) -> Any:
-        way = np.asarray(s_m, dtype=np.float64)
+        if self.shape != (len(self.lengths), 6):
+            raise TypeError(f"coefficients of shape {self.shape} are no drive's of {len(self.lengths)} segments")
+        way = floats("s_m", s_m, "numbers, m")
         ends = np.cumsum(self.lengths)
         place = np.minimum(np.searchsorted(ends, way, side="left"), max(len(ends) - 1, 0))
         outside = (way < 0.0) | (len(ends) == 0) | (way > (ends[-1] if len(ends) else 0.0) + 1e-12)
@@ -52,6 +63,12 @@ class Curvature(np.ndarray):
         rows = np.asarray(self)[place]
         found = sum(rows[..., power] * local**power for power in range(6))
         return np.where(outside, np.nan, found)
+
+
+def _curvature(coefficients: Floats, lengths: Floats) -> Curvature:
+    made = coefficients.view(Curvature)
+    made.lengths = lengths
+    return made
 
 
 @dataclass(frozen=True)
@@ -154,8 +171,7 @@ class Drives:
         place = range(len(self))[index]
         rows = self.segments[self._starts[place] : self._starts[place + 1]]
         segments = tuple(Segment(_KINDS[int(row[1])], int(row[2]), float(row[3]), float(row[4]), row[5:].copy()) for row in rows)
-        curvature = rows[:, 5:].copy().view(Curvature)
-        curvature.lengths = rows[:, 3].copy()
+        curvature = _curvature(rows[:, 5:].copy(), rows[:, 3].copy())
         limit = self._limits[self._limit[place]] if self._limit[place] >= 0 else None
         return Drive(
             status=STATUSES[self.status_code[place]],
@@ -212,8 +228,8 @@ def steer(
     x: None = ...,
     y: None = ...,
     yaw: None = ...,
-    k0: float = ...,
-    kf: float = ...,
+    k0: None = ...,
+    kf: None = ...,
     start: None = ...,
     free_end: bool = ...,
     terrain: str | os.PathLike[str] | None = ...,
@@ -236,8 +252,8 @@ def steer(
     x: float | None = None,
     y: float | None = None,
     yaw: float | None = None,
-    k0: float = 0.0,
-    kf: float = 0.0,
+    k0: float | None = None,
+    kf: float | None = None,
     start: tuple[float, float, float] | None = None,
     free_end: bool = False,
     terrain: str | os.PathLike[str] | None = None,
@@ -258,7 +274,7 @@ def steer(
         queries: questions, shape (n, 5), columns x, y (m), yaw (rad), k0, kf (1/m), from the origin; or (n, 8), behind the start
             on the map sx, sy (m), syaw (rad). A row that is no question has the status ``invalid``.
         x, y, yaw: the goal as the start sees it: ahead (m), to the left (m), turned left (rad). Of one question.
-        k0, kf: curvature at start and goal, 1/m, left positive.
+        k0, kf: curvature at start and goal, 1/m, left positive; 0 if not given. Of one question.
         start: x, y (m) and yaw (rad) of the start on the map.
         free_end: the curvature at the goal may be anything where the controls do not need it.
         terrain: elevation map; the plane without one.
@@ -267,8 +283,8 @@ def steer(
         turns: the vehicle may turn in place.
         direction: of travel in the body, rad, left positive (crab).
         max_curvature: 1/m, where it is to be less than the vehicle's.
-        tolerance_m: distance from the goal that counts as there.
-        time_limit_ms: time for each question; 0 gives the solver's start value.
+        tolerance_m: distance from the goal that counts as there, m; 0.01 if not given.
+        time_limit_ms: time for each question, 1e9 at most; 0 gives the solver's start value.
         threads: as many as the machine has if not given.
         progress: called with what, done, of; nothing to see while one call answers one question.
 
@@ -288,36 +304,29 @@ def steer(
     >>> many.status.tolist()[0], len(many)
     ('ok', 2)
     """
-    robot = rover if isinstance(rover, Robot) else Robot(rover)
-    limit_s = None if time_limit_ms is None else _number("time_limit_ms", time_limit_ms, "a number ≥ 0") * 1e-3
-    for name, path in (("terrain", terrain), ("keep_out", keep_out)):
-        if path is not None and not os.path.isfile(path):
-            raise InputError(
-                f"`{name}` = {os.fspath(path)!r}: must be a file that is there", name, os.fspath(path), "a file that is there"
-            )
+    robot = rover if isinstance(rover, Robot) else Robot(described("rover", rover))
+    files = (_file("terrain", terrain), _file("keep_out", keep_out))
+    may = (flag("reversals", reversals), flag("turns", turns))
     common = SimpleNamespace(
-        direction=_number("direction", direction, "a finite number"),
-        max_curvature=None if max_curvature is None else _number("max_curvature", max_curvature, "a number > 0"),
-        tolerance_m=None if tolerance_m is None else _number("tolerance_m", tolerance_m, "a number ≥ 0"),
-        free_end=free_end,
+        direction=real("direction", direction),
+        max_curvature=_positive("max_curvature", max_curvature),
+        tolerance_m=_positive("tolerance_m", tolerance_m),
+        free_end=flag("free_end", free_end),
     )
-    one = {"x": x, "y": y, "yaw": yaw}
+    goal = {"x": x, "y": y, "yaw": yaw}
+    one = {**goal, "k0": k0, "kf": kf, "start": start}
     if queries is None:
-        missing = [name for name, value in one.items() if value is None]
-        if missing:
-            raise InputError(f"`{missing[0]}`: must be given, or `queries`", missing[0], "None", "given, or `queries`")
-        begin = (0.0, 0.0, 0.0) if start is None else start
-        if len(begin) != 3:
-            raise InputError(f"`start` = {begin!r}: must be x, y, yaw", "start", repr(begin), "x, y, yaw")
-        values = [*begin, x, y, yaw, k0, kf]
-        table = np.array([[_number(name, value, "a finite number") for name, value in zip(_ON_MAP, values, strict=True)]])
+        missing = next((name for name, value in goal.items() if value is None), None)
+        if missing is not None:
+            raise wrong(missing, None, "given, or `queries`")
+        table = _question(start, {**goal, "k0": 0.0 if k0 is None else k0, "kf": 0.0 if kf is None else kf})
     else:
-        given = next((name for name, value in {**one, "start": start}.items() if value is not None), None)
+        given = next((name for name, value in one.items() if value is not None), None)
         if given is not None:
-            raise InputError(f"`{given}`: must be left out where `queries` asks", given, "given", "left out where `queries` asks")
+            raise wrong(given, one[given], "left out where `queries` asks")
         table = _table(queries)
     try:
-        vehicle = _native.Vehicle(robot.path(), (_path(terrain), _path(keep_out)), (reversals, turns), limit_s)
+        vehicle = _native.Vehicle(robot.path(), files, may, _limit_s(time_limit_ms))
     except InputError as error:
         if not error.field:
             error.field, error.value = "rover", robot.path()
@@ -328,39 +337,43 @@ def steer(
         return drives
     drive = drives[0]
     if drive.status == "invalid":
-        field = drive.limit or "x"
-        raise InputError(
-            f"`{field}`: must be within what can be planned (1e6 m, 1e6 rad)",
-            field,
-            "",
-            "within what can be planned (1e6 m, 1e6 rad)",
-        )
+        raise _unplannable(drive.limit or "x", one)
     return drive
 
 
-def _path(path: str | os.PathLike[str] | None) -> str | None:
-    return None if path is None else os.fspath(path)
+def _unplannable(limit: str, one: dict[str, Any]) -> InputError:
+    """What of a question is beyond what can be planned: its start's parts have columns of their own."""
+    field = limit if limit in one else "start"
+    return wrong(field, one[field], "within what can be planned (1e6 m, 1e6 rad)")
 
 
-def _number(name: str, value: Any, bound: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = float("nan")
-    low = {"a number ≥ 0": 0.0, "a number > 0": np.nextafter(0.0, 1.0)}.get(bound, -np.inf)
-    if not np.isfinite(number) or number < low:
-        raise InputError(f"`{name}` = {value!r}: must be {bound}", name, repr(value), bound)
-    return number
+def _file(name: str, path: str | os.PathLike[str] | None) -> str | None:
+    found = place_or_none(name, path)
+    if found is not None and not os.path.isfile(found):
+        raise wrong(name, found, "a file that is there")
+    return found
+
+
+def _positive(name: str, value: float | None) -> float | None:
+    return None if value is None else real(name, value, "a finite number > 0", above=0.0)
+
+
+def _limit_s(limit_ms: float | None) -> float | None:
+    if limit_ms is None:
+        return None
+    return 1e-3 * real("time_limit_ms", limit_ms, "a number of milliseconds, 0 … 1e9", least=0.0, most=_native.LONGEST)
+
+
+def _question(start: Any, asked: dict[str, Any]) -> Floats:
+    begin = [0.0, 0.0, 0.0] if start is None else vector("start", start, "x, y, yaw, three finite numbers", 3)
+    return np.array([[*begin, *(real(name, value) for name, value in asked.items())]])
 
 
 def _table(queries: npt.ArrayLike) -> Floats:
     bound = "an array of numbers, (n, 5) with x, y, yaw, k0, kf, or (n, 8) with sx, sy, syaw before them"
-    try:
-        table = np.asarray(queries, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"`queries`: must be {bound}", "queries", type(queries).__name__, bound) from None
+    table = floats("queries", queries, bound)
     if table.ndim != 2 or table.shape[1] not in (len(_COLUMNS), len(_ON_MAP)):
-        raise InputError(f"`queries` of shape {table.shape}: must be {bound}", "queries", str(table.shape), bound)
+        raise wrong("queries", table, bound)
     if table.shape[1] == len(_ON_MAP):
         return table
     return np.concatenate([np.zeros((len(table), 3)), table], axis=1)
