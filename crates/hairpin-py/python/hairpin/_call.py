@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from hairpin import _native
-from hairpin._errors import InputError
+from hairpin._asked import flag, function, whole, word, wrong
 
 _LOG = logging.getLogger("hairpin")
 
@@ -38,20 +38,22 @@ class Brought:
 
 def waiting(threads: int | None = None, progress: Progress | None = None) -> Any:
     """Who waits: ``threads`` of the machine's, ``progress(what, done, of)`` some twenty times a second."""
-    if threads is not None and threads < 1:
-        raise InputError(f"`threads` = {threads}: must be at least 1", "threads", str(threads), "at least 1")
+    if threads is not None:
+        threads = whole("threads", threads, *_native.THREADS)
+    if progress is not None:
+        function("progress", progress, "a function of what, done, of")
     return SimpleNamespace(threads=threads, progress=progress, warn=_LOG.warning)
 
 
 def means(brought: Brought | None, portable: bool, allow_commands: bool) -> Any:
     """What runs, and by which kernels."""
     code = (brought or Brought()).code()
-    return SimpleNamespace(portable=portable, allow_commands=allow_commands, code=code)
+    return SimpleNamespace(portable=flag("portable", portable), allow_commands=flag("allow_commands", allow_commands), code=code)
 
 
-def replaces(if_there: str) -> bool:
-    """Whether what is in a folder is replaced."""
-    if if_there not in ("refuse", "replace"):
-        bound = "refuse or replace"
-        raise InputError(f"`if_there` = {if_there!r}: must be {bound}", "if_there", repr(if_there), bound)
-    return if_there == "replace"
+def replaces(if_there: str, out: Any) -> bool:
+    """Whether what is in the folder ``out`` is replaced."""
+    replace = word("if_there", if_there, ("refuse", "replace")) == "replace"
+    if replace and out is None:
+        raise wrong("if_there", if_there, "given with `out` alone")
+    return replace

@@ -17,13 +17,15 @@ from typing import Any, Protocol, Union
 import numpy as np
 import numpy.typing as npt
 
+from hairpin._asked import floats, function, unmasked, wrong
 from hairpin._call import Brought
-from hairpin._errors import InputError
 from hairpin._many import takes_many
 from hairpin._scenario import texts, toml_value
 
 _NUMBERS = ("v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s")
 _PLACES = ("from_m", "to_m", "start_m", "end_m")
+_LARGEST, _FINITE = 1e100, "a finite number, 1e100 at most in size"
+"""Sums over a trajectory stay finite: as of files."""
 _OF_A_LEG = len(_NUMBERS) + 3 * len(_PLACES)
 _LITERALS = (bool, int, float, str, bytes, tuple, list, dict, type(None))
 
@@ -62,19 +64,13 @@ def bring(
             brought.sets.append((key, toml_value(given)))
             continue
         if what == "controller" and not callable(getattr(given, "control", given)):
-            raise InputError(
-                f"`{what}` = {given!r}: must be a function, an object with `control`, or its class",
-                what,
-                repr(given),
-                "a function, an object with `control`, or its class",
-            )
+            raise wrong(what, given, "a function, an object with `control`, or its class")
         if what == "target" and takes_many(given):
-            bound = "a function of one run: targets have no vectorised form"
-            raise InputError(f"`target` = {given!r}: must be {bound}", what, repr(given), bound)
+            raise wrong(what, given, "a function of one run: targets have no vectorised form")
         if what == "controller" and takes_many(given):
             make = _steering_many
-        if what != "controller" and not callable(given):
-            raise InputError(f"`{what}` = {given!r}: must be a function", what, repr(given), "a function")
+        if what != "controller":
+            function(what, given, "a function")
         setattr(brought, what, make(given, brought.raised))
         brought.sets.append((key, toml_value(f"python:{_kept(given, what)}")))
     return brought
@@ -145,10 +141,11 @@ def _column(values: list[Any]) -> npt.NDArray[np.float64] | None:
 
 
 def _rows(values: Any) -> list[Any]:
-    """A list with None in place of what is not finite, which costs its own run alone."""
+    """A list with None in place of what is masked or not finite, which costs its own run alone."""
+    masked = np.ma.getmaskarray(np.ma.asarray(values))
     rows = np.asarray(values, dtype=np.float64)
     found = rows.astype(object)
-    found[~np.isfinite(rows)] = None
+    found[~np.isfinite(rows) | masked] = None
     return list(found.tolist())
 
 
@@ -163,7 +160,7 @@ def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable
                 for place, name in enumerate(_PLACES):
                     first = len(_NUMBERS) + 3 * place
                     columns[name] = legs[:, first : first + 3]
-                parts = np.asarray(given(columns), dtype=np.float64)
+                parts = floats("score", given(columns), _FINITE)
                 if parts.ndim == 1:
                     parts = np.stack([parts, np.zeros_like(parts)], axis=1)
                 if parts.shape != (len(legs), 2):
@@ -175,17 +172,22 @@ def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable
                     for place, name in enumerate(_PLACES):
                         first = len(_NUMBERS) + 3 * place
                         leg[name] = row[first : first + 3].tolist()
-                    rows.append([float(given(leg)), float(left(leg)) if callable(left) else 0.0])
+                    rows.append([_number("score", given(leg)), _number("left", left(leg)) if callable(left) else 0.0])
                 parts = np.asarray(rows, dtype=np.float64).reshape(-1, 2)
-            if not np.isfinite(parts).all():
-                place = int(np.argwhere(~np.isfinite(parts))[0][0])
-                raise ValueError(f"the score of leg {place} of {len(legs)} is no finite number")
+            beyond = np.argwhere(~(np.abs(parts) <= _LARGEST))
+            if len(beyond):
+                raise ValueError(f"the score of leg {beyond[0][0]} of {len(legs)} is {float(parts[tuple(beyond[0])])!r}, must be {_FINITE}")
             return parts.tolist()
         except BaseException as error:
             raised.append(error)
             raise
 
     return score
+
+
+def _number(what: str, answer: Any) -> float:
+    unmasked(what, answer, _FINITE)
+    return float(answer)
 
 
 def _measuring(given: Callable[..., Any], raised: list[BaseException]) -> Callable[[dict[str, Any]], Any]:
@@ -195,7 +197,10 @@ def _measuring(given: Callable[..., Any], raised: list[BaseException]) -> Callab
         run["waypoints_m"] = np.asarray(run["waypoints_m"], dtype=np.float64)
         try:
             found = given(run)
-            return None if found is None else float(found)
+            measured = None if found is None else _number("target", found)
+            if measured is not None and not abs(measured) <= _LARGEST:
+                raise ValueError(f"the target of a run is {measured!r}, must be {_FINITE}, or None")
+            return measured
         except BaseException as error:
             raised.append(error)
             raise

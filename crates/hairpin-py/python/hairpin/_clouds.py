@@ -9,8 +9,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from hairpin._asked import finite, floats, wrong
 from hairpin._errors import InputError
 from hairpin._scenario import Robot, Scenario, sets_of, texts
 
@@ -26,12 +25,10 @@ def cloud_file(cloud: Any) -> Path:
     if isinstance(cloud, str | os.PathLike):
         return Path(cloud)
     bound = "an array (n, 3) or (n, 7) of finite numbers"
-    try:
-        points = np.asarray(cloud, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"`cloud`: must be {bound}", "cloud", type(cloud).__name__, bound) from None
-    if points.ndim != 2 or points.shape[1] not in _HEADS or not np.isfinite(points).all():
-        raise InputError(f"`cloud` of shape {points.shape}: must be {bound}", "cloud", str(points.shape), bound)
+    points = floats("cloud", cloud, bound)
+    if points.ndim != 2 or points.shape[1] not in _HEADS:
+        raise wrong("cloud", points, bound)
+    finite("cloud", points, "a finite number")
     lines = [",".join([*map(_millimetres, row[:3]), *map(repr, row[3:])]) for row in points.tolist()]
     path = Path(tempfile.mkdtemp(dir=texts())) / "cloud.csv"
     path.write_text("\n".join([_HEADS[points.shape[1]], *lines]) + "\n", encoding="utf-8")
@@ -48,16 +45,11 @@ def cell_of(cell: Robot | Scenario | str | None) -> str:
     """An arm or the scenario around it, as jobs know it."""
     if cell is None:
         raise InputError("`cell`: must be an arm, or a scenario around it", "cell", "", "an arm, or a scenario around it")
+    if not isinstance(cell, str | Robot | Scenario):
+        raise wrong("cell", cell, "an arm, or a scenario around it")
     return cell if isinstance(cell, str) else cell.path()
 
 
 def sets_of_cell(cell: Any, values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     """Keys of the cell's scenario with other values."""
     return (cell.sets() if isinstance(cell, Scenario) else []) + sets_of(values)
-
-
-def checked(**numbers: tuple[int, int]) -> None:
-    """Whole numbers, each with the least that it may be."""
-    for name, (least, value) in numbers.items():
-        if value < least:
-            raise InputError(f"`{name}` = {value}: must be at least {least}", name, str(value), f"at least {least}")

@@ -9,12 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hairpin._errors import InputError
+from hairpin._asked import floats, function, real, whole, wrong
 from hairpin._many import takes_many, vectorised
 
 Floats = npt.NDArray[np.float64]
 Executor = Callable[[Any], Any]
 """Of a mission gives a flight; if it is marked by :func:`vectorised`, of a list of missions a list of flights."""
+_NUMBERS = "an array of numbers"
+_MOST_STEPS = 10_000_000
+"""Of a mission: few enough to be held in memory."""
 
 
 def dynamics(
@@ -34,8 +37,8 @@ def dynamics(
             (k, 3), ``next`` (index of the next waypoint, k once all were reached), ``target_m`` (3,).
         start: of the mission gives the first state; it begins at ``waypoints_m[0]``.
         pose: of a state gives its place (3,), or a dictionary with ``p_m`` and, if they are known, ``q_wxyz``, ``v_m_s``.
-        step_s: time between two controls and two poses, s.
-        substeps: integration steps in each.
+        step_s: time between two controls and two poses, s, more than 0.
+        substeps: integration steps in each, 1 or more.
 
     Returns:
         an executor for :func:`stress` and :func:`execute`.
@@ -53,19 +56,18 @@ def dynamics(
     >>> flown["ended"], bool(abs(flown["p_m"][-1][0] - 1.0) < 0.1)
     ('done', True)
     """
-    if not step_s > 0 or substeps < 1:
-        field, value = ("step_s", step_s) if not step_s > 0 else ("substeps", substeps)
-        raise InputError(f"`{field}` = {value}: must be more than 0", field, str(value), "more than 0")
+    step_s, substeps = _step(step_s), whole("substeps", substeps, 1)
+    _functions(derivative=derivative, control=control, start=start, pose=pose)
 
     def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
-        state = np.array(start(missions), dtype=np.float64)
+        state = np.array(floats("start", start(missions), _NUMBERS))
         size = step_s / substeps
 
         def advance(t: float, to: dict[str, Any]) -> Any:
             nonlocal state
             if t > 0.0:
                 before = t - step_s
-                u = np.asarray(control(before, state, to), dtype=np.float64)
+                u = floats("control", control(before, state, to), _NUMBERS)
                 for number in range(substeps):
                     state = _runge_kutta(derivative, before + number * size, state, u, size)
             return pose(state)
@@ -90,7 +92,7 @@ def adversary(
         reset: of a mission gives the first state; it stands at ``waypoints_m[0]``.
         policy: of the state and where to go (``waypoints_m``, ``next``, ``target_m``, see :func:`dynamics`) gives the action.
         pose: of a state gives its place (3,) in m, world frame, or a dictionary with ``p_m``, ``q_wxyz``, ``v_m_s``.
-        step_s: time of a step, s.
+        step_s: time of a step, s, more than 0.
 
     Returns:
         an executor for :func:`stress` and :func:`execute`; the environment's physics are its own, and nothing of them is proven.
@@ -100,6 +102,8 @@ def adversary(
 
     Numbered examples: examples/python/06_learned_policy.py.
     """
+    step_s = _step(step_s)
+    _functions(env_step=env_step, reset=reset, policy=policy, pose=pose)
 
     def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
         state = reset(missions)
@@ -138,9 +142,18 @@ def _executor(
     return made
 
 
+def _functions(**given: Any) -> None:
+    for name, value in given.items():
+        function(name, value, "a function")
+
+
+def _step(step_s: float) -> float:
+    return real("step_s", step_s, "a number of seconds > 0", above=0.0)
+
+
 def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, u: Floats, h: float) -> Floats:
     def f(at: float, state: Floats) -> Floats:
-        return np.asarray(derivative(at, state, u), dtype=np.float64)
+        return floats("derivative", derivative(at, state, u), _NUMBERS)
 
     k1 = f(t, x)
     k2 = f(t + 0.5 * h, x + 0.5 * h * k1)
@@ -151,7 +164,8 @@ def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, 
 
 def _posed(found: Any) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
-    return {key: np.array(value, dtype=np.float64) for key, value in table.items()}
+    # A copy: an environment may give the same array again and again.
+    return {key: np.array(floats(key, value, _NUMBERS)) for key, value in table.items()}
 
 
 def _posed_rows(found: Any, rows: int) -> dict[str, Floats]:
@@ -168,6 +182,8 @@ def _carried_out(
     """Steps until of each the last waypoint is reached, or the time is over."""
     ways = [np.asarray(mission["waypoints_m"], dtype=np.float64) for mission in missions]
     accept, limit = (np.array([float(mission[key]) for mission in missions]) for key in ("accept_m", "time_limit_s"))
+    if limit.max(initial=0.0) > _MOST_STEPS * step_s:
+        raise wrong("step_s", step_s, f"at least {limit.max() / _MOST_STEPS:g}, for {_MOST_STEPS:.0e} steps in {limit.max():g} s")
     counts = np.array([len(way) for way in ways])
     places = np.zeros((len(ways), counts.max(), 3))
     for way, place in zip(ways, places, strict=True):

@@ -12,11 +12,15 @@ import numpy as np
 import numpy.typing as npt
 
 from hairpin import _native
+from hairpin._asked import entry, floats, place_or_none, real, seconds, text, unmasked, whole, wrong
 from hairpin._call import Progress, replaces, waiting
 from hairpin._campaign import Campaign
-from hairpin._clouds import cell_of, checked, cloud_file, sets_of_cell
+from hairpin._clouds import cell_of, cloud_file, sets_of_cell
 from hairpin._errors import InputError
 from hairpin._scenario import Robot, Scenario
+
+_EXACT = 2**53
+_BELOW = f"less than 2^53 = {_EXACT}: from there on floating point leaves whole numbers out"
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,7 @@ def max_load(
     Args:
         matrix: costs, shape (n, n), row = from, column = to, ≥ 0; NaN: no arc. The diagonal has no meaning. Decimals become whole
             numbers exactly, all times the same power of ten; for the 17 digits of computed ones there is mostly no room: ``np.round``
-            them.
+            them. Each is below 2⁵³, from where on numbers of floating point leave whole numbers out.
         cloud: an arm's points in its base's frame, shape (n, 3), m, or (n, 7) with the tool's orientation as a unit quaternion w, x,
             y, z; or a file as `--cloud` takes it (CSV in mm, a RAPID module). Decimals become those of millimetres exactly.
         cell: with `cloud`: the arm, or the scenario around it.
@@ -100,8 +104,8 @@ def max_load(
         progress: called with what, done, of.
 
     Raises:
-        InputError: a matrix that is not square, a negative cost (``field`` is ``matrix[i, j]``), an end that is no point; a cloud of
-            another shape, a cell that is no arm's; what does not go together.
+        InputError: a matrix that is not square, a cost that is negative, masked or too large (``field`` is ``matrix[i, j]``), an end that
+            is no point; a cloud of another shape, a cell that is no arm's; what does not go together.
 
     Source: docs/heaviest-paths.md.
 
@@ -109,21 +113,20 @@ def max_load(
     >>> hairpin.max_load(np.array([[np.nan, 1.5, 9], [2, np.nan, 3], [4, 8, np.nan]])).path
     [0, 2, 1]
     """
-    checked(programs=(1, programs), visits=(1, visits), seed=(0, seed), nodes=(0, nodes or 0))
-    if min_cost is not None and not 0 <= min_cost < np.inf:
-        raise InputError(f"`min_cost` = {min_cost}: must be a number ≥ 0", "min_cost", str(min_cost), "a number ≥ 0")
     wanted = SimpleNamespace(
-        start=start,
-        end=end,
-        min_cost=min_cost,
-        programs=programs,
-        visits=visits,
-        method=method,
-        seed=seed,
-        nodes=nodes,
-        certificate=certificate,
-        time_limit_s=time_limit_s,
+        start=_end("start", start),
+        end=_end("end", end),
+        min_cost=None if min_cost is None else _least_cost(min_cost),
+        programs=whole("programs", programs, *_native.PROGRAMS),
+        visits=whole("visits", visits, *_native.VISITS),
+        method=text("method", method, "a word"),
+        seed=whole("seed", seed, 0, _native.LARGEST_SEED),
+        nodes=None if nodes is None else whole("nodes", nodes, 0),
+        certificate=place_or_none("certificate", certificate),
+        time_limit_s=seconds("time_limit_s", time_limit_s),
     )
+    if certificate is not None and wanted.programs > 1:
+        raise wrong("programs", programs, "left out where a certificate is asked for")
     who = waiting(threads, progress)
     if cloud is not None:
         _only_of("matrix", matrix=matrix, nodes=nodes, certificate=certificate, method=None if method == "auto" else method)
@@ -131,12 +134,12 @@ def max_load(
             cell=cell_of(cell),
             points=cloud_file(cloud),
             sets=sets_of_cell(cell, values),
-            out=out,
-            replaces=replaces(if_there),
+            out=place_or_none("out", out),
+            replaces=replaces(if_there, out),
         )
         return _of_cloud(_native.max_load_of_cloud(asked, wanted, who))
-    _only_of("cloud", cell=cell, values=values, out=out)
-    return _of_matrix(_native.max_load(*_table(matrix, start=start, end=end), wanted, who))
+    _only_of("cloud", cell=cell, values=values, out=out, if_there=None if if_there == "refuse" else if_there)
+    return _of_matrix(_native.max_load(*_table(matrix, start=wanted.start, end=wanted.end), wanted, who))
 
 
 def _only_of(whose: str, **given: Any) -> None:
@@ -149,18 +152,31 @@ def _only_of(whose: str, **given: Any) -> None:
 def _table(matrix: Any, **ends: int | None) -> tuple[bytes, int]:
     """A matrix as bytes, and its points."""
     bound = "a square array of numbers"
-    try:
-        costs = np.array(matrix, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise InputError(f"`matrix`: must be {bound}", "matrix", type(matrix).__name__, bound) from None
+    unmasked("matrix", matrix, "a number, or NaN for no arc")
+    costs = np.array(floats("matrix", matrix, bound), order="C")
     if costs.ndim != 2 or costs.shape[0] != costs.shape[1] or costs.shape[0] == 0:
-        raise InputError(f"`matrix` of shape {costs.shape}: must be {bound}", "matrix", str(costs.shape), bound)
-    np.fill_diagonal(costs, np.nan)
+        raise wrong("matrix", costs, bound + (", of one point or more" if not costs.size else ""))
+    # It has no meaning; of a single point there is nothing else.
+    np.fill_diagonal(costs, 0.0)
+    beyond = np.argwhere(np.isfinite(costs) & (costs >= _EXACT))
+    if len(beyond):
+        at = tuple(beyond[0].tolist())
+        raise wrong(entry("matrix", at), np.asarray(matrix, dtype=object)[at], _BELOW)
     for name, point in ends.items():
-        if point is not None and not 0 <= point < len(costs):
-            bound = f"from 0 to {len(costs) - 1}"
-            raise InputError(f"`{name}` = {point}: must be {bound}", name, str(point), bound)
+        if point is not None and point >= len(costs):
+            raise wrong(name, point, f"from 0 to {len(costs) - 1}")
     return costs.tobytes(), len(costs)
+
+
+def _end(name: str, point: Any) -> int | None:
+    return None if point is None else whole(name, point, 0)
+
+
+def _least_cost(cost: Any) -> float:
+    least = real("min_cost", cost, "a number ≥ 0", least=0.0)
+    if least >= _EXACT:
+        raise wrong("min_cost", cost, _BELOW)
+    return least
 
 
 def _of_matrix(found: dict[str, Any]) -> MaxLoad:

@@ -10,17 +10,18 @@ from types import SimpleNamespace
 from typing import Any
 
 from hairpin import _native
+from hairpin._asked import flag, place, place_or_none, real, seconds, text, whole, word, wrong
 from hairpin._bridge import serving
 from hairpin._call import Brought, Progress, means, replaces, waiting
 from hairpin._callables import ControllerLike, bring
 from hairpin._campaign import Campaign
-from hairpin._errors import InputError
 from hairpin._many import AT_ONCE, takes_many
 from hairpin._results import Comparison, Shrunk, Verification
 from hairpin._scenario import Scenario, Source, scenario, sets_of, toml_value
 
 
 _IF_THERE = ("refuse", "resume", "replace")
+_BUDGET = "a number of seconds > 0, 1e9 at most"
 
 
 def stress(
@@ -83,10 +84,11 @@ def stress(
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
     with serving(executor) as command:
         begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s, budget_s)
+        given = (place_or_none("missions", missions), place_or_none("repro", repro))
         said = _called(
             brought,
             lambda: _native.stress(
-                begun, (_path(missions), _path(repro)), means(brought, portable, allow_commands), waiting(threads, progress)
+                begun, given, means(brought, portable, allow_commands), waiting(threads, progress)
             ),
         )
     return Campaign(said["paths"]["folder"], brought=brought, said=said)
@@ -164,21 +166,23 @@ def execute(
     Raises:
         As :func:`stress`.
     """
-    opened = campaign if isinstance(campaign, Campaign) else None
-    folder = opened.folder if opened else Path(campaign)  # type: ignore[arg-type]
+    own = campaign._brought if isinstance(campaign, Campaign) else None
+    folder = Path(folder_of(campaign))
+    if flag("resume", resume) and (missions is not None or if_there == "replace"):
+        raise wrong("resume", resume, f"left out beside {'`missions`' if missions is not None else '`if_there`'}")
     brought = bring(controller)
-    if controller is None and executor is None and opened is not None and opened._brought is not None:
-        brought = opened._brought
+    if controller is None and executor is None and own is not None:
+        brought = own
     with serving(executor) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
         sets += _side_by_side(executor, os.fspath(folder / "scenario.toml"), sets)
         flights = SimpleNamespace(
             folder=folder,
-            out=_path(out),
-            replaces=replaces(if_there),
+            out=place_or_none("out", out),
+            replaces=replaces(if_there, out),
             sets=sets,
-            missions=_path(missions),
-            repro=_path(repro),
+            missions=place_or_none("missions", missions),
+            repro=place_or_none("repro", repro),
             resume=resume,
         )
         said = _called(
@@ -202,7 +206,7 @@ def verify(
     Raises:
         InputError: the folder is no campaign's.
     """
-    return open_campaign(campaign).verify(threads=threads, progress=progress)
+    return opened(campaign).verify(threads=threads, progress=progress)
 
 
 def shrink(campaign: Campaign | str | os.PathLike[str], case: str | int | None = None, **settings: Any) -> Shrunk:
@@ -217,7 +221,7 @@ def shrink(campaign: Campaign | str | os.PathLike[str], case: str | int | None =
     Raises:
         InputError: no such case, or one that does not violate.
     """
-    return open_campaign(campaign).shrink(case, **settings)
+    return opened(campaign).shrink(case, **settings)
 
 
 @dataclass(frozen=True)
@@ -255,27 +259,29 @@ def explain(
     asked = scenario(source)
     brought = bring(score=score, score_key=_score_key(asked) if score is not None else "")
     sets = asked.sets() + sets_of(values) + brought.sets
+    effort = (whole("graphs", graphs, *_native.GRAPHS), seconds("time_limit_s", time_limit_s))
     found = _called(
         brought,
         lambda: _native.explain(
-            (asked.path(), sets), (graphs, time_limit_s), means(brought, portable, allow_commands), waiting(threads, progress)
+            (asked.path(), sets), effort, means(brought, portable, allow_commands), waiting(threads, progress)
         ),
     )
     return Explanation(found["verdict"], found["exit_code"], tuple(found["reasons"]), found)
 
 
 def compare(
-    a: Campaign | str | os.PathLike[str], b: Campaign | str | os.PathLike[str], *, tolerance_m: float = 0.0
+    a: Campaign | str | os.PathLike[str], b: Campaign | str | os.PathLike[str], *, tolerance_m: float = 1e-6
 ) -> Comparison:
     """Two judged folders, paired by case and seed: `a` before, `b` after. True where nothing is newly failing.
 
     Args:
-        tolerance_m: deviations that differ by no more are unchanged, m.
+        tolerance_m: deviations that differ by no more are unchanged, m; as the command's.
 
     Raises:
         InputError: folders that are not judged, of other kinds of robots, or without a case in common.
     """
-    found = _native.compare((folder_of(a), folder_of(b)), tolerance_m, waiting())
+    within = real("tolerance_m", tolerance_m, "a finite number >= 0", least=0.0)
+    found = _native.compare((folder_of(a, "a"), folder_of(b, "b")), within, waiting())
     failing, passing = (tuple(str(case) for case in found[name]) for name in ("newly_failing", "newly_passing"))
     return Comparison(found["verdict"], failing, passing, found["regression"], found["inconclusive"], found)
 
@@ -317,8 +323,9 @@ def learn(
     Raises:
         InputError: too little to learn from; folders of different robots or controllers.
     """
-    many = [campaigns] if isinstance(campaigns, Campaign | str | os.PathLike) else list(campaigns)
-    found = _native.learn(([folder_of(one) for one in many], os.fspath(out)), stress, waiting(threads, progress))
+    many = list(campaigns) if isinstance(campaigns, Iterable) and not isinstance(campaigns, Campaign | str | bytes) else [campaigns]
+    folders: list[str | os.PathLike[str]] = [folder_of(one, "campaigns") for one in many]
+    found = _native.learn((folders, place("out", out)), text("stress", stress), waiting(threads, progress))
     names = ("score_key", "unit", "trajectories", "legs", "validation", "held_out")
     return Model(Path(found["model"]), **{name: found[name] for name in names})
 
@@ -340,7 +347,12 @@ def _stress_with_texts(source: Source, *, out: Path, texts: Mapping[str, str], e
 
 def open_campaign(folder: Campaign | str | os.PathLike[str]) -> Campaign:
     """The campaign of a folder that is there."""
-    return folder if isinstance(folder, Campaign) else Campaign(folder)
+    return opened(folder, "folder")
+
+
+def opened(campaign: Any, name: str = "campaign") -> Campaign:
+    """The campaign that is given, or that is in the folder that is."""
+    return campaign if isinstance(campaign, Campaign) else Campaign(folder_of(campaign, name))
 
 
 def _begun(
@@ -354,15 +366,19 @@ def _begun(
     time_limit_s: float | None,
     budget_s: float | None = None,
 ) -> Any:
-    if if_there not in _IF_THERE:
-        bound = "one of " + ", ".join(_IF_THERE)
-        raise InputError(f"`if_there` = {if_there!r}: must be {bound}", "if_there", repr(if_there), bound)
     sets = asked.sets() + sets_of(values)
     if seed is not None:
-        sets.append(("seed", toml_value(seed)))
+        sets.append(("seed", toml_value(whole("seed", seed, 0, _native.LARGEST_SEED))))
     sets += brought.sets + _command(executes[0])
     sets += _side_by_side(executes[1], asked.path(), sets)
-    return SimpleNamespace(scenario=asked.path(), out=_path(out), sets=sets, if_there=if_there, time_limit_s=time_limit_s, budget_s=budget_s)
+    return SimpleNamespace(
+        scenario=asked.path(),
+        out=place_or_none("out", out),
+        sets=sets,
+        if_there=word("if_there", if_there, _IF_THERE),
+        time_limit_s=seconds("time_limit_s", time_limit_s),
+        budget_s=None if budget_s is None else real("budget_s", budget_s, _BUDGET, above=0.0, most=_native.LONGEST),
+    )
 
 
 def _command(command: str | None) -> list[tuple[str, str]]:
@@ -388,9 +404,6 @@ def _score_key(asked: Scenario) -> str:
     return _native.facts(asked.path(), asked.sets())[0]
 
 
-def _path(path: str | os.PathLike[str] | None) -> str | None:
-    return None if path is None else os.fspath(path)
-
-
-def folder_of(campaign: Campaign | str | os.PathLike[str]) -> str:
-    return os.fspath(campaign.folder if isinstance(campaign, Campaign) else campaign)
+def folder_of(campaign: Any, name: str = "campaign") -> str:
+    """The folder that a campaign is in, or that is named in its place."""
+    return place(name, campaign.folder if isinstance(campaign, Campaign) else campaign, "a campaign or its folder")

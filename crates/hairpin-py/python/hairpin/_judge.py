@@ -6,12 +6,17 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any, overload
 
+import numpy as np
+
+from hairpin._asked import wrong
 from hairpin._call import Progress
 from hairpin._campaign import Campaign
 from hairpin._errors import InputError
-from hairpin._jobs import folder_of, open_campaign
+from hairpin._jobs import folder_of, opened
 from hairpin._logs import JudgedLogs, judge_log
 from hairpin._scenario import Robot, World
+
+_NOT_MOVED = (0.0, 0.0, 0.0)
 
 
 @overload
@@ -34,7 +39,7 @@ def judge(
     case: str | int | None = None,
     source: str | None = None,
     turn_deg: float = 0.0,
-    offset_m: Sequence[float] = (0.0, 0.0, 0.0),
+    offset_m: Sequence[float] = _NOT_MOVED,
     altitude: str = "relative",
     from_s: float | None = None,
     to_s: float | None = None,
@@ -62,7 +67,7 @@ def judge(
     case: str | int | None = None,
     source: str | None = None,
     turn_deg: float = 0.0,
-    offset_m: Sequence[float] = (0.0, 0.0, 0.0),
+    offset_m: Sequence[float] = _NOT_MOVED,
     altitude: str = "relative",
     from_s: float | None = None,
     to_s: float | None = None,
@@ -98,14 +103,15 @@ def judge(
             raise InputError("`what`: must be a campaign's folder or a log", "what", "", "a campaign's folder or a log")
         what, campaign = campaign, None
     log = {"world": world, "source": source, "from_s": from_s, "to_s": to_s, "page": page, "robot": robot, "case": case}
-    named = [name for name, given in log.items() if given is not None]
+    frame = {"turn_deg": np.array_equal(turn_deg, 0.0), "offset_m": np.array_equal(offset_m, _NOT_MOVED), "altitude": altitude == "relative"}
+    named = [name for name, given in log.items() if given is not None] + [name for name, usual in frame.items() if not usual]
     if campaign is None and mission is None:
         if named:
             bound = "given with a log, and with it `campaign` or `mission`"
             raise InputError(f"`{named[0]}`: must be {bound}", named[0], "", bound)
-        return open_campaign(what).judge(values, threads=threads, progress=progress)
+        return opened(what, "what").judge(values, threads=threads, progress=progress)
     if isinstance(what, Campaign):
-        raise InputError("`what`: must be a log, a file or folder", "what", repr(what), "a log, a file or folder")
+        raise wrong("what", what, "a log, a file or folder")
     return judge_log(
         what,
         values,

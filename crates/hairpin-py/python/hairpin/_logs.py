@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from hairpin import _native
+from hairpin._asked import place, place_or_none, real, text, vector, whole
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
 from hairpin._scenario import sets_of
@@ -102,19 +103,19 @@ def judge_log(
     """What :func:`hairpin.judge` does where a campaign or a mission is given beside the log."""
     _check(campaign is not None, mission is not None, robot is not None, case is not None, altitude)
     logs = SimpleNamespace(
-        path=log,
+        path=place("what", log, "a log, a file or folder"),
         campaign=campaign,
-        mission=mission if mission is not None else "",
-        robot=robot,
-        world=world,
-        case=f"{case:04}" if isinstance(case, int) else case,
-        source=source,
-        turn_deg=float(turn_deg),
-        offset_m=[float(metres) for metres in offset_m],
+        mission=place("mission", mission) if mission is not None else "",
+        robot=place_or_none("robot", robot),
+        world=place_or_none("world", world),
+        case=case if case is None or isinstance(case, str) else f"{whole('case', case, 0):04}",
+        source=None if source is None else text("source", source),
+        turn_deg=real("turn_deg", turn_deg),
+        offset_m=vector("offset_m", offset_m, "three finite numbers", 3),
         amsl=altitude == "amsl",
-        from_s=from_s,
-        to_s=to_s,
-        page=page,
+        from_s=None if from_s is None else real("from_s", from_s),
+        to_s=None if to_s is None else real("to_s", to_s),
+        page=place_or_none("page", page),
     )
     found = _native.judge_log(logs, sets_of(values), waiting(threads, progress))
     return JudgedLogs(

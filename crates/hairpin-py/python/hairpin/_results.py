@@ -119,9 +119,11 @@ class Run:
 
 
 def margin_of(answer: Any) -> float | None:
-    """What a judge said of a run as a margin: ``None`` is open, and so is what is no number."""
+    """What a judge said of a run as a margin: ``None`` is open, and so is what is masked or no number."""
     if isinstance(answer, bool | np.bool_):
         return 0.0 if answer else -1.0
+    if np.ma.is_masked(answer):
+        return None
     margin = None if answer is None else float(answer)
     return None if margin is None or np.isnan(margin) else margin
 

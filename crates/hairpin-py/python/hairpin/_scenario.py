@@ -12,19 +12,24 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
 
-from hairpin._errors import InputError
+import numpy as np
+
+from hairpin._asked import entry, place, unmasked, wrong
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scenario", "Robot"]
+
+_VALUE = "a number, text, list or table"
 
 _texts: Path | None = None
 
 
-def toml_value(value: Any) -> str:
-    """A value as TOML has it.
+def toml_value(value: Any, key: str = "value") -> str:
+    """A value as TOML has it, of ``key``.
 
     >>> toml_value({"max_m": 0.5, "names": ["a", "b"]})
     '{ "max_m" = 0.5, "names" = ["a", "b"] }'
     """
+    unmasked(key, value if isinstance(value, np.ma.MaskedArray) else None, _VALUE)
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, Robot | World):
@@ -38,14 +43,20 @@ def toml_value(value: Any) -> str:
             return repr(value)
         return "nan" if math.isnan(value) else ("inf" if value > 0 else "-inf")
     if isinstance(value, str | os.PathLike):
-        # JSON's strings are TOML's.
-        return json.dumps(os.fspath(value))
+        return _quoted(place(key, value, _VALUE))
     if isinstance(value, Mapping):
-        pairs = ", ".join(f"{json.dumps(str(key))} = {toml_value(item)}" for key, item in value.items() if item is not None)
+        pairs = ", ".join(
+            f"{_quoted(str(name))} = {toml_value(item, f'{key}.{name}')}" for name, item in value.items() if item is not None
+        )
         return f"{{ {pairs} }}" if pairs else "{}"
-    if isinstance(value, Sequence):
-        return f"[{', '.join(toml_value(item) for item in value)}]"
-    raise InputError(f"`{value!r}`: must be a number, text, list or table", "", repr(value), "a number, text, list or table")
+    if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray | memoryview):
+        return f"[{', '.join(toml_value(item, entry(key, (number,))) for number, item in enumerate(value))}]"
+    raise wrong(key, value, _VALUE)
+
+
+def _quoted(text: str) -> str:
+    """JSON's strings are TOML's, but that TOML has no halves of characters, and wants its last control character escaped."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def to_toml(table: Mapping[str, Any]) -> str:
@@ -55,7 +66,7 @@ def to_toml(table: Mapping[str, Any]) -> str:
     "hairpin" = 1
     "spec" = { "deviation" = { "max_m" = 0.5 } }
     """
-    return "".join(f"{json.dumps(str(key))} = {toml_value(value)}\n" for key, value in table.items() if value is not None)
+    return "".join(f"{_quoted(str(key))} = {toml_value(value, str(key))}\n" for key, value in table.items() if value is not None)
 
 
 def sets_of(values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
@@ -64,7 +75,22 @@ def sets_of(values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     >>> sets_of({"execute.repeat": 5, "spec.deviation.max_m": 0.5})
     [('execute.repeat', '5'), ('spec.deviation.max_m', '0.5')]
     """
-    return [(key, toml_value(value)) for key, value in (values or {}).items()]
+    return [(key, toml_value(value, key)) for key, value in _dotted(values).items()]
+
+
+def _dotted(values: Any) -> Mapping[str, Any]:
+    """Values by their keys; nothing of ``None``."""
+    table = {} if values is None else values
+    if not isinstance(table, Mapping) or not all(isinstance(key, str) for key in table):
+        raise wrong("values", values, "a dictionary whose keys are texts")
+    return table
+
+
+def described(name: str, source: Any) -> Any:
+    """A source of what a file describes."""
+    if not isinstance(source, Mapping):
+        place(name, source, "a name, a path, TOML text or a dictionary")
+    return source
 
 
 class _Described:
@@ -72,10 +98,8 @@ class _Described:
 
     _what = "scenario"
 
-    def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any], **values: Any) -> None:
-        self._source = source
-        #: Keys with other values, dotted.
-        self.values: dict[str, Any] = dict(values)
+    def __init__(self, source: str | os.PathLike[str] | Mapping[str, Any]) -> None:
+        self._source: str | os.PathLike[str] | Mapping[str, Any] = described("source", source)
 
     def __repr__(self) -> str:
         source = self._source
@@ -154,15 +178,17 @@ class Scenario(_Described):
         values: Mapping[str, Any] | None = None,
     ) -> None:
         super().__init__(source)
+        #: Keys with other values, dotted.
+        self.values: dict[str, Any] = {}
         if robot is not None:
-            self.values["robot"] = (robot if isinstance(robot, Robot) else Robot(robot)).value()
+            self.values["robot"] = (robot if isinstance(robot, Robot) else Robot(described("robot", robot))).value()
         if world is not None:
-            self.values["world"] = (world if isinstance(world, World) else World(world)).value()
-        self.values.update(values or {})
+            self.values["world"] = (world if isinstance(world, World) else World(described("world", world))).value()
+        self.values.update(_dotted(values))
 
     def with_(self, values: Mapping[str, Any]) -> Scenario:
         """The same with other values of dotted keys."""
-        return Scenario(self._source, values={**self.values, **values})
+        return Scenario(self._source, values={**self.values, **_dotted(values)})
 
     def sets(self) -> list[tuple[str, str]]:
         """What takes the place of its keys, as jobs take it."""

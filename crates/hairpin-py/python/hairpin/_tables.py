@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hairpin import _native
+from hairpin._asked import place, text, whole
 
 
 class Table:
@@ -27,7 +28,8 @@ class Table:
     """
 
     def __init__(self, folder: str | os.PathLike[str], name: str, *, case: int | None = None, run: int | None = None) -> None:
-        self._table = _native.Table(folder, name, (case, run))
+        only = (None if case is None else whole("case", case, 0), None if run is None else whole("run", run, 0))
+        self._table = _native.Table(place("folder", folder), text("table", name, "the name of a table"), only)
         #: Its name.
         self.name = name
 

@@ -19,6 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hairpin import _native
+from hairpin._asked import flag, place, whole
 from hairpin._campaign import Campaign
 from hairpin._errors import ExecutorError, InputError, Interrupted, WriteError
 
@@ -69,8 +71,8 @@ def run(
 
     The campaign is the one that ``hairpin.stress`` gives on one machine.
     """
-    folder, own = Path(plan).resolve(), _command(command)
-    of = _parts(folder) if shards is None else shards
+    folder, own = Path(place("plan", plan, "the folder of a plan")).resolve(), _command(command)
+    of = _parts(folder) if shards is None else whole("shards", shards, 1)
     made = 0
     for landed in stream(
         folder, address=address, shards=of, cpus=cpus, retries=retries, allow_commands=allow_commands, command=own
@@ -95,10 +97,9 @@ def stream(
     """The shards as they land, in whatever order; arguments and errors as of :func:`run`. Nothing is put together yet."""
     import ray
 
-    folder, own = Path(plan).resolve(), _command(command)
-    of = _parts(folder) if shards is None else shards
-    if of < 1:
-        raise InputError(f"`shards` = {of}: must be at least 1", "shards", str(of), "at least 1")
+    folder, own = Path(place("plan", plan, "the folder of a plan")).resolve(), _command(command)
+    of = _parts(folder) if shards is None else whole("shards", shards, 1)
+    cpus, retries = whole("cpus", cpus, *_native.THREADS), whole("retries", retries, 0)
     begun = not ray.is_initialized()
     if begun:
         ray.init(address=address, include_dashboard=False, log_to_driver=False)
@@ -133,7 +134,7 @@ def _command(command: Sequence[str] | None) -> list[str]:
 
 
 def _allowed(allow_commands: bool) -> list[str]:
-    return ["--allow-commands"] if allow_commands else []
+    return ["--allow-commands"] if flag("allow_commands", allow_commands) else []
 
 
 def _parts(folder: Path) -> int:
