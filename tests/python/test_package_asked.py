@@ -185,6 +185,16 @@ def test_masked_answers_of_callables_count_for_nothing(tmp_path):
         flown = cases.execute(executor=flight(key, *at), out=tmp_path / str(number))
         entry = f"`{key}[{', '.join(map(str, at or (0, 0)))}]` = {'masked' if at else 'nan'}"
         assert flown.exit_code == 4 and entry in flown.verdict, flown.verdict
+    for number, (key, value, told) in enumerate(
+        (("leg", 0.5, "`leg[0]` = 0.5: must be a whole number ≥ 0"), ("leg", -1, "`leg[0]` = -1"), ("ended", "never", "one of done, time, crash"))
+    ):
+
+        def fly(mission):
+            way = np.asarray(mission["waypoints_m"])
+            return {"t_s": 1.0 * np.arange(len(way)), "p_m": way, key: value if key == "ended" else [value] * len(way)}
+
+        flown = cases.execute(executor=fly, out=tmp_path / f"words-{number}")
+        assert flown.exit_code == 4 and told in flown.verdict, flown.verdict
     ground = hairpin.dynamics(lambda t, x, u: u, lambda t, x, to: masked([0, 0, 0], 1), lambda mission: np.zeros(3), lambda x: x)
     mission = {"waypoints_m": [[0, 0, 0], [1, 0, 0]], "accept_m": 0.1, "time_limit_s": 9.0}
     assert refused(ground, mission)[:2] == ("control[1]", "masked")
@@ -193,8 +203,9 @@ def test_masked_answers_of_callables_count_for_nothing(tmp_path):
     score = hairpin.vectorised(lambda legs: masked(legs["turn_rad"], 0))
     with pytest.raises(hairpin.InputError, match="masked"):
         hairpin.generate("demo-quadrotor", score=score, out=tmp_path / "score", values=values | {"generate.search.method": "beam"})
-    steers = hairpin.vectorised(lambda t_s, state, reference: {"a_m_s2": np.ma.masked_all((len(t_s), 3))})
-    assert cases.execute(controller=steers, out=tmp_path / "controller").exit_code == 4
+    for number, rows in enumerate((np.ma.masked_all, lambda shape: np.zeros(shape) * 1j, lambda shape: np.full(shape, "0"))):
+        steers = hairpin.vectorised(lambda t_s, state, reference: {"a_m_s2": rows((len(t_s), 3))})
+        assert cases.execute(controller=steers, out=tmp_path / f"controller-{number}").exit_code == 4
     flown = cases.execute(out=tmp_path / "own")
     assert flown.judge_by(hairpin.vectorised(lambda runs: np.ma.masked_all(len(runs)))).exit_code == 5
 

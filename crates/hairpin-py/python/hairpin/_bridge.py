@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from hairpin._asked import finite, floats, function, unmasked
+from hairpin._asked import entry, finite, floats, function, unmasked, whole, word
 from hairpin._many import Together, takes_many
 from hairpin._scenario import texts
 
@@ -100,6 +100,7 @@ def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -
 def _told(flown: Any) -> Iterator[dict[str, Any]]:
     if not isinstance(flown, Mapping):
         raise TypeError(f"{flown!r} is no dictionary, of the executor")
+    ended = word("ended", flown.get("ended", "done"), ("done", "time", "crash"))
     t_s, p_m = (_numbers(key, flown[key]) for key in ("t_s", "p_m"))
     if t_s.ndim != 1 or p_m.shape != (len(t_s), 3) or not len(t_s):
         raise ValueError(f"t_s of shape {t_s.shape} and p_m of shape {p_m.shape}: must be (n,) and (n, 3)")
@@ -113,7 +114,7 @@ def _told(flown: Any) -> Iterator[dict[str, Any]]:
         for pose, value in zip(poses, values.tolist(), strict=True):
             pose[key] = value
     yield from poses
-    yield {"type": "end", "reason": flown.get("ended", "done")}
+    yield {"type": "end", "reason": ended}
 
 
 def _numbers(key: str, values: Any) -> Any:
@@ -124,5 +125,9 @@ def _numbers(key: str, values: Any) -> Any:
 
 
 def _legs(values: Any) -> Any:
+    """Numbers of legs; ``None`` where a pose is of none."""
     unmasked("leg", values, "a whole number")
-    return np.asarray(values)
+    legs = np.array(values, dtype=object)
+    for at, leg in np.ndenumerate(legs):
+        legs[at] = None if leg is None else whole(entry("leg", at), int(leg) if isinstance(leg, float) and leg.is_integer() else leg, 0)
+    return legs

@@ -127,7 +127,7 @@ class _steering_many:
             answer = self._given(_column(asked["t_s"]), state, reference)
             if not isinstance(answer, Mapping):
                 raise TypeError(f"{answer!r} is no dictionary, of control for {len(self._missions)} runs")
-            return {key: _rows(values) for key, values in answer.items()}
+            return {key: _rows(key, values) for key, values in answer.items()}
         except BaseException as error:
             self._raised.append(error)
             raise
@@ -140,10 +140,10 @@ def _column(values: list[Any]) -> npt.NDArray[np.float64] | None:
     return None if there is None else np.array([gap if value is None else value for value in values])
 
 
-def _rows(values: Any) -> list[Any]:
+def _rows(key: str, values: Any) -> list[Any]:
     """A list with None in place of what is masked or not finite, which costs its own run alone."""
-    masked = np.ma.getmaskarray(np.ma.asarray(values))
-    rows = np.asarray(values, dtype=np.float64)
+    given = np.ma.asarray(values)
+    masked, rows = np.ma.getmaskarray(given), floats(key, given.data, "numbers, a row for each run")
     found = rows.astype(object)
     found[~np.isfinite(rows) | masked] = None
     return list(found.tolist())

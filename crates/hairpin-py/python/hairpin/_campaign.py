@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import itertools
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -180,7 +180,7 @@ class Campaign:
         found: dict[tuple[str, int], float | None] = {}
         runs = self._runs()
         while block := list(itertools.islice(runs, 256)):
-            answers = list(asked(block))
+            answers = _listed(asked(block))
             if len(answers) != len(block):
                 raise ValueError(f"{len(answers)} answers of {len(block)} runs")
             found.update({(run.case.id, run.number): margin_of(answer) for run, answer in zip(block, answers, strict=True)})
@@ -322,6 +322,12 @@ def _case(one: Mapping[str, Any]) -> Case:
         "message",
     )
     return Case(id=one["case"], waypoints_m=waypoints, violations=violations, **{name: one[name] for name in names})
+
+
+def _listed(answers: Any) -> list[Any]:
+    if not isinstance(answers, Iterable):
+        raise TypeError(f"{answers!r} is no list of answers, of the judge")
+    return list(answers)
 
 
 def _metres(value: float | None) -> str:
