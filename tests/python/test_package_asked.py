@@ -233,12 +233,40 @@ def test_whole_numbers_that_floating_point_leaves_out_are_refused():
     assert found.proven and found.cost == most and isinstance(found.cost, int)
 
 
+def test_mistakes_that_the_job_finds_are_told_of_what_was_handed_over(tmp_path):
+    costs = np.random.default_rng(1).uniform(0.0, 100.0, (5, 5))
+    for matrix, at, told in (
+        (costs, (0, 1), "at most 4.1175768021673106 for sums over 5 points"),
+        ([[0, 1], [1e-300, 0]], (0, 1), "within 64 bits times 10^300"),
+        ([[0, 1e-17], [9e15, 0]], (1, 0), "within 64 bits times 10^17"),
+        ([[0, 2**53 - 1], [1, 0]], (0, 1), "at most 4503599627370495"),
+    ):
+        field, value, bound = refused(hairpin.max_load, matrix, visits=16 if "45035" in told else 1)
+        assert (field, value) == (f"matrix[{at[0]}, {at[1]}]", repr(np.asarray(matrix, dtype=object)[at])) and told in bound
+    for given, field, value in (({"min_cost": 1e-300}, "min_cost", "0.00"), ({"visits": 2, "method": "dfs"}, "visits", "")):
+        with pytest.raises(hairpin.InputError) as found:
+            hairpin.max_load(PAIR, **given)
+        assert found.value.field == field and found.value.value.startswith(value) and found.value.bound
+    same, far = [[0.3, 0.0, 0.3], [0.3, 0.0, 0.3]], [[0.3, 0.0, 0.3], [0.35, 0.0, 0.3]]
+    for cloud, given, field, value in ((same, {}, "cloud[1]", "[0.3, 0.0, 0.3]"), (far, {"start": 7}, "start", "7")):
+        with pytest.raises(hairpin.InputError) as found:
+            hairpin.max_load(cloud=cloud, cell="irb120", **given)
+        assert (found.value.field, found.value.value) == (field, value) and "/tmp" not in str(found.value)
+    with pytest.raises(hairpin.InputError, match="row 0 again"):
+        hairpin.max_load(cloud=same, cell="irb120")
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.learn([])
+    assert found.value.field == "campaigns"
+    assert refused(hairpin.vectorised, 5)[:2] == ("function", "5")
+
+
 def test_a_single_point_has_a_path_and_none_is_no_matrix(tmp_path):
     (tmp_path / "one.csv").write_text("5\n")
     done = subprocess.run([BIN, "max-load", "--graph", tmp_path / "one.csv"], capture_output=True, text=True)
     found = hairpin.max_load([[5.0]])
     assert done.stdout.startswith("cost 0, optimal") and (found.path, found.cost, found.proven) == ([0], 0, True)
     assert "one point or more" in refused(hairpin.max_load, np.zeros((0, 0)))[2]
+    assert "one point or more" in refused(hairpin.max_load, cloud=np.zeros((0, 3)), cell="irb120")[2]
 
 
 def test_a_step_takes_time():

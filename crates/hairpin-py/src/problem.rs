@@ -20,7 +20,7 @@ pub(crate) fn raised(py: Python<'_>, problem: &Problem) -> PyErr {
         }
         Problem::Input(_) => {
             let (field, value, bound) = parts(&sentence);
-            wrong(py, &sentence, field, value, bound)
+            wrong(py, &sentence, &field, value, bound)
         }
         Problem::Lost(_) => made(py, "WriteError", &sentence),
         Problem::Executor(_) => made(py, "ExecutorError", &sentence),
@@ -46,13 +46,28 @@ fn built<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArg
 }
 
 /// Field, value and bound of a sentence as mistakes in keys are told: "`key` = value: must be bound".
-fn parts(sentence: &str) -> (&str, &str, &str) {
-    let none = ("", "", "");
+fn parts(sentence: &str) -> (String, &str, &str) {
+    if let Some(typed) = sentence.strip_prefix("--") {
+        return of_flag(typed);
+    }
+    let none = (String::new(), "", "");
     let Some((field, rest)) = sentence.strip_prefix('`').and_then(|rest| rest.split_once('`')) else { return none };
+    let field = field.to_owned();
     let Some(rest) = rest.strip_prefix(" = ") else { return (field, "", "") };
     // A value may hold marks of its own; what must be is what stands last.
     match rest.split_once(": must be ").or_else(|| rest.split_once(", must be ")).or_else(|| rest.split_once(": ")) {
         Some((value, bound)) => (field, value, bound),
         None => (field, rest, ""),
+    }
+}
+
+/// The same of what the command says of a flag, "--key value: bound", whose name the keyword has.
+fn of_flag(typed: &str) -> (String, &str, &str) {
+    let (head, bound) = typed.split_once(": ").or_else(|| typed.split_once(", ")).unwrap_or((typed, ""));
+    let (flag, value) = head.split_once(' ').unwrap_or((head, ""));
+    match (flag, bound) {
+        ("set", _) => (value.to_owned(), "", bound),
+        (_, "") => (flag.replace('-', "_"), "", ""),
+        _ => (flag.replace('-', "_"), value.trim_matches('`'), bound.strip_prefix("must be ").unwrap_or(bound)),
     }
 }

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Mapping
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
-from hairpin._asked import finite, floats, wrong
+import numpy as np
+
+from hairpin._asked import finite, floats, shown, wrong
 from hairpin._errors import InputError
 from hairpin._scenario import Robot, Scenario, sets_of, texts
 
@@ -26,13 +29,27 @@ def cloud_file(cloud: Any) -> Path:
         return Path(cloud)
     bound = "an array (n, 3) or (n, 7) of finite numbers"
     points = floats("cloud", cloud, bound)
-    if points.ndim != 2 or points.shape[1] not in _HEADS:
-        raise wrong("cloud", points, bound)
+    if points.ndim != 2 or points.shape[1] not in _HEADS or not len(points):
+        raise wrong("cloud", points, bound if points.size else f"{bound}, of one point or more")
     finite("cloud", points, "a finite number")
     lines = [",".join([*map(_millimetres, row[:3]), *map(repr, row[3:])]) for row in points.tolist()]
     path = Path(tempfile.mkdtemp(dir=texts())) / "cloud.csv"
     path.write_text("\n".join([_HEADS[points.shape[1]], *lines]) + "\n", encoding="utf-8")
     return path
+
+
+def of_the_cloud(error: InputError, cloud: Any) -> InputError:
+    """What the command tells of a key or of a line of its file, of the keyword or the row that stands behind it."""
+    keyword = error.field.removeprefix("generate.search.")
+    if keyword in ("start", "end", "min_cost") and keyword != error.field:
+        return InputError(f"`{keyword}` = {error.value}: {error.bound}", keyword, error.value, error.bound.removeprefix("must be "))
+    found = re.match(r"line (\d+)(?:, column `\w+`)?: (.+)", error.bound)
+    if isinstance(cloud, str | os.PathLike) or error.field != "task.points" or found is None:
+        return error
+    row = int(found[1]) - 2
+    why = re.sub(r"line (\d+)", lambda line: f"row {int(line[1]) - 2}", found[2])
+    told = shown(np.asarray(cloud)[row].tolist())
+    return InputError(f"`cloud[{row}]` = {told}: {why}", f"cloud[{row}]", told, why)
 
 
 def _millimetres(metres: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -15,7 +16,7 @@ from hairpin import _native
 from hairpin._asked import entry, floats, place_or_none, real, seconds, text, unmasked, whole, wrong
 from hairpin._call import Progress, replaces, waiting
 from hairpin._campaign import Campaign
-from hairpin._clouds import cell_of, cloud_file, sets_of_cell
+from hairpin._clouds import cell_of, cloud_file, of_the_cloud, sets_of_cell
 from hairpin._errors import InputError
 from hairpin._scenario import Robot, Scenario
 
@@ -137,9 +138,16 @@ def max_load(
             out=place_or_none("out", out),
             replaces=replaces(if_there, out),
         )
-        return _of_cloud(_native.max_load_of_cloud(asked, wanted, who))
+        try:
+            return _of_cloud(_native.max_load_of_cloud(asked, wanted, who))
+        except InputError as error:
+            raise of_the_cloud(error, cloud) from None
     _only_of("cloud", cell=cell, values=values, out=out, if_there=None if if_there == "refuse" else if_there)
-    return _of_matrix(_native.max_load(*_table(matrix, start=wanted.start, end=wanted.end), wanted, who))
+    table, points = _table(matrix, start=wanted.start, end=wanted.end)
+    try:
+        return _of_matrix(_native.max_load(table, points, wanted, who))
+    except InputError as error:
+        raise _of_the_matrix(error, matrix) from None
 
 
 def _only_of(whose: str, **given: Any) -> None:
@@ -166,6 +174,16 @@ def _table(matrix: Any, **ends: int | None) -> tuple[bytes, int]:
         if point is not None and point >= len(costs):
             raise wrong(name, point, f"from 0 to {len(costs) - 1}")
     return costs.tobytes(), len(costs)
+
+
+def _of_the_matrix(error: InputError, matrix: Any) -> InputError:
+    """What the command tells of a line and a column, of the matrix: its file is none of the caller's."""
+    found = re.search(r"line (\d+), column (\d+): (?:cost \S+ of the arc \S+, must be (.+)|\S+ × (\S+))", str(error))
+    if found is None:
+        return error
+    at = int(found[1]) - 1, int(found[2]) - 1
+    room = f"within 64 bits times {found[4]}, at which all costs are whole: fewer decimals, or a coarser unit"
+    return wrong(entry("matrix", at), np.asarray(matrix, dtype=object)[at], found[3] or room)
 
 
 def _end(name: str, point: Any) -> int | None:

@@ -324,6 +324,8 @@ def learn(
         InputError: too little to learn from; folders of different robots or controllers.
     """
     many = list(campaigns) if isinstance(campaigns, Iterable) and not isinstance(campaigns, Campaign | str | bytes) else [campaigns]
+    if not many:
+        raise wrong("campaigns", many, "a campaign, or several")
     folders: list[str | os.PathLike[str]] = [folder_of(one, "campaigns") for one in many]
     found = _native.learn((folders, place("out", out)), text("stress", stress), waiting(threads, progress))
     names = ("score_key", "unit", "trajectories", "legs", "validation", "held_out")

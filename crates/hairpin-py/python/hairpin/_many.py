@@ -6,6 +6,8 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
+from hairpin._asked import wrong
+
 AT_ONCE = 16
 """Missions that an executor that takes many is asked with at most, where nothing else is said."""
 _SETTLED_S = 0.005
@@ -26,7 +28,10 @@ def vectorised(function: _Marked) -> _Marked:
     ... def score(legs):
     ...     return legs["v_in_m_s"] * legs["turn_rad"]
     """
-    function.hairpin_vectorised = True  # type: ignore[attr-defined]
+    try:
+        function.hairpin_vectorised = True  # type: ignore[attr-defined]
+    except AttributeError:
+        raise wrong("function", function, "a function, or an object that takes attributes") from None
     return function
 
 

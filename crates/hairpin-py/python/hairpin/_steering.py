@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -168,7 +169,7 @@ class Drives:
         return len(self.status_code)
 
     def __getitem__(self, index: int) -> Drive:
-        place = range(len(self))[index]
+        place = range(len(self))[operator.index(index)]
         rows = self.segments[self._starts[place] : self._starts[place + 1]]
         segments = tuple(Segment(_KINDS[int(row[1])], int(row[2]), float(row[3]), float(row[4]), row[5:].copy()) for row in rows)
         curvature = _curvature(rows[:, 5:].copy(), rows[:, 3].copy())
