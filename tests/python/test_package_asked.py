@@ -284,6 +284,12 @@ def test_a_step_takes_time():
     assert field == "step_s" and bound == "at least 1e-06, for 1e+07 steps in 10 s"
 
 
+def test_bounds_are_what_a_value_must_be(tmp_path):
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.generate("demo-quadrotor", out=tmp_path / "out", values={"spec.deviation.max_m": NAN})
+    assert (found.value.field, found.value.value, found.value.bound) == ("spec.deviation.max_m", "nan", "a finite number")
+
+
 def test_texts_are_tomls():
     assert toml_value("a🚁\x7fé\n") == '"a🚁\\u007fé\\n"'
     with pytest.raises(TypeError, match="mass_kg"):

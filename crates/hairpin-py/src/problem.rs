@@ -14,7 +14,7 @@ pub(crate) fn raised(py: Python<'_>, problem: &Problem) -> PyErr {
         Problem::Scenario(report) => {
             let sentence = sentence.strip_prefix("Error: ").unwrap_or(&sentence);
             match report.complaints().first() {
-                Some(first) => wrong(py, sentence, &first.field, &first.value, &first.bound),
+                Some(first) => wrong(py, sentence, &first.field, &first.value, bare(&first.bound)),
                 None => wrong(py, sentence, "", "", ""),
             }
         }
@@ -68,6 +68,11 @@ fn of_flag(typed: &str) -> (String, &str, &str) {
     match (flag, bound) {
         ("set", _) => (value.to_owned(), "", bound),
         (_, "") => (flag.replace('-', "_"), "", ""),
-        _ => (flag.replace('-', "_"), value.trim_matches('`'), bound.strip_prefix("must be ").unwrap_or(bound)),
+        _ => (flag.replace('-', "_"), value.trim_matches('`'), bare(bound)),
     }
+}
+
+/// What something must be, without saying that it must.
+fn bare(bound: &str) -> &str {
+    bound.strip_prefix("must be ").unwrap_or(bound)
 }

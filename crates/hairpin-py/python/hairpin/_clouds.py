@@ -42,7 +42,7 @@ def of_the_cloud(error: InputError, cloud: Any) -> InputError:
     """What the command tells of a key or of a line of its file, of the keyword or the row that stands behind it."""
     keyword = error.field.removeprefix("generate.search.")
     if keyword in ("start", "end", "min_cost") and keyword != error.field:
-        return InputError(f"`{keyword}` = {error.value}: {error.bound}", keyword, error.value, error.bound.removeprefix("must be "))
+        return InputError(f"`{keyword}` = {error.value}: must be {error.bound}", keyword, error.value, error.bound)
     found = re.match(r"line (\d+)(?:, column `\w+`)?: (.+)", error.bound)
     if isinstance(cloud, str | os.PathLike) or error.field != "task.points" or found is None:
         return error

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from hairpin import _native
-from hairpin._asked import flag, place, whole
+from hairpin._asked import flag, function, place, whole
 from hairpin._campaign import Campaign
 from hairpin._errors import ExecutorError, InputError, Interrupted, WriteError
 
@@ -73,6 +73,8 @@ def run(
     """
     folder, own = Path(place("plan", plan, "the folder of a plan")).resolve(), _command(command)
     of = _parts(folder) if shards is None else whole("shards", shards, 1)
+    if progress is not None:
+        function("progress", progress, "a function of done, of, shard")
     made = 0
     for landed in stream(
         folder, address=address, shards=of, cpus=cpus, retries=retries, allow_commands=allow_commands, command=own
