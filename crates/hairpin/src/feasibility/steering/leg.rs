@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
 use super::flatness::{DependentRotors, Flatness};
+use super::four_times::refused;
 use super::halving::ProofSettings;
 use super::proof::BodyLimits;
 use crate::feasibility::collision::FreeSpace;
@@ -13,9 +14,6 @@ use crate::math::polynomial::septic;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 use crate::world::World;
-
-/// More than rounding can make of a squared rotor speed at a leg's end, as a share of the largest.
-const ROUNDING: f64 = 1e-7;
 
 /// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
 ///
@@ -32,7 +30,7 @@ pub struct LegEnd {
     /// −(∂D/∂v) a/m, m/s³.
     pub jerk: Vector3<f64>,
     /// Second time derivative of the drag there, N/s².
-    drag_second: Vector3<f64>,
+    pub(super) drag_second: Vector3<f64>,
 }
 
 /// Judges legs of one robot in one world under one set of limits.
@@ -146,38 +144,18 @@ impl LegJudge {
 
     /// The number of the first of `durations` (s) in which the leg is one by [`Self::judge`].
     ///
-    /// Most are refused four at a time, for what rotors would have to do at the ends alone.
+    /// Most are refused four at a time, for what the body would have to do at the ends and at four instants.
     pub fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
         durations.chunks(4).enumerate().find_map(|(k, few)| {
-            let refused = self.ends_refuse(from, to, few);
+            let refused = self.refused(from, to, few);
             let asked = (0..few.len()).filter(|i| refused >> i & 1 == 0);
             asked.into_iter().find(|i| self.judge(from, to, few[*i]).is_ok()).map(|i| 4 * k + i)
         })
     }
 
-    /// Which of four durations or fewer [`Self::ends_allowed`] refuses by more than rounding: bit i for number i.
-    ///
-    /// With e the residues of [`septic`], p⁗ T⁴ = 840 e₀ − 360 e₁ + 60 e₂ − 4 e₃ at the first end, and
-    /// −840 e₀ + 480 e₁ − 120 e₂ + 16 e₃ at the last.
-    #[inline]
-    fn ends_refuse(&self, from: &LegEnd, to: &LegEnd, few: &[f64]) -> u32 {
-        let t = f64x4::new(unrolled!([0, 1, 2, 3], |i| few[i.min(few.len() - 1)]));
-        let (t2, t3) = (t * t, t * t * t);
-        let mass = f64x4::splat(self.mass) / (t2 * t2);
-        let ends = unrolled!([0, 1], |i| {
-            let c1 = t * from.velocity[i];
-            let (c2, c3) = (t2 * (0.5 * from.acceleration[i]), t3 * (from.jerk[i] / 6.0));
-            let e0 = f64x4::splat(to.position[i] - from.position[i]) - c1 - c2 - c3;
-            let e1 = t * to.velocity[i] - c1 - c2 * 2.0 - c3 * 3.0;
-            let e2 = t2 * to.acceleration[i] - c2 * 2.0 - c3 * 6.0;
-            let e3 = t3 * to.jerk[i] - c3 * 6.0;
-            let (first, last) =
-                (e0 * 840.0 - e1 * 360.0 + e2 * 60.0 - e3 * 4.0, e1 * 480.0 - e0 * 840.0 - e2 * 120.0 + e3 * 16.0);
-            [mass * first + f64x4::splat(from.drag_second[i]), mass * last + f64x4::splat(to.drag_second[i])]
-        });
-        let [x, y] = ends;
-        let beyond = |end: usize| self.body.rotors_beyond(&self.flatness.level_rotors(&[x[end], y[end]]), ROUNDING);
-        beyond(0) | beyond(1)
+    /// Which of one to four durations [`Self::judge`] would refuse, by the cheapest of its tests: bit i for number i.
+    pub(super) fn refused(&self, from: &LegEnd, to: &LegEnd, few: &[f64]) -> u32 {
+        refused((&self.flatness, &self.body, self.mass), from, to, few)
     }
 
     /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.

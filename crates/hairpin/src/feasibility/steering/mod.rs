@@ -9,6 +9,7 @@
 
 pub mod clear;
 pub mod flatness;
+mod four_times;
 pub mod halving;
 pub mod leg;
 pub mod proof;

@@ -14,6 +14,7 @@ use crate::feasibility::limits::{Infeasible, Limit, Limits};
 use crate::math::interval::{Enclosure, Smooth, unrolled};
 use crate::math::polynomial::derivatives;
 use crate::math::power::square;
+use crate::math::simd::at_every_level;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 
@@ -83,6 +84,14 @@ impl BodyLimits {
         (beyond[0] | beyond[1] | beyond[2] | beyond[3]).to_bitmask()
     }
 
+    /// The lanes on which speed, vertical thrust or tilt is beyond its limit by more than `share` of it. NaN is not.
+    #[inline(always)]
+    pub(super) fn force_beyond(&self, speed: f64x4, vertical: f64x4, thrust: f64x4, share: f64) -> u32 {
+        let [speed, least, tilt] = self.force_margins(speed, vertical, thrust);
+        let beyond = |(margin, room): (f64x4, f64)| margin.simd_lt(f64x4::splat(-room * (share / ROUNDING)));
+        (beyond(speed) | beyond(least) | beyond(tilt)).to_bitmask()
+    }
+
     /// The first of four instants that violates speed, thrust or tilt, with the margin in the limit's unit.
     #[inline]
     pub(super) fn force_violation(&self, speed: f64x4, vertical: f64x4, thrust: f64x4) -> Option<(usize, Limit, f64)> {
@@ -145,11 +154,13 @@ impl BodyLimits {
             let (limit, part, margin) = self.worst(flatness, leg, tau);
             Err(Infeasible::at(limit, part, tau, margin))
         };
-        prove_by_halving(leg.duration, &self.settings, |batch| self.evaluate(flatness, leg, batch)).or_else(refuse)
+        prove_by_halving(leg.duration, &self.settings, |batch| evaluate(self, flatness, leg, batch)).or_else(refuse)
     }
+}
 
+at_every_level! {
     /// Bit masks of the intervals on which every limit is proven, and of those whose centre violates one.
-    fn evaluate(&self, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
+    fn evaluate(body: &BodyLimits, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
         let tau = f64x4::new(batch.map(|(center, _)| center));
         let half = f64x4::new(batch.map(|(_, half)| half));
         let d = unrolled!(|axis| derivatives(&leg.coefficients[axis], tau));
@@ -167,13 +178,13 @@ impl BodyLimits {
             proven &= margin.lower().simd_ge(f64x4::splat(room));
             violated |= margin.middle.simd_lt(f64x4::ZERO);
         };
-        for (margin, room) in &self.force_margins(demand.speed, demand.force[2], demand.thrust) {
+        for (margin, room) in &body.force_margins(demand.speed, demand.force[2], demand.thrust) {
             require(margin, *room);
         }
-        let (low, high) = (Enclosure::constant(self.rotor_low), Enclosure::constant(self.rotor_high));
+        let (low, high) = (Enclosure::constant(body.rotor_low), Enclosure::constant(body.rotor_high));
         for square in &demand.rotors {
-            require(&(*square - low), ROUNDING * self.rotor_high);
-            require(&(high - *square), ROUNDING * self.rotor_high);
+            require(&(*square - low), ROUNDING * body.rotor_high);
+            require(&(high - *square), ROUNDING * body.rotor_high);
         }
         (proven.to_bitmask(), violated.to_bitmask())
     }

@@ -57,11 +57,11 @@ fn open_world() -> World {
     World::new(Vector3::repeat(1000.0), 0.0, Vec::new()).unwrap()
 }
 
-fn judge_of(robot: &Quadrotor, limits: Limits) -> LegJudge {
+pub(super) fn judge_of(robot: &Quadrotor, limits: Limits) -> LegJudge {
     LegJudge::new(robot, &open_world(), limits, ProofSettings::default()).unwrap()
 }
 
-fn random_ends(judge: &LegJudge, random: &mut Stream, speed: f64, size: f64) -> (LegEnd, LegEnd) {
+pub(super) fn random_ends(judge: &LegJudge, random: &mut Stream, speed: f64, size: f64) -> (LegEnd, LegEnd) {
     let mut end = || {
         let p = Point3::from(Vector3::from_fn(|_, _| 500.0 + random.random_range(-size..size)));
         let v = Vector3::from_fn(|_, _| random.random_range(-speed..speed));
