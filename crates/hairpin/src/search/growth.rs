@@ -63,6 +63,15 @@ pub trait Growth<N> {
     fn goes_on(&self, found: usize, wanted: usize) -> bool {
         found < wanted
     }
+
+    /// What each leg is worth at least, as far as is known: 0 or below, and it never rises.
+    ///
+    /// Partial trajectories of unequal length are compared by what they score above it. A sum of legs that are worth
+    /// less than nothing falls as it grows, and the frontier's best would be the shortest: every shorter trajectory
+    /// there is would be expanded before one is complete.
+    fn least(&self) -> f64 {
+        0.0
+    }
 }
 
 /// The scores of legs, added up.
@@ -70,10 +79,20 @@ pub trait Growth<N> {
 /// What [`super::beam()`] uses. It keeps every leg and never ends by itself.
 #[derive(Debug)]
 pub struct ByLegs<'a, O> {
-    /// The score of a leg.
-    pub objective: &'a O,
-    /// How they add up.
-    pub aggregate: Aggregate,
+    objective: &'a O,
+    aggregate: Aggregate,
+    least: f64,
+}
+
+/// What is taken off a leg that is worth less than all before it, as a multiple of its score: so many records at most
+/// change the order of a frontier that may be long.
+const BELOW: f64 = 1.125;
+
+impl<'a, O> ByLegs<'a, O> {
+    /// Scores of legs by `objective`, which add up as `aggregate` says.
+    pub fn new(objective: &'a O, aggregate: Aggregate) -> Self {
+        Self { objective, aggregate, least: 0.0 }
+    }
 }
 
 impl<N, O: Objective> Growth<N> for ByLegs<'_, O> {
@@ -85,7 +104,15 @@ impl<N, O: Objective> Growth<N> for ByLegs<'_, O> {
 
     fn extend(&mut self, parent: &Parent<O::Memory>, leg: &LegView<'_>, _: &N) -> Option<(f64, O::Memory)> {
         let (score, memory) = self.objective.extend(parent.memory, leg);
+        // A maximum never falls as it grows, and what is worthless stays so.
+        if self.aggregate == Aggregate::Sum && score < self.least && score.is_finite() {
+            self.least = BELOW * score;
+        }
         Some((self.aggregate.add(parent.score, score), memory))
+    }
+
+    fn least(&self) -> f64 {
+        self.least
     }
 }
 

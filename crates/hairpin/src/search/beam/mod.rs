@@ -15,6 +15,9 @@
 //! until `per_graph` complete, F empty, or `iterations` are used up
 //! ```
 //!
+//! The best is what scores most above what its legs are worth at least (0 where no leg is worth less, as in the paper):
+//! trajectories of unequal length are compared, and in sums of negative scores the shortest would always be the best.
+//!
 //! It is a beam that never forgets below its bound of memory: what was not the best comes up again once the better ones
 //! have died, so that a graph with a trajectory gives one, given iterations enough. Beam scores are those of beginnings
 //! and say nothing of what follows; the optimum is `exact`'s.
@@ -55,7 +58,7 @@ where
     R: Reach<N> + ?Sized,
     O: Objective,
 {
-    beam_grown(task, &mut ByLegs { objective, aggregate: settings.aggregate }, may_arrive, settings)
+    beam_grown(task, &mut ByLegs::new(objective, settings.aggregate), may_arrive, settings)
 }
 
 /// [`beam`] with scores that are not those of legs; `settings.aggregate` is not used.
@@ -95,6 +98,6 @@ where
     R: Reach<N> + ?Sized,
     O: Objective,
 {
-    let mut growth = ByLegs { objective, aggregate: settings.aggregate };
+    let mut growth = ByLegs::new(objective, settings.aggregate);
     run::Run::new(task, &mut growth, may_arrive, settings).finish(Some(&mut observe))
 }

@@ -22,7 +22,8 @@ const DEEPEST: usize = 64;
 /// A partial trajectory on the frontier.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
-    score: f64,
+    /// Its score above what its legs are worth at least.
+    rank: f64,
     id: u32,
 }
 
@@ -40,13 +41,13 @@ pub struct Snapshot {
     pub frontier: Vec<(Vec<u32>, f64)>,
 }
 
-/// Better is greater: by score, ties by waypoint index.
+/// Better is greater: by rank, ties by waypoint index.
 ///
-/// A total order, so that the search does not depend on how a heap arranges equals. O(1) where scores differ, else as
+/// A total order, so that the search does not depend on how a heap arranges equals. O(1) where ranks differ, else as
 /// long as the trajectories since they parted.
 /// Its type knows nothing of reach sets: heap and sort are compiled once for all of them.
 fn order<M: Clone>(tree: &Tree<M>) -> impl Fn(&Entry, &Entry) -> Ordering {
-    |a, b| a.score.total_cmp(&b.score).then_with(|| tree.lexicographic(b.id, a.id))
+    |a, b| a.rank.total_cmp(&b.rank).then_with(|| tree.lexicographic(b.id, a.id))
 }
 
 fn best_first<M: Clone>(tree: &Tree<M>, entries: &mut [Entry]) {
@@ -62,6 +63,8 @@ pub(super) struct Run<'a, N, R: ?Sized, G: Growth<N>, P> {
     atlas: Atlas<'a, N, R, P>,
     tree: Tree<G::Memory>,
     frontier: IntervalHeap<Entry>,
+    /// What each leg is worth at least, as the ranks of the frontier have it.
+    least: f64,
     reduction: Option<Reduction>,
     /// Waypoints of the partial trajectory being expanded, one bit each.
     visited: Vec<u64>,
@@ -83,7 +86,7 @@ where
         let tree = Tree::new(0, 0, score, memory);
         let mut frontier = IntervalHeap::new();
         if settings.length >= 2 && task.candidates.len() >= 2 {
-            frontier.push(Entry { score, id: 0 }, order(&tree));
+            frontier.push(Entry { rank: score, id: 0 }, order(&tree));
         }
         Self {
             task,
@@ -92,6 +95,7 @@ where
             atlas: Atlas::new(task, may_arrive, settings.revisits, settings.length),
             tree,
             frontier,
+            least: 0.0,
             reduction: settings.keep.map(Reduction::new),
             visited: vec![0; task.candidates.len().div_ceil(64)],
             open: Vec::new(),
@@ -131,6 +135,7 @@ where
                     self.expand(entry.id);
                 }
             }
+            self.rank_again();
             self.bound();
             if let (Some(observe), Some(selected)) = (observe.as_mut(), shown) {
                 let mut frontier = self.frontier.items().to_vec();
@@ -220,7 +225,7 @@ where
             if G::AT_ONCE && length + 1 == settings.length {
                 whole.push(child);
             } else {
-                self.frontier.push(Entry { score, id: child }, order(&self.tree));
+                self.frontier.push(self.entry(child), order(&self.tree));
             }
             grown = true;
         }
@@ -254,6 +259,23 @@ where
         self.tree.release(id);
     }
 
+    /// A partial trajectory among others: score − (length − 1) · least, which is the score itself where `least` is 0.
+    fn entry(&self, id: u32) -> Entry {
+        let partial = self.tree.get(id);
+        Entry { rank: partial.score - f64::from(partial.length - 1) * self.least, id }
+    }
+
+    /// Orders the frontier anew where a leg was worth less than all before it.
+    fn rank_again(&mut self) {
+        if self.growth.least() >= self.least {
+            return;
+        }
+        self.least = self.growth.least();
+        for Entry { id, .. } in std::mem::replace(&mut self.frontier, IntervalHeap::new()).items() {
+            self.frontier.push(self.entry(*id), order(&self.tree));
+        }
+    }
+
     /// Drops the worst until the frontier has its size.
     ///
     /// Every drop is counted and ends all hope of a proof.
@@ -271,6 +293,6 @@ where
     }
 
     fn show(&self, entries: &[Entry]) -> Vec<(Vec<u32>, f64)> {
-        entries.iter().map(|entry| (self.tree.waypoints(entry.id), entry.score)).collect()
+        entries.iter().map(|entry| (self.tree.waypoints(entry.id), self.tree.get(entry.id).score)).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! The beam against brute force, its bound, its pruning, its repeatability.
 
-use super::super::objective::Aggregate;
+use super::super::objective::{Additive, Aggregate, LegView};
 use super::super::score::Score;
 use super::super::small::{Octahedron, START, enumerate, points};
 use super::super::task::Task;
@@ -138,6 +138,28 @@ fn the_same_twice() {
         let settings = BeamSettings { length: 8, per_graph: 7, ..Default::default() };
         assert_eq!(search(&points, seed, &settings), search(&points, seed, &settings));
     }
+}
+
+#[test]
+fn scores_below_zero_take_no_longer() {
+    let (mut above, mut below) = (0, 0);
+    for seed in 0..20 {
+        let points = points(seed, 60, 24.0);
+        let wide = Octahedron::WIDE;
+        let task = Task { start: START, candidates: &points, reach: &wide };
+        let settings = BeamSettings { length: 10, ..Default::default() };
+        let search = |shift: f64| {
+            let score = |leg: &LegView<'_>| Score::Random { seed }.own(leg) - shift;
+            beam(&task, &score, |node, steps| wide.may_arrive(&points, node, steps), &settings)
+        };
+        let (plain, shifted) = (search(0.0), search(1.0));
+        assert_eq!((plain.found.is_empty(), plain.ended), (shifted.found.is_empty(), shifted.ended), "seed {seed}");
+        assert!(shifted.found.iter().all(|found| found.score < 0.0), "seed {seed}");
+        above += plain.expansions;
+        below += shifted.expansions;
+    }
+    // The shortest first, they were ten times as many.
+    assert!(above > 500 && below < 2 * above, "{above} expansions, {below} below zero");
 }
 
 #[test]
