@@ -342,6 +342,26 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
 }
 
 #[test]
+fn what_no_run_reads_is_not_drawn() {
+    let mistakes = |key: &str, value: Value| {
+        let mut scenario = rover();
+        scenario["vary"] = json!({ key: { "uniform": value } });
+        let scenario: Scenario = serde_json::from_value(scenario).unwrap();
+        let found = Setup::build(scenario.into()).err().unwrap_or_default();
+        found.into_iter().map(|mistake| mistake.to_string()).collect::<Vec<_>>()
+    };
+    for (key, range, why) in [
+        ("robot.limits.tilt_deg", json!([20.0, 30.0]), "plans keep this limit"),
+        ("robot.limits.curvature_rate_1_m2", json!([0.5, 2.0]), "plans keep this limit"),
+        ("robot.mass_kg", json!([20.0, 60.0]), "nothing weighs"),
+    ] {
+        let found = mistakes(key, range);
+        assert!(found.iter().any(|told| told.contains(key) && told.contains(why)), "{key}: {found:?}");
+    }
+    assert!(mistakes("robot.slip_at_20_deg", json!([0.1, 0.3])).is_empty());
+}
+
+#[test]
 fn what_is_kept_is_confirmed_under_what_varies() {
     let stress = |changes: &[(&str, Value)]| {
         let setup = setup(car(), changes);

@@ -3,6 +3,7 @@
 mod environment;
 mod pace;
 mod places;
+mod varied;
 
 use std::sync::Arc;
 
@@ -53,6 +54,7 @@ impl Build for DriveSetup {
         environment::check(keys, rover, map.as_deref(), &mut found);
         check_execute(&keys.execute, rover, &mut found);
         check_spec(&keys.spec, &mut found);
+        varied::check(keys, keys.robot.resolved().ok(), &mut found);
         match (rovers, map, keep_out) {
             (Some(rovers), Some(map), Some(keep_out)) if found.0.is_empty() => {
                 Ok(Self::of(given, rovers, map, keep_out))
