@@ -328,7 +328,13 @@ pub(crate) fn open_to_read_as(path: &Path, sets: &[Set]) -> Result<Work, Problem
 
 fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
     let name = folder.file("scenario.toml");
-    Ok(read_kept(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?)
+    let setup = read_kept(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?;
+    // What stands at its end says that nothing was cut off: keys that are gone would be taken for those not given.
+    if folder.simd_level()?.is_none() {
+        let bound = "must end with `[made_by]`: version, root_seed, simd; it was cut, or is not this folder's";
+        return Err(Problem::input(format!("{}: {bound}", name.display())));
+    }
+    Ok(setup)
 }
 
 /// The version of the kernels that goes on with a campaign of `level`.
@@ -389,6 +395,23 @@ mod tests {
 
     use super::*;
     use crate::Unwatched;
+    use crate::testing::generated;
+
+    #[test]
+    fn a_scenario_that_lost_its_end_is_refused() {
+        let (_place, folder) = generated();
+        let file = folder.join("scenario.toml");
+        let whole = std::fs::read_to_string(&file).unwrap();
+        let lines = whole.split_inclusive('\n').collect::<Vec<_>>();
+        for kept in 0..lines.len() {
+            std::fs::write(&file, lines[..kept].concat()).unwrap();
+            assert!(open_to_read(&folder).is_err(), "{kept} of {} lines", lines.len());
+        }
+        let without = whole.split("[made_by]").next().unwrap();
+        std::fs::write(&file, without).unwrap();
+        let told = open_to_read(&folder).map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("must end with `[made_by]`"), "{told}");
+    }
 
     /// Scores long legs.
     struct Long;
