@@ -117,8 +117,9 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     let folder = write(&work, settings, (&all, &results), &chosen)?;
     // What was read to choose by is not read again.
     let cells = |places: &[usize]| match by {
-        By::Coverage => Ok(together(places.iter().map(|place| candidates[*place].cells.clone()))),
-        _ => met.by_case(places).map(|each| together(each.into_iter())),
+        By::Coverage => Ok(Some(together(places.iter().map(|place| candidates[*place].cells.clone())))),
+        _ if !work.folder.has_runs() => Ok(None),
+        _ => met.by_case(places).map(|each| Some(together(each.into_iter()))),
     };
     Ok(Selected {
         folder,
@@ -126,7 +127,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
         of: cases.len(),
         selected: choice.measure(&places, cells(&places)?),
         most_stressful: choice.measure(&stressful, cells(&stressful)?),
-        all: choice.measure(&of_all, met.judged.map_or_else(|| cells(&of_all), Ok)?),
+        all: choice.measure(&of_all, met.judged.map_or_else(|| cells(&of_all), |judged| Ok(Some(judged)))?),
         cells: met.grid.cells(),
         stress: StressUnit::of(&work, &candidates),
     })
@@ -231,12 +232,22 @@ fn write(
 mod tests {
     use super::*;
     use crate::Unwatched;
-    use crate::testing::violating;
+    use crate::testing::{generated, violating};
 
     #[test]
     fn cells_that_several_met_count_once() {
         let met = [[0, 1, 2], [2, 3, 0]].map(BTreeSet::from);
         assert_eq!((together(met.into_iter()), together([].into_iter())), (4, 0));
+    }
+
+    #[test]
+    fn what_was_not_executed_met_no_number_of_cells() {
+        let (place, folder) = generated();
+        let out = place.path().join("few");
+        let (if_there, consent) = (IfThere::Refuse, Consent::default());
+        let settings = SelectSettings { folder, cases: 1, by: By::Stress, out, if_there, consent };
+        let selected = select(&settings, &Unwatched).unwrap();
+        assert_eq!([selected.selected.cells, selected.most_stressful.cells, selected.all.cells], [None; 3]);
     }
 
     #[test]

@@ -49,14 +49,14 @@ fn sentence(
     Selected { names, of, selected: found, most_stressful: stressful, cells, stress, .. }: &Selected,
 ) -> String {
     let (count, told) = (names.len(), |value| with_unit(&in_unit(value, *stress), *stress));
+    let met = found.cells.map_or_else(|| "not executed".into(), |met| format!("{met} of {cells} cells"));
+    let most = stressful.cells.map_or(String::new(), |met| format!(", {met}"));
     format!(
-        "SELECTED {count} of {of} cases: stress {}, spread {:.2}, {} of {cells} cells; the {count} most stressful: {}, {:.2}, {}",
+        "SELECTED {count} of {of} cases: stress {}, spread {:.2}, {met}; the {count} most stressful: {}, {:.2}{most}",
         told(found.stress),
         found.spread,
-        found.cells,
         told(stressful.stress),
         stressful.spread,
-        stressful.cells,
     )
 }
 
@@ -84,7 +84,7 @@ fn in_words(selected: &Selected, by: By) {
             in_unit(one.worst, stress),
             format!("{:.3}", one.spread),
             format!("{:.3}", one.nearest),
-            one.cells.to_string(),
+            one.cells.map_or_else(|| "–".into(), |met| met.to_string()),
         ]
     });
     console::say_lines(&console::table(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use hairpin::campaign::Tally;
+
 use crate::Problem;
 use crate::consent::{Consent, Wish};
 use crate::sets::Set;
@@ -45,7 +47,8 @@ pub(super) fn beside(
     work.folder.copy_plans(&cases.iter().map(|case| case.number).collect::<Vec<_>>(), &new.folder)?;
     new.folder.write_new_cases(&cases, 0)?;
     if work.folder.has_tally() {
-        new.folder.write_tally(&work.folder.read_tally()?)?;
+        // What the search executed it executed with another's controller: it is none of what is flown here.
+        new.folder.write_tally(&Tally { curves: Vec::new(), ..work.folder.read_tally()? })?;
     }
     Ok(())
 }

@@ -82,11 +82,14 @@ impl Export {
     /// The cases that `settings` name of the campaign in their folder.
     ///
     /// # Errors
-    /// The folder is no campaign's, or broken; a case that it has not.
+    /// The folder is no campaign's, or broken; it has no case, or not one that is named.
     pub fn open(settings: &ExportSettings) -> Result<Self, Problem> {
         let ExportSettings { folder, which, autopilot, accept_excursion } = settings;
         let work = open_to_read(folder)?;
         let cases = which.of(&work, work.folder.read_cases_without_profiles()?)?;
+        if cases.is_empty() {
+            return Err(Problem::input(format!("{} has no case: there is nothing to export", folder.display())));
+        }
         Ok(Self { cases, work, autopilot: *autopilot, accept_excursion: *accept_excursion })
     }
 
@@ -152,6 +155,16 @@ mod tests {
         for format in [Format::Program(Language::Rapid), Format::ArcClock] {
             assert!(export.write(format).is_err(), "{format:?}");
         }
+    }
+
+    #[test]
+    fn no_case_is_nothing_to_export() {
+        let (_place, folder) = generated();
+        let work = open_to_read(&folder).unwrap();
+        work.folder.write_new_cases(&[], 0).unwrap();
+        work.folder.write_results(&[], &[]).unwrap();
+        let refused = Export::open(&ExportSettings { folder, ..ExportSettings::default() }).err().unwrap().to_string();
+        assert!(refused.ends_with("has no case: there is nothing to export"), "{refused}");
     }
 
     #[test]

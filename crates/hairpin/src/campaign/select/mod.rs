@@ -122,8 +122,8 @@ pub struct Measured {
     ///
     /// 0 where there are fewer than two.
     pub nearest: f64,
-    /// Cells of the grid of motion that are met.
-    pub cells: usize,
+    /// Cells of the grid of motion that are met; `None` where nothing was executed, which alone meets cells.
+    pub cells: Option<usize>,
 }
 
 impl<'a> Choice<'a> {
@@ -155,7 +155,7 @@ impl<'a> Choice<'a> {
     /// How good a choice of places is.
     ///
     /// Of places as [`Self::best`] gives them, which met so many `cells`; O(k²) comparisons for k of them.
-    pub fn measure(&self, chosen: &[usize], cells: usize) -> Measured {
+    pub fn measure(&self, chosen: &[usize], cells: Option<usize>) -> Measured {
         let stress = || chosen.iter().map(|place| self.candidates[*place].stress);
         // All of them are not gathered anew: that would take as much memory again.
         let are_all = chosen.iter().copied().eq(0..self.candidates.len());
@@ -206,7 +206,7 @@ mod tests {
         let mut diverse = choice.best(3, By::Diverse);
         diverse.sort_unstable();
         assert!(diverse[0] < 5 && diverse[1..] == [5, 6], "{diverse:?}");
-        let (alike, apart) = (choice.measure(&[0, 1, 2], 1), choice.measure(&diverse, 5));
+        let (alike, apart) = (choice.measure(&[0, 1, 2], Some(1)), choice.measure(&diverse, Some(5)));
         assert!(apart.spread > 3.0 * alike.spread && apart.stress < alike.stress && alike.nearest < 0.02);
         assert_eq!(choice.best(2, By::Coverage), [6, 0]);
         assert_eq!(choice.best(99, By::Diverse).len(), 7);
