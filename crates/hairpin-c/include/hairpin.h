@@ -134,6 +134,11 @@
 #define HAIRPIN_NAME 32
 
 /**
+ * Moments of a drive that is followed, at most.
+ */
+#define HAIRPIN_MOST_MOMENTS 1000000
+
+/**
  * A cost that says that there is no arc.
  */
 #define HAIRPIN_NO_ARC -1
@@ -162,6 +167,21 @@
  * None was found yet.
  */
 #define HAIRPIN_NOT_FOUND 3
+
+/**
+ * No sample counts in the deviation: all are within `corner_m` of a waypoint.
+ */
+#define HAIRPIN_UNMEASURED_DEVIATION 1
+
+/**
+ * There are too few samples for an acceleration.
+ */
+#define HAIRPIN_UNMEASURED_ACCELERATION 2
+
+/**
+ * No waypoint that was to be reached at a time was reached.
+ */
+#define HAIRPIN_UNMEASURED_LATE 4
 
 /**
  * Samples have attitudes.
@@ -622,8 +642,8 @@ typedef struct {
 } hairpin_max_load_answer;
 
 /**
- * Signed distance of a place (x, y, z, m) to the nearest obstacle, m, the robot's radius subtracted. It must not throw
- * and may be asked by several threads at once.
+ * Signed distance of a place (x, y, z, m) to the nearest obstacle, m, the robot's radius subtracted: infinite where
+ * there is none, never NaN. It must not throw and may be asked by several threads at once.
  */
 typedef double (*hairpin_clearance)(void *context, const double *position_m);
 
@@ -680,7 +700,7 @@ typedef struct {
    */
   double max_acceleration_m_s2;
   /**
-   * Least distance to obstacles, m.
+   * Least distance to obstacles, m; stands with `clearance`.
    */
   double min_clearance_m;
   /**
@@ -703,7 +723,7 @@ typedef struct {
  */
 typedef struct {
   /**
-   * Time, s; rises from sample to sample.
+   * Time, s; rises from sample to sample, by half a nanosecond at least.
    */
   double t_s;
   /**
@@ -757,7 +777,7 @@ typedef struct {
    */
   double t_acceleration_s;
   /**
-   * Least distance to an obstacle, m.
+   * Least distance to an obstacle, m; infinite where there is none.
    */
   double min_clearance_m;
   /**
@@ -788,6 +808,11 @@ typedef struct {
    * 1 where legs were not told, and samples were assigned to them along the path.
    */
   int32_t legs_assigned;
+  /**
+   * Limits that were asked for and could not be measured, a sum of HAIRPIN_UNMEASURED_...; not 0: a track that
+   * violates nothing is open, not within its limits.
+   */
+  uint32_t unmeasured;
 } hairpin_measures;
 
 /**
@@ -1039,7 +1064,7 @@ hairpin_code hairpin_steer_clear(const hairpin_steerer *steer,
  * @param steer what was asked
  * @param start where the drive begins, as it was asked
  * @param drive the drive
- * @param time_step_s time between the moments, s, > 0
+ * @param time_step_s time between the moments, s, > 0; a drive has HAIRPIN_MOST_MOMENTS of them at most
  * @param moments where they are written
  * @param room how many there is room for
  * @param count how many there are; with too little room none is written, and this is how many it takes
@@ -1090,7 +1115,8 @@ hairpin_judge_settings hairpin_judge_defaults(void);
 
 /**
  * Measures a track against its waypoints and holds it to limits; a value equal to its limit keeps it. Nothing is
- * aligned: both are in one frame. Maxima are over samples. Takes memory.
+ * aligned: both are in one frame. Maxima are over samples. A track is within its limits where nothing is violated and
+ * `measures->unmeasured` is 0. Takes memory.
  *
  * @param waypoints_m the waypoints, x, y, z each, m
  * @param waypoints how many, at least 2

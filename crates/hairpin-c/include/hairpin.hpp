@@ -217,6 +217,12 @@ struct judgement {
     std::vector<hairpin_leg> legs;
     std::vector<double> deviations_m;
     std::vector<hairpin_violation> violations;
+
+    /// Whether it is within its limits: nothing is violated, and all that has a limit was measured.
+    bool within() const
+    {
+        return violations.empty() && measures.unmeasured == 0;
+    }
 };
 
 /// Holds a track to its waypoints and limits.

@@ -1,6 +1,7 @@
 //! The states along a drive: the source's `GetPath`.
 
 use hairpin::campaign::states::{Followed, VehicleState};
+use hairpin::trajectory::drive::Segment;
 
 use crate::drive::{Drive, State};
 use crate::memory::{Room, given, put, result};
@@ -27,8 +28,8 @@ pub struct Moment {
     pub speed_m_s: f64,
 }
 
-/// Steps of a drive that is followed, at most.
-const MOST_STEPS: usize = 1_000_000;
+/// Moments of a drive that is followed, at most.
+pub const HAIRPIN_MOST_MOMENTS: usize = 1_000_000;
 
 /// Follows a drive in steps of time: on the map with suspension, slip and lag, in the plane as it is commanded. Takes
 /// memory.
@@ -36,7 +37,7 @@ const MOST_STEPS: usize = 1_000_000;
 /// @param steer what was asked
 /// @param start where the drive begins, as it was asked
 /// @param drive the drive
-/// @param time_step_s time between the moments, s, > 0
+/// @param time_step_s time between the moments, s, > 0; a drive has HAIRPIN_MOST_MOMENTS of them at most
 /// @param moments where they are written
 /// @param room how many there is room for
 /// @param count how many there are; with too little room none is written, and this is how many it takes
@@ -75,7 +76,16 @@ fn follow(steer: &SteerHandle, start: &State, drive: &Drive, time_step: f64) -> 
     let arm = rover.suspension.outer_radius();
     let turn_rate = steer.speed / if arm > 0.0 { arm } else { 1.0 };
     let direction = steer.settings.direction();
-    let most_steps = MOST_STEPS;
+    let most_steps = HAIRPIN_MOST_MOMENTS;
+    let turns: f64 = segments.iter().map(|segment| segment.turn_rad().abs()).sum();
+    let length: f64 = segments.iter().map(Segment::length_m).sum();
+    let least = (length / steer.speed + turns / turn_rate) / most_steps as f64;
+    if time_step < least {
+        let sentence = format_args!(
+            "`time_step_s` = {time_step:e}: must be at least {least:e} for this drive, which has {most_steps} moments then"
+        );
+        return Err(Refused::new(HAIRPIN_INVALID, sentence));
+    }
     let followed = Followed { rover, speed: steer.speed.into(), turn_rate, direction, time_step, most_steps };
     let start = start.planar();
     let states = match &steer.map {

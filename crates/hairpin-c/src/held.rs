@@ -2,6 +2,7 @@
 
 use std::ffi::c_void;
 
+use hairpin::campaign::bounds::SHORTEST_STEP_S;
 use hairpin::judgement::{
     Late, Limits, Measures, Reference, Settings, Violation, deviation_of_samples, measure, violations,
 };
@@ -27,6 +28,7 @@ pub(crate) struct Asked<'a> {
 /// What came of it.
 pub(crate) struct Judged {
     pub(crate) measures: Measures,
+    pub(crate) limits: Limits,
     pub(crate) off: Vec<Option<f64>>,
     pub(crate) violations: Vec<Violation>,
 }
@@ -75,9 +77,8 @@ impl Asked<'_> {
             true => deviation_of_samples(&track, &self.waypoints, &settings).map_err(Refused::invalid)?,
             false => Vec::new(),
         };
-        if measures.min_clearance.is_some_and(f64::is_nan) {
-            return Err(Refused::new(HAIRPIN_INVALID, format_args!("`clearance` answers NaN: must be a distance")));
-        }
+        // Asked everywhere, it knows of no obstacle.
+        measures.min_clearance = measures.min_clearance.or(obstacles.as_ref().map(|_| f64::INFINITY));
         self.find_late(&mut measures);
         let reached = match self.reached {
             Some(times) => times.iter().map(|time| (!time.is_nan()).then_some(*time)).collect(),
@@ -85,7 +86,7 @@ impl Asked<'_> {
         };
         let flight = Flight { track, ended, left_world: None, reached };
         let violations = violations(&measures, &flight, &limits);
-        Ok(Judged { measures, off, violations })
+        Ok(Judged { measures, limits, off, violations })
     }
 
     /// How late each waypoint was reached that was to be at a time, and the latest of them.
@@ -124,15 +125,22 @@ impl Asked<'_> {
             }
         };
         let late = limit("max_late_s", of.max_late_s)?;
+        moments("reached_s", self.reached)?;
+        moments("planned_s", self.planned)?;
         if (late.is_some() || self.planned.is_some()) && (self.planned.is_none() || self.reached.is_none()) {
             let sentence = format_args!("`max_late_s`, `planned_s`: must stand with `planned_s` and `reached_s`");
+            return Err(Refused::new(HAIRPIN_INVALID, sentence));
+        }
+        let clearance = limit("min_clearance_m", of.min_clearance_m)?;
+        if let (Some(least), None) = (clearance, of.clearance) {
+            let sentence = format_args!("`min_clearance_m` = {least}: must stand with `clearance`, or be NaN");
             return Err(Refused::new(HAIRPIN_INVALID, sentence));
         }
         Ok(Limits {
             deviation: limit("max_deviation_m", of.max_deviation_m)?,
             overshoot: limit("max_overshoot_m", of.max_overshoot_m)?,
             acceleration: limit("max_acceleration_m_s2", of.max_acceleration_m_s2)?,
-            clearance: limit("min_clearance_m", of.min_clearance_m)?,
+            clearance,
             total_time: limit("max_total_time_s", of.max_total_time_s)?,
             late,
             ..Limits::default()
@@ -168,7 +176,35 @@ impl Asked<'_> {
         };
         let poses = samples.iter().enumerate().map(pose).collect::<Result<Vec<_>, Refused>>()?;
         let times = samples.iter().map(|sample| sample.t_s).collect();
-        Track::new(times, poses, channels).map_err(Refused::invalid)
+        let track = Track::new(times, poses, channels).map_err(Refused::invalid)?;
+        // Stamps that do not rise are told by the track.
+        apart(samples).map(|()| track)
+    }
+}
+
+/// Refuses times of waypoints that are neither times nor NaN.
+fn moments(field: &str, times: Option<&[f64]>) -> Result<(), Refused> {
+    let mut infinite = times.unwrap_or_default().iter().enumerate().filter(|(_, time)| time.is_infinite());
+    match infinite.next() {
+        Some((index, time)) => {
+            let sentence = format_args!("`{field}[{index}]` = {time}: must be finite, or NaN for none");
+            Err(Refused::new(HAIRPIN_INVALID, sentence))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses samples that follow on each other sooner than can be measured.
+fn apart(samples: &[Sample]) -> Result<(), Refused> {
+    let step = |index: usize| samples[index].t_s - samples[index - 1].t_s;
+    match (1..samples.len()).find(|index| step(*index) < SHORTEST_STEP_S) {
+        Some(index) => {
+            let (step, least) = (step(index), SHORTEST_STEP_S);
+            let sentence =
+                format_args!("`samples[{index}].t_s` is {step:e} s after the one before: must be at least {least:e}");
+            Err(Refused::new(HAIRPIN_INVALID, sentence))
+        }
+        None => Ok(()),
     }
 }
 

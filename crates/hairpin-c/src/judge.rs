@@ -9,7 +9,8 @@ use crate::refusal::{Code, Error, Refused, enter};
 use crate::track::{HAIRPIN_FROM_PATH, JudgeSettings, Sample, hairpin_judge_defaults};
 
 /// Measures a track against its waypoints and holds it to limits; a value equal to its limit keeps it. Nothing is
-/// aligned: both are in one frame. Maxima are over samples. Takes memory.
+/// aligned: both are in one frame. Maxima are over samples. A track is within its limits where nothing is violated and
+/// `measures->unmeasured` is 0. Takes memory.
 ///
 /// @param waypoints_m the waypoints, x, y, z each, m
 /// @param waypoints how many, at least 2
@@ -65,7 +66,7 @@ pub unsafe extern "C" fn hairpin_judge(
 
             let asked = Asked { settings, waypoints, path, reached, planned };
             let judged = asked.judge(samples, off.is_wanted())?;
-            put(measures, TrackMeasures::from(&judged.measures))?;
+            put(measures, TrackMeasures::of(&judged.measures, &judged.limits))?;
             if legs.is_wanted() {
                 legs.fill(judged.measures.legs.iter().map(TrackLeg::from))?;
             }

@@ -2,7 +2,7 @@
 
 use std::ffi::c_char;
 
-use hairpin::judgement::{LegMeasures, LegSource, Measures, Violation};
+use hairpin::judgement::{LegMeasures, LegSource, Limits, Measures, Violation};
 
 use crate::drive::HAIRPIN_NAME;
 
@@ -23,7 +23,7 @@ pub struct TrackMeasures {
     pub max_acceleration_m_s2: f64,
     /// When, s.
     pub t_acceleration_s: f64,
-    /// Least distance to an obstacle, m.
+    /// Least distance to an obstacle, m; infinite where there is none.
     pub min_clearance_m: f64,
     /// When, s.
     pub t_clearance_s: f64,
@@ -39,7 +39,17 @@ pub struct TrackMeasures {
     pub leg_latest: usize,
     /// 1 where legs were not told, and samples were assigned to them along the path.
     pub legs_assigned: i32,
+    /// Limits that were asked for and could not be measured, a sum of HAIRPIN_UNMEASURED_...; not 0: a track that
+    /// violates nothing is open, not within its limits.
+    pub unmeasured: u32,
 }
+
+/// No sample counts in the deviation: all are within `corner_m` of a waypoint.
+pub const HAIRPIN_UNMEASURED_DEVIATION: u32 = 1;
+/// There are too few samples for an acceleration.
+pub const HAIRPIN_UNMEASURED_ACCELERATION: u32 = 2;
+/// No waypoint that was to be reached at a time was reached.
+pub const HAIRPIN_UNMEASURED_LATE: u32 = 4;
 
 /// What is measured of one leg. NaN: not measured.
 #[repr(C)]
@@ -76,15 +86,22 @@ pub struct TrackViolation {
     pub leg: usize,
 }
 
-impl From<&Measures> for TrackMeasures {
-    fn from(of: &Measures) -> Self {
+impl TrackMeasures {
+    /// What was measured, and what of it `limits` ask for in vain.
+    pub(crate) fn of(of: &Measures, limits: &Limits) -> Self {
+        let open = limits.unmeasured(of).into_iter().map(|what| match what {
+            "deviation" => HAIRPIN_UNMEASURED_DEVIATION,
+            "acceleration" => HAIRPIN_UNMEASURED_ACCELERATION,
+            "late" => HAIRPIN_UNMEASURED_LATE,
+            other => unreachable!("a limit of C's on {other}, which is refused or measured"),
+        });
         Self {
-            max_deviation_m: of.max_deviation,
+            max_deviation_m: of.deviation().unwrap_or(f64::NAN),
             t_worst_s: of.t_worst,
             leg_worst: of.leg_worst,
-            mean_deviation_m: of.mean_deviation,
+            mean_deviation_m: of.deviation().map_or(f64::NAN, |_| of.mean_deviation),
             max_overshoot_m: of.max_overshoot(),
-            max_acceleration_m_s2: of.max_acceleration,
+            max_acceleration_m_s2: of.acceleration().unwrap_or(f64::NAN),
             t_acceleration_s: of.t_acceleration,
             min_clearance_m: of.min_clearance.unwrap_or(f64::NAN),
             t_clearance_s: of.min_clearance.map_or(f64::NAN, |_| of.t_clearance),
@@ -94,6 +111,7 @@ impl From<&Measures> for TrackMeasures {
             t_latest_s: of.latest.map_or(f64::NAN, |latest| latest.at),
             leg_latest: of.latest.map_or(0, |latest| latest.leg),
             legs_assigned: (of.leg_source == LegSource::Assigned).into(),
+            unmeasured: open.sum(),
         }
     }
 }

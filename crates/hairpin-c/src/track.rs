@@ -6,7 +6,7 @@ use std::ffi::c_void;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Sample {
-    /// Time, s; rises from sample to sample.
+    /// Time, s; rises from sample to sample, by half a nanosecond at least.
     pub t_s: f64,
     /// Place, m.
     pub position_m: [f64; 3],
@@ -39,8 +39,8 @@ pub const HAIRPIN_ENDED_TIME: i32 = 1;
 /// The track ends in a crash.
 pub const HAIRPIN_ENDED_CRASH: i32 = 2;
 
-/// Signed distance of a place (x, y, z, m) to the nearest obstacle, m, the robot's radius subtracted. It must not throw
-/// and may be asked by several threads at once.
+/// Signed distance of a place (x, y, z, m) to the nearest obstacle, m, the robot's radius subtracted: infinite where
+/// there is none, never NaN. It must not throw and may be asked by several threads at once.
 pub type Clearance = Option<unsafe extern "C" fn(context: *mut c_void, position_m: *const f64) -> f64>;
 
 /// How a track is judged. hairpin_judge_defaults fills it in: nothing has a limit.
@@ -71,7 +71,7 @@ pub struct JudgeSettings {
     pub max_overshoot_m: f64,
     /// Largest acceleration, m/s^2.
     pub max_acceleration_m_s2: f64,
-    /// Least distance to obstacles, m.
+    /// Least distance to obstacles, m; stands with `clearance`.
     pub min_clearance_m: f64,
     /// Longest duration, s.
     pub max_total_time_s: f64,

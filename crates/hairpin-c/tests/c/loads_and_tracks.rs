@@ -10,7 +10,9 @@ use hairpin_c::max_load::{
     HAIRPIN_BELOW_MIN_COST, HAIRPIN_FOUND, HAIRPIN_NO_ARC, HAIRPIN_NO_PATH, LoadPath, MaxLoad, MaxLoadSettings,
     hairpin_max_load, hairpin_max_load_defaults,
 };
-use hairpin_c::measures::{TrackLeg, TrackMeasures, TrackViolation};
+use hairpin_c::measures::{
+    HAIRPIN_UNMEASURED_DEVIATION, HAIRPIN_UNMEASURED_LATE, TrackLeg, TrackMeasures, TrackViolation,
+};
 use hairpin_c::refusal::HAIRPIN_OK;
 use hairpin_c::track::{JudgeSettings, Sample, hairpin_judge_defaults};
 
@@ -173,4 +175,33 @@ fn a_track_is_measured_and_held_to_its_limits() {
     assert!(legs[0].lateness_s == 0.25 && legs[1].lateness_s.is_nan());
     let TrackViolation { value, limit, .. } = violations[0];
     assert_eq!((violations.len(), name(&violations[0].what).as_str(), value, limit), (1, "late", 0.25, 0.2));
+}
+
+#[test]
+fn what_was_not_measured_is_within_no_limit() {
+    unsafe extern "C" fn nowhere(_: *mut c_void, _: *const f64) -> f64 {
+        f64::INFINITY
+    }
+    unsafe extern "C" fn inside(_: *mut c_void, place: *const f64) -> f64 {
+        // SAFETY: three numbers.
+        if unsafe { *place } > 9.5 { f64::NEG_INFINITY } else { 1.0 }
+    }
+    let usual = hairpin_judge_defaults();
+    // All samples lie within the corners.
+    let Judged { measures, violations, .. } =
+        judge(&JudgeSettings { told: 4, corner_m: 20.0, max_deviation_m: 0.1, ..usual });
+    assert!(violations.is_empty() && measures.max_deviation_m.is_nan());
+    assert_eq!(measures.unmeasured, HAIRPIN_UNMEASURED_DEVIATION);
+    // What was to be reached at a time was not.
+    let (reached, planned) = ([0.0, f64::NAN, 20.0], [0.0, 9.75, f64::NAN]);
+    let (reached_s, planned_s) = (reached.as_ptr(), planned.as_ptr());
+    let late = JudgeSettings { reached_s, planned_s, max_late_s: 0.2, ..usual };
+    let Judged { measures, violations, .. } = judge(&late);
+    assert!(violations.is_empty() && measures.unmeasured == HAIRPIN_UNMEASURED_LATE);
+    // No obstacle is far enough away, and what is inside of one is not.
+    let clear = JudgeSettings { min_clearance_m: 0.5, clearance: Some(nowhere), ..usual };
+    let Judged { measures, violations, .. } = judge(&clear);
+    assert!(violations.is_empty() && measures.unmeasured == 0 && measures.min_clearance_m == f64::INFINITY);
+    let Judged { violations, .. } = judge(&JudgeSettings { clearance: Some(inside), ..clear });
+    assert_eq!((name(&violations[0].what).as_str(), violations[0].value), ("clearance", f64::NEG_INFINITY));
 }

@@ -1,5 +1,6 @@
 //! NULL and nonsense are refused by code, with a sentence; a panic ends at the door.
 
+use std::ffi::c_void;
 use std::mem::MaybeUninit;
 use std::ptr::{dangling, null, null_mut};
 
@@ -136,10 +137,18 @@ fn questions_that_are_none_are_refused() {
         odd.segments[0].length_m = f64::NAN;
         refused(follow(&odd, 0.1), HAIRPIN_INVALID, "is not finite");
         refused(follow(&drive, 0.0), HAIRPIN_INVALID, "`time_step_s` = 0");
+        // Three metres at 1 m/s: as many moments there would be.
+        refused(follow(&drive, 1e-9), HAIRPIN_INVALID, "`time_step_s` = 1e-9: must be at least 3");
         // Too little room: nothing is written but how many there are.
         refused(follow(&drive, 0.1), 3, "room for 4 values of `moments`: 31 are needed");
         assert_eq!(count, 31);
     }
+}
+
+/// A distance from the second metre on alone.
+unsafe extern "C" fn unknown(_: *mut c_void, place: *const f64) -> f64 {
+    // SAFETY: three numbers.
+    if unsafe { *place } > 0.5 { f64::NAN } else { 1.0 }
 }
 
 #[test]
@@ -217,9 +226,15 @@ fn tables_and_tracks_that_are_none_are_refused() {
             (of(|s| s.corner_m = -1.0), "corner_m"),
             (of(|s| s.max_deviation_m = -0.5), "`max_deviation_m` = -0.5"),
             (of(|s| s.max_late_s = 1.0), "must stand with `planned_s`"),
+            (of(|s| s.min_clearance_m = 0.5), "`min_clearance_m` = 0.5: must stand with `clearance`"),
+            (of(|s| s.clearance = Some(unknown)), "clearance = NaN at sample 1"),
         ] {
             refused(judge(&waypoints, &track, &settings), HAIRPIN_INVALID, words);
         }
+        let soon = [sample(0.0, 0.0), sample(1e-160, 1.0)];
+        refused(judge(&waypoints, &soon, &settings), HAIRPIN_INVALID, "`samples[1].t_s` is 1e-160 s after");
+        let far = [sample(0.0, 0.0), sample(1.0, 1e300)];
+        refused(judge(&waypoints, &far, &settings), HAIRPIN_INVALID, "max_deviation_m = inf: must be finite");
         refused(judge(&waypoints, &track, &of(|s| s.reference = 2)), HAIRPIN_INVALID, "programmed path has 0");
         assert_eq!(judge(&waypoints, &track, null()).0, HAIRPIN_OK);
     }

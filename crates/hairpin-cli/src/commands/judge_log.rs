@@ -189,21 +189,22 @@ fn cut(cut: &Cut) -> Value {
 fn measures(flown: &Flown) -> Value {
     let m = &flown.measures;
     json!({
-        "max_deviation_m": m.max_deviation,
-        "mean_deviation_m": m.mean_deviation,
+        "max_deviation_m": m.deviation(),
+        "mean_deviation_m": m.deviation().map(|_| m.mean_deviation),
         "t_worst_s": m.t_worst,
         "leg_worst": m.leg_worst,
         "between_samples_m": finite(flown.most_between),
         "max_speed_bound_m_s": flown.swiftness.speed,
         "max_acceleration_bound_m_s2": flown.swiftness.acceleration,
         "max_overshoot_m": m.max_overshoot(),
-        "max_acceleration_m_s2": m.max_acceleration,
+        "max_acceleration_m_s2": m.acceleration(),
         "min_clearance_m": m.min_clearance,
         "total_time_s": m.total_time,
         "statistics": flown.statistics.map(|s| json!({
             "max": s.max, "mean": s.mean, "median": s.median, "min": s.min, "rmse": s.rmse, "sse": s.sse, "std": s.std,
         })),
         "violations": flown.violations.iter().map(violation).collect::<Vec<_>>(),
+        "unmeasured": flown.limits.unmeasured(m),
         "doubts": flown.doubts.iter().map(doubt).collect::<Vec<_>>(),
     })
 }

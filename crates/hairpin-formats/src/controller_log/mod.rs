@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::bounds::SHORTEST_STEP_S;
 use hairpin::math::rotation::{quaternion_from_euler, unit_quaternion};
 use hairpin::robot::arm::{AXES, Arm, Joints};
 use hairpin::trajectory::{Channel, Track, TrackError};
@@ -309,6 +310,12 @@ impl Rows<'_> {
             && time <= *before
         {
             return Err(row.error(&layout.time, format!("later than {before} s, the row before")));
+        }
+        if let Some(before) = self.times.last()
+            && time - before < SHORTEST_STEP_S
+        {
+            let bound = format!("at least {SHORTEST_STEP_S:e} s after {before} s, the row before");
+            return Err(row.error(&layout.time, bound));
         }
         let joints = match &layout.joints {
             Some(columns) => Some(row.numbers(columns, MOST_RAD, "an angle within a hundred turns")?),

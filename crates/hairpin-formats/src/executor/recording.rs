@@ -3,7 +3,7 @@
 
 use hairpin::campaign::Mission;
 // Beyond it a simulation has diverged.
-use hairpin::campaign::bounds::FARTHEST_ON_EARTH_M;
+use hairpin::campaign::bounds::{FARTHEST_ON_EARTH_M, SHORTEST_STEP_S};
 use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
@@ -37,6 +37,9 @@ pub enum PoseError {
     /// Stamps do not rise.
     #[error("pose {index}: t_s = {time} does not follow {before}: must rise strictly")]
     Time { index: usize, time: f64, before: f64 },
+    /// A stamp too soon after the one before.
+    #[error("pose {index}: t_s = {time:e} is {:e} s after {before:e}: must be at least {SHORTEST_STEP_S:e} s", time - before)]
+    Soon { index: usize, time: f64, before: f64 },
     /// A quaternion that is no rotation.
     #[error("pose {index} (t_s = {time}): q_wxyz has length {length:.6}: must be 1 within {QUATERNION_TOLERANCE}")]
     Quaternion { index: usize, time: f64, length: f64 },
@@ -114,6 +117,9 @@ impl<'a> Recording<'a> {
         match self.times.last() {
             None if time.abs() > 1e-9 => return Err(PoseError::Start { time }),
             Some(&before) if time <= before => return Err(PoseError::Time { index, time, before }),
+            Some(&before) if time - before < SHORTEST_STEP_S => {
+                return Err(PoseError::Soon { index, time, before });
+            }
             _ => {}
         }
         if time > self.mission.time_limit + OVERTIME_S {

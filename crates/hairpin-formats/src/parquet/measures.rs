@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, StringArray};
-use hairpin::judgement::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray};
+use hairpin::judgement::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};
 
 use super::table::{Table, TableError};
 
@@ -66,8 +66,19 @@ pub(super) fn columns(rows: &[Option<&Measures>]) -> Vec<(&'static str, ArrayRef
     if rows.iter().flatten().any(|measures| measures.most_between.is_some()) {
         all.push((BETWEEN, number(&|m| m.most_between)));
     }
+    if rows.iter().flatten().any(|measures| measures.missing != Missing::default()) {
+        let flag = |of: fn(&Missing) -> bool| -> ArrayRef {
+            Arc::new(rows.iter().map(|row| row.map(|m| of(&m.missing))).collect::<BooleanArray>())
+        };
+        all.push((NO_DEVIATION, flag(|missing| missing.deviation)));
+        all.push((NO_ACCELERATION, flag(|missing| missing.acceleration)));
+    }
     all
 }
+
+/// Columns: what was not measured and reads 0, of tables in which some of it was not.
+const NO_DEVIATION: &str = "deviation_missing";
+const NO_ACCELERATION: &str = "acceleration_missing";
 
 /// Column: what may hide between samples, of runs of which that is asked.
 pub(super) const BETWEEN: &str = "max_deviation_between_m";
@@ -105,6 +116,8 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let between = optional_column(table, BETWEEN)?;
+    let no_deviation = flags(table, NO_DEVIATION)?;
+    let no_acceleration = flags(table, NO_ACCELERATION)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
     let leg_late = table.optional_counts("leg_late")?;
     let leg_source = words(table, "leg_source", [LegSource::Executor, LegSource::Assigned], leg_source_word)?;
@@ -149,6 +162,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                     at: late[1][row].unwrap_or_default(),
                     leg: leg_late[row].unwrap_or_default(),
                 }),
+                missing: Missing { deviation: no_deviation[row], acceleration: no_acceleration[row] },
                 leg_source: leg_source[row].unwrap_or_default(),
                 acceleration_source: acceleration_source[row].unwrap_or_default(),
                 legs: legs[row].clone(),
@@ -179,6 +193,12 @@ fn optional_column(table: &Table, column: &str) -> Result<Vec<Option<f64>>, Tabl
         true => table.optional_numbers(column),
         false => Ok(vec![None; table.rows()]),
     }
+}
+
+/// A column of flags that tables have where one is set.
+fn flags(table: &Table, column: &str) -> Result<Vec<bool>, TableError> {
+    let given = if table.has(column) { table.optional_integers(column)? } else { vec![None; table.rows()] };
+    Ok(given.into_iter().map(|flag| flag.is_some_and(|flag| flag != 0)).collect())
 }
 
 fn read_legs(table: &Table) -> Result<Vec<Vec<LegMeasures>>, TableError> {

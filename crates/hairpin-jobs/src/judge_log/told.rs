@@ -132,8 +132,8 @@ fn nearest(flown: &Flown) -> Option<String> {
         let legs = m.legs.iter().enumerate();
         legs.max_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg)
     };
-    let deviation =
-        limits.deviation.map(|limit| value("deviation", m.max_deviation, limit, "m", m.t_worst, m.leg_worst));
+    let deviation = m.deviation().zip(limits.deviation);
+    let deviation = deviation.map(|(off, limit)| value("deviation", off, limit, "m", m.t_worst, m.leg_worst));
     let clearance = || {
         let leg = worst_leg(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
         Some(value("clearance", m.min_clearance?, limits.clearance?, "m", m.t_clearance, leg))
@@ -144,7 +144,7 @@ fn nearest(flown: &Flown) -> Option<String> {
     };
     let acceleration = || {
         let leg = worst_leg(|leg| leg.max_acceleration);
-        Some(value("acceleration", m.max_acceleration, limits.acceleration?, "m/s²", m.t_acceleration, leg))
+        Some(value("acceleration", m.acceleration()?, limits.acceleration?, "m/s²", m.t_acceleration, leg))
     };
     let last = m.legs.len().saturating_sub(1);
     let time = || Some(value("total-time", m.total_time, limits.total_time?, "s", m.total_time, last));

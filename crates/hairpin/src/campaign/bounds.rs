@@ -34,3 +34,6 @@ pub const LONGEST_TRIP_S: f64 = 1e7;
 pub const LEAST_RADIUS_M: f64 = 0.1;
 /// Turns in place, rad/s: what the fastest vehicle comes to at the least radius.
 pub const MOST_TURN_RATE: f64 = MOST_SPEED / LEAST_RADIUS_M;
+/// Between two samples, s: stamps of whole nanoseconds lie farther apart however they were rounded, and what is divided
+/// by less is no number in the end.
+pub const SHORTEST_STEP_S: f64 = 5e-10;

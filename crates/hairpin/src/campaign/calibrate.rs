@@ -42,16 +42,16 @@ const fn key(
 }
 
 const KEYS: &[Key] = &[
-    key("spec.deviation.max_m", |l| l.deviation, |m| Some(m.max_deviation), (1.0, false)),
+    key("spec.deviation.max_m", |l| l.deviation, Measures::deviation, (1.0, false)),
     key("spec.overshoot.max_m", |l| l.overshoot, |m| Some(m.max_overshoot()), (1.0, false)),
     key("spec.clearance.min_m", |l| l.clearance, |m| m.min_clearance, (1.0, true)),
-    key("spec.acceleration.max_m_s2", |l| l.acceleration, |m| Some(m.max_acceleration), (1.0, false)),
+    key("spec.acceleration.max_m_s2", |l| l.acceleration, Measures::acceleration, (1.0, false)),
     key("spec.total_time.max_s", |l| l.total_time, |m| Some(m.total_time), (1.0, false)),
-    key("spec.limits.path_deviation_m", |l| l.deviation, |m| Some(m.max_deviation), (1.0, false)),
+    key("spec.limits.path_deviation_m", |l| l.deviation, Measures::deviation, (1.0, false)),
     key("spec.limits.tip_over_margin_deg", |l| l.tip_over_margin, |m| m.min_tip_over_margin, (1.0, true)),
     key("spec.limits.clearance_m", |l| l.clearance, |m| m.min_clearance, (1.0, true)),
     key("spec.limits.total_time_s", |l| l.total_time, |m| Some(m.total_time), (1.0, false)),
-    key("spec.path.max_mm", |l| l.deviation, |m| Some(m.max_deviation), (1e3, false)),
+    key("spec.path.max_mm", |l| l.deviation, Measures::deviation, (1e3, false)),
     key("spec.arrival.max_late_ms", |l| l.late, |m| m.latest.map(|late| late.by), (1e3, false)),
 ];
 

@@ -71,7 +71,7 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
     measure_deviation(&mut measures, track.times(), &weights, &legs, &off);
     measure_overshoot(&mut measures, track.times(), &positions, waypoints, &legs, &off);
     measure_acceleration(&mut measures, track, &positions, &legs, settings);
-    measure_clearance(&mut measures, track.times(), &positions, &legs, settings);
+    measure_clearance(&mut measures, track.times(), &positions, &legs, settings)?;
     if let Some(margins) = track.channel("tip_over_margin_deg") {
         measure_tip_over(&mut measures, track.times(), margins, &legs);
     }
@@ -89,7 +89,29 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
         }
     }
     measure_effort(&mut measures, track, &weights, &legs, settings);
-    Ok(measures)
+    measured(measures)
+}
+
+/// `measures`, if all of them are numbers: of what is too far apart, or too near in time, some are not.
+fn measured(measures: Measures) -> Result<Measures, JudgementError> {
+    let all = [
+        ("max_deviation_m", measures.max_deviation),
+        ("mean_deviation_m", measures.mean_deviation),
+        ("max_overshoot_m", measures.max_overshoot()),
+        ("max_acceleration_m_s2", measures.max_acceleration),
+        ("max_speed_rate_m_s2", measures.max_speed_rate),
+        ("total_time_s", measures.total_time),
+        ("joint_effort_rad2_s3", measures.joint_effort.unwrap_or_default()),
+    ];
+    match all.into_iter().find(|(_, value)| !value.is_finite()) {
+        Some((what, value)) => Err(JudgementError::Overflow { what, value }),
+        None => Ok(measures),
+    }
+}
+
+/// What is no number any more is larger than any: it must not be passed over where a maximum is taken.
+fn beyond_numbers(value: f64) -> f64 {
+    if value.is_nan() { f64::INFINITY } else { value }
 }
 
 /// Distance of every sample from the reference, m, as [`measure`] judges it; `None` inside [`Settings::corner`].
@@ -168,7 +190,7 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
         if times.len() > 1 {
             measures.legs[leg].time += weights[i];
         }
-        let Some(deviation) = off.distance else { continue };
+        let Some(deviation) = off.distance.map(beyond_numbers) else { continue };
         measures.legs[leg].max_deviation = measures.legs[leg].max_deviation.max(deviation);
         if deviation > worst {
             worst = deviation;
@@ -179,6 +201,7 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
         let own = (0..legs.len()).filter(|&i| leg.is_none_or(|leg| legs[i] == leg));
         weighted_mean(own.filter_map(|i| Some((weights[i], off[i].distance?)))).unwrap_or(0.0)
     };
+    measures.missing.deviation = off.iter().all(|off| off.distance.is_none());
     measures.mean_deviation = mean(None);
     for leg in 0..measures.legs.len() {
         measures.legs[leg].mean_deviation = mean(Some(leg));
@@ -200,7 +223,7 @@ fn measure_overshoot(
     let mut worst = 0.0;
     for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
         let mut note = |incoming: usize, from: &Point3<f64>| {
-            let beyond = (p - from).dot(&direction(incoming));
+            let beyond = beyond_numbers((p - from).dot(&direction(incoming)));
             let found = &mut measures.legs[incoming].overshoot;
             *found = found.max(beyond);
             if beyond > worst {
@@ -238,6 +261,7 @@ fn measure_acceleration(
     let velocities: Vec<Vector3<f64>> = told.unwrap_or_else(between);
     measures.acceleration_source =
         if has_velocity { AccelerationSource::Velocity } else { AccelerationSource::Position };
+    measures.missing.acceleration = true;
     for (i, &leg) in legs.iter().enumerate() {
         let (before, after) = settings.neighbours(i, times.len());
         let (a, b, span) = if has_velocity {
@@ -250,8 +274,9 @@ fn measure_acceleration(
         if a == b {
             continue;
         }
-        let acceleration = (velocities[b] - velocities[a]).norm() / span;
-        let rate = (velocities[b].norm() - velocities[a].norm()).abs() / span;
+        let acceleration = beyond_numbers((velocities[b] - velocities[a]).norm() / span);
+        let rate = beyond_numbers((velocities[b].norm() - velocities[a].norm()).abs() / span);
+        measures.missing.acceleration = false;
         measures.legs[leg].max_acceleration = measures.legs[leg].max_acceleration.max(acceleration);
         measures.max_speed_rate = measures.max_speed_rate.max(rate);
         if acceleration > measures.max_acceleration {
@@ -260,19 +285,22 @@ fn measure_acceleration(
     }
 }
 
-/// Least distance (m) of each leg and of all; a distance that is not finite is none. Nothing is measured without a
-/// closure.
+/// Least distance (m) of each leg and of all: +∞ is no obstacle at all, −∞ one that it is in, however deep. Nothing is
+/// measured without a closure, and what a closure has no number for is no measure.
 fn measure_clearance(
     measures: &mut Measures,
     times: &[f64],
     positions: &[Point3<f64>],
     legs: &[usize],
     settings: &Settings,
-) {
-    let Some(distance) = settings.clearance else { return };
+) -> Result<(), JudgementError> {
+    let Some(distance) = settings.clearance else { return Ok(()) };
     for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
         let clearance = distance(p);
-        if !clearance.is_finite() {
+        if clearance.is_nan() {
+            return Err(JudgementError::Clearance { index: i });
+        }
+        if clearance == f64::INFINITY {
             continue;
         }
         let least = &mut measures.legs[leg].min_clearance;
@@ -281,6 +309,7 @@ fn measure_clearance(
             (measures.min_clearance, measures.t_clearance) = (Some(clearance), times[i]);
         }
     }
+    Ok(())
 }
 
 /// Least value (°) of each leg and of all, with its time.

@@ -66,9 +66,19 @@ pub struct Late {
     pub leg: usize,
 }
 
+/// What no sample of a run could be measured by, so that it reads 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Missing {
+    /// Deviations: all samples lie within the corner of a waypoint.
+    pub deviation: bool,
+    /// Accelerations: there are too few samples, or a break lies between all of them.
+    pub acceleration: bool,
+}
+
 /// Metrics of one run.
 ///
-/// `None` is "not measured", never 0: a limit on what was not measured is not judged, and the report says so.
+/// `None` and [`Missing`] are "not measured", never 0: a limit on what was not measured is not judged, and the report
+/// says so.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measures {
     /// Largest deviation over all legs, m.
@@ -114,6 +124,8 @@ pub struct Measures {
     pub joint_effort: Option<f64>,
     /// The latest arrival at a waypoint; `None` where arrivals have no planned times.
     pub latest: Option<Late>,
+    /// What reads 0 and was not measured.
+    pub missing: Missing,
     /// Where the leg being flown is known from.
     pub leg_source: LegSource,
     /// What the accelerations are differences of.
@@ -123,6 +135,16 @@ pub struct Measures {
 }
 
 impl Measures {
+    /// Largest deviation, m; `None` where no sample counts.
+    pub fn deviation(&self) -> Option<f64> {
+        (!self.missing.deviation).then_some(self.max_deviation)
+    }
+
+    /// Largest acceleration, m/s²; `None` where there were too few samples for one.
+    pub fn acceleration(&self) -> Option<f64> {
+        (!self.missing.acceleration).then_some(self.max_acceleration)
+    }
+
     /// Largest overshoot at any waypoint, m; 0 if none was measured.
     pub fn max_overshoot(&self) -> f64 {
         self.overshoots.iter().copied().fold(0.0, f64::max)

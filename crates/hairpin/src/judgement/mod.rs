@@ -43,7 +43,7 @@ pub use apart::{decimals_of, told};
 pub use between::{Close, Swiftness, look_closely, most_between};
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};
-pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures};
+pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use quantile::{Quantile, exceeded_by};
 pub use settings::{Clearance, JudgementError, Reference, Settings};

@@ -81,6 +81,20 @@ pub enum JudgementError {
         /// What else it must be.
         bound: &'static str,
     },
+    /// A distance to obstacles that is none.
+    #[error("clearance = NaN at sample {index}: must be a distance, +∞ where there is no obstacle")]
+    Clearance {
+        /// Sample.
+        index: usize,
+    },
+    /// What is measured is larger than numbers are.
+    #[error("{what} = {value}: must be finite; the samples are too far apart for it, or follow too soon on each other")]
+    Overflow {
+        /// `max_acceleration_m_s2`.
+        what: &'static str,
+        /// What came out.
+        value: f64,
+    },
     /// The executor told of a leg that there is not.
     #[error("leg = {value} at sample {index}: must be a whole number from 0 to {last}")]
     Leg {

@@ -40,6 +40,36 @@ fn deviation_is_from_the_leg_flown_and_not_in_corners() {
 }
 
 #[test]
+fn what_no_sample_measures_is_open_and_what_is_beyond_numbers_is_refused() {
+    let limits = Limits { deviation: Some(1.0), acceleration: Some(1.0), ..Limits::default() };
+    // All within the corners, and of two places no acceleration is known.
+    let near = track(seconds(2), &[[0.0; 3], [10.0, 0.0, 0.0]], &[]);
+    let m = measure(&near, &square(), &Settings { corner: 30.0, ..Settings::default() }).unwrap();
+    assert_eq!(
+        (m.deviation(), m.acceleration(), limits.unmeasured(&m)),
+        (None, None, vec!["deviation", "acceleration"])
+    );
+    assert_eq!(
+        limits.open(&m).as_deref(),
+        Some("nothing that `spec` limits was measured: no deviation, no acceleration")
+    );
+    let m = measure(&near, &square(), &Settings::default()).unwrap();
+    assert_eq!((m.deviation(), limits.unmeasured(&m)), (Some(0.0), vec!["acceleration"]));
+    let refused = |track: &Track, settings: &Settings| measure(track, &square(), settings).unwrap_err().to_string();
+    let soon = track(vec![0.0, 1e-160, 1.0], &[[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]], &[]);
+    assert!(refused(&soon, &Settings::default()).starts_with("max_acceleration_m_s2 = inf: must be finite"));
+    let far = track(seconds(3), &[[0.0; 3], [1e300, -1e300, 0.0], [10.0, 0.0, 0.0]], &[]);
+    assert!(refused(&far, &Settings::default()).starts_with("max_deviation_m = inf: must be finite"));
+    let unknown = |p: &Point3<f64>| if p.x > 5.0 { f64::NAN } else { 1.0 };
+    let settings = Settings { clearance: Some(&unknown), ..Settings::default() };
+    assert!(refused(&near, &settings).starts_with("clearance = NaN at sample 1"));
+    // In an obstacle, however deep, is not without one.
+    let inside = |p: &Point3<f64>| if p.x > 5.0 { f64::NEG_INFINITY } else { f64::INFINITY };
+    let m = measure(&near, &square(), &Settings { clearance: Some(&inside), ..Settings::default() }).unwrap();
+    assert_eq!((m.min_clearance, m.t_clearance), (Some(f64::NEG_INFINITY), 1.0));
+}
+
+#[test]
 fn the_second_definition_takes_the_nearer_of_two_legs() {
     // Leg 1 was announced early, still 3 m before the corner on leg 0.
     let positions = [[0.0, 0.0, 0.0], [7.0, 0.0, 0.0], [10.0, 4.0, 0.0]];

@@ -3,10 +3,11 @@
 use super::{Limits, Measures};
 
 impl Limits {
-    /// What is limited and was not measured, as [`super::Violation::what`] calls it. Deviation, overshoot, acceleration
-    /// and duration always are.
+    /// What is limited and was not measured, as [`super::Violation::what`] calls it. Overshoot and duration always are.
     pub fn unmeasured(&self, measures: &Measures) -> Vec<&'static str> {
         let of = [
+            ("deviation", self.deviation, measures.deviation()),
+            ("acceleration", self.acceleration, measures.acceleration()),
             ("clearance", self.clearance, measures.min_clearance),
             ("tip-over-margin", self.tip_over_margin, measures.min_tip_over_margin),
             ("late", self.late, measures.latest.map(|late| late.by)),

@@ -202,6 +202,10 @@ fn every_broken_promise_has_its_sentence() {
             "pose(0, [1, 1, 1]); pose(0.1, [1, 1, 1]); pose(0.1, [1, 1, 1])",
             "pose 2: t_s = 0.1 does not follow 0.1: must rise strictly",
         ),
+        (
+            "pose(0, [1, 1, 1]); pose(1e-160, [1, 1, 1.1])",
+            "pose 1: t_s = 1e-160 is 1e-160 s after 0e0: must be at least 5e-10 s",
+        ),
         ("pose(0, [1, 1, 1], q=(0.9, 0, 0, 0))", "q_wxyz has length 0.900000"),
         ("pose(0, [1, 1, 1], 3)", "leg = 3: must be 0 … 1"),
         ("pose(0, [1, 1, 1]); pose(1, [1e8, 1, 1])", "p_m[0] = 1e8: must be within ±2.1e7 m"),

@@ -85,6 +85,11 @@ fn what_is_wrong_is_told_with_its_line() {
     let row = "t,x_m,y_m,z_m\n0,1,2,3\n";
     for (text, name, told) in [
         ("# a\n1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "a.tum", ", line 3: stamp 1 s after 1 s: stamps must rise"),
+        (
+            "0 0 0 0 0 0 0 1\n1e-160 0 0 0 0 0 0 1\n",
+            "a.tum",
+            ", line 2: stamp 1e-160 s is 1e-160 s after the one before: must be at least 5e-10 s",
+        ),
         ("1 0 0 0 0 0 0\n", "a.tum", ", line 1: 7 numbers, must be the eight of `t x y z qx qy qz qw`"),
         ("1 0 nan 0 0 0 0 1\n", "a.tum", ", line 1: y is `nan`, must be a finite number"),
         ("1 0 0 0 0 0 0 0.5\n", "a.tum", ", line 1: a quaternion of length 0.5000, must be 1"),

@@ -1,5 +1,6 @@
 //! What lines of text are held to, and the text itself.
 
+use hairpin::campaign::bounds::SHORTEST_STEP_S;
 use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::super::error::Fault;
@@ -29,11 +30,17 @@ pub(super) fn attitude(w: f64, [x, y, z]: [f64; 3], line: usize) -> Result<UnitQ
     Ok(UnitQuaternion::from_quaternion(q))
 }
 
-/// Refuses a stamp that does not rise.
+/// Refuses a stamp that does not rise, or too little to be divided by.
 pub(super) fn after(t_s: f64, before: Option<f64>, line: usize) -> Result<(), Fault> {
     match before {
         Some(before) if t_s <= before => {
             Err(Fault::line(line, format!("stamp {t_s} s after {before} s: stamps must rise")))
+        }
+        Some(before) if t_s - before < SHORTEST_STEP_S => {
+            let step = t_s - before;
+            let what =
+                format!("stamp {t_s:e} s is {step:e} s after the one before: must be at least {SHORTEST_STEP_S:e} s");
+            Err(Fault::line(line, what))
         }
         _ => Ok(()),
     }

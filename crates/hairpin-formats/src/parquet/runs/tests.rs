@@ -42,6 +42,24 @@ fn what_stood_still_has_stalled_without_its_motion_too() {
 }
 
 #[test]
+fn what_was_not_measured_is_still_not_when_it_is_read() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("part-00000.parquet");
+    let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let measured = |corner: f64| {
+        let run = run(6, None);
+        let settings = Settings { corner, ..Settings::default() };
+        let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &settings).unwrap();
+        let full_rate = FullRate { from: DeviationFrom::Leg, corner, measures, met: BTreeSet::new() };
+        RunFacts { run: usize::from(corner > 0.0), full_rate: Some(Box::new(full_rate)), ..RunFacts::of(&run) }
+    };
+    write_facts(&path, &[measured(0.0), measured(90.0)]).unwrap();
+    let read = read_facts(&path).unwrap();
+    let off = |facts: &RunFacts| facts.full_rate.as_ref().unwrap().measures.deviation().is_some();
+    assert_eq!(read.values().map(off).collect::<Vec<_>>(), [true, false]);
+}
+
+#[test]
 fn a_run_that_is_there_twice_is_refused() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("part-00000.parquet");
