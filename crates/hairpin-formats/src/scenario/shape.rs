@@ -199,6 +199,7 @@ impl<'s> Shape<'s> {
             return;
         }
         let (least, most) = match schema["format"].as_str() {
+            Some("int8") => (i8::MIN.into(), i8::MAX.into()),
             Some("uint32") => (0, u32::MAX.into()),
             _ => (0, i64::MAX.into()),
         };

@@ -203,3 +203,17 @@ fn overrides() {
     }
     insta::assert_snapshot!(told);
 }
+
+#[test]
+fn axes_of_an_arm_may_count_the_other_way() {
+    const ARM: &str = include_str!("../../../../data/scenarios/arm.toml");
+    let turned = |signs: &str| {
+        let sets = [("robot.opw.signs".to_owned(), signs.to_owned())];
+        read_setup(ARM, "arm.toml", Path::new("."), &sets).map(|_| ())
+    };
+    turned("[1, 1, 1, 1, 1, -1]").unwrap_or_else(|report| panic!("{report}"));
+    for (signs, bound) in [("[1, 1, 1, 1, 1, -2]", "1 or -1"), ("[1, 1, 1, 1, 1, -200]", "-128 … 127")] {
+        let told = turned(signs).expect_err(signs);
+        assert!(lines(&told).contains(bound) && lines(&told).lines().count() == 1, "{}", lines(&told));
+    }
+}
