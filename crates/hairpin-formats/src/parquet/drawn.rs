@@ -1,4 +1,5 @@
-//! Values drawn for `[vary]` as columns `vary:KEY`, arrays elementwise as `vary:KEY[0]`, `vary:KEY[1]`, ….
+//! Values drawn for `[vary]` as columns `vary:KEY`, arrays elementwise as `vary:KEY[0]`, `vary:KEY[1]`, …; of an array
+//! one element that is drawn alone is `vary:KEY.1`, which is not read back as an array of one.
 
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ pub fn flatten(drawn: &[(String, Value)]) -> Vec<(String, Value)> {
             Value::Array(items) if !items.is_empty() && items.iter().all(is_scalar) => {
                 flat.extend(items.iter().enumerate().map(|(i, item)| (format!("{PREFIX}{key}[{i}]"), item.clone())));
             }
-            _ if is_scalar(value) => flat.push((format!("{PREFIX}{key}"), value.clone())),
+            _ if is_scalar(value) => flat.push((format!("{PREFIX}{}", dotted(key)), value.clone())),
             _ => flat.push((format!("{PREFIX}{key}"), Value::String(value.to_string()))),
         }
     }
@@ -48,11 +49,13 @@ pub(super) fn push(columns: &mut Columns, rows: &[&[(String, Value)]]) {
 pub(super) fn read(table: &Table) -> Result<Vec<Drawn>, TableError> {
     let mut rows: Vec<Drawn> = vec![Vec::new(); table.rows()];
     for name in table.names().iter().filter(|name| name.starts_with(PREFIX)) {
-        let (key, index) = split(&name[PREFIX.len()..]);
+        let name_of = &name[PREFIX.len()..];
+        let (key, index) = split(name_of);
+        let alone = bracketed(name_of);
         for (row, value) in rows.iter_mut().zip(cells(table, name)?) {
             match (value, index) {
                 (None, _) => {}
-                (Some(value), None) => row.push((key.into(), value)),
+                (Some(value), None) => row.push((alone.clone(), value)),
                 (Some(value), Some(_)) => match row.iter_mut().find(|(known, _)| known == key) {
                     Some((_, Value::Array(items))) => items.push(value),
                     _ => row.push((key.into(), Value::Array(vec![value]))),
@@ -105,5 +108,50 @@ fn split(name: &str) -> (&str, Option<usize>) {
     match element.and_then(|(key, index)| index.parse().ok().map(|index| (key, index))) {
         Some((key, index)) => (key, Some(index)),
         None => (name, None),
+    }
+}
+
+/// `world.wind_m_s[1]` as `world.wind_m_s.1`; every other key as it is.
+fn dotted(key: &str) -> String {
+    match split(key) {
+        (whole, Some(index)) => format!("{whole}.{index}"),
+        (key, None) => key.to_owned(),
+    }
+}
+
+/// The opposite of [`dotted`].
+fn bracketed(name: &str) -> String {
+    match name.rsplit_once('.').and_then(|(whole, index)| Some((whole, index.parse::<usize>().ok()?))) {
+        Some((whole, index)) => format!("{whole}[{index}]"),
+        None => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn an_element_that_is_drawn_alone_comes_back_as_one() {
+        let rows: [Drawn; 2] = [
+            vec![("world.wind_m_s[1]".into(), json!(0.5)), ("robot.mass_kg".into(), json!(1.25))],
+            vec![
+                ("execute.external_force_n".into(), json!([1.0, 2.0, 3.0])),
+                ("world.wind_m_s[1]".into(), json!(0.25)),
+            ],
+        ];
+        let mut columns = Columns::default();
+        push(&mut columns, &[&rows[0], &rows[1]]);
+        let table = Table::of(Path::new("drawn"), columns.into_batch());
+        assert_eq!(table.names()[0], "vary:world.wind_m_s.1");
+        let mut back = read(&table).unwrap();
+        back.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.cmp(&b.0)));
+        let mut rows = rows;
+        rows.iter_mut().for_each(|row| row.sort_by(|a, b| a.0.cmp(&b.0)));
+        assert_eq!(back, rows);
     }
 }
