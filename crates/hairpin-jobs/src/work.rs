@@ -116,7 +116,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
         watch.warn(&format!("`generate.search.{key}` = {value} is passed over: `{method}` has no use for it here"));
     }
     for PassedOver { key, value, why } in setup.passed_over() {
-        watch.warn(&format!("`execute.{key}` = {value} is passed over: {why}"));
+        watch.warn(&format!("`{key}` = {value} is passed over: {why}"));
     }
     may_make(&path, &setup, settings.if_there)?;
     for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {

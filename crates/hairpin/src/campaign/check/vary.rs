@@ -57,7 +57,25 @@ const LEAST_SHARE: f64 = 0.01;
 pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
     let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();
-    entries.filter_map(|entry| check_entry(scenario, &mut nominal, entry, built).err()).collect()
+    let wrong: Vec<Mistake> =
+        entries.filter_map(|entry| check_entry(scenario, &mut nominal, entry, built).err()).collect();
+    if wrong.is_empty() { drawn_twice(scenario) } else { wrong }
+}
+
+/// Keys of which another is the whole, or the same in other letters.
+fn drawn_twice(scenario: &Scenario) -> Vec<Mistake> {
+    let paths: Vec<(&String, KeyPath)> =
+        scenario.vary().keys().filter_map(|key| Some((key, KeyPath::parse(key)?))).collect();
+    let whole_of = |(at, (key, path)): (usize, &(&String, KeyPath))| {
+        let holds = |(other_at, (_, other)): &(usize, &(&String, KeyPath))| {
+            let (part, whole) = (path.segments(), other.segments());
+            *other_at != at && part.starts_with(whole) && (part.len() > whole.len() || *other_at < at)
+        };
+        let (_, (_, whole)) = paths.iter().enumerate().find(holds)?;
+        let bound = format!("a key that is drawn once: `{whole}` is drawn too");
+        Some(Mistake { key: KeyPath::of(&["vary", key]).to_string(), value: format!("\"{key}\""), bound })
+    };
+    paths.iter().enumerate().filter_map(whole_of).collect()
 }
 
 /// A scenario is built for both ends of the range or every choice, up to 1000.

@@ -3,7 +3,7 @@
 //! Given, they are told to be passed over. Drawn, they are refused: what they were drawn for never saw them, and the
 //! verdict would count draws that are none.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::FlightSetup;
 use crate::campaign::check::Findings;
@@ -19,11 +19,17 @@ const OF_FEW: [(&str, &[ControllerKind]); 3] = [
     ("goto_speed_m_s", &[ControllerKind::CrazyflieGoto]),
 ];
 const NO_NOISE: &str = "the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s)";
+const NO_DRAG: &str = "the robot has no drag (drag_linear_n_s_m, drag_quadratic_n_s2_m2), and feels no air";
 const ALL_THE_SAME: &str = "the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s), the world no gusts";
 
 /// Whether `execute.noise` does nothing to it.
 pub(super) fn is_noiseless(robot: &Quadrotor) -> bool {
     robot.force_noise <= 0.0 && robot.moment_noise <= 0.0
+}
+
+/// Whether moving air does nothing to it.
+fn is_dragless(robot: &Quadrotor) -> bool {
+    robot.drag_linear <= 0.0 && robot.drag_quadratic <= 0.0
 }
 
 /// Why flights of other seeds are the same flight; `None` where noise, gusts or code of the user's may differ.
@@ -35,7 +41,7 @@ pub(super) fn repeats(setup: &FlightSetup) -> Option<&'static str> {
     (is_ours && !has_gusts && !is_drawn && is_noiseless(&setup.robot)).then_some(ALL_THE_SAME)
 }
 
-/// Keys under `execute` that are given and that nobody reads.
+/// Keys that are given and that nobody reads.
 pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
     let (keys, usual) = (&setup.scenario, ExecuteSection::default());
     let execute = &keys.execute;
@@ -47,10 +53,25 @@ pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
     let who = execute.controller_word().unwrap_or("a program");
     let is_idle = |of: &[ControllerKind]| !is_read(keys, of);
     let of_few = OF_FEW.iter().zip(given).filter(|((_, of), _)| is_idle(of));
-    let of_few = of_few.filter_map(|((key, _), value)| Some((*key, value?, format!("`{who}` has no use for it"))));
+    let no_use = || format!("`{who}` has no use for it");
+    let of_few = of_few.filter_map(|((key, _), value)| Some((format!("execute.{key}"), value?, no_use())));
     let noise = execute.noise && execute.command.is_none() && is_noiseless(&setup.robot);
-    let noise = (noise && !draws(keys, "noise_n")).then(|| ("noise", json!(true), NO_NOISE.to_owned()));
-    of_few.chain(noise).map(|(key, value, why)| PassedOver { key, value: value.to_string(), why }).collect()
+    let noise = (noise && !draws(keys, "noise_n")).then(|| ("execute.noise".into(), json!(true), NO_NOISE.to_owned()));
+    let all = of_few.chain(noise).chain(unfelt(setup));
+    all.map(|(key, value, why)| PassedOver { key, value: value.to_string(), why }).collect()
+}
+
+/// Air that moves about a robot of ours which does not feel it.
+fn unfelt(setup: &FlightSetup) -> impl Iterator<Item = (String, Value, String)> {
+    let (keys, world) = (&setup.scenario, &setup.scenario.world);
+    let is_felt = keys.execute.command.is_some() || !is_dragless(&setup.robot) || draws(keys, "drag_");
+    let given = [
+        ("wind_m_s", world.wind_m_s.filter(|wind| *wind != [0.0; 3]).map(|wind| json!(wind))),
+        ("gusts", world.gusts.map(|gusts| json!(gusts))),
+        ("discrete_gust", world.discrete_gust.map(|gust| json!(gust))),
+    ];
+    let given = given.into_iter().filter(move |_| !is_felt);
+    given.filter_map(|(key, value)| Some((format!("world.{key}"), value?, NO_DRAG.to_owned())))
 }
 
 /// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs.
@@ -70,6 +91,11 @@ fn unread(path: &KeyPath, keys: &FlightScenario, robot: Option<&Quadrotor>) -> O
     let within: Vec<&str> = path.segments().iter().map(String::as_str).collect();
     match within[..] {
         ["world", "keep_in_margin_m"] => Some("plans keep the margin, and none is made anew for a run".into()),
+        ["world", "wind_m_s" | "gusts" | "discrete_gust", ..]
+            if robot.is_some_and(is_dragless) && !draws(keys, "drag_") =>
+        {
+            Some(NO_DRAG.into())
+        }
         ["robot", "battery", ..] => Some("no run drains a battery".into()),
         ["execute", "noise"] if robot.is_some_and(is_noiseless) && !draws(keys, "noise_n") => Some(NO_NOISE.into()),
         ["execute", key] => {

@@ -33,8 +33,8 @@ pub(in crate::campaign) struct Order<'a> {
 /// Told before anything runs: who gave it believes that it acts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PassedOver {
-    /// Its name under `execute`.
-    pub key: &'static str,
+    /// The key.
+    pub key: String,
     /// The value that stands there, as JSON.
     pub value: String,
     /// Why nobody reads it, a sentence's part.

@@ -236,14 +236,55 @@ fn what_nobody_reads_is_told() {
     };
     let noise = ("execute.noise", json!(true));
     let noisy = ("robot.force_noise_n2_s", json!(5e-4));
-    let no_noise = "noise = true: the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s)";
+    let no_noise = "execute.noise = true: the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s)";
     assert_eq!(told(std::slice::from_ref(&noise)), [no_noise]);
     assert_eq!(told(&[noise, noisy]), Vec::<String>::new());
     let speed = ("execute.fixed_velocity_m_s", json!(3.0));
-    assert_eq!(told(std::slice::from_ref(&speed)), ["fixed_velocity_m_s = 3.0: `stable-waypoint` has no use for it"]);
+    assert_eq!(
+        told(std::slice::from_ref(&speed)),
+        ["execute.fixed_velocity_m_s = 3.0: `stable-waypoint` has no use for it"]
+    );
     assert_eq!(told(&[speed, ("execute.controller", json!("fixed-velocity"))]), Vec::<String>::new());
     let ways = [("execute.segment_times", json!("length")), ("execute.goto_speed_m_s", json!(1.0))];
     assert_eq!(told(&ways).len(), 2);
+}
+
+/// What no run feels is told, and drawn it is refused: the verdict would count draws that are none.
+#[test]
+fn air_that_a_robot_without_drag_does_not_feel_is_told() {
+    let dragless = ("robot.drag_linear_n_s_m", json!(0.0));
+    let air =
+        [("world.wind_m_s", json!([8.0, 0.0, 0.0])), ("world.gusts", json!({ "std_m_s": 0.5, "correlation_s": 1.0 }))];
+    let told = |changes: &[(&str, Value)]| -> Vec<String> {
+        let found = built(changes).expect("a scenario").passed_over();
+        found.into_iter().map(|one| format!("{}: {}", one.key, one.why)).collect()
+    };
+    let why = "the robot has no drag (drag_linear_n_s_m, drag_quadratic_n_s2_m2), and feels no air";
+    let all = [&air[..], &[dragless.clone()]].concat();
+    assert_eq!(told(&all), [format!("world.wind_m_s: {why}"), format!("world.gusts: {why}")]);
+    assert_eq!(told(&air), Vec::<String>::new());
+    let program = ("execute.command", json!("python3 sim.py"));
+    assert_eq!(told(&[&all[..], &[program.clone()]].concat()), Vec::<String>::new());
+    let wind = ("vary", json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] } }));
+    let refused = mistakes(&[wind.clone(), dragless.clone()]);
+    assert!(refused.len() == 1 && refused[0].contains(&format!("a key that runs read: {why}")), "{refused:?}");
+    assert_eq!(mistakes(std::slice::from_ref(&wind)), Vec::<String>::new());
+    assert_eq!(mistakes(&[wind, dragless, program]), Vec::<String>::new());
+}
+
+/// Two draws of one value: which of them a run saw, its row could not tell.
+#[test]
+fn a_key_varies_once() {
+    let wind = json!({ "uniform": [[-1, -1, 0], [1, 1, 0]] });
+    let across = json!({ "uniform": [2, 3] });
+    for (key, draw) in [("world.wind_m_s[0]", &across), ("world.wind_m_s.0", &across), ("world.wind_m_s ", &wind)] {
+        let vary = ("vary", json!({ "world.wind_m_s": wind, key: draw }));
+        let told = mistakes(&[vary, ("world.wind_m_s", json!([0.0, 0.0, 0.0]))]);
+        assert!(
+            told.len() == 1 && told[0].contains("a key that is drawn once: `world.wind_m_s` is drawn too"),
+            "{told:?}"
+        );
+    }
 }
 
 /// Flights of other seeds differ by noise and gusts alone.
