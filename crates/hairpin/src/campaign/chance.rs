@@ -68,9 +68,11 @@ impl Baseline {
     }
 
     /// `random feasible ones 1.22 m in the mean (1.05 to 1.40), 1.90 m at worst of 20`.
-    pub fn in_words(&self, setup: &Setup) -> String {
+    ///
+    /// Deviations go without their name where they stand `alone`, beside nothing but another deviation.
+    pub fn in_words(&self, setup: &Setup, alone: bool) -> String {
         let name = match self.stress {
-            Stress::MaxDeviation => String::new(),
+            Stress::MaxDeviation if alone => String::new(),
             other => format!(": {}", other.word().replace('-', " ")),
         };
         let [mean, worst] = [self.mean, self.worst].map(|value| self.told(setup, value));
@@ -135,8 +137,11 @@ fn values(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = (f64, 
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
-    use crate::campaign::{CaseNumber, Status};
+    use crate::campaign::testing::quadrotor;
+    use crate::campaign::{CaseNumber, Scenario, Status};
 
     fn results(of: &[Option<f64>], measure: fn(f64) -> Measures) -> Vec<CaseResult> {
         let one = |(number, value): (usize, &Option<f64>)| CaseResult {
@@ -162,6 +167,20 @@ mod tests {
         assert!(low == 0.0 && (high - 12.9566).abs() < 1e-3, "{low} {high}");
         assert_eq!((of(&[None]), of(&[Some(f64::NAN)])), (None, None));
         assert_eq!(of(&[Some(2.0)]).unwrap().interval, None);
+    }
+
+    /// A number without a name beside a clearance reads as one.
+    #[test]
+    fn a_deviation_is_named_beside_something_else() {
+        let scenario = json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
+        });
+        let setup = Setup::new(serde_json::from_value::<Scenario>(scenario).unwrap()).unwrap();
+        let random = Baseline::of(Stress::MaxDeviation, 1, &deviating(&[Some(1.0), Some(3.0)])).unwrap();
+        let told = [true, false].map(|alone| random.in_words(&setup, alone));
+        assert!(told[0].starts_with("random feasible ones 2"), "{}", told[0]);
+        assert!(told[1].starts_with("random feasible ones: max deviation 2"), "{}", told[1]);
     }
 
     #[test]

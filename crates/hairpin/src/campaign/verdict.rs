@@ -3,6 +3,8 @@
 //! Gathers what [`fn@judgement::verdict`] says, which knows no scenario: counts, worst, claims, intervals, budget. The
 //! sentence and the exit code are made there.
 
+use std::collections::BTreeMap;
+
 use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
@@ -68,7 +70,9 @@ pub fn verdict_on(
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
     let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();
     let flown = format!("{} flown", grouped(searched + runs as u64));
-    let beside = baseline.map(|baseline| (flown, baseline.in_words(setup)));
+    let alone = worst.as_ref().is_none_or(|named| named.value.what == "deviation");
+    let beside = baseline.map(|baseline| (flown, baseline.in_words(setup, alone)));
+    let passed_over = passed_over(setup, cases, results);
     let repeat = setup.scenario.executor().repeat as usize;
     let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
@@ -93,9 +97,26 @@ pub fn verdict_on(
         draws: if let [only] = results { draws(only) } else { None },
         claims: &claims,
         reruns: reruns.as_deref(),
+        passed_over: passed_over.as_deref(),
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
+}
+
+/// `2 of 20 legs within corner_m of their waypoints: no deviation judged there`, of the worst runs.
+fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<String> {
+    let terms = setup.scenario.head().terms;
+    if terms.corner <= 0.0 {
+        return None;
+    }
+    let waypoints: BTreeMap<CaseNumber, _> = cases.iter().map(|case| (case.number, &case.waypoints)).collect();
+    let (mut within, mut of) = (0, 0);
+    for result in results {
+        let (Some(measures), Some(waypoints)) = (&result.measures, waypoints.get(&result.case)) else { continue };
+        within += terms.in_corners(measures, waypoints);
+        of += measures.legs.len();
+    }
+    (within > 0).then(|| format!("{within} of {of} legs within corner_m of their waypoints: no deviation judged there"))
 }
 
 /// `cut short by the budget of time: the search after 1 200 of 4 000 executions, 12 of 40 cases not executed`.
