@@ -68,7 +68,7 @@ fn every_manoeuvre_over_craters_turns_its_direction_from_waypoint_to_waypoint() 
         seed: 4,
     };
     let mut points = vec![Point3::new(START.x, START.y, 0.0)];
-    points.extend(sample_ground(&site, &settings, &asked).expect("places"));
+    points.extend(sample_ground(&site, &settings, &asked, &|| false).expect("places"));
     let roadmap = DriveRoadmap::new(site, &points, &START, None, &settings);
     let mut legs = Vec::new();
     roadmap.legs(&roadmap.start(), &points, &mut legs);

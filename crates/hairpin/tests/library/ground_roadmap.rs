@@ -53,7 +53,7 @@ fn graph(site: &DriveSite, settings: &DriveSettings, count: usize, seed: u64) ->
         seed,
     };
     let mut points = vec![Point3::new(START.x, START.y, 0.0)];
-    points.extend(sample_ground(site, settings, &asked).expect("places"));
+    points.extend(sample_ground(site, settings, &asked, &|| false).expect("places"));
     points
 }
 
@@ -141,7 +141,7 @@ fn places_in_clusters_lie_closer_and_are_stood_on_all_the_same() {
     let places = |sampling: Sampling| {
         let around = Some(([START.x, START.y], 10.0));
         let asked = GroundSampling { count: 60, margin: 1.0, around, sampling, seed: 2 };
-        sample_ground(&site, &settings, &asked).expect("places")
+        sample_ground(&site, &settings, &asked, &|| false).expect("places")
     };
     let apart = |points: &[Point3<f64>]| {
         let nearest = |at: usize| {

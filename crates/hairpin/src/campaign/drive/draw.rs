@@ -35,7 +35,7 @@ impl DriveSolver<'_> {
                 return Err("the drawing was stopped".into());
             }
             let seed = |label| named_seed(root, label, set);
-            let points = self.sample(seed(WAYPOINTS))?;
+            let points = self.sample(seed(WAYPOINTS), stop.cancelled)?;
             let walking = Walking {
                 length: task.length as usize,
                 end: task.end_m.map(|_| points.len() as u32 - 1),
@@ -59,7 +59,7 @@ impl DriveSolver<'_> {
     /// m, on the ground. `None` where there is none.
     pub(super) fn place_of(&self, number: u64, random: &mut Stream) -> Option<Point3<f64>> {
         let seed = named_seed(self.setup.scenario.seed, WAYPOINTS, number.wrapping_mul(SETS));
-        let points = self.sample(seed).ok()?;
+        let points = self.sample(seed, &|| false).ok()?;
         let end = usize::from(self.setup.scenario.task.end_m.is_some());
         let free = points.get(1..points.len() - end)?;
         free.get((unit(random) * free.len() as f64) as usize).copied()

@@ -101,7 +101,7 @@ impl<'a> DriveSolver<'a> {
     /// Counts what becomes of the candidates for legs near the start of graph number `graph`.
     pub(super) fn count(&self, graph: u64, counter: &mut Counter) {
         let [of_points, of_roadmap] = self.seeds_of(graph);
-        let Ok(points) = self.sample(of_points) else { return };
+        let Ok(points) = self.sample(of_points, &|| false) else { return };
         match &self.stepwise {
             Some(stepwise) => stepwise.count(&points, counter),
             None => {
@@ -122,7 +122,10 @@ impl<'a> DriveSolver<'a> {
     /// n free waypoints in a disc of area n π (l₁² − l₀²) / 12 with l₀ and l₁ the leg's least and greatest length, so
     /// that each has about 12 others at a leg's distance; around the middle of both ends, and never so small that the
     /// ends lie outside.
-    pub(super) fn sample(&self, seed: u64) -> Result<Vec<Point3<f64>>, String> {
+    ///
+    /// # Errors
+    /// Why there are fewer, in a sentence's part; also once it is `over`.
+    pub(super) fn sample(&self, seed: u64, over: &dyn Fn() -> bool) -> Result<Vec<Point3<f64>>, String> {
         let task = &self.setup.scenario.task;
         let [low, high] = task.leg_m;
         let start = [task.start.x_m, task.start.y_m];
@@ -141,7 +144,7 @@ impl<'a> DriveSolver<'a> {
             sampling: self.search.sampling,
             seed,
         };
-        let free = sample_ground(&self.site(), &self.settings, &asked).map_err(|error| error.to_string())?;
+        let free = sample_ground(&self.site(), &self.settings, &asked, over).map_err(|error| error.to_string())?;
         let on_ground =
             |[x, y]: [f64; 2]| Point3::new(x, y, self.setup.map.patch(x, y).map_or(0.0, |patch| patch.height));
         Ok(std::iter::once(on_ground(start)).chain(free).chain(task.end_m.map(on_ground)).collect())
@@ -198,8 +201,9 @@ impl<'a> DriveSolver<'a> {
 
 impl Solver for DriveSolver<'_> {
     fn solve(&self, graph: u64, executions: Executions, wanted: Wanted, stop: &Stop) -> Outcome {
-        let points = match self.sample(self.seeds_of(graph)[0]) {
+        let points = match self.sample(self.seeds_of(graph)[0], stop.cancelled) {
             Ok(points) => points,
+            Err(_) if (stop.cancelled)() => return Outcome { graphs: 1, stopped: true, ..Outcome::default() },
             Err(reason) => return Outcome { graphs: 1, reason: Some(reason), ..Outcome::default() },
         };
         let moved = |plan: &Plan, points: &[Point3<f64>]| self.moved(graph, plan, points);

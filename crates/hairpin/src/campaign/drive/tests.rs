@@ -1,6 +1,8 @@
 //! Drives that are drawn, changed and crossed: each is held to its limits by another integrator, and of what is changed
 //! no more is solved again than it takes.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
@@ -241,6 +243,16 @@ fn draws_end_where_the_task_does_and_say_why_there_are_none() {
     let too_far = setup(car(), &[("task.end_m", json!([35.0, 35.0])), ("task.length", json!(3))]);
     let why = solver(&too_far).draw(0, &Stop::never()).unwrap_err();
     assert!(why.contains("none in 6 draws of 40 waypoints: every walk ends too early"), "{why}");
+}
+
+/// Nowhere is the underside so high, which takes 50 000 draws to find out: minutes, where ground is steep.
+#[test]
+fn places_are_looked_for_no_longer_than_one_may() {
+    let setup = setup(rover(), &[("generate.limits.belly_clearance_m", json!(7.0))]);
+    let asked = AtomicUsize::new(0);
+    let cancelled = || asked.fetch_add(1, Ordering::Relaxed) > 20;
+    solver(&setup).draw(0, &Stop { cancelled: &cancelled, ..Stop::never() }).unwrap_err();
+    assert!(asked.into_inner() < 30, "asked after it was over");
 }
 
 #[test]

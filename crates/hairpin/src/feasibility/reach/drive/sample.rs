@@ -60,7 +60,8 @@ const HEADINGS: u32 = 8;
 /// `asked.count` places of the map with their heights: away from its edge, outside keep-outs, and such that the body
 /// stands within the limits of `settings` in some heading. A pure function of its arguments.
 ///
-/// By rejection from at most 1 000 draws a place + 10 000.
+/// By rejection from at most 1 000 draws a place + 10 000. Where the body stands nowhere they take minutes: `over` is
+/// asked at each, and ends them.
 ///
 /// # Errors
 /// [`TooFewPlaces`], with what refused the others.
@@ -68,6 +69,7 @@ pub fn sample_ground(
     site: &DriveSite,
     settings: &DriveSettings,
     asked: &GroundSampling,
+    over: &dyn Fn() -> bool,
 ) -> Result<Vec<Point3<f64>>, TooFewPlaces> {
     let (low, high) = area(site, asked);
     let most = asked.count.saturating_mul(1000).saturating_add(10_000);
@@ -78,7 +80,7 @@ pub fn sample_ground(
     let mut told = TooFewPlaces { wanted: asked.count, found: 0, draws: 0, blocked: 0, without_ground: 0, steep: 0 };
     let mut places = Vec::new();
     for index in 0..most {
-        if places.len() == asked.count {
+        if places.len() == asked.count || over() {
             break;
         }
         let inside = |shares: [f64; 2]| [0, 1].map(|i| low[i] + shares[i] * (high[i] - low[i]));
