@@ -61,7 +61,8 @@ pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
     all.map(|(key, value, why)| PassedOver { key, value: value.to_string(), why }).collect()
 }
 
-/// Air that moves about a robot of ours which does not feel it.
+/// Air that moves about a robot of ours which does not feel it; drawn as well, for it is what `hairpin new` draws, and
+/// every shipped robot may take the place of the template's.
 fn unfelt(setup: &FlightSetup) -> impl Iterator<Item = (String, Value, String)> {
     let (keys, world) = (&setup.scenario, &setup.scenario.world);
     let is_felt = keys.execute.command.is_some() || !is_dragless(&setup.robot) || draws(keys, "drag_");
@@ -70,8 +71,12 @@ fn unfelt(setup: &FlightSetup) -> impl Iterator<Item = (String, Value, String)> 
         ("gusts", world.gusts.map(|gusts| json!(gusts))),
         ("discrete_gust", world.discrete_gust.map(|gust| json!(gust))),
     ];
-    let given = given.into_iter().filter(move |_| !is_felt);
-    given.filter_map(|(key, value)| Some((format!("world.{key}"), value?, NO_DRAG.to_owned())))
+    let given = given.into_iter().filter_map(|(key, value)| Some((format!("world.{key}"), value?)));
+    let is_air =
+        |key: &str| ["world.wind_m_s", "world.gusts", "world.discrete_gust"].iter().any(|air| key.starts_with(air));
+    let drawn = keys.vary.iter().filter(move |(key, _)| is_air(key));
+    let drawn = drawn.map(|(key, draw)| (KeyPath::of(&["vary", key]).to_string(), json!(draw)));
+    given.chain(drawn).filter(move |_| !is_felt).map(|(key, value)| (key, value, NO_DRAG.to_owned()))
 }
 
 /// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs.
@@ -91,11 +96,6 @@ fn unread(path: &KeyPath, keys: &FlightScenario, robot: Option<&Quadrotor>) -> O
     let within: Vec<&str> = path.segments().iter().map(String::as_str).collect();
     match within[..] {
         ["world", "keep_in_margin_m"] => Some("plans keep the margin, and none is made anew for a run".into()),
-        ["world", "wind_m_s" | "gusts" | "discrete_gust", ..]
-            if robot.is_some_and(is_dragless) && !draws(keys, "drag_") =>
-        {
-            Some(NO_DRAG.into())
-        }
         ["robot", "battery", ..] => Some("no run drains a battery".into()),
         ["execute", "noise"] if robot.is_some_and(is_noiseless) && !draws(keys, "noise_n") => Some(NO_NOISE.into()),
         ["execute", key] => {
