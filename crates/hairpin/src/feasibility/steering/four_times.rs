@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use wide::f64x4;
 
 use super::flatness::Flatness;
-use super::leg::LegEnd;
+use super::leg_end::LegEnd;
 use super::proof::BodyLimits;
 use crate::math::interval::unrolled;
 use crate::math::simd::at_every_level;

@@ -6,6 +6,7 @@ use wide::f64x4;
 use super::flatness::{DependentRotors, Flatness};
 use super::four_times::refused;
 use super::halving::ProofSettings;
+use super::leg_end::LegEnd;
 use super::proof::BodyLimits;
 use crate::feasibility::collision::FreeSpace;
 use crate::feasibility::limits::{Infeasible, Limit, Limits};
@@ -14,24 +15,6 @@ use crate::math::polynomial::septic;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::ProfileLeg;
 use crate::world::World;
-
-/// A waypoint state: position, velocity, and the acceleration and jerk with which the robot is level there.
-///
-/// Value and three derivatives at both ends fix a polynomial of degree 7 in each axis. Snap is not zero there, so rotor
-/// speeds jump at waypoints: rotor lag is outside the claim.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LegEnd {
-    /// m, world frame.
-    pub position: Point3<f64>,
-    /// m/s.
-    pub velocity: Vector3<f64>,
-    /// −D(v)/m, m/s².
-    pub acceleration: Vector3<f64>,
-    /// −(∂D/∂v) a/m, m/s³.
-    pub jerk: Vector3<f64>,
-    /// Second time derivative of the drag there, N/s².
-    pub(super) drag_second: Vector3<f64>,
-}
 
 /// Judges legs of one robot in one world under one set of limits.
 ///

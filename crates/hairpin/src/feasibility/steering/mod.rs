@@ -12,6 +12,7 @@ pub mod flatness;
 mod four_times;
 pub mod halving;
 pub mod leg;
+pub mod leg_end;
 pub mod proof;
 pub mod shooting;
 pub mod timing;
@@ -21,5 +22,6 @@ pub(crate) mod tests;
 
 pub use flatness::{BodyState, Demand, DependentRotors, FlatState, Flatness};
 pub use halving::ProofSettings;
-pub use leg::{LegEnd, LegJudge};
+pub use leg::LegJudge;
+pub use leg_end::LegEnd;
 pub use timing::LegTiming;
