@@ -272,8 +272,7 @@ pub(crate) fn check_tables(sets: &[Set], allowed: &[&str]) -> Result<(), Problem
 /// # Errors
 /// A scenario with mistakes, or one that the folder's trajectories are none of.
 pub(crate) fn changed(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
-    let level = folder.simd_level()?;
-    let setup = resolve(folder, sets)?.with_simd(simd_of(level.as_deref()));
+    let setup = resolve(folder, sets)?;
     check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
@@ -311,7 +310,7 @@ pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
 /// The same with other values of `sets`.
 pub(crate) fn open_with(path: &Path, sets: &[Set]) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = resolve(&folder, sets)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    let setup = resolve(&folder, sets)?;
     Ok(Work { folder, setup })
 }
 
@@ -321,25 +320,21 @@ pub(crate) fn open_with(path: &Path, sets: &[Set]) -> Result<Work, Problem> {
 /// As of [`open_to_read`]; a key that does not fit.
 pub(crate) fn open_to_read_as(path: &Path, sets: &[Set]) -> Result<Work, Problem> {
     let folder = CampaignFolder::open(path)?;
-    let setup = resolve(&folder, sets)?.with_simd(simd_of(folder.simd_level()?.as_deref()));
+    let setup = resolve(&folder, sets)?;
     check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
     Ok(Work { folder, setup })
 }
 
+/// What its scenario describes once `sets` change it, with the version of the kernels that goes on with it.
 fn resolve(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Problem> {
     let name = folder.file("scenario.toml");
     let setup = read_kept(&folder.read_scenario()?, &name.to_string_lossy(), folder.path(), sets)?;
     // What stands at its end says that nothing was cut off: keys that are gone would be taken for those not given.
-    if folder.simd_level()?.is_none() {
+    let Some(level) = folder.simd_level()? else {
         let bound = "must end with `[made_by]`: version, root_seed, simd; it was cut, or is not this folder's";
         return Err(Problem::input(format!("{}: {bound}", name.display())));
-    }
-    Ok(setup)
-}
-
-/// The version of the kernels that goes on with a campaign of `level`.
-fn simd_of(level: Option<&str>) -> Simd {
-    if level == Some(Simd::Portable.level()) { Simd::Portable } else { Simd::Widest }
+    };
+    Ok(setup.with_simd(if level == Simd::Portable.level() { Simd::Portable } else { Simd::Widest }))
 }
 
 /// Refuses to go on in `folder` at another SIMD level: the bits would be the same, but what is written of their origin

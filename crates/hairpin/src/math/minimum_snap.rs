@@ -125,7 +125,7 @@ pub fn hermite(start: &[f64; 4], end: &[f64; 4]) -> [f64; 8] {
 }
 
 /// Inverse of the values and first three derivatives of τ⁴ … τ⁷ at τ = 1.
-const HIGH_ORDERS: [[f64; 4]; 4] = [
+pub(crate) const HIGH_ORDERS: [[f64; 4]; 4] = [
     [35.0, -15.0, 2.5, -1.0 / 6.0],
     [-84.0, 39.0, -7.0, 0.5],
     [70.0, -34.0, 6.5, -0.5],

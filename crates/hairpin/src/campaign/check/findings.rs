@@ -1,10 +1,13 @@
 //! What checks of scenarios find, and the few questions that most keys are asked.
 
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
 use crate::campaign::attachments::Attachments;
 use crate::campaign::digits::grouped;
 use crate::campaign::scenario::{
-    CONTROLLER_KEY, FlakySection, Head, LEARNED, Mistake, Origin, PYTHON, SearchMethod, SearchSection, Steering,
-    Subject, TARGET_KEY, Target,
+    CONTROLLER_KEY, Distribution, FlakySection, Head, KeyPath, LEARNED, Mistake, Origin, PYTHON, SearchMethod,
+    SearchSection, Steering, Subject, TARGET_KEY, Target,
 };
 use crate::judgement::Stress;
 
@@ -33,6 +36,20 @@ impl Findings {
     pub(in crate::campaign) fn require(&mut self, fine: bool, key: &str, value: impl ToString, bound: &str) {
         if !fine {
             self.add(Mistake { key: key.into(), value: value.to_string(), bound: bound.into() });
+        }
+    }
+
+    /// Keys of `[vary]` that no run reads, each with what `unread` says why: what they were drawn for never saw them,
+    /// and the verdict would count draws that are none.
+    pub(in crate::campaign) fn drawn_for_nobody<Why: Display>(
+        &mut self,
+        vary: &BTreeMap<String, Distribution>,
+        unread: impl Fn(&KeyPath) -> Option<Why>,
+    ) {
+        for key in vary.keys() {
+            let Some(why) = KeyPath::parse(key).and_then(|path| unread(&path)) else { continue };
+            let (place, bound) = (KeyPath::of(&["vary", key]).to_string(), format!("a key that runs read: {why}"));
+            self.add(Mistake { key: place, value: format!("\"{key}\""), bound });
         }
     }
 

@@ -18,17 +18,11 @@ use super::flatness::Flatness;
 use super::leg_end::LegEnd;
 use super::proof::BodyLimits;
 use crate::math::interval::unrolled;
+use crate::math::minimum_snap::HIGH_ORDERS as M;
 use crate::math::simd::at_every_level;
 
 /// More than rounding can make of a demand, as a share of its limit.
 const ROUNDING: f64 = 1e-7;
-/// b₄ … b₇ from e₀ … e₃.
-const M: [[f64; 4]; 4] = [
-    [35.0, -15.0, 2.5, -1.0 / 6.0],
-    [-84.0, 39.0, -7.0, 0.5],
-    [70.0, -34.0, 6.5, -0.5],
-    [-20.0, 10.0, -2.0, 1.0 / 6.0],
-];
 /// The instants at which a leg is looked at, those first at which most are refused.
 const INSTANTS: [Instant; 4] = [Instant::at(0.4), Instant::at(0.8), Instant::at(0.2), Instant::at(0.6)];
 
