@@ -21,7 +21,7 @@ pub(crate) struct Explain {
     /// Graphs that are sampled and searched; with every change the same ones
     #[arg(long, value_name = "N", default_value_t = ExplainSettings::default().graphs, value_parser = clap::value_parser!(u64).range(bounds::GRAPHS))]
     pub(crate) graphs: u64,
-    /// Seconds after which no further change is tried
+    /// Seconds after which no further change is tried [default: 60, of arms 3]
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) time_limit: Option<f64>,
     /// One JSON object on stdout

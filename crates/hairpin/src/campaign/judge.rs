@@ -41,13 +41,14 @@ pub fn judge(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Mis
 /// As [`judge`].
 ///
 /// Deviations are in the order of `runs`, without those that could not be measured. Only runs with drawn values that
-/// decide something count in [`CaseResult::draws`].
+/// decide something count in [`CaseResult::draws`], and only where a run may feel them.
 pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResult, Vec<RunDeviation>), Mistake> {
     let mut worst: Option<(JudgedRun, &Run)> = None;
     let mut deviations = Vec::with_capacity(runs.len());
     let (mut failed, mut unflown) = (None, None);
     let plan = Planned::default();
     let mut draws = Draws { violated: 0, of: 0 };
+    let are_felt = setup.unfelt_draws().is_none();
     for run in runs {
         let flight = match &run.outcome {
             Ok(flight) => flight,
@@ -58,7 +59,7 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         };
         match judge_run(setup, case, &plan, run, flight)? {
             Ok(judged) => {
-                if !run.drawn.is_empty() && judged.open.is_none() {
+                if are_felt && !run.drawn.is_empty() && judged.open.is_none() {
                     draws.of += 1;
                     draws.violated += usize::from(!judged.violations.is_empty());
                 }

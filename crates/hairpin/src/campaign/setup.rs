@@ -304,6 +304,18 @@ impl Setup {
         self.kind.repeats()
     }
 
+    /// Why no run feels what `[vary]` draws for the number `key`, a sentence's part; `None` where one may.
+    pub fn unfelt(&self, key: &str) -> Option<&'static str> {
+        self.kind.unfelt(key)
+    }
+
+    /// Why no run feels anything of what `[vary]` draws for it; `None` where one may, or nothing is drawn for runs.
+    pub fn unfelt_draws(&self) -> Option<&'static str> {
+        let keys = self.scenario.vary().keys().filter(|key| !vary::shapes_the_plan(key));
+        let why = keys.map(|key| self.unfelt(key)).collect::<Option<Vec<_>>>()?;
+        why.first().copied()
+    }
+
     /// Keys under `execute` that are given, and that no run reads.
     pub fn passed_over(&self) -> Vec<PassedOver> {
         self.kind.passed_over()

@@ -72,7 +72,8 @@ pub fn verdict_on(
     let flown = format!("{} flown", grouped(searched + runs as u64));
     let alone = worst.as_ref().is_none_or(|named| named.value.what == "deviation");
     let beside = baseline.map(|baseline| (flown, baseline.in_words(setup, alone)));
-    let passed_over = passed_over(setup, cases, results);
+    let unfelt = setup.unfelt_draws().map(|why| format!("what `[vary]` draws is no draw of any run: {why}"));
+    let passed_over: Vec<String> = passed_over(setup, cases, results).into_iter().chain(unfelt).collect();
     let repeat = setup.scenario.executor().repeat as usize;
     let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
@@ -97,7 +98,7 @@ pub fn verdict_on(
         draws: if let [only] = results { draws(only) } else { None },
         claims: &claims,
         reruns: reruns.as_deref(),
-        passed_over: passed_over.as_deref(),
+        passed_over: &passed_over,
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })

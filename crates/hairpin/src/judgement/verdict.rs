@@ -107,7 +107,7 @@ pub struct Judged<'a> {
     /// How often violations come again, where they were run again.
     pub reruns: Option<&'a str>,
     /// What of the runs a limit was not held against: `2 of 20 legs within corner_m of their waypoints`.
-    pub passed_over: Option<&'a str>,
+    pub passed_over: &'a [String],
     /// What the claims rest on that is not known, or leave out: `link shapes estimated`.
     pub estimated: Option<&'a str>,
     /// How far from the best the cases' scores can be, where every case has a proof: `optimal`, `gap at most 3.1 %`.
@@ -138,7 +138,7 @@ impl Default for Judged<'_> {
             draws: None,
             claims: &[],
             reruns: None,
-            passed_over: None,
+            passed_over: &[],
             estimated: None,
             proof: None,
         }
@@ -264,7 +264,7 @@ fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     if judged.cases < judged.asked {
         parts.push(format!("{} of {} cases asked for were found", judged.cases, judged.asked));
     }
-    parts.extend(judged.passed_over.map(str::to_owned));
+    parts.extend(judged.passed_over.iter().cloned());
     parts.extend(judged.estimated.map(str::to_owned));
     let proof = judged.proof.map_or(String::new(), |proof| format!(", {proof}"));
     match judged.claims {
@@ -475,7 +475,7 @@ mod tests {
     #[test]
     fn what_a_limit_was_not_held_against_is_told_beside_a_pass() {
         let value = violation("deviation", 0.09, 0.1);
-        let passed_over = Some("14 of 20 legs within corner_m of their waypoints: no deviation judged there");
+        let passed_over = &["14 of 20 legs within corner_m of their waypoints: no deviation judged there".to_owned()];
         let told = verdict(&Judged { passed_over, chosen: Chosen::Searched, ..with(0, &value) });
         let expected = "14 of 20 legs within corner_m of their waypoints: no deviation judged there; all 200 witnessed";
         assert!(told.exit_code == 0 && told.sentence.ends_with(expected), "{}", told.sentence);

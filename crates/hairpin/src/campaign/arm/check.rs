@@ -1,16 +1,14 @@
 //! The bounds of every key of an arm's scenario.
 
-use std::collections::BTreeMap;
-
 use super::ArmSetup;
+use super::idle::check_varied;
 use super::points::count;
 use crate::campaign::attachments::Attachments;
 use crate::campaign::bounds::MOST_POINTS;
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{
-    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CONTROLLER_KEY, CostName, CostSection,
-    Distribution, KeyPath, Keys, LogClock, Mistake, MoveName, PointsSource, ProgramMethod, ProgramSearch,
-    SearchSection, Steering, Target,
+    ArmExecute, ArmGenerate, ArmMode, ArmScenario, ArmSpec, ArmTask, CONTROLLER_KEY, CostName, CostSection, Keys,
+    LogClock, Mistake, MoveName, PointsSource, ProgramMethod, ProgramSearch, SearchSection, Steering, Target,
 };
 use crate::search::heaviest::{MOST_TRIPLE_POINTS, MOST_VISITS};
 use crate::trajectory::program::{Speed, Zone};
@@ -37,7 +35,7 @@ pub(super) fn check(
     let drawn = keys.execute.logs.is_some() && !keys.vary.is_empty();
     let bound = "left out where runs are recorded elsewhere: nothing can be drawn for them";
     found.require(!drawn, "vary", "given", bound);
-    check_varied(&keys.vary, &mut found);
+    check_varied(keys, &mut found);
     check_spec(&keys.spec, &mut found);
     let built = if found.0.is_empty() { found.take(build().and_then(with_fitting_costs)) } else { None };
     built.ok_or(found.0)
@@ -55,23 +53,6 @@ fn with_fitting_costs(setup: ArmSetup) -> Result<ArmSetup, Mistake> {
             bound: format!("of {points} lines of {points} numbers, one for each point of the cloud"),
         }),
         _ => Ok(setup),
-    }
-}
-
-/// A run reads who executes, the limits, and of the robot its joints. What moves were proven clear of is not looked at
-/// again: drawn, it would be told of runs that never saw it.
-fn check_varied(vary: &BTreeMap<String, Distribution>, found: &mut Findings) {
-    let bound = "a key that runs of an arm read: of `execute`, of `spec`, or of `robot.joints`, `robot.opw`, `robot.chain`; cell, points \
-                 and moves are searched and proven once, as they stand";
-    for key in vary.keys() {
-        let path = KeyPath::parse(key);
-        let within = path.as_ref().map_or(&[][..], KeyPath::segments);
-        let is_unread = match within {
-            [table, ..] if ["world", "task", "generate"].contains(&table.as_str()) => true,
-            [robot, part, ..] => robot == "robot" && !["joints", "opw", "chain"].contains(&part.as_str()),
-            _ => false,
-        };
-        found.require(!is_unread, &KeyPath::of(&["vary", key]).to_string(), format!("\"{key}\""), bound);
     }
 }
 

@@ -4,10 +4,9 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::ArmSetup;
-use super::fit;
+use super::{ArmSetup, fit, idle};
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Fittable, Order, Same};
+use crate::campaign::kind::{Act, Fittable, Order, PassedOver, Same};
 use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
 use crate::robot::arm::{AXES, Joints};
@@ -91,6 +90,10 @@ impl Act for ArmSetup {
         let track = legs_of(&run.recording)?;
         let reached = reached(&track, case.waypoints.len(), ended);
         Ok(Flight { track, ended, left_world: None, reached })
+    }
+
+    fn passed_over(&self) -> Vec<PassedOver> {
+        idle::passed_over(self)
     }
 
     fn fittable(&self) -> Result<Fittable, String> {

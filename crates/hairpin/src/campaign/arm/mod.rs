@@ -6,6 +6,7 @@
 //!           drawn and bred instead: ways ─▶ draw, alter ─▶ program
 //!   Act:    execute ─▶ simulation::arm, or recorded: a log of the real arm
 //!   judge:  plan (path with its zones) ─▶ judgement::moves; hidden: what a log does not show; regression: two releases
+//!   told:   idle: keys that no run reads
 //!   out:    handed: as controllers take programs
 //!   proof:  verify, retrace ─▶ verification, as plain numbers (written)
 //!   Say:    say, assumptions, figure, losses, obstructions, doubt, knobs
@@ -31,6 +32,7 @@ mod fit;
 mod graph;
 mod handed;
 mod hidden;
+mod idle;
 mod judge;
 mod knobs;
 mod losses;

@@ -275,6 +275,21 @@ fn programs_execute_for_the_stresses_of_arms() {
     assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
 }
 
+const OWN_LAGS: &str = "the arm has lags of its own (robot.joints.lag_s)";
+
+#[test]
+fn what_no_run_reads_is_told() {
+    let told = |changes: &[(&str, Value)]| -> Vec<String> {
+        let found = setup(changes).passed_over();
+        found.into_iter().map(|one| format!("{} = {}: {}", one.key, one.value, one.why)).collect()
+    };
+    let lag = ("execute.servo_lag_s", json!(0.05));
+    let own = ("robot.joints.lag_s", json!([0.01, 0.01, 0.01, 0.01, 0.01, 0.01]));
+    assert_eq!(told(std::slice::from_ref(&lag)), Vec::<String>::new());
+    assert_eq!(told(std::slice::from_ref(&own)), Vec::<String>::new());
+    assert_eq!(told(&[own, lag]), [format!("execute.servo_lag_s = 0.05: {OWN_LAGS}")]);
+}
+
 /// Nothing is proven anew of what is drawn for runs: drawn there, it would be told of runs that never saw it.
 #[test]
 fn what_runs_do_not_read_is_not_drawn() {
@@ -292,6 +307,19 @@ fn what_runs_do_not_read_is_not_drawn() {
         assert!(one.contains("a key that runs of an arm read"), "{one}");
     }
     assert_eq!(drawn("execute.noise_mm"), Ok(()));
+    assert_eq!(drawn("execute.servo_lag_s"), Ok(()));
+    // Beside lags of the arm's own, given or drawn, nobody reads the one of the scenario.
+    let own = ("robot.joints.lag_s", json!([0.01, 0.01, 0.01, 0.01, 0.01, 0.01]));
+    let drawn = json!({ "execute.servo_lag_s": { "uniform": [0.0, 0.1] } });
+    let both = json!({
+        "execute.servo_lag_s": { "uniform": [0.0, 0.1] },
+        "robot.joints.lag_s": { "uniform": [own.1, own.1] },
+    });
+    for changes in [&[("vary", drawn), own.clone()][..], &[("vary", both), own.clone()][..]] {
+        let told = changed(changes).map(|_| ()).unwrap_err();
+        let refused = |one: &String| one.starts_with("vary.\"execute.servo_lag_s\"") && one.contains(OWN_LAGS);
+        assert!(told.len() == 1 && refused(&told[0]), "{told:?}");
+    }
 }
 
 #[test]

@@ -41,7 +41,11 @@ pub struct Change {
 /// trajectory.
 pub(super) fn smallest(setup: &Setup, stop: &Stop) -> Vec<Change> {
     let knobs = setup.kind().knobs().turned;
-    let mut found: Vec<Change> = knobs.iter().filter_map(|knob| Trial { setup, stop, knob }.change()).collect();
+    let change = |(tried, knob)| {
+        (stop.progress)(tried, knobs.len());
+        Trial { setup, stop, knob }.change()
+    };
+    let mut found: Vec<Change> = knobs.iter().enumerate().filter_map(change).collect();
     found.sort_by(|a, b| a.relative.total_cmp(&b.relative));
     found
 }
@@ -216,14 +220,19 @@ fn name(key: &str) -> String {
 
 /// What a search of `setup` finds: all of its graphs, or until the first trajectory.
 ///
-/// The progress is told to nobody.
+/// The progress of a search to its end is told, that until the first trajectory to nobody.
 ///
 /// Carried out by our own simulator, should the method execute.
 pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
     let found = std::sync::atomic::AtomicBool::new(false);
     let cancelled = || (stop.cancelled)() || (!all && found.load(std::sync::atomic::Ordering::Relaxed));
-    let quiet = Stop { cancelled: &cancelled, progress: &|_, _| {}, clock: stop.clock };
-    generate(setup, &Known::default(), &OwnSimulator, &quiet, &mut |cases, _| {
+    let progress = |done, of| {
+        if all {
+            (stop.progress)(done, of)
+        }
+    };
+    let first = Stop { cancelled: &cancelled, progress: &progress, clock: stop.clock };
+    generate(setup, &Known::default(), &OwnSimulator, &first, &mut |cases, _| {
         if !cases.is_empty() {
             found.store(true, std::sync::atomic::Ordering::Relaxed);
         }

@@ -41,8 +41,8 @@ pub struct Explanation {
 /// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until
 /// one has.
 ///
-/// The same graphs (of the same seeds) are asked with every change. `enough` ends the search for changes with those
-/// that were found, `stop` that of the scenario's own graphs as well.
+/// The same graphs (of the same seeds) are asked with every change. `stop` ends the search of the scenario's own graphs,
+/// `looking` that for changes, with those that were found; it is told how many keys were tried.
 ///
 /// Only one key is changed at a time: that two together would help is not found.
 ///
@@ -51,24 +51,22 @@ pub struct Explanation {
 ///
 /// `graphs` bounds each search; every change asks the same numbers of graphs. Searches that execute are replaced by
 /// uniform draws, since feasibility does not depend on executions; `[vary]` is left out.
-pub fn explain(
-    setup: &Setup,
-    graphs: u64,
-    stop: &Stop,
-    enough: &(dyn Fn() -> bool + Sync),
-) -> Result<Explanation, Mistake> {
+pub fn explain(setup: &Setup, graphs: u64, stop: &Stop, looking: &Stop) -> Result<Explanation, Mistake> {
     let setup = first_of(setup, graphs).and_then(|scenario| setup.of_draw(scenario))?;
     let tally = searched(&setup, true, stop);
     let losses = setup.kind().lost(graphs);
     let reasons = setup.kind().programs().map_or_else(Vec::new, |programs| programs.in_the_way());
-    let cancelled = || (stop.cancelled)() || enough();
-    let looking = Stop { cancelled: &cancelled, ..*stop };
-    let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, &looking) };
-    let stopped = tally.solved == 0 && cancelled();
+    let changes = if tally.solved > 0 { Vec::new() } else { smallest(&setup, looking) };
+    let stopped = tally.solved == 0 && (looking.cancelled)();
     Ok(Explanation { graphs: tally.graphs, solved: tally.solved, losses, reasons, changes, stopped, tally })
 }
 
 impl Explanation {
+    /// Whether it is known if the scenario's own graphs have something: its search was not stopped before.
+    pub fn is_found_out(&self) -> bool {
+        self.solved > 0 || !self.tally.stopped
+    }
+
     /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: length 12, or
     /// max_speed 8.0 → 9.3 m/s`, exit code 3; or that there is something, 0.
     pub fn verdict(&self, setup: &Setup) -> Verdict {

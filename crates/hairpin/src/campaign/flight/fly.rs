@@ -62,6 +62,10 @@ impl Act for FlightSetup {
         idle::passed_over(self)
     }
 
+    fn unfelt(&self, key: &str) -> Option<&'static str> {
+        idle::unfelt(self, key)
+    }
+
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
         place(self, case, track, &self.scenario.generate.environment?.obstacles?)
     }

@@ -57,26 +57,39 @@ pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
     let of_few = of_few.filter_map(|((key, _), value)| Some((format!("execute.{key}"), value?, no_use())));
     let noise = execute.noise && execute.command.is_none() && is_noiseless(&setup.robot);
     let noise = (noise && !draws(keys, "noise_n")).then(|| ("execute.noise".into(), json!(true), NO_NOISE.to_owned()));
-    let all = of_few.chain(noise).chain(unfelt(setup));
+    let all = of_few.chain(noise).chain(air(setup));
     all.map(|(key, value, why)| PassedOver { key, value: value.to_string(), why }).collect()
 }
 
 /// Air that moves about a robot of ours which does not feel it; drawn as well, for it is what `hairpin new` draws, and
 /// every shipped robot may take the place of the template's.
-fn unfelt(setup: &FlightSetup) -> impl Iterator<Item = (String, Value, String)> {
+fn air(setup: &FlightSetup) -> impl Iterator<Item = (String, Value, String)> {
     let (keys, world) = (&setup.scenario, &setup.scenario.world);
-    let is_felt = keys.execute.command.is_some() || !is_dragless(&setup.robot) || draws(keys, "drag_");
+    let is_felt = feels_air(setup);
     let given = [
         ("wind_m_s", world.wind_m_s.filter(|wind| *wind != [0.0; 3]).map(|wind| json!(wind))),
         ("gusts", world.gusts.map(|gusts| json!(gusts))),
         ("discrete_gust", world.discrete_gust.map(|gust| json!(gust))),
     ];
     let given = given.into_iter().filter_map(|(key, value)| Some((format!("world.{key}"), value?)));
-    let is_air =
-        |key: &str| ["world.wind_m_s", "world.gusts", "world.discrete_gust"].iter().any(|air| key.starts_with(air));
-    let drawn = keys.vary.iter().filter(move |(key, _)| is_air(key));
+    let drawn = keys.vary.iter().filter(|(key, _)| is_air(key));
     let drawn = drawn.map(|(key, draw)| (KeyPath::of(&["vary", key]).to_string(), json!(draw)));
     given.chain(drawn).filter(move |_| !is_felt).map(|(key, value)| (key, value, NO_DRAG.to_owned()))
+}
+
+/// Why no run feels what is drawn for `key`.
+pub(super) fn unfelt(setup: &FlightSetup, key: &str) -> Option<&'static str> {
+    (is_air(key) && !feels_air(setup)).then_some(NO_DRAG)
+}
+
+/// Whether moving air may do something to a flight. A program of the user's has physics of its own.
+fn feels_air(setup: &FlightSetup) -> bool {
+    let keys = &setup.scenario;
+    keys.execute.command.is_some() || !is_dragless(&setup.robot) || draws(keys, "drag_")
+}
+
+fn is_air(key: &str) -> bool {
+    ["world.wind_m_s", "world.gusts", "world.discrete_gust"].iter().any(|air| key.starts_with(air))
 }
 
 /// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs.

@@ -95,6 +95,13 @@ pub(in crate::campaign) trait Act {
         Vec::new()
     }
 
+    /// Why no run feels what `[vary]` draws for the number `key`, a sentence's part; `None` where one may.
+    ///
+    /// Draws of such keys alone try nothing, and are not counted.
+    fn unfelt(&self, _key: &str) -> Option<&'static str> {
+        None
+    }
+
     /// What logs may tell of it.
     ///
     /// # Errors

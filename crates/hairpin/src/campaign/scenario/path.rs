@@ -52,24 +52,31 @@ impl KeyPath {
         })
     }
 
-    /// Puts `new` at this key; tables on the way that are missing are made.
+    /// Puts `new` at this key; tables on the way that are missing are made, arrays are not.
     ///
     /// # Errors
-    /// The part of the key (`world.obstacles[3]`) that is no element or lies in something that is no table.
+    /// The part of the key (`world.obstacles[3]`) that is no element or lies in something that is no table, and of an
+    /// element how many there are.
     pub fn put(&self, root: &mut Value, new: Value) -> Result<(), String> {
         let mut place = root;
         for (depth, segment) in self.segments.iter().enumerate() {
+            let part = || format!("`{}`", joined(&self.segments[..=depth]));
+            let whole = || joined(&self.segments[..depth]);
             if place.is_null() {
+                if is_index(segment) {
+                    return Err(format!("{}: there is no `{}` to take an element of", part(), whole()));
+                }
                 *place = Value::Object(Map::new());
             }
             place = match place {
                 Value::Object(table) => table.entry(segment.clone()).or_insert(Value::Null),
-                Value::Array(items) => segment
-                    .parse::<usize>()
-                    .ok()
-                    .and_then(|index| items.get_mut(index))
-                    .ok_or_else(|| joined(&self.segments[..=depth]))?,
-                _ => return Err(joined(&self.segments[..=depth])),
+                Value::Array(items) => {
+                    let count = items.len();
+                    let element = segment.parse::<usize>().ok().and_then(|index| items.get_mut(index));
+                    let elements = if count == 1 { "1 element" } else { &format!("{count} elements") };
+                    element.ok_or_else(|| format!("{}: `{}` has {elements}, counted from 0", part(), whole()))?
+                }
+                _ => return Err(part()),
             };
         }
         *place = new;
@@ -95,10 +102,14 @@ fn first_segment(key: &str) -> Option<(String, &str)> {
     valid.then(|| (bare.to_owned(), &key[end..]))
 }
 
+fn is_index(segment: &str) -> bool {
+    segment.bytes().all(|b| b.is_ascii_digit())
+}
+
 fn joined(segments: &[String]) -> String {
     let mut key = String::new();
     for segment in segments {
-        if !key.is_empty() && segment.bytes().all(|b| b.is_ascii_digit()) {
+        if !key.is_empty() && is_index(segment) {
             key.push_str(&format!("[{segment}]"));
             continue;
         }
@@ -135,7 +146,9 @@ mod tests {
         KeyPath::parse("generate.timing.step_s").unwrap().put(&mut value, json!(1.0)).unwrap();
         assert_eq!(value["generate"]["timing"]["step_s"], json!(1.0));
         let element = KeyPath::parse("world.obstacles[0].name").unwrap().put(&mut value, json!("mast"));
-        assert_eq!(element, Err("world.obstacles[0]".into()));
-        assert_eq!(KeyPath::parse("seed.x").unwrap().put(&mut value, json!(1)), Err("seed.x".into()));
+        assert_eq!(element, Err("`world.obstacles[0]`: `world.obstacles` has 0 elements, counted from 0".into()));
+        let missing = KeyPath::parse("world.wind_m_s[0]").unwrap().put(&mut value, json!(1.0));
+        assert_eq!(missing, Err("`world.wind_m_s[0]`: there is no `world.wind_m_s` to take an element of".into()));
+        assert_eq!(KeyPath::parse("seed.x").unwrap().put(&mut value, json!(1)), Err("`seed.x`".into()));
     }
 }

@@ -106,7 +106,7 @@ fn put(scenario: &mut Scenario, draws: &[(String, Value)]) -> Result<(), Mistake
     for draw in draws {
         let path = KeyPath::parse(&draw.0).ok_or_else(|| mistake(draw, "a dotted key of the scenario".into()))?;
         tree.put(&path, draw.1.clone())
-            .map_err(|part| mistake(draw, format!("a key that the scenario has; it has no `{part}`")))?;
+            .map_err(|part| mistake(draw, format!("a key that the scenario has; it has no {part}")))?;
     }
     for (name, section) in tree.sections() {
         scenario
@@ -208,7 +208,11 @@ mod tests {
         let refuse = |key: &str, value: Value| apply(&scenario, &[(key.into(), value)]).unwrap_err();
         assert!(refuse("robot.mas_kg", json!(1.0)).bound.contains("unknown field `mas_kg`"));
         assert_eq!(refuse("robot.mass_kg", json!("heavy")).key, "vary.\"robot.mass_kg\"");
-        assert!(refuse("world.obstacles[4].name", json!("x")).bound.contains("no `world.obstacles[4]`"));
+        let bound = |key: &str, value: Value| refuse(key, value).bound;
+        let beyond = "it has no `world.obstacles[4]`: `world.obstacles` has 1 element, counted from 0";
+        assert!(bound("world.obstacles[4].name", json!("x")).contains(beyond));
+        let none = "it has no `world.wind_m_s[0]`: there is no `world.wind_m_s` to take an element of";
+        assert!(bound("world.wind_m_s[0]", json!(1.0)).contains(none));
         assert!(refuse("..", json!(1)).bound.contains("dotted key"));
     }
 }

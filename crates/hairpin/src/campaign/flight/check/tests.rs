@@ -266,6 +266,16 @@ fn air_that_a_robot_without_drag_does_not_feel_is_told() {
     let program = ("execute.command", json!("python3 sim.py"));
     assert_eq!(told(&[&all[..], std::slice::from_ref(&program)].concat()), Vec::<String>::new());
     let wind = ("vary", json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] } }));
+    // A draw that no run feels is no draw of any.
+    let unfelt = |changes: &[(&str, Value)]| built(changes).expect("a scenario").unfelt_draws();
+    let beside =
+        json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] }, "robot.mass_kg": { "choice": [1] } });
+    let of_plan =
+        json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] }, "task.length": { "choice": [5] } });
+    assert_eq!(unfelt(&[wind.clone(), dragless.clone()]), Some(why));
+    assert_eq!(unfelt(&[("vary", of_plan), dragless.clone()]), Some(why));
+    assert_eq!(unfelt(&[("vary", beside), dragless.clone()]), None);
+    assert_eq!((unfelt(std::slice::from_ref(&wind)), unfelt(std::slice::from_ref(&dragless))), (None, None));
     let drawn = [wind, dragless];
     assert_eq!(told(&drawn), [format!("vary.\"world.wind_m_s\": {why}")]);
     assert_eq!(told(&drawn[..1]), Vec::<String>::new());

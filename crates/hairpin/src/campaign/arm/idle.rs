@@ -1,0 +1,57 @@
+//! Keys of arms that no run reads: given, they are told to be passed over; drawn, they are refused.
+
+use serde_json::json;
+
+use super::ArmSetup;
+use crate::campaign::check::Findings;
+use crate::campaign::kind::PassedOver;
+use crate::campaign::scenario::{ArmExecute, ArmScenario, KeyPath};
+
+const OWN_LAGS: &str = "the arm has lags of its own (robot.joints.lag_s)";
+const RECORDED: &str = "runs come from execute.logs, and none is simulated";
+
+/// Keys under `execute` that are given and that nobody reads.
+pub(super) fn passed_over(setup: &ArmSetup) -> Vec<PassedOver> {
+    let (execute, usual) = (&setup.scenario.execute, ArmExecute::default());
+    let lag = setup.station.arm.lags.is_some() && execute.servo_lag_s != usual.servo_lag_s;
+    let noise = execute.logs.is_some() && execute.noise_mm != usual.noise_mm;
+    let lag = lag.then(|| ("servo_lag_s", json!(execute.servo_lag_s), OWN_LAGS));
+    let noise = noise.then(|| ("noise_mm", json!(execute.noise_mm), RECORDED));
+    let all = lag.into_iter().chain(noise);
+    let told = |(key, value, why): (&str, serde_json::Value, &str)| PassedOver {
+        key: format!("execute.{key}"),
+        value: value.to_string(),
+        why: why.to_owned(),
+    };
+    all.map(told).collect()
+}
+
+/// A run reads who executes, the limits, and of the robot its joints. What moves were proven clear of is not looked at
+/// again: drawn, it would be told of runs that never saw it.
+pub(super) fn check_varied(keys: &ArmScenario, found: &mut Findings) {
+    let bound = "a key that runs of an arm read: of `execute`, of `spec`, or of `robot.joints`, `robot.opw`, `robot.chain`; cell, points \
+                 and moves are searched and proven once, as they stand";
+    for key in keys.vary.keys() {
+        let path = KeyPath::parse(key);
+        let within = path.as_ref().map_or(&[][..], KeyPath::segments);
+        let is_unread = match within {
+            [table, ..] if ["world", "task", "generate"].contains(&table.as_str()) => true,
+            [robot, part, ..] => robot == "robot" && !["joints", "opw", "chain"].contains(&part.as_str()),
+            _ => false,
+        };
+        found.require(!is_unread, &KeyPath::of(&["vary", key]).to_string(), format!("\"{key}\""), bound);
+    }
+    found.drawn_for_nobody(&keys.vary, |path| unread(path, keys));
+}
+
+/// Why no run reads it.
+fn unread(path: &KeyPath, keys: &ArmScenario) -> Option<&'static str> {
+    let within: Vec<&str> = path.segments().iter().map(String::as_str).collect();
+    (within == ["execute", "servo_lag_s"] && has_own_lags(keys)).then_some(OWN_LAGS)
+}
+
+/// Whether every run has the arm's own lags, as they are given or drawn.
+fn has_own_lags(keys: &ArmScenario) -> bool {
+    let given = keys.robot.resolved().is_ok_and(|arm| arm.joints.lag_s.is_some());
+    given || keys.vary.keys().any(|key| key.starts_with("robot.joints.lag_s"))
+}
