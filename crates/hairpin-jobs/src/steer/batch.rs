@@ -1,5 +1,7 @@
 //! What became of a file of queries: counted, and its first drives drawn.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use hairpin_formats::atomic;
@@ -19,6 +21,8 @@ pub struct Batch {
     solved: (usize, f64, f64),
     /// The first drives, and their goals.
     pub(super) drawn: Vec<(Vec<Stretch>, [f64; 3])>,
+    /// Rows whose id another has before them: how many, and of the first the id and both lines.
+    twice: (usize, Option<(Box<str>, [u64; 2])>),
 }
 
 impl Batch {
@@ -59,9 +63,38 @@ impl Batch {
         }
     }
 
+    /// Notes what rows are called, of which those before were `met` on their lines.
+    pub(super) fn note_ids(&mut self, ids: Vec<(Box<str>, u64)>, met: &mut HashMap<Box<str>, u64>) {
+        // Rows without one are wrong for that.
+        for (id, line) in ids.into_iter().filter(|(id, _)| !id.is_empty()) {
+            match met.entry(id) {
+                Entry::Vacant(new) => {
+                    new.insert(line);
+                }
+                Entry::Occupied(old) => {
+                    let (count, first) = &mut self.twice;
+                    *count += 1;
+                    first.get_or_insert_with(|| (old.key().clone(), [*old.get(), line]));
+                }
+            }
+        }
+    }
+
+    /// `line 7: id = "a", as on line 3; 2 more ids stand twice`; `None` where each stands once.
+    pub(super) fn twice(&self) -> Option<String> {
+        let (count, Some((id, [first, again]))) = &self.twice else { return None };
+        let more = match count - 1 {
+            0 => String::new(),
+            more => format!("; {more} more such row{}", if more == 1 { "" } else { "s" }),
+        };
+        Some(format!("line {again}: id = {id:?}, as on line {first}: answers do not tell them apart{more}"))
+    }
+
     /// What follows, of which as many are drawn as there is room for.
     pub(super) fn add(&mut self, more: Self, most_drawn: usize) {
         self.queries += more.queries;
+        self.twice.0 += more.twice.0;
+        self.twice.1 = self.twice.1.take().or(more.twice.1);
         self.wrong.extend(more.wrong);
         self.counts.iter_mut().zip(more.counts).for_each(|(count, more)| *count += more);
         let ((count, all, most), (others, their, longest)) = (self.solved, more.solved);

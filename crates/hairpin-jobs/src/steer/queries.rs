@@ -74,6 +74,9 @@ impl Vehicle {
             Answers::Counted => run.all(blocks, &mut |_| Ok(())),
         }?;
         drop(steps);
+        if let Some(twice) = batch.twice() {
+            watch.warn(&format!("Warning: {}: {twice}", path.display()));
+        }
         if batch.queries < count {
             let done = format!("{} of {count} queries answered", batch.queries);
             return Err(Problem::Interrupted(match out.filter(|_| batch.queries > 0) {

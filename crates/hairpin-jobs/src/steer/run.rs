@@ -1,5 +1,6 @@
 //! A file of queries under way: blocks are read, answered in parallel and written in their order.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io;
 use std::path::Path;
@@ -41,6 +42,8 @@ pub(super) struct Run<'a> {
 /// A block of queries, answered as far as nobody stopped it.
 struct Done {
     batch: Batch,
+    /// Ids, and the lines that they are on.
+    ids: Vec<(Box<str>, u64)>,
     rows: Vec<u8>,
     whole: bool,
 }
@@ -85,8 +88,10 @@ impl Run<'_> {
         let mut read =
             || -> io::Result<Vec<Block>> { (0..round).map_while(|_| blocks.take(BLOCK).transpose()).collect() };
         let (mut asked, mut done) = (read().map_err(unreadable)?, Vec::new());
+        let mut met: HashMap<Box<str>, u64> = HashMap::new();
         let mut write = |done: Vec<Done>, batch: &mut Batch| -> io::Result<()> {
-            for done in done {
+            for mut done in done {
+                done.batch.note_ids(done.ids, &mut met);
                 sink(&done.rows)?;
                 batch.add(done.batch, self.most_drawn);
                 // What is behind a block that was stopped is not kept: answers stand in the order of queries.
@@ -116,6 +121,7 @@ impl Run<'_> {
     fn block(&self, block: &Block) -> Result<Done, String> {
         let rows = self.columns.rows(block).map_err(|error| error.to_string())?;
         let (mut batch, mut answers, mut whole) = (Batch::default(), Vec::with_capacity(rows.len()), true);
+        let mut ids = Vec::with_capacity(rows.len());
         // The head is the record before the first query.
         for (number, row) in (block.before - 1..).zip(rows) {
             let (drawn, kept) = (number < self.most_drawn, self.kept.get(number));
@@ -156,8 +162,9 @@ impl Run<'_> {
                 }
             }
             batch.wrong.extend(row.asked.err().or(beyond).map(|wrong| (row.line, wrong)));
+            ids.push((row.id.into(), row.line));
         }
-        Ok(Done { batch, rows: steering::rows(&answers).into_bytes(), whole })
+        Ok(Done { batch, ids, rows: steering::rows(&answers).into_bytes(), whole })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Questions answered without a binary.
 
 use std::fs;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hairpin_formats::steering::Status;
@@ -51,6 +52,37 @@ fn a_file_is_answered_in_its_order() {
     let ids: Vec<&str> = shown.lines().filter(|row| row.contains(",0,")).map(|row| &row[..1]).collect();
     assert!(shown.starts_with("id,segment,"), "{shown}");
     assert!(ids.is_sorted() && ["a", "b", "c"].iter().all(|id| ids.contains(id)), "{shown}");
+}
+
+/// Collects what it is told.
+#[derive(Default)]
+struct Told(Mutex<Vec<String>>);
+
+impl Watch for Told {
+    fn warn(&self, line: &str) {
+        self.0.lock().unwrap().push(line.to_owned());
+    }
+}
+
+/// Their answers could not be told apart, and nobody said so.
+#[test]
+fn ids_that_stand_twice_are_told_with_both_lines() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("q.csv");
+    let told = |text: &str| {
+        fs::write(&path, text).unwrap();
+        let told = Told::default();
+        let batch = generic().answer_file(&path, Answers::Counted, false, &told).unwrap();
+        (batch.queries, told.0.into_inner().unwrap().join("\n"))
+    };
+    let head = "id,x,y,yaw,k0,kf\na,4,1,0.5,0,0\nb,4,1,0.4,0,0\n";
+    assert_eq!(told(head), (2, String::new()));
+    let (queries, once) = told(&format!("{head}\na,4,1,0.3,0,0\n"));
+    assert!(queries == 3 && once.ends_with("line 5: id = \"a\", as on line 2: answers do not tell them apart"), "{once}");
+    // Across blocks that are read at different times, too.
+    let many: String = (0..3000).map(|row| format!("q{},x,1,0.5,0,0\n", row % 2999)).collect();
+    let (_, twice) = told(&format!("{head}{many}b,4,1,0.3,0,0\n"));
+    assert!(twice.contains("line 3003: id = \"q0\", as on line 4: ") && twice.ends_with("; 1 more such row"), "{twice}");
 }
 
 /// Metres of the answer, and how far its replay ends from the goal: m, rad, 1/m.
