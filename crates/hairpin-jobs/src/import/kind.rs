@@ -20,6 +20,8 @@ pub(super) enum Kind {
     ArcClock,
     Log,
     Mission,
+    /// What hairpin wrote itself, and what reads it.
+    Own(&'static str),
 }
 
 impl Kind {
@@ -46,6 +48,9 @@ impl Kind {
             return Self::ArcClock;
         }
         let start = first.trim_ascii_start();
+        if let Some((_, what)) = OWN.iter().find(|(keys, _)| start.starts_with(b"{") && has_keys(first, keys)) {
+            return Self::Own(what);
+        }
         if [".plan", ".waypoints"].iter().any(|ending| name.ends_with(ending))
             || start.starts_with(b"QGC WPL")
             || start.starts_with(b"{")
@@ -74,6 +79,23 @@ fn is_text(file: &Path) -> Result<bool, Problem> {
 
 fn starts_module(line: &str) -> bool {
     line.split_whitespace().next().is_some_and(|word| word.eq_ignore_ascii_case("MODULE"))
+}
+
+/// Files in JSON that are none of those that are read here, by keys that they begin with.
+const OWN: [(&[&str], &str); 3] = [
+    (
+        &["joint_names", "points"],
+        "a motion of joints (trajectory_msgs/JointTrajectory, as `hairpin export --to joint-trajectory` writes it for \
+         controllers), which no command reads: give the program that it was made of (`--to rapid`), or a recording to hairpin judge",
+    ),
+    (&["hairpin_repro"], "a saved case; hairpin replay runs it"),
+    (&["kind", "points", "path", "cost"], "a certificate; hairpin max-load --verify checks it"),
+];
+
+/// Whether text has all of `keys` in quotes.
+fn has_keys(text: &[u8], keys: &[&str]) -> bool {
+    let has = |key: &&str| text.windows(key.len() + 2).any(|part| part == format!("\"{key}\"").as_bytes());
+    keys.iter().all(has)
 }
 
 /// Whether the first line with numbers has the eight of a pose with its time.
@@ -118,6 +140,8 @@ mod tests {
             ("  {\"fileType\": \"Plan\"}", "a.json", Kind::Mission),
             ("%%%\n  VERSION:1\n%%%\nMODULE m(SYSMODULE)\nENDMODULE\n", "a.txt", Kind::Program),
             ("hello\n", "a.txt", Kind::Program),
+            ("{\"header\": {}, \"joint_names\": [], \"points\": []}", "0000.joint_trajectory.json", Kind::Own(OWN[0].1)),
+            ("{\"hairpin_repro\": 1}", "0000.json", Kind::Own(OWN[1].1)),
             ("", "a.csv", Kind::Log),
         ] {
             assert_eq!(Kind::of_text(text.as_bytes(), name), kind, "{text:?}");

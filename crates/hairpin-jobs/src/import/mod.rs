@@ -84,6 +84,7 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
                 of_programs_alone(settings, file, "a log; hairpin judge holds it against a mission or a campaign")?;
                 return Ok(Imported::Log(Box::new(ReadLog::of(file)?)));
             }
+            Kind::Own(what) => return Err(Problem::of_file(file, format!("it is {what}"))),
             Kind::Mission => {
                 of_programs_alone(settings, file, "a mission; hairpin check says whether a robot can do it")?;
                 return Ok(Imported::Mission(Box::new(read_anywhere(file)?)));
