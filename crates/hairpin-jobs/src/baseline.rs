@@ -20,9 +20,7 @@ const SEARCHED: &str = "searched";
 pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn Watch) -> Result<(), Problem> {
     let setup = &work.setup;
     let wanted = setup.scenario.baseline_cases();
-    let beside_nothing = flown.runs == flown.failed || setup.recordings().is_some();
-    // Missions of another robot's kind have no feasible cases to be compared with.
-    let beside_nothing = beside_nothing || (setup.has_programs() && !tally.missions.is_empty());
+    let beside_nothing = flown.runs == flown.failed || has_none(setup, tally);
     if wanted == 0 || beside_nothing || work.folder.read_baseline()?.is_some() {
         return Ok(());
     }
@@ -53,6 +51,27 @@ pub(crate) fn read_baseline(work: &Work) -> Result<Option<Baseline>, Problem> {
     let scenario = &work.setup.scenario;
     let found = work.folder.read_baseline()?;
     Ok(found.and_then(|measured| Baseline::of(scenario.sought(), scenario.executor().repeat, &measured)))
+}
+
+/// Random feasible cases that a campaign with these `results` asks for and has not, in a sentence; `None` where they are
+/// there, or none is to be.
+pub(crate) fn missing(work: &Work, tally: &Tally, results: &[CaseResult]) -> Result<Option<String>, Problem> {
+    let wanted = work.setup.scenario.baseline_cases();
+    let is_flown = results.iter().any(|result| result.measures.is_some());
+    if wanted == 0 || !is_flown || has_none(&work.setup, tally) || work.folder.read_baseline()?.is_some() {
+        return Ok(None);
+    }
+    let folder = work.folder.path().display();
+    Ok(Some(format!(
+        "{folder} has no baseline.parquet: the verdict stands beside none of the {wanted} random feasible cases that are asked for \
+         (execute.baseline); hairpin execute {folder} --resume flies them"
+    )))
+}
+
+/// Whether a campaign has no feasible cases to be compared with: what was recorded, and missions of another robot's
+/// kind.
+fn has_none(setup: &Setup, tally: &Tally) -> bool {
+    setup.recordings().is_some() || (setup.has_programs() && !tally.missions.is_empty())
 }
 
 /// Cases by chance, as many as are `asked` for or found; `what` is told of as it goes on.

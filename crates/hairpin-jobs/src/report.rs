@@ -15,7 +15,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::report::Motions;
 
 use crate::Problem;
-use crate::baseline::read_baseline;
+use crate::baseline::{missing, read_baseline};
 use crate::execute::{run_with_motion, why_lost};
 use crate::judge::with_moves;
 use crate::missions::{compare, read_told, with_compared};
@@ -30,6 +30,8 @@ pub struct Reported {
     pub verdict: Verdict,
     /// Which cells of the grid of motion were met.
     pub coverage: Option<Coverage>,
+    /// What its user has to know beside that, in sentences.
+    pub told: Vec<String>,
 }
 
 /// Writes the `report.html` of the judged campaign in `folder`, with the cases of the numbers `asked` among those that
@@ -57,6 +59,7 @@ pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<
         return Err(lost);
     }
     let baseline = read_baseline(&work)?;
+    let lost = missing(&work, &tally, &results)?.into_iter().collect();
     let told = work.told()?;
     let verdict = campaign::verdict(&told, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;
@@ -71,7 +74,8 @@ pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<
         let drawn = drawn.ok_or_else(|| Problem::input("--picture: no case is there to be drawn"))?;
         atomic::write(file, drawn.as_bytes())?;
     }
-    Ok(Reported { path: work.folder.file("report.html"), verdict, coverage: work.folder.read_coverage()? })
+    let (path, coverage) = (work.folder.file("report.html"), work.folder.read_coverage()?);
+    Ok(Reported { path, verdict, coverage, told: lost })
 }
 
 /// The worst case of a judged campaign in full, as the report shows it; `None` where none was flown, or its motion is

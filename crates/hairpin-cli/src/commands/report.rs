@@ -10,7 +10,8 @@ use crate::exit::DONE;
 
 /// Runs the command: 0 when the report is written, whatever the verdict in it.
 pub(crate) fn run(asked: &ReportArguments) -> Result<u8, Problem> {
-    let Reported { path, verdict, coverage } = report(&asked.folder, &asked.case, asked.picture.as_deref())?;
+    let Reported { path, verdict, coverage, told } = report(&asked.folder, &asked.case, asked.picture.as_deref())?;
+    told.iter().for_each(|line| console::warn(line));
     if asked.json {
         let object = json!({ "verdict": verdict.sentence, "exit_code": DONE, "report": path, "coverage": coverage });
         console::say(&object.to_string());

@@ -44,13 +44,13 @@ impl CampaignFolder {
     /// # Errors
     /// The file cannot be written.
     pub fn write_baseline(&self, cases: &[Case], measured: &[CaseResult]) -> Result<(), FolderError> {
-        Ok(results::write(&self.file(BY_CHANCE), cases, measured)?)
+        Ok(results::write_counted(&self.file(BY_CHANCE), cases, measured)?)
     }
 
     /// Reads what they measured; `None` where there is no such file.
     ///
     /// # Errors
-    /// The file is broken.
+    /// The file is broken, or has other rows than were written.
     pub fn read_baseline(&self) -> Result<Option<Vec<CaseResult>>, FolderError> {
         self.read_measured_of(BY_CHANCE)
     }
@@ -60,7 +60,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file cannot be written.
     pub fn write_searched(&self, cases: &[Case], measured: &[CaseResult]) -> Result<(), FolderError> {
-        Ok(results::write(&self.file(SEARCHED), cases, measured)?)
+        Ok(results::write_counted(&self.file(SEARCHED), cases, measured)?)
     }
 
     /// Reads what they measured, likewise.
@@ -92,7 +92,7 @@ impl CampaignFolder {
         if !path.exists() {
             return Ok(None);
         }
-        Ok(Some(results::read(&path)?.into_iter().filter_map(|row| row.result).collect()))
+        Ok(Some(results::read_counted(&path)?.into_iter().filter_map(|row| row.result).collect()))
     }
 
     /// Writes which cells of the grid of motion were met: `coverage.json`, and as a table `coverage.tsv`, a row per

@@ -31,6 +31,8 @@ const SCHEMA_KEY: &str = "hairpin.schema";
 const VERSION_KEY: &str = "hairpin.schema_version";
 /// Note: the time between samples of which only some rows are there, s.
 pub(super) const PERIOD: &str = "hairpin.sample_s";
+/// Note: how many rows were written.
+const ROWS: &str = "hairpin.rows";
 /// Column: what the rows are of.
 pub(super) const CASE: &str = "case";
 /// Column: the number of the run that they are of.
@@ -68,6 +70,16 @@ pub enum TableError {
         found: String,
         /// What must be there.
         expected: String,
+    },
+    /// Rows that were written are not there any more.
+    #[error("{}: {found} rows, must be {written}, as many as were written: remove it, and hairpin execute --resume makes it anew", path.display())]
+    Rows {
+        /// The file.
+        path: PathBuf,
+        /// Rows that are there.
+        found: usize,
+        /// Rows that were.
+        written: usize,
     },
     /// A value is out of its bounds.
     #[error("{}: column `{column}`, row {row}: {value}, must be {bound}", path.display())]
@@ -119,11 +131,21 @@ impl Columns {
 
     /// Writes the table: snappy, schema name and version in the metadata, the same bytes for the same columns.
     pub(crate) fn write(self, path: &Path, schema_name: &str) -> Result<(), WriteError> {
+        self.write_noting(path, schema_name, &[])
+    }
+
+    /// The same with the number of rows in the metadata, of a table that nothing else says the length of.
+    pub(super) fn write_counted(self, path: &Path, schema_name: &str) -> Result<(), WriteError> {
+        let rows = self.arrays.first().map_or(0, |column| column.len());
+        self.write_noting(path, schema_name, &[(ROWS.to_owned(), rows.to_string())])
+    }
+
+    fn write_noting(self, path: &Path, schema_name: &str, more: &[(String, String)]) -> Result<(), WriteError> {
         let batch = self.into_batch();
         let schema = batch.schema();
         let properties = properties(&schema)
             .set_statistics_enabled(EnabledStatistics::Chunk)
-            .set_key_value_metadata(Some(notes(schema_name, &[])))
+            .set_key_value_metadata(Some(notes(schema_name, more)))
             .build();
         atomic::write_with(path, |file| {
             let mut writer = ArrowWriter::try_new(file, schema.clone(), Some(properties)).map_err(io_error)?;
@@ -207,6 +229,16 @@ impl Table {
     /// Number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.batch.num_rows()
+    }
+
+    /// # Errors
+    /// Fewer or more rows than were written, where the file says how many that were.
+    pub(super) fn check_rows(&self) -> Result<(), TableError> {
+        let written = self.note(ROWS).and_then(|rows| rows.parse::<usize>().ok());
+        match written.filter(|written| *written != self.rows()) {
+            Some(written) => Err(TableError::Rows { path: self.path.clone(), found: self.rows(), written }),
+            None => Ok(()),
+        }
     }
 
     /// Names of the columns in the file's order.

@@ -17,7 +17,7 @@ use hairpin_formats::repro::Repro;
 use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
 
-use crate::baseline::read_baseline;
+use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
 use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
@@ -86,6 +86,10 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
         keep_changes(&work)?;
     }
     let judgement = judge_cases(&work, &cases, &tally, (&[], None))?;
+    // What was removed just now is told already.
+    if told.is_empty() {
+        told.extend(missing(&work, &tally, &judgement.results)?);
+    }
     if judgement.from_rows > 0 {
         told.push(format!(
             "{} of {} cases were executed with another reference of deviations: they are measured of the rows that are kept, \
@@ -152,7 +156,8 @@ pub(crate) fn judge_cases(
         deviations.extend(case.deviations);
         met.push(case.met);
     }
-    let influences = campaign::influences(&work.setup.scenario, &deviations);
+    let mut influences = campaign::influences(&work.setup.scenario, &deviations);
+    influences.retain(|one| work.setup.unfelt(&one.key).is_none());
     let moves = work.setup.own::<ArmSetup>().map(|arm| arm.moves(cases, &deviations)).unwrap_or_default();
     let baseline = read_baseline(work)?;
     let verdict = campaign::verdict_on(&told, cases, (&results, baseline.as_ref()), tally, flown);
@@ -269,7 +274,65 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Unwatched;
+    use crate::execute::{ExecuteSettings, execute};
+    use crate::generate::generate;
+    use crate::report::report;
     use crate::testing::executed;
+    use crate::work::CampaignSettings;
+
+    /// Of a robot that feels no air: its draws are told as none, and nothing is laid to them.
+    #[test]
+    fn draws_that_no_run_felt_are_not_counted() {
+        let place = tempfile::tempdir().unwrap();
+        let draws = |robot: &str, out: &str| {
+            let file = place.path().join(format!("{out}.toml"));
+            let text = format!(
+                "hairpin = 1\nrobot = \"{robot}\"\nseed = 3\n[world]\nsize_m = [20, 20, 20]\nwind_m_s = [0, 0, 0]\n[task]\n\
+                 start_m = [2, 2, 5]\nend_m = [14, 14, 12]\nlength = 5\n[generate]\nreach = \"hull\"\ntiming = {{ step_s = 1.0 }}\n\
+                 search = {{ method = \"beam\", waypoints = 80, cases = 1 }}\n[execute]\ncontroller = \"stable-waypoint\"\n\
+                 repeat = 4\nbaseline = 0\n[spec]\ndeviation = {{ max_m = 50 }}\n[vary]\n\
+                 \"world.wind_m_s\" = {{ uniform = [[-3, -3, 0], [3, 3, 0]] }}\n"
+            );
+            std::fs::write(&file, text).unwrap();
+            let folder = place.path().join(out);
+            let (scenario, out) = (file.to_string_lossy().into_owned(), Some(folder.clone()));
+            generate(&CampaignSettings { scenario, out, ..CampaignSettings::default() }, &Unwatched).unwrap();
+            execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+            judge(&folder, &[]).unwrap().judgement
+        };
+        let felt = draws("flightgoggles", "felt");
+        assert!(felt.verdict.sentence.contains("no violation in 3 draws of `[vary]`"), "{}", felt.verdict.sentence);
+        assert!(felt.results[0].draws.is_some() && !felt.influences.is_empty());
+        let unfelt = draws("crazyflie", "unfelt");
+        let sentence = &unfelt.verdict.sentence;
+        assert!(sentence.contains("what `[vary]` draws is no draw of any run: the robot has no drag"), "{sentence}");
+        assert!(!sentence.contains("no violation in") && unfelt.results[0].draws.is_none(), "{sentence}");
+        assert!(unfelt.influences.is_empty(), "{:?}", unfelt.influences);
+    }
+
+    /// It went on without a word, and what the stress stood beside was gone.
+    #[test]
+    fn random_cases_that_are_lost_are_told() {
+        let (place, folder) = executed();
+        let asked = |count: &str| {
+            let sets = vec![("execute.baseline".to_owned(), count.to_owned())];
+            let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+            execute(&settings, &Unwatched).unwrap();
+        };
+        assert_eq!(judge(&folder, &[]).unwrap().told, Vec::<String>::new(), "none is asked for");
+        asked("3");
+        let whole = judge(&folder, &[]).unwrap();
+        assert!(whole.told.is_empty() && whole.judgement.baseline.is_some());
+        let (file, aside) = (folder.join("baseline.parquet"), place.path().join("aside"));
+        std::fs::rename(&file, &aside).unwrap();
+        let told = judge(&folder, &[]).unwrap().told;
+        assert!(matches!(&told[..], [one] if one.contains("has no baseline.parquet") && one.contains("3 random")), "{told:?}");
+        assert_eq!(report(&folder, &[], None).unwrap().told, told);
+        let again = ExecuteSettings { folder: folder.clone(), resume: true, ..ExecuteSettings::default() };
+        execute(&again, &Unwatched).unwrap();
+        assert_eq!(std::fs::read(&file).unwrap(), std::fs::read(&aside).unwrap());
+    }
 
     #[test]
     fn a_spec_that_is_set_decides_and_is_kept() {

@@ -6,8 +6,8 @@ mod write;
 
 use hairpin::campaign::{Case, CaseResult};
 
-pub use read::read;
-pub use write::write;
+pub use read::{read, read_counted};
+pub use write::{write, write_counted};
 
 /// Confidence of the intervals of shares in the table.
 const CONFIDENCE: f64 = 0.95;

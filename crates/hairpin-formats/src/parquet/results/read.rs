@@ -17,9 +17,22 @@ const CERTIFIED: [&str; 3] = ["yes", "no", "unknown"];
 /// # Errors
 /// Missing columns, values out of bounds, a case that is twice there.
 pub fn read(path: &Path) -> Result<Vec<Row>, TableError> {
+    rows_of(&Table::read(path)?)
+}
+
+/// [`read`] of what [`super::write_counted`] wrote.
+///
+/// # Errors
+/// As of [`read`]; other rows than were written.
+pub fn read_counted(path: &Path) -> Result<Vec<Row>, TableError> {
     let table = Table::read(path)?;
-    let cases = read_cases(&table)?;
-    let results = read_results(&table, &cases)?;
+    table.check_rows()?;
+    rows_of(&table)
+}
+
+fn rows_of(table: &Table) -> Result<Vec<Row>, TableError> {
+    let cases = read_cases(table)?;
+    let results = read_results(table, &cases)?;
     let lengths = table.counts("length")?;
     let rows = cases.into_iter().zip(lengths).zip(results);
     Ok(rows.map(|((case, length), result)| Row { case, length, result }).collect())

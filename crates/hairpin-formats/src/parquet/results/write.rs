@@ -21,6 +21,18 @@ use crate::atomic::WriteError;
 /// # Errors
 /// The file cannot be written.
 pub fn write(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), WriteError> {
+    columns_of(cases, results).write(path, "results")
+}
+
+/// The same of cases that stand in no other file: how many they are goes with them.
+///
+/// # Errors
+/// As of [`write`].
+pub fn write_counted(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), WriteError> {
+    columns_of(cases, results).write_counted(path, "results")
+}
+
+fn columns_of(cases: &[Case], results: &[CaseResult]) -> Columns {
     let results: BTreeMap<_, _> = results.iter().rev().map(|result| (result.case, result)).collect();
     let rows: Vec<(&Case, Option<&CaseResult>)> =
         cases.iter().map(|case| (case, results.get(&case.number).copied())).collect();
@@ -35,7 +47,7 @@ pub fn write(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), 
     push_violations(&mut columns, &rows);
     let drawn: Vec<_> = rows.iter().map(|(_, result)| result.map_or(&[][..], |r| r.drawn.as_slice())).collect();
     drawn::push(&mut columns, &drawn);
-    columns.write(path, "results")
+    columns
 }
 
 type Rows<'a> = [(&'a Case, Option<&'a CaseResult>)];
