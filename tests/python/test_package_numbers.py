@@ -2,6 +2,7 @@
 
 import copy
 import csv
+import dataclasses
 import itertools
 import json
 import os
@@ -158,3 +159,23 @@ def test_no_arc_and_bad_matrices():
         with pytest.raises(ValueError) as found:
             hairpin.max_load([[0, 1], [1, 0]], **given)
         assert found.value.field == field
+
+
+def test_results_with_arrays_are_equal_by_their_fields():
+    asked = {"x": 4.0, "y": 1.0, "yaw": 0.5, "k0": 0.1, "kf": -0.2}
+    drive, other = (hairpin.steer("generic", **{**asked, "x": x}) for x in (4.0, 5.0))
+    again = pickle.loads(pickle.dumps(drive))
+    assert drive == again and drive.segments == again.segments and drive != other and drive != "drive"
+    assert drive.segments[0] == copy.copy(drive.segments[0]) and drive.segments[0] != other.segments[0]
+    nowhere = hairpin.steer("generic", **{**asked, "x": 0.01, "y": 0.0, "yaw": 3.0})
+    assert np.isnan(nowhere.length_m) and nowhere == copy.deepcopy(nowhere)
+    case = hairpin.Case("0003", 7, np.zeros((2, 3)), "unchecked", np.nan, "generated", *[None] * 6, (), None)
+    moved = dataclasses.replace(case, waypoints_m=np.ones((2, 3)))
+    shorter = dataclasses.replace(case, waypoints_m=np.zeros((1, 3)))
+    assert case == copy.deepcopy(case) and case not in (moved, shorter) and [moved, case].index(case) == 1
+    run = hairpin.Run(case, 0, {"t_s": np.array([0.0, np.nan])})
+    assert run == copy.deepcopy(run) and run != hairpin.Run(case, 0, {"t_s": np.array([0.0, 1.0])})
+    assert run != hairpin.Run(moved, 0, run.columns) and run != hairpin.Run(case, 0, {})
+    for one in (drive, drive.segments[0], case, run):
+        with pytest.raises(TypeError, match=f"unhashable type: '{type(one).__name__}'"):
+            hash(one)

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hairpin._same import Same
+
 Floats = npt.NDArray[np.float64]
 
 _DATA = '<script type="application/json" id="data">'
@@ -25,8 +27,8 @@ class Violation:
     told: str
 
 
-@dataclass(frozen=True)
-class Case:
+@dataclass(frozen=True, eq=False)
+class Case(Same):
     """A case and, once judged, its worst run.
 
     Attributes:
@@ -65,8 +67,8 @@ class Case:
         return int(self.id)
 
 
-@dataclass(frozen=True)
-class Shrunk:
+@dataclass(frozen=True, eq=False)
+class Shrunk(Same):
     """A case reduced to the shortest feasible one that still violates.
 
     Attributes:
@@ -99,8 +101,8 @@ class Shrunk:
     __repr__ = __str__
 
 
-@dataclass(frozen=True)
-class Run:
+@dataclass(frozen=True, eq=False)
+class Run(Same):
     """A run as a judge of this process sees it: its case, its number, and columns of `executions`, shape (n,)."""
 
     case: Case

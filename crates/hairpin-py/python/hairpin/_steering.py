@@ -16,6 +16,7 @@ from hairpin import _native
 from hairpin._asked import Floats, flag, floats, place_or_none, real, vector, wrong
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
+from hairpin._same import Same
 from hairpin._scenario import Robot, described
 
 STATUSES = ("ok", "infeasible", "not_converged", "time_limit", "invalid")
@@ -72,8 +73,8 @@ def _curvature(coefficients: Floats, lengths: Floats) -> Curvature:
     return made
 
 
-@dataclass(frozen=True)
-class Segment:
+@dataclass(frozen=True, eq=False)
+class Segment(Same):
     """A piece of a drive.
 
     Attributes:
@@ -91,8 +92,8 @@ class Segment:
     curvature: Floats
 
 
-@dataclass(frozen=True)
-class Drive:
+@dataclass(frozen=True, eq=False)
+class Drive(Same):
     """The answer to one question.
 
     Attributes:
