@@ -86,7 +86,9 @@ pub(crate) fn tell(problem: &Problem, json: bool) -> u8 {
         Problem::Scenario(report) => {
             console::warn_in_colour(report.render(console::colour_on_stderr()).trim_end());
         }
-        Problem::Input(sentence) | Problem::Lost(sentence) => console::warn(&format!("Error: {sentence}")),
+        Problem::Input(sentence) | Problem::Entry { sentence, .. } | Problem::Lost(sentence) => {
+            console::warn(&format!("Error: {sentence}"))
+        }
         Problem::Executor(sentence) => console::warn(&format!("EXECUTOR FAILED: {sentence}")),
         Problem::Interrupted(sentence) => console::warn(sentence),
     }
@@ -98,7 +100,7 @@ pub(crate) fn tell(problem: &Problem, json: bool) -> u8 {
 
 fn code(problem: &Problem) -> u8 {
     match problem {
-        Problem::Scenario(_) | Problem::Input(_) => WRONG_INPUT,
+        Problem::Scenario(_) | Problem::Input(_) | Problem::Entry { .. } => WRONG_INPUT,
         Problem::Lost(_) => LOST,
         Problem::Executor(_) => EXECUTOR_FAILED,
         Problem::Interrupted(_) => INTERRUPTED,
@@ -111,6 +113,7 @@ pub(crate) fn object(problem: &Problem) -> Value {
     match problem {
         Problem::Scenario(report) => json!({ "exit_code": code, "mistakes": report.to_json() }),
         Problem::Input(sentence)
+        | Problem::Entry { sentence, .. }
         | Problem::Lost(sentence)
         | Problem::Executor(sentence)
         | Problem::Interrupted(sentence) => {

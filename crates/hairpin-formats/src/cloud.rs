@@ -125,6 +125,22 @@ pub enum CloudError {
     },
 }
 
+impl CloudError {
+    /// The line that it is on, from 1; `None` of what is wrong with all of it.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Header { .. } | Self::Orientation { .. } => Some(1),
+            Self::Width { line, .. }
+            | Self::Value { line, .. }
+            | Self::Quaternion { line, .. }
+            | Self::Target { line, .. }
+            | Self::Repeated { line, .. }
+            | Self::TooMany { line } => Some(*line),
+            Self::Empty | Self::Extent { .. } => None,
+        }
+    }
+}
+
 fn question(suspicion: Suspicion) -> impl fmt::Display {
     match suspicion {
         Suspicion::Small => "less than 5 mm; are they in m?",

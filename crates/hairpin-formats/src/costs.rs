@@ -78,6 +78,32 @@ pub enum CostsError {
     },
 }
 
+impl CostsError {
+    /// The line that it is on, from 1; `None` of what is wrong with all of it.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Width { line, .. } | Self::Value { line, .. } | Self::Overflow { line, .. } => Some(*line),
+            Self::Unreadable { .. } | Self::Empty { .. } => None,
+        }
+    }
+
+    /// Line and column of a number that is wrong, both from 1, and what it must be.
+    pub fn entry(&self) -> Option<([usize; 2], String)> {
+        match self {
+            Self::Value { line, column, .. } => {
+                Some(([*line, *column], "a decimal number ≥ 0, or empty for no arc".into()))
+            }
+            Self::Overflow { line, column, scale, .. } => {
+                let bound = format!(
+                    "within 64 bits times {scale}, at which all costs are whole: fewer decimals, or a coarser unit"
+                );
+                Some(([*line, *column], bound))
+            }
+            Self::Unreadable { .. } | Self::Empty { .. } | Self::Width { .. } => None,
+        }
+    }
+}
+
 /// A table of costs, whole numbers of 1/10^decimals of the file's unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Costs {

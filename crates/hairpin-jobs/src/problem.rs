@@ -18,6 +18,16 @@ pub enum Problem {
     /// Anything else that the user gave, or the machine refused.
     #[error("{0}")]
     Input(String),
+    /// A number of a table that the user gave.
+    #[error("{sentence}")]
+    Entry {
+        /// All that is wrong, with the table's name, line and column.
+        sentence: String,
+        /// Line and column, both from 1.
+        at: [usize; 2],
+        /// What it must be.
+        bound: String,
+    },
     /// A result could not be written: no space is left, or the device failed.
     #[error("{0}")]
     Lost(String),

@@ -14,13 +14,19 @@ pub(crate) fn raised(py: Python<'_>, problem: &Problem) -> PyErr {
         Problem::Scenario(report) => {
             let sentence = sentence.strip_prefix("Error: ").unwrap_or(&sentence);
             match report.complaints().first() {
-                Some(first) => wrong(py, sentence, &first.field, &first.value, bare(&first.bound)),
+                Some(first) => {
+                    let said = (sentence, &*first.field, &*first.value, bare(&first.bound), (first.line, first.column));
+                    built(py, "InputError", said)
+                }
                 None => wrong(py, sentence, "", "", ""),
             }
         }
         Problem::Input(_) => {
             let (field, value, bound) = parts(&sentence);
             wrong(py, &sentence, &field, value, bound)
+        }
+        Problem::Entry { at: [line, column], bound, .. } => {
+            built(py, "InputError", (&*sentence, "", "", bound, (*line, *column)))
         }
         Problem::Lost(_) => made(py, "WriteError", &sentence),
         Problem::Executor(_) => made(py, "ExecutorError", &sentence),

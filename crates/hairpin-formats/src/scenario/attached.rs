@@ -11,11 +11,29 @@ pub(super) struct Wrong {
     pub(super) value: String,
     /// What it must be, or why it cannot be read.
     pub(super) bound: String,
+    /// Where the mistake stands, if it is one within the file.
+    pub(super) at: Option<InFile>,
+}
+
+/// A line of a file that a scenario names.
+pub(super) struct InFile {
+    /// The file as it was given.
+    pub(super) file: String,
+    /// What it holds.
+    pub(super) text: String,
+    /// From 1.
+    pub(super) line: usize,
+}
+
+impl InFile {
+    pub(super) fn new(file: &str, bytes: &[u8], line: usize) -> Self {
+        Self { file: file.to_owned(), text: String::from_utf8_lossy(bytes).into_owned(), line }
+    }
 }
 
 impl Wrong {
     pub(super) fn message(&self) -> String {
-        let Self { key, value, bound } = self;
+        let Self { key, value, bound, .. } = self;
         format!("`{key}` = {value:?}: {bound}")
     }
 }

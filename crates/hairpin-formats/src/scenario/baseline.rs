@@ -26,12 +26,13 @@ enum Kept {
 /// Reads the baseline of `spec.regression`. A resolved scenario's is `baseline.json`, which a campaign folder holds.
 pub(super) fn attach(limit: &mut RegressionLimit, find: &dyn Fn(&str) -> PathBuf) -> Result<Attached<Baseline>, Wrong> {
     let given = limit.baseline.clone();
-    let wrong = |bound: String| Wrong { key: "spec.regression.baseline".into(), value: given.clone(), bound };
+    let key = "spec.regression.baseline";
+    let wrong = |bound: String| Wrong { key: key.into(), value: given.clone(), bound, at: None };
     let (baseline, bytes) = read(&find(&given)).map_err(wrong)?;
     let checksum = sha256(&bytes);
     if let Some(other) = limit.checksum.as_ref().filter(|other| **other != checksum) {
         let bound = format!("the checksum of `{given}`, which is {checksum}: it is another baseline");
-        return Err(Wrong { key: "spec.regression.checksum".into(), value: other.clone(), bound });
+        return Err(Wrong { key: "spec.regression.checksum".into(), value: other.clone(), bound, at: None });
     }
     limit.baseline = BASELINE.into();
     limit.checksum = Some(checksum);

@@ -85,9 +85,9 @@ fn mesh(keys: NamedMesh<'_>, find: &dyn Fn(&str) -> PathBuf, parts: &mut usize) 
     let scale = scale.take();
     if let Some(given) = scale.filter(|given| !(*given > 0.0 && given.is_finite())) {
         let key = key.replace(".mesh.file", &format!(".mesh.{scale_key}"));
-        return Err(Wrong { key, value: given.to_string(), bound: "a finite number > 0".into() });
+        return Err(Wrong { key, value: given.to_string(), bound: "a finite number > 0".into(), at: None });
     }
-    let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound };
+    let wrong = |bound: String| Wrong { key: key.clone(), value: file.clone(), bound, at: None };
     if !vertices.is_empty() || !triangles.is_empty() {
         return Err(wrong(format!("either a file or {vertices_key} and triangles, not both")));
     }

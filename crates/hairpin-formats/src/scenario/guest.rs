@@ -30,7 +30,7 @@ impl<'a> Guest<'a> {
     pub(super) fn wrong(&self, named: &Named<'_>) -> Vec<Wrong> {
         names(named)
             .into_iter()
-            .filter_map(|(key, name)| Some(Wrong { bound: self.refusal(&name)?, key, value: name }))
+            .filter_map(|(key, name)| Some(Wrong { bound: self.refusal(&name)?, key, value: name, at: None }))
             .collect()
     }
 

@@ -17,7 +17,7 @@ pub(super) fn read(
     find: &dyn Fn(&str) -> PathBuf,
 ) -> Result<Option<Attached<ScoreModel>>, Wrong> {
     let Some(file) = score.strip_prefix(LEARNED) else { return Ok(None) };
-    let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound };
+    let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound, at: None };
     let bytes = read_file(&find(file)).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
     let model: ScoreModel = serde_json::from_slice(&bytes).map_err(|error| wrong(format!("`{file}`: {error}")))?;
     let model = attached(Arc::new(model), bytes, NAME, score);

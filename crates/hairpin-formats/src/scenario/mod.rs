@@ -45,6 +45,7 @@ pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;
 use crate::{library, schema};
+use attached::InFile;
 use guest::Guest;
 use resolve::Resolver;
 use tree::{Node, NodeKind};
@@ -175,8 +176,14 @@ pub fn arm_setup_for(cell: &str, points: &Path, sets: &[(String, String)]) -> Re
     };
     let is_scenario = library::scenarios().any(|shipped| shipped.name == cell)
         || text(cell).is_some_and(|table| table.contains_key("hairpin"));
+    // The key is nothing that was typed, and no place to send anybody to.
+    let name = points.to_string_lossy().into_owned();
+    bounds::open(points, bounds::MOST_BYTES).map_err(|error| unreadable(&name, &error.to_string()))?;
     // The points' file is given from where the command runs, the scenario's other files from where it lies.
-    let points = std::path::absolute(points).unwrap_or_else(|_| points.to_owned());
+    let points = match is_scenario && Path::new(cell).is_file() {
+        true => std::path::absolute(points).unwrap_or_else(|_| points.to_owned()),
+        false => points.to_owned(),
+    };
     let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
     let given = ("task.points".to_owned(), quoted(&points.to_string_lossy()));
     let sets: Vec<_> = std::iter::once(given).chain(sets.iter().cloned()).collect();
@@ -293,14 +300,24 @@ fn read(
         wrong.extend(terrain::place(&mut scenario, own_coordinates).err());
     }
     for one in wrong {
-        report.complain(&place_of(&root, &one.key), &one.key, &one.value, &one.bound, one.message());
+        let message = one.message();
+        let place = match one.at {
+            Some(InFile { file, text, line }) => report.line_of(&file, text, line),
+            None => place_of(&root, &one.key),
+        };
+        report.complain(&place, &one.key, &one.value, &one.bound, message);
     }
     if !report.is_empty() {
         return None;
     }
     scenario.write_defaults();
+    // Points of a file are wrong there, not where the file is named.
+    let cloud = attachments.cloud.clone();
     let told = |mistake: Mistake| {
-        let place = place_of(&root, &mistake.key);
+        let place = match cloud.as_ref().and_then(|cloud| cell::row_of(cloud, &mistake.key)) {
+            Some(InFile { file, text, line }) => report.line_of(&file, text, line),
+            None => place_of(&root, &mistake.key),
+        };
         let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);
         let message = format!("`{}` = {}: must be {bound}", mistake.key, mistake.value);
         report.complain(&place, &mistake.key, &mistake.value, &format!("must be {bound}"), message);

@@ -117,6 +117,13 @@ impl Report {
         self.sources.len() - 1
     }
 
+    /// Where line number `line`, from 1, of the text `name` stands, without its end.
+    pub(crate) fn line_of(&mut self, name: &str, text: String, line: usize) -> Place {
+        let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
+        let length = text[start..].lines().next().map_or(0, str::len);
+        Place { source: self.add_source(name, text), span: start..start + length }
+    }
+
     pub(crate) fn source(&self, index: usize) -> &SourceText {
         &self.sources[index]
     }

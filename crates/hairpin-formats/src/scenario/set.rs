@@ -54,13 +54,21 @@ impl Override {
         for (depth, segment) in segments.iter().enumerate() {
             let upto = KeyPath::of(&segments[..depth].iter().map(String::as_str).collect::<Vec<_>>());
             let found = at.describe();
-            at = match &mut at.kind {
-                NodeKind::Table(entries) => entries.entry(segment.clone()).or_insert_with(|| Node {
+            let element = segments.get(depth + 1).filter(|next| next.bytes().all(|byte| byte.is_ascii_digit()));
+            at = match (&mut at.kind, element) {
+                (NodeKind::Table(entries), Some(element)) if !entries.contains_key(segment) => {
+                    let whole = KeyPath::of(&segments[..=depth].iter().map(String::as_str).collect::<Vec<_>>());
+                    let bound = format!("there is no `{whole}` to take an element of: give all of it");
+                    let message = format!("--set {}: no element `{element}`", self.path);
+                    report.complain(&place, &self.path.to_string(), element, &bound, message);
+                    return;
+                }
+                (NodeKind::Table(entries), _) => entries.entry(segment.clone()).or_insert_with(|| Node {
                     kind: NodeKind::Table(BTreeMap::new()),
                     place: place.clone(),
                     key: Some(place.clone()),
                 }),
-                NodeKind::Array(items) => {
+                (NodeKind::Array(items), _) => {
                     let count = items.len();
                     match segment.parse::<usize>().ok().and_then(|index| items.get_mut(index)) {
                         Some(item) => item,

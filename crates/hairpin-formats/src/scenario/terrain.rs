@@ -19,7 +19,7 @@ pub(super) fn read(
     find: &dyn Fn(&str) -> PathBuf,
 ) -> Result<(TerrainSection, Attached<ElevationMap>), Wrong> {
     let file = terrain.file.clone().unwrap_or_default();
-    let wrong = |bound: String| Wrong { key: "world.terrain.file".into(), value: file.clone(), bound };
+    let wrong = |bound: String| Wrong { key: "world.terrain.file".into(), value: file.clone(), bound, at: None };
     let path = find(&file);
     let bytes = read_file(&path).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let georeference = Georeference {
@@ -36,12 +36,12 @@ pub(super) fn read(
     let beside = Sidecars::beside(&path);
     let MapFile { map, told } = read_terrain(&bytes, &file, &beside, &georeference).map_err(|error| {
         let key = error.key().map_or_else(|| "world.terrain.file".into(), |key| format!("world.terrain.{key}"));
-        Wrong { key, value: file.clone(), bound: error.to_string() }
+        Wrong { key, value: file.clone(), bound: error.to_string(), at: None }
     })?;
     let checksum = sha256(&bytes);
     if let Some(given) = terrain.checksum.as_ref().filter(|given| **given != checksum) {
         let bound = format!("the checksum of `{file}`, which is {checksum}: it is another map");
-        return Err(Wrong { key: "world.terrain.checksum".into(), value: given.clone(), bound });
+        return Err(Wrong { key: "world.terrain.checksum".into(), value: given.clone(), bound, at: None });
     }
     let name = format!("terrain.{}", ending(&file));
     let map = attached(Arc::new(map), bytes, &name, &file);
@@ -67,6 +67,7 @@ fn kept(key: &str, given: Option<MapUnit>, told: &Unit) -> Result<Option<MapUnit
         value: told.name.clone(),
         bound: "m, ft or us-ft where it is said beside the file, which a campaign's copy of it has not: write the map in metres"
             .into(),
+        at: None,
     })
 }
 
@@ -95,7 +96,7 @@ fn shift_poses(drive: &mut DriveScenario) -> Result<(), Wrong> {
             "left out, or world.terrain.offset_m = [{east}, {north}] given beside it: the map lies far from its \
              plane's zero, and {what} relative to that point"
         );
-        Err(Wrong { key, value: "given".into(), bound })
+        Err(Wrong { key, value: "given".into(), bound, at: None })
     };
     if drive.world.origin.is_some() {
         return given("world.origin".into(), "the origin on Earth is then");

@@ -35,7 +35,7 @@ pub(super) fn read(
     alone: bool,
 ) -> Result<Arc<UserController>, Wrong> {
     let given = steering.word().to_owned();
-    let wrong = |bound: String| Wrong { key: CONTROLLER_KEY.into(), value: given.clone(), bound };
+    let wrong = |bound: String| Wrong { key: CONTROLLER_KEY.into(), value: given.clone(), bound, at: None };
     let (source, file) = match (steering.file().map(str::to_owned), steering.command()) {
         (Some(file), _) => {
             let path = find(&file);

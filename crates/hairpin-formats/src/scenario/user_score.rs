@@ -28,7 +28,7 @@ pub(super) fn read(
 ) -> Result<Option<Attached<dyn LegScorer>>, Wrong> {
     let Some(file) = score.strip_prefix(PYTHON) else { return Ok(None) };
     let path = find(file);
-    let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound };
+    let wrong = |bound: String| Wrong { key: key.to_owned(), value: score.clone(), bound, at: None };
     let bytes = read_file(&path).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
     let user = attached(Arc::new(PythonScore::new((path, alone), score)) as Arc<dyn LegScorer>, bytes, NAME, score);
     *score = format!("{PYTHON}{NAME}");

@@ -22,7 +22,7 @@ pub(super) fn read(
 ) -> Result<Option<Attached<dyn RunMeter>>, Wrong> {
     let Target::Python(file) = target else { return Ok(None) };
     let (path, given) = (find(file), format!("{PYTHON}{file}"));
-    let wrong = |bound: String| Wrong { key: TARGET_KEY.into(), value: given.clone(), bound };
+    let wrong = |bound: String| Wrong { key: TARGET_KEY.into(), value: given.clone(), bound, at: None };
     let bytes = read_file(&path).map_err(|why| wrong(format!("`{file}` cannot be read: {why}")))?;
     let user = Arc::new(Python::new((path, alone), &given, "target")) as Arc<dyn RunMeter>;
     *file = NAME.into();

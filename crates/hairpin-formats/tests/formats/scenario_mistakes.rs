@@ -42,6 +42,19 @@ fn a_robot_without_a_kind_is_told_so_alone() {
     assert!(told.contains("has no `kind`") && told.contains("\"boat\"") && !told.contains("task"), "{told}");
 }
 
+/// A table was made of it, of a type that nobody had given.
+#[test]
+fn an_element_of_what_is_not_given_is_told_as_such() {
+    let report = read(FINE, &[("world.wind_m_s[0]", "3")]).expect_err("no wind is given");
+    let [one] = report.complaints() else { panic!("{report}") };
+    assert_eq!((&*one.field, &*one.value, &*one.file), ("world.wind_m_s[0]", "0", "--set"));
+    assert!(one.bound.starts_with("there is no `world.wind_m_s` to take an element of"), "{report}");
+    let whole = "\"world.wind_m_s\" = { uniform = [[-3, -3, 0], [3, 3, 0]] }";
+    let report = with(whole, "\"world.wind_m_s[0]\" = { uniform = [-3, 3] }");
+    let [one] = report.complaints() else { panic!("{report}") };
+    assert!(one.message.contains("it has no `world.wind_m_s[0]`: there is no `world.wind_m_s`"), "{report}");
+}
+
 #[test]
 fn every_kind_of_mistake_is_told_where_it_stands() {
     let table = [

@@ -204,6 +204,42 @@ mod tests {
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { open: None, .. }));
     }
 
+    /// The key `task.points` is nothing that its user typed: mistakes are told where they stand in the cloud.
+    #[test]
+    fn what_is_wrong_with_a_cloud_is_told_in_its_file() {
+        let place = tempfile::tempdir().unwrap();
+        let points = place.path().join("points.csv");
+        let refused = |text: &str| {
+            std::fs::write(&points, text).unwrap();
+            let settings =
+                CloudSettings { cell: "irb120".into(), points: Some(points.clone()), ..CloudSettings::default() };
+            match search_cloud(&settings, &Unwatched).map(|_| ()).unwrap_err() {
+                Problem::Scenario(report) => report.complaints()[0].clone(),
+                other => panic!("{other}"),
+            }
+        };
+        let file = points.to_string_lossy().into_owned();
+        let head = "x_mm,y_mm,z_mm";
+        for (text, line, words) in [
+            (format!("{head}\n300,0,300\n300,0,300\n"), 3, "the point of line 2 again"),
+            (format!("{head}\n\n300,0,300\n300,x,300\n"), 4, "`x`"),
+            ("x_mm,y_mm\n300,0\n".into(), 1, "z_mm"),
+            (format!("{head}\n0.3,0,0.3\n0.31,0,0.3\n"), 1, "in m?"),
+            (format!("{head}\n300,0,300\n1e7,0,300\n"), 1, "more than 50 m"),
+        ] {
+            let told = refused(&text);
+            assert_eq!((&told.file, told.line), (&file, line), "{told:?}");
+            assert!(told.field == "task.points" && told.bound.contains(words), "{told:?}");
+        }
+        // A single point has no extent, and is found to be too far by the cell.
+        let told = refused(&format!("{head}\n\n5e8,0,300\n"));
+        assert_eq!((&told.file, told.line, &*told.field), (&file, 3, "task.points[0]"), "{told:?}");
+        std::fs::remove_file(&points).unwrap();
+        let settings = CloudSettings { cell: "irb120".into(), points: Some(points), ..CloudSettings::default() };
+        let told = search_cloud(&settings, &Unwatched).map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains("points.csv` cannot be read") && !told.contains("--set"), "{told}");
+    }
+
     /// What is wrong with a table of costs is told before anything is searched, and a program that cannot be followed
     /// before there is a folder for it. A cell has points of its own.
     #[test]

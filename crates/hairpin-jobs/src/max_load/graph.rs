@@ -21,16 +21,24 @@ impl Graph {
     /// # Errors
     /// The file cannot be read, or is none.
     pub fn read(path: &Path) -> Result<Self, Problem> {
-        let costs = costs::read(path).map_err(Problem::input)?;
+        let costs = costs::read(path).map_err(|error| match error.entry() {
+            Some((at, bound)) => Problem::Entry { sentence: error.to_string(), at, bound },
+            None => Problem::input(error),
+        })?;
         let arcs = Arcs::new(costs.points, &costs.costs);
-        let arcs = arcs.map_err(|mistake| Problem::of_file(path, in_its_unit(&costs, &mistake)))?;
+        let arcs = arcs.map_err(|mistake| match in_its_unit(&costs, &mistake) {
+            Problem::Entry { sentence, at, bound } => {
+                Problem::Entry { sentence: format!("{}: {sentence}", path.display()), at, bound }
+            }
+            other => Problem::of_file(path, other),
+        })?;
         Ok(Self { arcs, costs })
     }
 
     /// What is wrong with a question of points that come several times.
     pub(super) fn refused(&self, mistake: &WalkMistake) -> Problem {
         match mistake {
-            WalkMistake::Arcs(mistake) => Problem::input(in_its_unit(&self.costs, mistake)),
+            WalkMistake::Arcs(mistake) => in_its_unit(&self.costs, mistake),
             WalkMistake::Visits { .. } => Problem::input(mistake),
         }
     }
@@ -62,18 +70,17 @@ impl Graph {
 }
 
 /// A mistake with the cost as it stands in its file, and what gives it room.
-fn in_its_unit(costs: &Costs, mistake: &ArcsMistake) -> String {
-    let ArcsMistake::Overflow { from, to, cost, bound, points } = *mistake else { return mistake.to_string() };
+fn in_its_unit(costs: &Costs, mistake: &ArcsMistake) -> Problem {
+    let ArcsMistake::Overflow { from, to, cost, bound, points } = *mistake else { return Problem::input(mistake) };
     let (line, column) = (from + 1, to + 1);
     let [cost, most] = [cost, bound].map(|whole| costs.text(whole));
     let way = match decimals_within(costs, bound) {
         Some(decimals) => format!("with {} decimals; rounded to {decimals} all costs are", costs.decimals),
         None => "in whole numbers; in a coarser unit all costs are".to_owned(),
     };
-    format!(
-        "line {line}, column {column}: cost {cost} of the arc {from}→{to}, must be at most {most} for sums over \
-         {points} points to be exact {way}"
-    )
+    let bound = format!("at most {most} for sums over {points} points to be exact {way}");
+    let sentence = format!("line {line}, column {column}: cost {cost} of the arc {from}→{to}, must be {bound}");
+    Problem::Entry { sentence, at: [line, column], bound }
 }
 
 /// The most decimals with which no cost, rounded, is more than `bound` whole numbers.

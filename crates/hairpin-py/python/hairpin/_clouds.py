@@ -43,12 +43,14 @@ def of_the_cloud(error: InputError, cloud: Any) -> InputError:
     keyword = error.field.removeprefix("generate.search.")
     if keyword in ("start", "end", "min_cost") and keyword != error.field:
         return InputError(f"`{keyword}` = {error.value}: must be {error.bound}", keyword, error.value, error.bound)
-    found = re.match(r"line (\d+)(?:, column `\w+`)?: (.+)", error.bound)
-    if isinstance(cloud, str | os.PathLike) or error.field != "task.points" or found is None:
+    if isinstance(cloud, str | os.PathLike) or not error.field.startswith("task.points") or error.place is None:
         return error
-    row = int(found[1]) - 2
-    why = re.sub(r"line (\d+)", lambda line: f"row {int(line[1]) - 2}", found[2])
+    # Behind the header.
+    row = error.place[0] - 2
+    if row < 0:
+        return error
     told = shown(np.asarray(cloud)[row].tolist())
+    why = re.sub(r"line (\d+)", lambda line: f"row {int(line[1]) - 2}", error.bound).removeprefix(f"row {row}: ")
     return InputError(f"`cloud[{row}]` = {told}: {why}", f"cloud[{row}]", told, why)
 
 

@@ -10,15 +10,19 @@ class InputError(ValueError):
         field: what is wrong, by its name (a key such as ``execute.repeat``, a keyword such as ``x``); empty where the sentence is all.
         value: what was given, as text.
         bound: what it must be.
+        place: line and column, from 1, of the text or table that it stands in; ``None`` where it stands in none.
     """
 
     exit_code = 2
 
-    def __init__(self, message: str, field: str = "", value: str = "", bound: str = "") -> None:
+    def __init__(
+        self, message: str, field: str = "", value: str = "", bound: str = "", place: tuple[int, int] | None = None
+    ) -> None:
         super().__init__(message)
         self.field = field
         self.value = value
         self.bound = bound
+        self.place = place
 
 
 class ExecutorError(RuntimeError):

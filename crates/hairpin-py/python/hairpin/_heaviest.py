@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -178,12 +177,10 @@ def _table(matrix: Any, **ends: int | None) -> tuple[bytes, int]:
 
 def _of_the_matrix(error: InputError, matrix: Any) -> InputError:
     """What the command tells of a line and a column, of the matrix: its file is none of the caller's."""
-    found = re.search(r"line (\d+), column (\d+): (?:cost \S+ of the arc \S+, must be (.+)|\S+ × (\S+))", str(error))
-    if found is None:
+    if error.place is None:
         return error
-    at = int(found[1]) - 1, int(found[2]) - 1
-    room = f"within 64 bits times {found[4]}, at which all costs are whole: fewer decimals, or a coarser unit"
-    return wrong(entry("matrix", at), np.asarray(matrix, dtype=object)[at], found[3] or room)
+    at = error.place[0] - 1, error.place[1] - 1
+    return wrong(entry("matrix", at), np.asarray(matrix, dtype=object)[at], error.bound)
 
 
 def _end(name: str, point: Any) -> int | None:

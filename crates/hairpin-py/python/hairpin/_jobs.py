@@ -254,7 +254,7 @@ def explain(
     Args:
         source, values, score: as of :func:`stress`.
         graphs: graphs that are sampled and searched; with every change the same ones.
-        time_limit_s: seconds after which no further change is tried.
+        time_limit_s: seconds after which no further change is tried; 60 if not given, of arms 3.
     """
     asked = scenario(source)
     brought = bring(score=score, score_key=_score_key(asked) if score is not None else "")
