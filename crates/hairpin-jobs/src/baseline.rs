@@ -53,8 +53,8 @@ pub(crate) fn read_baseline(work: &Work) -> Result<Option<Baseline>, Problem> {
     Ok(found.and_then(|measured| Baseline::of(scenario.sought(), scenario.executor().repeat, &measured)))
 }
 
-/// Random feasible cases that a campaign with these `results` asks for and has not, in a sentence; `None` where they are
-/// there, or none is to be.
+/// Random feasible cases that a campaign with these `results` asks for and has not, in a sentence; `None` where they
+/// are there, or none is to be.
 pub(crate) fn missing(work: &Work, tally: &Tally, results: &[CaseResult]) -> Result<Option<String>, Problem> {
     let wanted = work.setup.scenario.baseline_cases();
     let is_flown = results.iter().any(|result| result.measures.is_some());

@@ -12,7 +12,7 @@ pub(super) struct Wrong {
     /// What it must be, or why it cannot be read.
     pub(super) bound: String,
     /// Where the mistake stands, if it is one within the file.
-    pub(super) at: Option<InFile>,
+    pub(super) at: Option<Box<InFile>>,
 }
 
 /// A line of a file that a scenario names.
@@ -26,8 +26,9 @@ pub(super) struct InFile {
 }
 
 impl InFile {
-    pub(super) fn new(file: &str, bytes: &[u8], line: usize) -> Self {
-        Self { file: file.to_owned(), text: String::from_utf8_lossy(bytes).into_owned(), line }
+    /// In a box, for mistakes go from hand to hand.
+    pub(super) fn boxed(file: &str, bytes: &[u8], line: usize) -> Box<Self> {
+        Box::new(Self { file: file.to_owned(), text: String::from_utf8_lossy(bytes).into_owned(), line })
     }
 }
 

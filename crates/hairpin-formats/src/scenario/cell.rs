@@ -30,7 +30,7 @@ pub(super) fn cloud(
         Ok(points)
     });
     let read = read.map_err(|Refused { line, why }| Wrong {
-        at: Some(InFile::new(file, &bytes, line.unwrap_or(1))),
+        at: Some(InFile::boxed(file, &bytes, line.unwrap_or(1))),
         ..wrong(why)
     })?;
     let points = read.iter().map(|point| CloudPoint {
@@ -50,11 +50,11 @@ pub(super) fn cloud(
 }
 
 /// Where the point stands that `key` means, `task.points[3]`, in the file of its cloud.
-pub(super) fn row_of(cloud: &Attached<[CloudPoint]>, key: &str) -> Option<InFile> {
+pub(super) fn row_of(cloud: &Attached<[CloudPoint]>, key: &str) -> Option<Box<InFile>> {
     let row: usize = key.strip_prefix("task.points[")?.split(']').next()?.parse().ok()?;
     // What was taken once is taken again, whatever frame it is in.
     let points = points_of(&cloud.bytes, &ending(&cloud.name), true).ok()?;
-    Some(InFile::new(&cloud.given, &cloud.bytes, points.get(row)?.line))
+    Some(InFile::boxed(&cloud.given, &cloud.bytes, points.get(row)?.line))
 }
 
 /// Why a file is no cloud, and on which of its lines.
@@ -124,7 +124,7 @@ pub(super) fn costs(table: &mut CostTable, find: &dyn Fn(&str) -> PathBuf) -> Re
     let path = find(&file);
     let bytes = read_file(&path).map_err(|why| wrong(format!("cannot be read: {why}")))?;
     let read = costs::read(&path).map_err(|error| {
-        let at = error.line().map(|line| InFile::new(&file, &bytes, line));
+        let at = error.line().map(|line| InFile::boxed(&file, &bytes, line));
         Wrong { at, ..wrong(error.to_string()) }
     })?;
     let unit = 1.0 / read.scale() as f64;

@@ -45,7 +45,6 @@ pub use write::{MadeBy, WriteError, on_a_line, read_made_by, to_toml};
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;
 use crate::{library, schema};
-use attached::InFile;
 use guest::Guest;
 use resolve::Resolver;
 use tree::{Node, NodeKind};
@@ -302,7 +301,7 @@ fn read(
     for one in wrong {
         let message = one.message();
         let place = match one.at {
-            Some(InFile { file, text, line }) => report.line_of(&file, text, line),
+            Some(at) => report.line_of(*at),
             None => place_of(&root, &one.key),
         };
         report.complain(&place, &one.key, &one.value, &one.bound, message);
@@ -315,7 +314,7 @@ fn read(
     let cloud = attachments.cloud.clone();
     let told = |mistake: Mistake| {
         let place = match cloud.as_ref().and_then(|cloud| cell::row_of(cloud, &mistake.key)) {
-            Some(InFile { file, text, line }) => report.line_of(&file, text, line),
+            Some(at) => report.line_of(*at),
             None => place_of(&root, &mistake.key),
         };
         let bound = shape::unknown_in_vary(&schema, &root, &mistake.key).unwrap_or(mistake.bound);

@@ -6,6 +6,7 @@ use std::ops::Range;
 use ariadne::{CharSet, Config, IndexType, Label, ReportKind};
 use serde_json::{Value, json};
 
+use super::attached::InFile;
 use crate::quote::shortened;
 
 /// Bytes of a line that is shown, with a caret under it.
@@ -117,11 +118,12 @@ impl Report {
         self.sources.len() - 1
     }
 
-    /// Where line number `line`, from 1, of the text `name` stands, without its end.
-    pub(crate) fn line_of(&mut self, name: &str, text: String, line: usize) -> Place {
+    /// Where a line of another file stands, without its end.
+    pub(super) fn line_of(&mut self, at: InFile) -> Place {
+        let InFile { file, text, line } = at;
         let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
         let length = text[start..].lines().next().map_or(0, str::len);
-        Place { source: self.add_source(name, text), span: start..start + length }
+        Place { source: self.add_source(file, text), span: start..start + length }
     }
 
     pub(crate) fn source(&self, index: usize) -> &SourceText {

@@ -140,7 +140,11 @@ mod tests {
             ("  {\"fileType\": \"Plan\"}", "a.json", Kind::Mission),
             ("%%%\n  VERSION:1\n%%%\nMODULE m(SYSMODULE)\nENDMODULE\n", "a.txt", Kind::Program),
             ("hello\n", "a.txt", Kind::Program),
-            ("{\"header\": {}, \"joint_names\": [], \"points\": []}", "0000.joint_trajectory.json", Kind::Own(OWN[0].1)),
+            (
+                "{\"header\": {}, \"joint_names\": [], \"points\": []}",
+                "0000.joint_trajectory.json",
+                Kind::Own(OWN[0].1),
+            ),
             ("{\"hairpin_repro\": 1}", "0000.json", Kind::Own(OWN[1].1)),
             ("", "a.csv", Kind::Log),
         ] {

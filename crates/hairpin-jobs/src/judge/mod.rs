@@ -278,33 +278,33 @@ mod tests {
     use crate::execute::{ExecuteSettings, execute};
     use crate::generate::generate;
     use crate::report::report;
-    use crate::testing::executed;
+    use crate::testing::{executed, small};
     use crate::work::CampaignSettings;
 
     /// Of a robot that feels no air: its draws are told as none, and nothing is laid to them.
     #[test]
     fn draws_that_no_run_felt_are_not_counted() {
         let place = tempfile::tempdir().unwrap();
-        let draws = |robot: &str, out: &str| {
-            let file = place.path().join(format!("{out}.toml"));
-            let text = format!(
-                "hairpin = 1\nrobot = \"{robot}\"\nseed = 3\n[world]\nsize_m = [20, 20, 20]\nwind_m_s = [0, 0, 0]\n[task]\n\
-                 start_m = [2, 2, 5]\nend_m = [14, 14, 12]\nlength = 5\n[generate]\nreach = \"hull\"\ntiming = {{ step_s = 1.0 }}\n\
-                 search = {{ method = \"beam\", waypoints = 80, cases = 1 }}\n[execute]\ncontroller = \"stable-waypoint\"\n\
-                 repeat = 4\nbaseline = 0\n[spec]\ndeviation = {{ max_m = 50 }}\n[vary]\n\
-                 \"world.wind_m_s\" = {{ uniform = [[-3, -3, 0], [3, 3, 0]] }}\n"
-            );
-            std::fs::write(&file, text).unwrap();
-            let folder = place.path().join(out);
-            let (scenario, out) = (file.to_string_lossy().into_owned(), Some(folder.clone()));
-            generate(&CampaignSettings { scenario, out, ..CampaignSettings::default() }, &Unwatched).unwrap();
+        let draws = |drag: &str| {
+            let set = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+            let sets = [
+                set("generate.search.cases", "1"),
+                set("execute.repeat", "4"),
+                set("robot.drag_linear_n_s_m", drag),
+                set("robot.drag_quadratic_n_s2_m2", drag),
+                set("spec.deviation.max_m", "50"),
+                set("vary", "{ \"world.wind_m_s\" = { uniform = [[-1, -1, 0], [1, 1, 0]] } }"),
+            ];
+            let (small, folder) = (small(&place), place.path().join(drag));
+            let sets = small.sets.iter().cloned().chain(sets).collect();
+            generate(&CampaignSettings { out: Some(folder.clone()), sets, ..small }, &Unwatched).unwrap();
             execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
             judge(&folder, &[]).unwrap().judgement
         };
-        let felt = draws("flightgoggles", "felt");
+        let felt = draws("0.1");
         assert!(felt.verdict.sentence.contains("no violation in 3 draws of `[vary]`"), "{}", felt.verdict.sentence);
         assert!(felt.results[0].draws.is_some() && !felt.influences.is_empty());
-        let unfelt = draws("crazyflie", "unfelt");
+        let unfelt = draws("0.0");
         let sentence = &unfelt.verdict.sentence;
         assert!(sentence.contains("what `[vary]` draws is no draw of any run: the robot has no drag"), "{sentence}");
         assert!(!sentence.contains("no violation in") && unfelt.results[0].draws.is_none(), "{sentence}");
@@ -322,12 +322,15 @@ mod tests {
         };
         assert_eq!(judge(&folder, &[]).unwrap().told, Vec::<String>::new(), "none is asked for");
         asked("3");
-        let whole = judge(&folder, &[]).unwrap();
-        assert!(whole.told.is_empty() && whole.judgement.baseline.is_some());
+        let judged = || judge(&folder, &[]).map(|judged| (judged.told, judged.judgement.baseline)).unwrap();
+        assert!(matches!(judged(), (told, Some(_)) if told.is_empty()));
         let (file, aside) = (folder.join("baseline.parquet"), place.path().join("aside"));
         std::fs::rename(&file, &aside).unwrap();
-        let told = judge(&folder, &[]).unwrap().told;
-        assert!(matches!(&told[..], [one] if one.contains("has no baseline.parquet") && one.contains("3 random")), "{told:?}");
+        let (told, _) = judged();
+        assert!(
+            matches!(&told[..], [one] if one.contains("has no baseline.parquet") && one.contains("3 random")),
+            "{told:?}"
+        );
         assert_eq!(report(&folder, &[], None).unwrap().told, told);
         let again = ExecuteSettings { folder: folder.clone(), resume: true, ..ExecuteSettings::default() };
         execute(&again, &Unwatched).unwrap();

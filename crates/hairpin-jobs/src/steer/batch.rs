@@ -21,8 +21,17 @@ pub struct Batch {
     solved: (usize, f64, f64),
     /// The first drives, and their goals.
     pub(super) drawn: Vec<(Vec<Stretch>, [f64; 3])>,
-    /// Rows whose id another has before them: how many, and of the first the id and both lines.
-    twice: (usize, Option<(Box<str>, [u64; 2])>),
+    /// Rows whose id another has before them, and the first of these.
+    again: usize,
+    first_again: Option<Again>,
+}
+
+/// A row whose id another has before it.
+#[derive(Debug)]
+struct Again {
+    id: Box<str>,
+    /// Of the one before, and its own.
+    lines: [u64; 2],
 }
 
 impl Batch {
@@ -72,18 +81,17 @@ impl Batch {
                     new.insert(line);
                 }
                 Entry::Occupied(old) => {
-                    let (count, first) = &mut self.twice;
-                    *count += 1;
-                    first.get_or_insert_with(|| (old.key().clone(), [*old.get(), line]));
+                    self.again += 1;
+                    self.first_again.get_or_insert_with(|| Again { id: old.key().clone(), lines: [*old.get(), line] });
                 }
             }
         }
     }
 
-    /// `line 7: id = "a", as on line 3; 2 more ids stand twice`; `None` where each stands once.
+    /// `line 7: id = "a", as on line 3; 2 more such rows`; `None` where each stands once.
     pub(super) fn twice(&self) -> Option<String> {
-        let (count, Some((id, [first, again]))) = &self.twice else { return None };
-        let more = match count - 1 {
+        let Again { id, lines: [first, again] } = self.first_again.as_ref()?;
+        let more = match self.again - 1 {
             0 => String::new(),
             more => format!("; {more} more such row{}", if more == 1 { "" } else { "s" }),
         };
@@ -93,8 +101,8 @@ impl Batch {
     /// What follows, of which as many are drawn as there is room for.
     pub(super) fn add(&mut self, more: Self, most_drawn: usize) {
         self.queries += more.queries;
-        self.twice.0 += more.twice.0;
-        self.twice.1 = self.twice.1.take().or(more.twice.1);
+        self.again += more.again;
+        self.first_again = self.first_again.take().or(more.first_again);
         self.wrong.extend(more.wrong);
         self.counts.iter_mut().zip(more.counts).for_each(|(count, more)| *count += more);
         let ((count, all, most), (others, their, longest)) = (self.solved, more.solved);

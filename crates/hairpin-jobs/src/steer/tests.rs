@@ -78,11 +78,17 @@ fn ids_that_stand_twice_are_told_with_both_lines() {
     let head = "id,x,y,yaw,k0,kf\na,4,1,0.5,0,0\nb,4,1,0.4,0,0\n";
     assert_eq!(told(head), (2, String::new()));
     let (queries, once) = told(&format!("{head}\na,4,1,0.3,0,0\n"));
-    assert!(queries == 3 && once.ends_with("line 5: id = \"a\", as on line 2: answers do not tell them apart"), "{once}");
+    assert!(
+        queries == 3 && once.ends_with("line 5: id = \"a\", as on line 2: answers do not tell them apart"),
+        "{once}"
+    );
     // Across blocks that are read at different times, too.
     let many: String = (0..3000).map(|row| format!("q{},x,1,0.5,0,0\n", row % 2999)).collect();
     let (_, twice) = told(&format!("{head}{many}b,4,1,0.3,0,0\n"));
-    assert!(twice.contains("line 3003: id = \"q0\", as on line 4: ") && twice.ends_with("; 1 more such row"), "{twice}");
+    assert!(
+        twice.contains("line 3003: id = \"q0\", as on line 4: ") && twice.ends_with("; 1 more such row"),
+        "{twice}"
+    );
 }
 
 /// Metres of the answer, and how far its replay ends from the goal: m, rad, 1/m.

@@ -41,8 +41,8 @@ pub struct Explanation {
 /// Samples and searches `graphs` graphs of `setup`; where none has a trajectory, every relevant key is changed until
 /// one has.
 ///
-/// The same graphs (of the same seeds) are asked with every change. `stop` ends the search of the scenario's own graphs,
-/// `looking` that for changes, with those that were found; it is told how many keys were tried.
+/// The same graphs (of the same seeds) are asked with every change. `stop` ends the search of the scenario's own
+/// graphs, `looking` that for changes, with those that were found; it is told how many keys were tried.
 ///
 /// Only one key is changed at a time: that two together would help is not found.
 ///
