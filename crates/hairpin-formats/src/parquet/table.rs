@@ -321,3 +321,28 @@ fn rows_of(groups: &Groups<'_>, metadata: &ArrowReaderMetadata, most: u64) -> Re
     }
     concat_batches(schema, &batches).map_err(|error| error.to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Tools that cut rows off leave the file's notes as they are.
+    #[test]
+    fn rows_that_were_cut_off_are_missed() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("baseline.parquet");
+        let columns = |rows: usize| {
+            let mut columns = Columns::default();
+            columns.push("x", Arc::new(Float64Array::from(vec![1.0; rows])));
+            columns
+        };
+        columns(3).write_counted(&path, "results").unwrap();
+        assert!(Table::read(&path).unwrap().check_rows().is_ok());
+        columns(2).write_noting(&path, "results", &[(ROWS.to_owned(), "3".to_owned())]).unwrap();
+        let told = Table::read(&path).unwrap().check_rows().unwrap_err().to_string();
+        assert!(told.contains("baseline.parquet: 2 rows, must be 3"), "{told}");
+        // Of an earlier version, which says nothing of it.
+        columns(2).write(&path, "results").unwrap();
+        assert!(Table::read(&path).unwrap().check_rows().is_ok());
+    }
+}
