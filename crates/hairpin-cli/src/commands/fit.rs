@@ -48,6 +48,7 @@ fn why(estimate: &Estimate) -> Option<String> {
         Reading::NoEffect => "nothing that was logged depends on it".to_owned(),
         Reading::Open => "the logs contradict no value up to a bound of it".to_owned(),
         Reading::Wide => "its interval is wider than 25 % on a side".to_owned(),
+        Reading::Unlike => "simulations do not show what the logs do, whatever it is".to_owned(),
         Reading::Doubted => estimate.number.doubt.unwrap_or_default().to_owned(),
     };
     let given = estimate.number.value;

@@ -20,6 +20,7 @@
 //! | [`circular`], [`power`] | sin, cos, xⁿ with the same bits everywhere | hot loops |
 //! | [`ridge`] | polynomial ridge regression, cross-validated | learned scores |
 //! | [`output_error`] | min −2 log L of a simulation's outputs, and how far it can rise | fits to logs |
+//! | [`imitation`] | min (s − μ)ᵀ Σ⁻¹ (s − μ) of a simulation's signs, which chance is in | fits to logs of loops that swing |
 //! | [`random`] | named streams | everything that draws |
 //! | [`simd`] | which compiled version of a kernel runs | kernels |
 //!
@@ -32,6 +33,7 @@ pub mod circular;
 pub mod convex;
 pub mod enclosing;
 pub mod fresnel;
+pub mod imitation;
 pub mod integrate;
 pub mod interval;
 pub mod jerk_limit;

@@ -69,7 +69,6 @@ pub(super) fn fittable(setup: &ArmSetup) -> Result<Fittable, String> {
             period: 0.02,
             stretch: 0.5,
             whole_legs: false,
-            anew: None,
             start_m: Some(0.05),
         },
         acceptance: Acceptance::Sphere,

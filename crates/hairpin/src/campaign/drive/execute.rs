@@ -2,10 +2,11 @@
 
 use super::DriveSetup;
 use super::fit;
+use super::imitate::DriveImitator;
 use super::place::place;
 use super::plan::drive_of;
 use crate::campaign::Case;
-use crate::campaign::kind::{Act, Fittable, Order, Same};
+use crate::campaign::kind::{Act, Fittable, Imitator, Order, Same};
 use crate::campaign::placement::Placement;
 use crate::feasibility::steering::shooting::families::Problem;
 use crate::feasibility::steering::shooting::solve::{Choices, Outcome};
@@ -13,7 +14,7 @@ use crate::feasibility::steering::shooting::{Control, Query, generate, rough};
 use crate::robot::rover::{Response, Rover};
 use crate::simulation::SimulationError;
 use crate::simulation::ground::{
-    self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie, Place,
+    self, DriveSettings, GroundConditions, GroundController, GroundControllerKind, GroundSortie,
 };
 use crate::trajectory::drive::{Gear, Planar, SegmentList};
 use crate::trajectory::{Direction, Flight, Track};
@@ -21,28 +22,19 @@ use crate::trajectory::{Direction, Flight, Track};
 impl Act for DriveSetup {
     /// Drives the plan, which was made with `nominal`, as this setup has vehicle and latency.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
-        let settings =
-            DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() };
+        let settings = Self::settings(order);
         self.on_its_way(nominal.setup(), case, |sortie, conditions, ours| match &self.controller {
             Some(controller) => ground::drive_with(sortie, controller, conditions, &settings, order.seed),
             None => ground::drive(sortie, ours, conditions, &settings, order.seed),
         })
     }
 
-    fn run_beside(
-        &self,
-        nominal: Same,
-        case: &Case,
-        order: &Order,
-        places: &[Place],
-    ) -> Result<Track, SimulationError> {
-        self.on_its_way(nominal.setup(), case, |sortie, conditions, ours| {
-            ground::drive_beside(sortie, ours, conditions, places, order.time_limit)
-        })
-    }
-
     fn fittable(&self) -> Result<Fittable, String> {
         fit::fittable(self)
+    }
+
+    fn imitator<'a>(&'a self, cases: &[&'a Case]) -> Result<Option<Box<dyn Imitator + 'a>>, SimulationError> {
+        Ok(Some(Box::new(DriveImitator::new(self, cases)?)))
     }
 
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
@@ -51,8 +43,13 @@ impl Act for DriveSetup {
 }
 
 impl DriveSetup {
+    /// How a run of `order` is simulated.
+    pub(super) fn settings(order: &Order) -> DriveSettings {
+        DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() }
+    }
+
     /// What drives where under which conditions, and which of our controllers drives.
-    fn on_its_way<T>(
+    pub(super) fn on_its_way<T>(
         &self,
         nominal: &Self,
         case: &Case,
@@ -73,7 +70,7 @@ impl DriveSetup {
         };
         let conditions = GroundConditions {
             latency: execute.latency_s.unwrap_or(0.0),
-            noise: execute.noise,
+            noise: f64::from(execute.noise),
             external_force: execute.external_force_n.unwrap_or_default(),
             ..GroundConditions::default()
         };

@@ -15,10 +15,6 @@ use crate::simulation::Acceptance;
 const OUTPUTS: [(Output, usize); 4] =
     [(Output::Position(0), 0), (Output::Position(1), 0), (Output::Axis(0, 0), 1), (Output::Axis(0, 1), 1)];
 
-/// Of turn scale and latency they are too narrow even in stretches that begin where the log is; the others were not
-/// tried on enough vehicles (docs/fit.md).
-const DOUBT: &str = "intervals of drives did not hold on drawn vehicles";
-
 /// Slips by slope are of rovers alone.
 ///
 /// # Errors
@@ -38,7 +34,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         bounds,
         step,
         other,
-        doubt: Some(DOUBT),
+        doubt: None,
     };
     let lag = |name, field, value: f64| number(name, field, "s", value, [0.0, 3.0], 0.03, value + 0.2);
     let scale = |name, field, value: f64| number(name, field, "", value, [0.3, 3.0], 0.02, 0.9 * value);
@@ -81,15 +77,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         outputs: &OUTPUTS,
         axes: 2,
         unit: ("m", 1.0),
-        sampling: Sampling {
-            least_s: 5.0,
-            least_hz: 8.0,
-            period: 0.1,
-            stretch: 2.0,
-            whole_legs: false,
-            anew: Some(2.0),
-            start_m: None,
-        },
+        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
         acceptance: Acceptance::Cylinder { height: f64::INFINITY },
         timed: false,
     })

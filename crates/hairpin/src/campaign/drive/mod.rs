@@ -3,6 +3,7 @@
 //! ```text
 //! DriveScenario ─▶ check ─▶ DriveSetup (vehicle, planner's vehicle, map, keep-outs)
 //!   Claim:  solve ─▶ roadmap of headed waypoints (witness) or stepwise ─▶ Plan; passes, replan, alter, draw
+//!   fit:    signs of logs, imitate ─▶ simulation::ground ─▶ campaign::fit
 //!   Act:    execute ─▶ simulation::ground ─▶ Flight; surround, place: what is searched beside the plan
 //!   proof:  verify, site ─▶ verification, as plain numbers
 //!   Say:    say, assumptions, drawing, figure, losses, knobs
@@ -23,6 +24,7 @@ mod execute;
 mod figure;
 mod fit;
 mod held;
+mod imitate;
 mod knobs;
 mod legs;
 mod losses;
@@ -32,6 +34,7 @@ mod plan;
 mod replan;
 mod say;
 mod setup;
+mod signs;
 mod site;
 mod solve;
 mod steered;

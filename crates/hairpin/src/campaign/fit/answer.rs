@@ -16,6 +16,8 @@ pub enum Reading {
     Open,
     /// Not identifiable: the interval is wider than a quarter on either side.
     Wide,
+    /// Not identifiable: simulations do not show what the logs do, whatever it is.
+    Unlike,
     /// Not identifiable: such intervals are not believed, for the reason that the number has.
     Doubted,
 }
@@ -63,7 +65,8 @@ pub struct Fit {
     /// Root of the mean square of the residuals of the logs that were fitted to, m.
     /// Each log counts alike, however long.
     pub residual_m: f64,
-    /// How much more a residual's sum scatters than if samples were independent: n over the effective number.
+    /// How much more a residual's sum scatters than if samples were independent: n over the effective number. Of logs
+    /// that are imitated: how far their signs are off, over what chance makes them (D over its degrees of freedom).
     pub inflation: f64,
     /// Stretches, samples.
     /// The unit that independence is claimed of.

@@ -3,13 +3,11 @@
 use nalgebra::Point3;
 
 use super::FitError;
-use super::outputs::{Window, has, outputs_at};
+use super::outputs::{has, outputs_at};
 use super::passages::{Missed, passages};
-use super::placed::without;
 use crate::campaign::Case;
 use crate::campaign::kind::{Output, Sampling};
 use crate::simulation::Acceptance;
-use crate::simulation::ground::Place;
 use crate::trajectory::Track;
 
 /// A log of a flight, and the mission that was flown.
@@ -53,8 +51,6 @@ impl Rule {
     }
 }
 
-/// Half of the time around a place that the simulation is put at, s.
-const PLACED: f64 = 0.1;
 /// After the last waypoint so much is compared, s: what a simulation lingers.
 const AFTER: f64 = 2.0;
 
@@ -101,7 +97,7 @@ impl Compared {
         let (which, outputs): (Vec<Output>, Vec<usize>) =
             rule.outputs.iter().copied().filter(|(output, _)| has(track, *output)).unzip();
         if which.is_empty() {
-            return Err(FitError::Outputs { log: log.clone() });
+            return Err(FitError::Outputs { log: log.clone(), what: "joint angles, which an arm" });
         }
         let begins = track.position(0);
         let away = distance(&begins, &case.waypoints[0], rule.axes);
@@ -135,78 +131,10 @@ impl Compared {
         Ok(compared)
     }
 
-    /// The same of stretches of `anew` s, by the clock: from the first leg that is compared until the last sample of
-    /// the last one.
-    pub(super) fn anew(&self, track: &Track, rule: &Rule, anew: f64) -> Self {
-        let at = |sample: Option<&(usize, f64)>| sample.map_or(0.0, |(leg, tau)| self.begun[*leg] + tau);
-        let (from, to) = (at(self.samples.first()), at(self.samples.last()));
-        let (period, start) = (rule.sampling.period, track.times()[0]);
-        let begun: Vec<f64> = (0..((to - start) / anew).ceil() as usize).map(|k| start + k as f64 * anew).collect();
-        let count = (anew / period).round() as usize;
-        let samples = (0..begun.len()).flat_map(|k| (0..count).map(move |i| (k, (i as f64 + 0.5) * period)));
-        let samples = samples.filter(|(k, tau)| (from..=to).contains(&(begun[*k] + tau)));
-        let alone = |(k, tau): &(usize, f64)| {
-            let Window { range, .. } = Window::at(track.times(), begun[*k] + tau, period);
-            track.times()[range.start] >= begun[*k] && track.times()[range.end - 1] <= begun[*k] + anew
-        };
-        let samples = samples.filter(alone).collect();
-        let mut compared = Self { samples, begun, ..self.clone() };
-        compared.logged = compared.outputs_of(track, &compared.begun, &compared.which, rule);
-        compared
-    }
-
-    /// Where the log is at the begin of each stretch: by a line through what lies within [`PLACED`] s.
-    pub(super) fn places(&self, track: &Track) -> Vec<Place> {
-        let outputs = [Output::Position(0), Output::Position(1), Output::Axis(0, 0), Output::Axis(0, 1)];
-        let turned = has(track, outputs[2]);
-        let place = |t: &f64| {
-            let line = outputs_at(track, &outputs, *t, 2.0 * PLACED);
-            let yaw = turned.then(|| libm::atan2(line[3], line[2]));
-            Place { t: t - track.times()[0], at: [line[0], line[1]], yaw }
-        };
-        self.begun.iter().map(place).collect()
-    }
-
-    /// What a simulation that was put where the log is says in its place: of the same moments, by the same line.
-    ///
-    /// A line between samples of the log is smoother than the motion; held against the motion itself, a vehicle would
-    /// seem to answer more lazily than it does, and sooner.
-    pub(super) fn beside(&self, driven: &Track, track: &Track, period: f64) -> Vec<Vec<f64>> {
-        let times = track.times();
-        let at = |(k, tau): &(usize, f64)| {
-            let Window { range, weights } = Window::at(times, self.begun[*k] + tau, period);
-            let mut sum = vec![0.0; self.which.len()];
-            for (time, weight) in times[range].iter().zip(weights) {
-                let says = outputs_at(driven, &self.which, time - times[0], 0.0);
-                sum.iter_mut().zip(says).for_each(|(sum, value)| *sum += weight * value);
-            }
-            sum
-        };
-        self.samples.iter().map(at).collect()
-    }
-
     /// Logged less simulated.
     pub(super) fn less(&self, simulated: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let differences = self.logged.iter().zip(simulated);
         differences.map(|(y, f)| y.iter().zip(f).map(|(y, f)| y - f).collect()).collect()
-    }
-
-    /// Residuals without what a wrong place explains of them, stretch by stretch; `slopes` are derivatives by the
-    /// places. Outputs weigh by how far they are off in the whole log.
-    pub(super) fn but_for_places(&self, residuals: &[Vec<f64>], slopes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
-        let mut squares = vec![f64::MIN_POSITIVE; self.outputs.iter().max().map_or(0, |most| most + 1)];
-        for row in residuals {
-            row.iter().zip(&self.outputs).for_each(|(value, &number)| squares[number] += value * value);
-        }
-        let weights: Vec<f64> = self.outputs.iter().map(|&number| squares[number].sqrt().recip()).collect();
-        let mut from = 0;
-        let stretch = |samples: &[(usize, f64)]| {
-            let these = from..from + samples.len();
-            from = these.end;
-            let by: Vec<&[Vec<f64>]> = slopes.iter().map(|rows| &rows[these.clone()]).collect();
-            without(&residuals[these.clone()], &by, &weights)
-        };
-        self.samples.chunk_by(|(a, _), (b, _)| a == b).flat_map(stretch).collect()
     }
 
     /// What `flown` says in the place of the log, sample by sample; `None` where it passes not all waypoints.

@@ -35,10 +35,12 @@ pub enum FitError {
         least: f64,
     },
     /// Nothing in it that is compared.
-    #[error("{log}: it has no joint angles, which an arm is fitted by")]
+    #[error("{log}: it has no {what} is fitted by")]
     Outputs {
         /// Its name.
         log: String,
+        /// What is missing, and of whom.
+        what: &'static str,
     },
     /// Too little in all logs together.
     #[error(

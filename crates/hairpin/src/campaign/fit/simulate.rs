@@ -5,25 +5,20 @@ use serde_json::{Value, json};
 
 use super::FitError;
 use super::compare::{Compared, Flown, Rule};
-use crate::campaign::kind::{Adjustable, Fittable, Order};
-use crate::campaign::{Mistake, Setup};
-use crate::simulation::ground::Place;
+use crate::campaign::kind::{Adjustable, Fittable, Imitator, Order};
+use crate::campaign::{Case, Mistake, Setup};
 use crate::trajectory::Track;
 
 /// Who waits for a robot that is slower than the log's, s beyond the log's end.
 const PATIENCE: f64 = 5.0;
-/// What places are moved by for derivatives, m and rad.
-const ASIDE: f64 = 0.005;
 
 /// A setup without chance, logs, and the rule that they are compared by.
 pub(super) struct Loops<'a> {
     setup: Setup,
     pub(super) numbers: Vec<Adjustable>,
     pub(super) flown: Vec<&'a Flown>,
-    /// What residuals are of.
+    /// Leg by leg.
     pub(super) compared: Vec<Compared>,
-    /// What gaps are of: leg by leg.
-    legs: Vec<Compared>,
     pub(super) rule: Rule,
     /// Keys of the robot that were written out for it.
     pub(super) spelt: Vec<(String, Value)>,
@@ -44,12 +39,8 @@ impl<'a> Loops<'a> {
         let setup = setup.drawn(&keys).map_err(|mistake| FitError::NotFittable(mistake.to_string()))?;
         let radius = setup.scenario.executor().accept;
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
-        let legs: Vec<Compared> = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
-        let compared = match sampling.anew {
-            Some(anew) => flown.iter().zip(&legs).map(|(one, legs)| legs.anew(&one.track, &rule, anew)).collect(),
-            None => legs.clone(),
-        };
-        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, legs, rule, spelt, derives, unit })
+        let compared = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
+        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, rule, spelt, derives, unit })
     }
 
     /// The keys of the scenario with `theta` in them.
@@ -61,7 +52,7 @@ impl<'a> Loops<'a> {
             .collect()
     }
 
-    fn with(&self, theta: &[f64]) -> Result<Setup, Mistake> {
+    pub(super) fn with(&self, theta: &[f64]) -> Result<Setup, Mistake> {
         self.setup.drawn(&self.draws(theta))
     }
 
@@ -85,10 +76,7 @@ impl<'a> Loops<'a> {
     /// simulated.
     pub(super) fn residuals(&self, theta: &[f64], which: &[usize]) -> Option<Vec<Vec<Vec<f64>>>> {
         let setup = self.with(theta).ok()?;
-        let of = |&at: &usize| match self.rule.sampling.anew {
-            Some(_) => self.beside(&setup, at),
-            None => Some(self.compared[at].less(&self.freely(&setup, at)?)),
-        };
+        let of = |&at: &usize| Some(self.compared[at].less(&self.freely(&setup, at)?));
         which.par_iter().map(of).collect()
     }
 
@@ -98,26 +86,28 @@ impl<'a> Loops<'a> {
         self.compared[at].simulated(&self.fly(setup, at).ok()?, &flown.case.waypoints, &self.rule)
     }
 
-    /// The residuals of mission number `at`, driven anew from where the log is, but for what comes of the places.
-    fn beside(&self, setup: &Setup, at: usize) -> Option<Vec<Vec<f64>>> {
-        let (compared, flown) = (&self.compared[at], self.flown[at]);
-        let around = setup.around(&flown.case).ok()?;
-        let order = Order { time_limit: compared.end, ..self.order(at) };
-        let says = |places: &[Place]| {
-            let driven = around.kind().run_beside(self.setup.kind().same(), &flown.case, &order, places).ok()?;
-            Some(compared.beside(&driven, &flown.track, self.rule.sampling.period))
-        };
-        let places = compared.places(&flown.track);
-        let (here, known) = (says(&places)?, places.iter().all(|place| place.yaw.is_some()));
-        let aside = |axis: usize| -> Option<Vec<Vec<f64>>> {
-            let moved: Vec<Place> = places.iter().map(|place| place.aside(axis, ASIDE)).collect();
-            let difference = |(there, here): (Vec<f64>, &Vec<f64>)| -> Vec<f64> {
-                there.iter().zip(here).map(|(there, here)| (there - here) / ASIDE).collect()
-            };
-            Some(says(&moved)?.into_iter().zip(&here).map(difference).collect())
-        };
-        let slopes = (0..if known { 3 } else { 2 }).map(aside).collect::<Option<Vec<_>>>()?;
-        Some(compared.but_for_places(&compared.less(&here), &slopes))
+    /// Who imitates the logs `which`, where the kind has its logs imitated.
+    ///
+    /// # Errors
+    /// A mission whose plan nobody can follow.
+    pub(super) fn imitator(&self, which: &[usize]) -> Result<Option<Box<dyn Imitator + '_>>, FitError> {
+        let cases: Vec<&Case> = which.iter().map(|at| &self.flown[*at].case).collect();
+        self.setup.kind().imitator(&cases).map_err(|error| FitError::NotFittable(error.to_string()))
+    }
+
+    /// The motion that `imitator`, of logs `which`, makes of number `own` of them with `setup`, drawn by `seed`, with so
+    /// much noise; `None` where it does not come to its end.
+    pub(super) fn imitate(
+        &self,
+        setup: &Setup,
+        imitator: &dyn Imitator,
+        (which, own): (&[usize], usize),
+        (seed, noise): (u64, f64),
+    ) -> Option<Track> {
+        let around = setup.around(&self.flown[which[own]].case).ok()?;
+        let order = Order { seed, ..self.order(which[own]) };
+        let flight = imitator.run(around.kind().same(), own, &order, noise).ok()?;
+        (!flight.ended.is_crash()).then_some(flight.track)
     }
 
     /// How mission number `at` is flown: somewhat longer than the log.
@@ -131,7 +121,7 @@ impl<'a> Loops<'a> {
     pub(super) fn distances(&self, theta: &[f64], at: usize) -> Option<Vec<f64>> {
         let (setup, flown) = (self.with(theta).ok()?, self.flown[at]);
         let track = self.fly(&setup, at).ok()?;
-        self.legs[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
+        self.compared[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
     }
 
     /// Why the first mission that is not simulated with `theta` is not.
@@ -145,7 +135,7 @@ impl<'a> Loops<'a> {
         (0..self.flown.len()).find_map(|at| match self.fly(&setup, at) {
             Err(why) => Some(told(at, why)),
             Ok(track) => {
-                let passed = self.legs[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
+                let passed = self.compared[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
                 passed.is_none().then(|| told(at, "it misses a waypoint".into()))
             }
         })

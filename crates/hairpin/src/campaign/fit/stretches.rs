@@ -23,10 +23,7 @@ pub(super) fn objective<'a>(
         for (own, _) in &compared.samples {
             // Of whole legs, or after their time.
             let by_legs = sampling.whole_legs && !loops.rule.timed;
-            let next = match sampling.anew {
-                Some(_) => *own != leg,
-                None => since >= stretch && (*own != leg || !by_legs),
-            };
+            let next = since >= stretch && (*own != leg || !by_legs);
             if first || next {
                 begins.push(first);
                 (since, first) = (0, false);

@@ -131,15 +131,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         outputs: &OUTPUTS,
         axes: 3,
         unit: ("m", 1.0),
-        sampling: Sampling {
-            least_s: 5.0,
-            least_hz: 8.0,
-            period: 0.1,
-            stretch: 3.0,
-            whole_legs: true,
-            anew: None,
-            start_m: None,
-        },
+        sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 3.0, whole_legs: true, start_m: None },
         acceptance: controller.kind.acceptance(),
         timed: matches!(controller.kind, ControllerKind::MinimumSnap | ControllerKind::Geometric),
     })

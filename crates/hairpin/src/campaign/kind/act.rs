@@ -4,10 +4,9 @@
 
 use nalgebra::Point3;
 
-use super::{Fittable, Same};
+use super::{Fittable, Imitator, Same};
 use crate::campaign::Case;
 use crate::campaign::placement::Placement;
-use crate::simulation::ground::Place;
 use crate::simulation::{Airborne, SimulationError};
 use crate::trajectory::{Flight, Track};
 
@@ -55,21 +54,6 @@ pub(in crate::campaign) trait Act {
     /// arguments.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError>;
 
-    /// [`Self::run`] put where a log is at each of `places`, and left to itself in between, until `time_limit`; a kind
-    /// that has no such runs goes its own way all along.
-    ///
-    /// # Errors
-    /// As of [`Self::run`].
-    fn run_beside(
-        &self,
-        nominal: Same,
-        case: &Case,
-        order: &Order,
-        _places: &[Place],
-    ) -> Result<Track, SimulationError> {
-        self.run(nominal, case, order).map(|flight| flight.track)
-    }
-
     /// The longest (s) that a sound run over `waypoints` may take, of a trajectory of `length` of them that is planned
     /// to take `planned` s: of a controller that has a pace of its own, whatever the robot could do, and of long ways;
     /// 0 where nothing is known of it.
@@ -108,6 +92,15 @@ pub(in crate::campaign) trait Act {
     /// Why nothing is fitted, in a sentence's part.
     fn fittable(&self) -> Result<Fittable, String> {
         Err("no numbers of robots of this kind are fitted to logs".into())
+    }
+
+    /// Who imitates logs of `cases` where loops swing, so that no sample of a run can be held against a log's; `None` where
+    /// they can.
+    ///
+    /// # Errors
+    /// A plan of a case that nobody can follow.
+    fn imitator<'a>(&'a self, _cases: &[&'a Case]) -> Result<Option<Box<dyn Imitator + 'a>>, SimulationError> {
+        Ok(None)
     }
 
     /// Obstacles that are asked for, placed in the way of an execution of `case` along `track`, clear of its plan.

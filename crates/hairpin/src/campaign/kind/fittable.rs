@@ -64,9 +64,6 @@ pub(in crate::campaign) struct Sampling {
     pub(in crate::campaign) stretch: f64,
     /// Whether stretches are of whole legs.
     pub(in crate::campaign) whole_legs: bool,
-    /// The simulation is put where the log is so often, s, and compared by the clock; if not given it runs freely, and
-    /// is compared from waypoint to waypoint.
-    pub(in crate::campaign) anew: Option<f64>,
     /// A log may begin so far from the first waypoint, m; within the radius of a waypoint if not given.
     pub(in crate::campaign) start_m: Option<f64>,
 }

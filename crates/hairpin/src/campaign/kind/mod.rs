@@ -20,6 +20,7 @@
 //! | `Replanner` (of `Claim`) | shrink: a case over fewer waypoints |
 //! | `LegByLeg` (of `Act`) | searches that execute partial trajectories |
 //! | `Fittable` (of `Act`) | fit: numbers, outputs and sampling |
+//! | `Imitator` (of `Act`) | fit: runs with noise, and the signs that logs are compared by |
 //! | `Programs` (of `Say`) | judge: runs move by move |
 //!
 //! A default answer stands for "this kind has none"; jobs then leave the step out or say so. Lengths are m, times s,
@@ -32,6 +33,7 @@ mod claim;
 mod drawing;
 mod figure;
 mod fittable;
+mod imitator;
 mod knob;
 mod of_robot;
 mod programs;
@@ -51,6 +53,7 @@ pub use figure::{FigureLink, Look, RobotFigure, Turned};
 pub(super) use figure::{block, capsule, prism, rod, wheel};
 pub use fittable::Adjustable;
 pub(super) use fittable::{Fittable, Output, Sampling};
+pub(super) use imitator::{GroundLog, Imitator};
 pub(super) use knob::{Condition, Knob, Knobs, Standing, Turn};
 pub(super) use of_robot::Kind;
 pub(super) use programs::Programs;

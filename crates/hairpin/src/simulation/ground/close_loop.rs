@@ -23,7 +23,7 @@ use crate::robot::rover::Rover;
 use crate::simulation::SimulationError;
 use crate::simulation::controller::{Controlled, Controller, Misbehaviour, OwnController};
 use crate::trajectory::drive::Planar;
-use crate::trajectory::{Direction, Ended, Flight};
+use crate::trajectory::{Direction, Drive, Ended, Flight};
 
 /// Way between two turns of the controller, m, and its shortest and longest period, s.
 const TURN: f64 = 0.01;
@@ -37,6 +37,11 @@ const YAW_NOISE: f64 = 0.3 * std::f64::consts::PI / 180.0;
 const LONGEST_LATENCY: f64 = 60.0;
 /// Largest part of a steady force, N.
 const MOST_FORCE: f64 = 1e6;
+
+/// The period of controllers that have none of their own, s.
+pub(super) fn usual_period(drive: &Drive) -> f64 {
+    (TURN / drive.speed).clamp(PERIODS[0], PERIODS[1])
+}
 
 /// Drives one run by one of our controllers: the same bytes for the same arguments.
 ///
@@ -64,8 +69,8 @@ pub fn drive(
     settings: &DriveSettings,
     seed: u64,
 ) -> Result<Flight, SimulationError> {
-    let run = Checked::new(sortie, conditions, settings, seed)?;
-    run.carry_out(controller.word(), &mut run.guided(controller))
+    let plan = Plan::new(sortie.nominal, sortie.terrain, sortie.drive)?;
+    Checked::new(sortie, &plan, conditions, settings, seed)?.by_ours(controller)
 }
 
 /// [`drive`] by a controller of the caller's own, made afresh for the run; as reproducible as that is.
@@ -82,7 +87,8 @@ pub fn drive_with(
     settings: &DriveSettings,
     seed: u64,
 ) -> Result<Flight, SimulationError> {
-    let run = Checked::new(sortie, conditions, settings, seed)?;
+    let plan = Plan::new(sortie.nominal, sortie.terrain, sortie.drive)?;
+    let run = Checked::new(sortie, &plan, conditions, settings, seed)?;
     run.carry_out(controller.name(), &mut *controller.make(sortie.nominal))
 }
 
@@ -93,7 +99,7 @@ pub(super) struct Checked<'a> {
     sortie: &'a GroundSortie<'a>,
     conditions: &'a GroundConditions,
     settings: DriveSettings,
-    plan: Plan,
+    plan: &'a Plan,
     latency: f64,
     /// Steady force as a share of the weight.
     pull: Vector3<f64>,
@@ -101,10 +107,10 @@ pub(super) struct Checked<'a> {
 }
 
 impl<'a> Checked<'a> {
-    /// Errors name `latency`, `start_offset`, `external_force`, `clearance_radius`, or what of the drive cannot be
-    /// planned.
+    /// Errors name `latency`, `noise`, `start_offset`, `external_force` or `clearance_radius`.
     pub(super) fn new(
         sortie: &'a GroundSortie,
+        plan: &'a Plan,
         conditions: &'a GroundConditions,
         settings: &DriveSettings,
         seed: u64,
@@ -114,6 +120,9 @@ impl<'a> Checked<'a> {
         if !(conditions.latency >= 0.0 && latency <= LONGEST_LATENCY) {
             return Err(SimulationError::new("latency", latency.to_string(), "from 0 to 60 s"));
         }
+        if !(0.0..=1e3).contains(&conditions.noise) {
+            return Err(SimulationError::new("noise", conditions.noise.to_string(), "from 0 to 1000"));
+        }
         if let Some(off) = conditions.start_offset.iter().find(|off| off.is_nan() || off.abs() > 1e3) {
             return Err(SimulationError::new("start_offset", off.to_string(), "within ±1000"));
         }
@@ -122,15 +131,19 @@ impl<'a> Checked<'a> {
             let value = sortie.clearance_radius.to_string();
             return Err(SimulationError::new("clearance_radius", value, "finite and ≥ 0 m"));
         }
-        let plan = Plan::new(sortie.nominal, sortie.terrain, sortie.drive)?;
         let patience = settings.patience.max(2.0 * plan.longest_rest(PROGRESS));
         let time_limit = settings.time_limit.unwrap_or(2.0 * plan.duration + 60.0);
         let settings = DriveSettings { patience, time_limit: Some(time_limit), ..*settings };
         Ok(Self { sortie, conditions, settings, plan, latency, pull, seed })
     }
 
+    /// Drives to the end by one of our controllers.
+    pub(super) fn by_ours(&self, controller: &GroundController) -> Result<Flight, SimulationError> {
+        self.carry_out(controller.word(), &mut self.guided(controller))
+    }
+
     /// One of our controllers, at the plan's begin.
-    pub(super) fn guided<'b>(&'b self, controller: &GroundController<'b>) -> Guided<'b> {
+    fn guided<'b>(&'b self, controller: &GroundController<'b>) -> Guided<'b> {
         let Self { sortie: GroundSortie { nominal, drive, .. }, plan, latency, .. } = self;
         Guided {
             guide: Guide::new(plan, nominal, *latency, [drive.speed, drive.turn_rate]),
@@ -199,23 +212,24 @@ fn word(lost: Lost) -> Ended {
 /// Plant, controller and commands of one run.
 ///
 /// `coming` holds commands that do not act yet, in the order in which they do.
-pub(super) struct Run<'a> {
-    pub(super) plant: Plant<'a>,
+struct Run<'a> {
+    plant: Plant<'a>,
     name: &'a str,
     controller: &'a mut dyn Controller<Rover>,
     watch: Watch<'a>,
-    noise: Option<Stream>,
+    /// And how much of it.
+    noise: Option<(Stream, f64)>,
     latency: f64,
-    pub(super) period: f64,
+    period: f64,
     /// What acts, and what will: when it does, s.
     acting: DriveCommand,
     coming: VecDeque<(f64, DriveCommand)>,
-    pub(super) lost: Option<Lost>,
+    lost: Option<Lost>,
 }
 
 impl<'a> Run<'a> {
     /// Errors name the leg's start where the vehicle cannot stand there, and periods out of 0.001 … 1 s.
-    pub(super) fn new(
+    fn new(
         checked: &'a Checked,
         name: &'a str,
         controller: &'a mut dyn Controller<Rover>,
@@ -229,8 +243,7 @@ impl<'a> Run<'a> {
             SimulationError::new("drive.legs[0].from", value, "a place where the vehicle can stand")
         })?;
         plant.pull = *pull;
-        let usual = (TURN / sortie.drive.speed).clamp(PERIODS[0], PERIODS[1]);
-        let period = controller.period().unwrap_or(usual);
+        let period = controller.period().unwrap_or_else(|| usual_period(sortie.drive));
         if !(0.001..=1.0).contains(&period) {
             let value = format!("{period} ({name})");
             return Err(SimulationError::new("controller.period", value, "from 0.001 to 1 s"));
@@ -241,7 +254,7 @@ impl<'a> Run<'a> {
             name,
             controller,
             watch,
-            noise: conditions.noise.then(|| stream(named_seed(*seed, "pose", 0))),
+            noise: (conditions.noise > 0.0).then(|| (stream(named_seed(*seed, "pose", 0)), conditions.noise)),
             latency: *latency,
             period,
             acting: DriveCommand { curvature: start.curvature, direction, ..DriveCommand::default() },
@@ -262,7 +275,7 @@ impl<'a> Run<'a> {
     ///
     /// A command acts `latency` s after it was given, also between turns: the plant is advanced from one such moment to
     /// the next.
-    pub(super) fn turn(&mut self, t: f64) -> Result<(), SimulationError> {
+    fn turn(&mut self, t: f64) -> Result<(), SimulationError> {
         let measured = self.measure(t);
         let asked = self.controller.control(self.period, &measured, &self.watch.reference());
         let command = asked.map_err(|fault| self.failed(t, fault))?;
@@ -282,13 +295,14 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The plant's state, with white noise on x, y (1 cm) and ψ (0.3°) where the run has it: three normals a turn.
+    /// The plant's state, with white noise on x, y (1 cm) and ψ (0.3°) by as much as the run has: three normals a turn.
     fn measure(&mut self, t: f64) -> DriveState {
         let plant = &self.plant;
         let mut at = Planar { x: plant.x, y: plant.y, yaw: plant.yaw, curvature: plant.curvature() };
-        if let Some(noise) = &mut self.noise {
+        if let Some((noise, share)) = &mut self.noise {
             let [x, y, yaw] = standard_normals(noise);
-            (at.x, at.y, at.yaw) = (at.x + POSITION_NOISE * x, at.y + POSITION_NOISE * y, at.yaw + YAW_NOISE * yaw);
+            let (position, turn) = (*share * POSITION_NOISE, *share * YAW_NOISE);
+            (at.x, at.y, at.yaw) = (at.x + position * x, at.y + position * y, at.yaw + turn * yaw);
         }
         DriveState {
             t,

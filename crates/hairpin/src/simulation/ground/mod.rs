@@ -17,8 +17,8 @@
 //! | `guide`, `controllers` | what a controller of ours does with it |
 //! | `plant` | suspension at every step, slip, lags, torque |
 //! | `watch`, `recorder` | what ends a run, and its log |
+//! | `rehearsal` | many runs of one plan, and what is said along a motion |
 
-mod beside;
 mod close_loop;
 mod command;
 mod controllers;
@@ -27,15 +27,16 @@ mod plan;
 mod plant;
 mod pursuit;
 mod recorder;
+mod rehearsal;
 mod sortie;
 mod watch;
 
 #[cfg(test)]
 mod tests;
 
-pub use beside::{Place, drive_beside};
 pub use close_loop::{drive, drive_with};
 pub use command::{DriveCommand, DriveState};
 pub use controllers::{GroundController, GroundControllerKind, Resolve};
 pub use plan::planned_track;
+pub use rehearsal::{Moment, Rehearsal};
 pub use sortie::{DriveSettings, GroundConditions, GroundSortie};

@@ -113,13 +113,6 @@ impl<'a> Plant<'a> {
         Ok(plant)
     }
 
-    /// Puts it where it is said to be, ψ as it is where that is not known. Wheels turn and are steered as they were.
-    pub(super) fn put(&mut self, [x, y]: [f64; 2], yaw: Option<f64>) -> Result<(), Lost> {
-        (self.x, self.y, self.yaw) = (x, y, yaw.unwrap_or(self.yaw));
-        (self.pose, self.gradient) = self.rest_from_nothing()?;
-        Ok(())
-    }
-
     /// x, y (m), ψ (rad).
     fn place(&self) -> [f64; 3] {
         [self.x, self.y, self.yaw]

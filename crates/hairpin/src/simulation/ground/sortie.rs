@@ -33,8 +33,9 @@ pub struct GroundConditions {
     pub latency: f64,
     /// Steady force on the vehicle, at its centre of mass, N: east, north, up. The vehicle must have a weight for it.
     pub external_force: [f64; 3],
-    /// Whether controllers see a pose with white noise: 1 cm along each axis, 0.3° of yaw, standard deviations.
-    pub noise: bool,
+    /// Controllers see a pose with white noise of so many times 1 cm along each axis and 0.3° of yaw, standard
+    /// deviations; 0: as it is.
+    pub noise: f64,
     /// Where the run starts, in the frame of the plan's first pose: forward and left, m, and yaw, rad.
     pub start_offset: [f64; 3],
 }

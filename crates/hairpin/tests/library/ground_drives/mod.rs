@@ -212,7 +212,7 @@ fn a_lateral_step_of_one_metre_settles_without_much_overshoot() {
 #[test]
 fn the_same_arguments_give_the_same_bytes_and_noise_has_its_seed() {
     let mut site = Site::new("rocky8", plane(0.1, 0.05));
-    site.conditions = GroundConditions { latency: 0.2, noise: true, ..site.conditions };
+    site.conditions = GroundConditions { latency: 0.2, noise: 1.0, ..site.conditions };
     for (word, controller) in &CONTROLLERS {
         let run = |seed| site.run(&mixed(0.1), controller, seed).0;
         assert_eq!(run(3), run(3), "{word}");

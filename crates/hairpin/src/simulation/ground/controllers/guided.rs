@@ -20,8 +20,9 @@ pub(in crate::simulation::ground) struct Guided<'a> {
     pub(in crate::simulation::ground) driver: Driver<'a>,
 }
 
-impl Controller<Rover> for Guided<'_> {
-    fn control(&mut self, dt: f64, now: &DriveState, _to: &Reference<Rover>) -> Result<DriveCommand, Fault> {
+impl Guided<'_> {
+    /// What it says now, for the next `dt` s.
+    pub(in crate::simulation::ground) fn command(&mut self, dt: f64, now: &DriveState) -> DriveCommand {
         let command = match self.guide.task(now, dt) {
             Task::Hold(command) => command,
             Task::Follow(along) => {
@@ -30,7 +31,13 @@ impl Controller<Rover> for Guided<'_> {
             }
         };
         self.driver.note(now, &command);
-        Ok(command)
+        command
+    }
+}
+
+impl Controller<Rover> for Guided<'_> {
+    fn control(&mut self, dt: f64, now: &DriveState, _to: &Reference<Rover>) -> Result<DriveCommand, Fault> {
+        Ok(self.command(dt, now))
     }
 
     fn schedule(&self) -> Option<Schedule> {

@@ -1,0 +1,69 @@
+//! Drives again and again what logs are of, for fits.
+
+use super::DriveSetup;
+use super::signs::{self, LAYOUT, Looked, Part};
+use crate::campaign::Case;
+use crate::campaign::kind::{GroundLog, Imitator, Order, Same};
+use crate::simulation::SimulationError;
+use crate::simulation::ground::{GroundConditions, Rehearsal};
+use crate::trajectory::Flight;
+
+/// Latencies and steering lags that a fit begins at, each with each, s: they take each other's place, and descents do
+/// not come from one end of their sum to the other.
+const BEGIN: [f64; 4] = [0.03, 0.12, 0.22, 0.34];
+/// And the speed lag, s.
+const SPEED_LAG: f64 = 0.15;
+
+/// The plans of all missions.
+pub(super) struct DriveImitator<'a> {
+    nominal: &'a DriveSetup,
+    missions: Vec<(&'a Case, Rehearsal)>,
+}
+
+impl<'a> DriveImitator<'a> {
+    /// # Errors
+    /// A plan along which the nominal vehicle cannot stand.
+    pub(super) fn new(nominal: &'a DriveSetup, cases: &[&'a Case]) -> Result<Self, SimulationError> {
+        let plan = |case: &&'a Case| {
+            nominal.on_its_way(nominal, case, |sortie, _, _| Rehearsal::new(sortie)).map(|plan| (*case, plan))
+        };
+        Ok(Self { nominal, missions: cases.iter().map(plan).collect::<Result<_, _>>()? })
+    }
+
+    fn part(&self, log: &GroundLog, (case, plan): &(&Case, Rehearsal)) -> Option<Part> {
+        let looked = Looked::at(log)?;
+        let said = self.nominal.on_its_way(self.nominal, case, |sortie, _, ours| {
+            plan.commands_along(sortie, ours, |t| looked.moment(t), looked.end())
+        });
+        looked.part(log, &said, &self.nominal.map)
+    }
+}
+
+impl Imitator for DriveImitator<'_> {
+    fn run(&self, vehicle: Same, at: usize, order: &Order, noise: f64) -> Result<Flight, SimulationError> {
+        let (case, plan) = &self.missions[at];
+        vehicle.setup::<DriveSetup>().on_its_way(self.nominal, case, |sortie, conditions, ours| {
+            let conditions = GroundConditions { noise, ..*conditions };
+            plan.drive(sortie, ours, &conditions, &DriveSetup::settings(order), order.seed)
+        })
+    }
+
+    fn signs(&self, logs: &[GroundLog]) -> Option<Vec<f64>> {
+        let parts = logs.iter().zip(&self.missions).map(|(log, mission)| self.part(log, mission));
+        signs::signs(&parts.collect::<Option<Vec<_>>>()?)
+    }
+
+    fn starts(&self, signs: &[f64], given: &[f64]) -> Vec<Vec<f64>> {
+        let [turn, speed] = [0, 1].map(|k| signs[LAYOUT[k].clone()].iter().sum::<f64>());
+        let start = |latency: f64, lag: f64| {
+            let mut start = given.to_vec();
+            start[..5].copy_from_slice(&[latency, lag, SPEED_LAG, speed, turn]);
+            start
+        };
+        BEGIN.iter().flat_map(|latency| BEGIN.map(|lag| start(*latency, lag))).collect()
+    }
+
+    fn scatter(&self, signs: &[f64]) -> [f64; 2] {
+        signs::scatter(signs)
+    }
+}

@@ -1,0 +1,208 @@
+//! Fits by imitation: logs of loops that swing are simulated with noise, again and again, and compared by signs.
+//!
+//! ```text
+//! log ─▶ GroundLog ─▶ signs s
+//! θ, noise ─▶ runs of all missions, drawn ─▶ sampled when the log was, off by a drift and by scatter ─▶ signs s_k
+//! s, s_k ─▶ math::imitation ─▶ θ̂, noise, covariance ─▶ 95 % interval ─▶ Reading
+//! ```
+//!
+//! Five numbers of noise are fitted with those of the robot, as logarithms: of the poses that the controller sees, of
+//! the log's scatter in place and heading, and of its drift in both. None of them is told.
+
+use rayon::prelude::*;
+
+use super::FitError;
+use super::answer::Reading;
+use super::found::{Disturbance, Found, LEAST_FREEDOM, NO_EFFECT, reading};
+use super::outputs::has;
+use super::simulate::Loops;
+use crate::campaign::kind::{GroundLog, Imitator, Output};
+use crate::judgement::{SIGMA_95, student_quantile};
+use crate::math::imitation::Imitation;
+use crate::math::output_error::{Parameter, Side};
+use crate::math::random::{named_seed, standard_normals, stream};
+use crate::trajectory::Track;
+
+/// Numbers of noise, their bounds and their step, as logarithms.
+const NOISES: usize = 5;
+const NOISE: Parameter = Parameter { low: -12.0, high: 3.0, step: 0.15 };
+/// What the controller sees is off by so much at first, of the usual noise.
+const SEEN: f64 = 0.5;
+/// How long a log's drift lasts, s.
+const DRIFT: f64 = 0.7;
+/// Where the signs are farther off than this many times what chance makes them, the simulation shows another vehicle.
+const UNLIKE: f64 = 10.0;
+
+/// On the logs `which`, which `imitator` is of.
+pub(super) fn found(
+    loops: &Loops,
+    imitator: &dyn Imitator,
+    given: &[f64],
+    which: &[usize],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Found, FitError> {
+    let numbers = given.len();
+    let stretches = stretches(loops, which);
+    if stretches < numbers + LEAST_FREEDOM {
+        let (least, stretch_s) = (numbers + LEAST_FREEDOM, loops.rule.sampling.stretch);
+        return Err(FitError::Few { stretches, stretch_s, least, numbers });
+    }
+    let observed = observed(loops, imitator, which)?;
+    let noise = noise_at_first(imitator, &observed);
+    let starts: Vec<Vec<f64>> =
+        imitator.starts(&observed, given).into_iter().map(|start| [&start[..], &noise].concat()).collect();
+    let signs = |theta: &[f64], draw: u64| if stopped() { None } else { signs(loops, imitator, which, theta, draw) };
+    let mut imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
+    let over = || if stopped() { FitError::Stopped } else { FitError::NoEffect };
+    let all: Vec<usize> = (0..numbers + NOISES).collect();
+    let nearest = imitation.nearest(&starts, &all).ok_or_else(over)?;
+    let by = |own: usize| match loops.numbers.get(own) {
+        Some(number) => 0.25 * nearest[own].abs().max(number.step),
+        None => 0.25,
+    };
+    let imitated = imitation.told(&nearest, &all, &by, NO_EFFECT).ok_or_else(over)?;
+    let free: Vec<usize> = imitated.free.iter().copied().filter(|own| *own < numbers).collect();
+    if free.is_empty() {
+        return Err(over());
+    }
+    let best = imitated.theta;
+    let t = student_quantile(imitated.freedom, SIGMA_95);
+    let mut readings = vec![(Reading::NoEffect, None); numbers];
+    for (k, &own) in free.iter().enumerate() {
+        let half = t * imitated.covariance[(k, k)].sqrt();
+        let Parameter { low, high, .. } = imitation.parameters[own];
+        let end = |at: f64| if at > low && at < high { Side::Closed(at) } else { Side::Open(at.clamp(low, high)) };
+        readings[own] = reading(best[own], [end(best[own] - half), end(best[own] + half)]);
+        if readings[own].0 == Reading::Told && loops.numbers[own].doubt.is_some() {
+            readings[own].0 = Reading::Doubted;
+        }
+        if imitated.misfit > UNLIKE {
+            readings[own].0 = Reading::Unlike;
+        }
+    }
+    let told: Vec<usize> = free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect();
+    let mut written = given.to_vec();
+    told.iter().for_each(|own| written[*own] = best[*own]);
+    if !told.is_empty() && told.len() < free.len() {
+        // With the others as they were given, each goes where it fits best within its interval.
+        for &own in &told {
+            if let Some([low, high]) = readings[own].1 {
+                imitation.parameters[own] = Parameter { low, high, ..imitation.parameters[own] };
+            }
+        }
+        let start = [&written[..], &best[numbers..]].concat();
+        let with_noise: Vec<usize> = told.iter().copied().chain(numbers..numbers + NOISES).collect();
+        if let Some(found) = imitation.nearest(&[start], &with_noise) {
+            written = found[..numbers].to_vec();
+        }
+    }
+    if stopped() {
+        return Err(FitError::Stopped);
+    }
+    let covariance = imitated.covariance.view((0, 0), (free.len(), free.len())).into_owned();
+    let disturbance = Disturbance::Noisy(best[numbers..].to_vec());
+    let best = best[..numbers].to_vec();
+    Ok(Found { free, told, best, covariance, inflation: imitated.misfit, readings, written, stretches, disturbance })
+}
+
+/// The numbers that are told, from the logs `which` alone.
+pub(super) fn refitted(loops: &Loops, found: &Found, noise: &[f64], which: &[usize]) -> Option<Vec<f64>> {
+    let imitator = loops.imitator(which).ok().flatten()?;
+    let observed = observed(loops, &*imitator, which).ok()?;
+    let signs = |theta: &[f64], draw: u64| signs(loops, &*imitator, which, theta, draw);
+    let imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
+    let start = [&found.written[..], noise].concat();
+    imitation.nearest(&[start], &found.told).map(|theta| theta[..found.written.len()].to_vec())
+}
+
+fn parameters(loops: &Loops) -> Vec<Parameter> {
+    let numbers = loops.numbers.iter().map(|number| {
+        let [low, high] = number.bounds;
+        Parameter { low, high, step: number.step }
+    });
+    numbers.chain(std::iter::repeat_n(NOISE, NOISES)).collect()
+}
+
+/// As good as independent stretches of the logs `which`.
+fn stretches(loops: &Loops, which: &[usize]) -> usize {
+    let sampling = &loops.rule.sampling;
+    let of = |at: &usize| (loops.compared[*at].samples.len() as f64 * sampling.period / sampling.stretch).floor();
+    which.iter().map(of).sum::<f64>() as usize
+}
+
+/// The signs of the logs `which`.
+fn observed(loops: &Loops, imitator: &dyn Imitator, which: &[usize]) -> Result<Vec<f64>, FitError> {
+    let log = |at: &usize| {
+        let flown = loops.flown[*at];
+        if !has(&flown.track, Output::Axis(0, 0)) {
+            return Err(FitError::Outputs { log: flown.log.clone(), what: "headings, which a vehicle on wheels" });
+        }
+        Ok(logged(&flown.track))
+    };
+    let logs = which.iter().map(log).collect::<Result<Vec<_>, _>>()?;
+    imitator.signs(&logs).ok_or(FitError::NotFittable("in some log the vehicle hardly moves".into()))
+}
+
+/// Places and headings of a track, which counts from its begin.
+fn logged(track: &Track) -> GroundLog {
+    let mut before = 0.0;
+    let place = |i: usize| {
+        let (at, pose) = (track.position(i), &track.poses()[i]);
+        let ahead = pose.rotation * nalgebra::Vector3::x();
+        let yaw = libm::atan2(ahead.y, ahead.x);
+        let turns = libm::rint((yaw - before) / std::f64::consts::TAU);
+        before = yaw - turns * std::f64::consts::TAU;
+        [at.x, at.y, before]
+    };
+    let places = (0..track.len()).map(place).collect();
+    GroundLog { times: track.times().iter().map(|t| t - track.times()[0]).collect(), places }
+}
+
+/// Scatter as the log's signs have it, and drift as large.
+fn noise_at_first(imitator: &dyn Imitator, observed: &[f64]) -> [f64; NOISES] {
+    let [place, turn] = imitator.scatter(observed).map(|variance| 0.5 * libm::log(variance));
+    [libm::log(SEEN), place, turn, place, turn].map(|ln| ln.clamp(NOISE.low, NOISE.high))
+}
+
+/// The signs of draw `draw` of the logs `which` with `theta`, noise and all.
+fn signs(loops: &Loops, imitator: &dyn Imitator, which: &[usize], theta: &[f64], draw: u64) -> Option<Vec<f64>> {
+    let (numbers, noise) = theta.split_at(theta.len() - NOISES);
+    let setup = loops.with(numbers).ok()?;
+    let noise: Vec<f64> = noise.iter().map(|ln| libm::exp(*ln)).collect();
+    let log = |own: usize| {
+        let seed = named_seed(draw, "imitated", own as u64);
+        let track = loops.imitate(&setup, imitator, (which, own), (seed, noise[0]))?;
+        Some(seen(&logged(&track), loops.flown[which[own]].track.times(), (&noise[1..], draw, own as u64)))
+    };
+    imitator.signs(&(0..which.len()).into_par_iter().map(log).collect::<Option<Vec<_>>>()?)
+}
+
+/// `driven` when the log was sampled, and as often after it, off as localisations are: by `noise`, scatter and drift, of
+/// draw `draw`.
+fn seen(driven: &GroundLog, stamps: &[f64], (noise, draw, own): (&[f64], u64, u64)) -> GroundLog {
+    let (begin, end) = (stamps[0], driven.times.last().copied().unwrap_or_default());
+    let lasts = stamps[stamps.len() - 1] - begin;
+    let period = lasts / (stamps.len() - 1) as f64;
+    let after = (1..).map(|k| lasts + f64::from(k) * period).take_while(|t| *t <= end);
+    let times: Vec<f64> = stamps.iter().map(|t| t - begin).take_while(|t| *t <= end).chain(after).collect();
+    let mut random = stream(named_seed(draw, "seen", own));
+    let (keep, mut drift) = (libm::exp(-period / DRIFT), standard_normals::<3>(&mut random));
+    let fresh = (1.0 - keep * keep).sqrt();
+    let mut next = 1;
+    let places = times.iter().map(|t| {
+        while next + 1 < driven.times.len() && driven.times[next] < *t {
+            next += 1;
+        }
+        let [from, to] = [next - 1, next].map(|i| driven.times[i]);
+        let share = ((t - from) / (to - from)).clamp(0.0, 1.0);
+        let (pushed, scattered) = (standard_normals::<3>(&mut random), standard_normals::<3>(&mut random));
+        [0, 1, 2].map(|k| {
+            drift[k] = drift[k] * keep + pushed[k] * fresh;
+            let [scatter, slow] = if k < 2 { [noise[0], noise[2]] } else { [noise[1], noise[3]] };
+            let there = driven.places[next - 1][k] + share * (driven.places[next][k] - driven.places[next - 1][k]);
+            there + scatter * scattered[k] + slow * drift[k]
+        })
+    });
+    let places = places.collect();
+    GroundLog { times, places }
+}

@@ -1,0 +1,90 @@
+//! Fits by output error: no sample of a simulation is far from the log's.
+//!
+//! ```text
+//! descend from given (and from elsewhere)  ─▶ θ₀ ─▶ colour: filters of the residuals at θ₀
+//! descend on filtered residuals            ─▶ θ̂;  acting: numbers without effect on Q are left out
+//! spread by stretches                      ─▶ covariance;  profile of each number ─▶ 95 % interval ─▶ Reading
+//! descend in the numbers that are told     ─▶ what is written, the others as given
+//! ```
+//!
+//! See [`crate::math::output_error`] for Q, its descent and its profiles.
+
+use super::FitError;
+use super::answer::Reading;
+use super::found::{Disturbance, Found, LEAST_FREEDOM, NO_EFFECT, reading};
+use super::simulate::Loops;
+use super::stretches::{colour, objective, residuals};
+use super::whiten::Filter;
+use crate::judgement::{SIGMA_95, student_quantile};
+use crate::math::output_error::{Parameter, acting, descend, profile, spread};
+
+/// On the logs `which`.
+pub(super) fn found(
+    loops: &Loops,
+    given: &[f64],
+    which: &[usize],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Found, FitError> {
+    // Who is stopped simulates no more, so that all searches end at once.
+    let none = vec![Filter::NONE; loops.rule.deviations()];
+    let raw = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &none) };
+    let coarse = objective(loops, which, &raw);
+    let (stretches, numbers) = (coarse.blocks(), given.len());
+    if stretches < numbers + LEAST_FREEDOM {
+        let least = numbers + LEAST_FREEDOM;
+        let stretch_s = loops.rule.sampling.stretch;
+        return Err(FitError::Few { stretches, stretch_s, least, numbers });
+    }
+    let over = |error: FitError| if stopped() { FitError::Stopped } else { error };
+    let all: Vec<usize> = (0..numbers).collect();
+    let mut start = descend(&coarse, given, &all).ok_or_else(|| over(FitError::NoEffect))?;
+    // From elsewhere, where a number that did nothing at first may do something.
+    let other: Vec<f64> = loops.numbers.iter().map(|number| number.other).collect();
+    if let Some(found) = descend(&coarse, &other, &all)
+        && found.q < start.q
+    {
+        start = found;
+    }
+    let colour = colour(loops, &start.theta, which).ok_or_else(|| over(FitError::NoEffect))?;
+    let white = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &colour) };
+    let mut objective = objective(loops, which, &white);
+    let best = descend(&objective, &start.theta, &all).ok_or_else(|| over(FitError::NoEffect))?;
+    let free = acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
+    let spread = spread(&objective, &best, &free).ok_or_else(|| over(FitError::NoEffect))?;
+    let mut readings = vec![(Reading::NoEffect, None); numbers];
+    for (k, &own) in free.iter().enumerate() {
+        let t = student_quantile(spread.freedom[k], SIGMA_95);
+        let rise = t * t * spread.covariance[(k, k)] / spread.white[(k, k)];
+        let ends = profile(&objective, &best, &free, &spread, (k, rise));
+        readings[own] = reading(best.theta[own], ends);
+        if readings[own].0 == Reading::Told && loops.numbers[own].doubt.is_some() {
+            readings[own].0 = Reading::Doubted;
+        }
+    }
+    if stopped() {
+        return Err(FitError::Stopped);
+    }
+    let told: Vec<usize> = free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect();
+    let mut start = given.to_vec();
+    // With the others as they were given, each goes where it fits best within its interval.
+    for &own in &told {
+        start[own] = best.theta[own];
+        if let Some([low, high]) = readings[own].1 {
+            objective.parameters[own] = Parameter { low, high, ..objective.parameters[own] };
+        }
+    }
+    let written = match told.is_empty() {
+        true => start,
+        false => descend(&objective, &start, &told).map_or(start, |found| found.theta),
+    };
+    let n = free.len() as f64;
+    let inflation = spread.covariance.diagonal().component_div(&spread.white.diagonal()).sum() / n;
+    let (covariance, disturbance) = (spread.covariance, Disturbance::Coloured(colour));
+    Ok(Found { free, told, best: best.theta, covariance, inflation, readings, written, stretches, disturbance })
+}
+
+/// The numbers that are told, from the logs `which` alone.
+pub(super) fn refitted(loops: &Loops, found: &Found, colour: &[Filter], which: &[usize]) -> Option<Vec<f64>> {
+    let residuals = |theta: &[f64]| residuals(loops, theta, which, colour);
+    descend(&objective(loops, which, &residuals), &found.written, &found.told).map(|found| found.theta)
+}
