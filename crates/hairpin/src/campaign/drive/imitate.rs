@@ -8,9 +8,11 @@ use crate::simulation::SimulationError;
 use crate::simulation::ground::{GroundConditions, Rehearsal};
 use crate::trajectory::Flight;
 
-/// Latencies and steering lags that a fit begins at, each with each, s: they take each other's place, and descents do
-/// not come from one end of their sum to the other.
-const BEGIN: [f64; 4] = [0.03, 0.12, 0.22, 0.34];
+/// Latencies that a fit begins at, s.
+const LATENCIES: [f64; 4] = [0.03, 0.12, 0.22, 0.34];
+/// And with each these steering lags, s. A lag and a latency of the same sum differ by the lag's square: at none of it D
+/// is level along that sum, and a descent that begins there stays.
+const LAGS: [f64; 3] = [0.08, 0.18, 0.34];
 /// And the speed lag, s.
 const SPEED_LAG: f64 = 0.15;
 
@@ -60,7 +62,7 @@ impl Imitator for DriveImitator<'_> {
             start[..5].copy_from_slice(&[latency, lag, SPEED_LAG, speed, turn]);
             start
         };
-        BEGIN.iter().flat_map(|latency| BEGIN.map(|lag| start(*latency, lag))).collect()
+        LATENCIES.iter().flat_map(|latency| LAGS.map(|lag| start(*latency, lag))).collect()
     }
 
     fn scatter(&self, signs: &[f64]) -> [f64; 2] {
