@@ -65,6 +65,8 @@ const SLOPES: u64 = 4;
 const LOOKS: u64 = 6;
 const LAST: u64 = 120;
 const LAST_SLOPES: u64 = 8;
+/// So often they are all drawn anew at the end, at most.
+const TURNS: usize = 3;
 /// The first draw of those that no descent has seen.
 const UNSEEN: u64 = 1000;
 /// Share of the correlations that few draws are not believed of.
@@ -88,6 +90,8 @@ struct Centre {
     mean: DVector<f64>,
     weights: DMatrix<f64>,
     few: Vec<Option<Vec<f64>>>,
+    /// Which: these follow on it.
+    first: u64,
 }
 
 /// Where a descent has come to.
@@ -114,34 +118,46 @@ impl Imitation<'_> {
         self.descend(&nearest.theta, free, nearest.slopes, ROUNDS[1]).map(|descent| descent.theta)
     }
 
-    /// One step more from `theta`, by draws that no descent has seen, and the spread there; of those of the parameters
+    /// A few steps more from `theta`, by draws that no descent has seen, and the spread there; of those of the parameters
     /// `all` of which a change by `by` moves the signs by `least` at least in D.
     pub fn told(&self, theta: &[f64], all: &[usize], by: &dyn Fn(usize) -> f64, least: f64) -> Option<Imitated> {
-        let centre = self.centre(theta, UNSEEN..UNSEEN + LAST, SHRUNK[1])?;
-        let slopes = self.slopes(theta, all, LAST_SLOPES)?;
-        let weighed = |off: &DVector<f64>| off.dot(&(&centre.weights * off));
-        let acts = |at: &usize| weighed(&(slopes.column(*at) * by(all[*at]))) >= least;
-        let acting: Vec<usize> = (0..all.len()).filter(acts).collect();
-        let (slopes, free) = (slopes.select_columns(&acting), acting.iter().map(|at| all[*at]).collect::<Vec<_>>());
-        let mut off = DVector::from_column_slice(&self.observed) - &centre.mean;
         let mut theta = theta.to_vec();
-        if let Some(there) = self.step(&theta, &free, (&slopes, &centre.weights, &off), 0.0) {
-            let here = self.draws(&theta, 0..FEW);
-            if let Some(change) = change(&here, &self.draws(&there, 0..FEW)) {
-                let nearer = &off - change;
-                if weighed(&nearer) < weighed(&off) {
-                    (theta, off) = (there, nearer);
-                }
+        for turn in 1.. {
+            let mut centre = self.centre(&theta, UNSEEN..UNSEEN + LAST, SHRUNK[1])?;
+            let slopes = self.slopes(&theta, all, LAST_SLOPES)?;
+            let acts = |at: &usize| {
+                let moved = slopes.column(*at) * by(all[*at]);
+                moved.dot(&(&centre.weights * &moved)) >= least
+            };
+            let acting: Vec<usize> = (0..all.len()).filter(acts).collect();
+            let free: Vec<usize> = acting.iter().map(|at| all[*at]).collect();
+            let slopes = slopes.select_columns(&acting);
+            let (mut kept_up, mut damping) = (slopes.clone(), 0.1 * DAMPING[0]);
+            let (before, after) = self.round(&mut centre, &free, &mut kept_up, &mut damping);
+            theta = centre.theta;
+            if turn == TURNS || before - after < GAIN {
+                return self.spread(theta, free, (&slopes, &centre.weights), after);
             }
         }
-        let known = (0..off.len()).filter(|&i| centre.weights[(i, i)] > 0.0).count();
+        None
+    }
+
+    /// C with these slopes and weights, where D is `misfit`.
+    fn spread(
+        &self,
+        theta: Vec<f64>,
+        free: Vec<usize>,
+        (slopes, weights): (&DMatrix<f64>, &DMatrix<f64>),
+        misfit: f64,
+    ) -> Option<Imitated> {
+        let known = weights.diagonal().iter().filter(|weight| **weight > 0.0).count();
         let (n, m, p) = (LAST as f64, known as f64, free.len() as f64);
-        let curvature = slopes.transpose() * &centre.weights * &slopes;
+        let curvature = slopes.transpose() * weights * slopes;
         let scale = curvature.diagonal().map(|c| c.sqrt().recip());
         let scaled = DMatrix::from_fn(free.len(), free.len(), |a, b| curvature[(a, b)] * scale[a] * scale[b]);
         let ridge = DMatrix::identity(free.len(), free.len()) * 1e-9;
         let inverse = (scaled + ridge).cholesky()?.inverse();
-        let misfit = weighed(&off) / (m - p).max(1.0);
+        let misfit = misfit / (m - p).max(1.0);
         let factor = (n - 1.0) / (n - m - 2.0).max(1.0) * misfit.max(1.0);
         let covariance =
             DMatrix::from_fn(free.len(), free.len(), |a, b| factor * inverse[(a, b)] * scale[a] * scale[b]);
@@ -164,10 +180,11 @@ impl Imitation<'_> {
     }
 
     fn centre(&self, theta: &[f64], which: std::ops::Range<u64>, shrunk: f64) -> Option<Centre> {
+        let first = which.start;
         let draws = self.draws(theta, which);
         let few = draws[..FEW as usize].to_vec();
         let (mean, covariance) = moments(&most(draws)?);
-        Some(Centre { theta: theta.to_vec(), mean, weights: inverse(&covariance, shrunk)?, few })
+        Some(Centre { theta: theta.to_vec(), mean, weights: inverse(&covariance, shrunk)?, few, first })
     }
 
     /// ∂μ/∂θ by the parameters `free`, central differences of common draws, one-sided at bounds.
@@ -214,7 +231,7 @@ impl Imitation<'_> {
         let (mut now, mut taken) = (before, 0);
         while *damping < DAMPING[1] && taken < STEPS {
             let there = self.step(&centre.theta, free, (slopes, &centre.weights, &off), *damping);
-            let drawn = there.map(|there| (self.draws(&there, 0..FEW), there));
+            let drawn = there.map(|there| (self.draws(&there, centre.first..centre.first + FEW), there));
             let Some((few, there, change)) =
                 drawn.and_then(|(few, there)| change(&centre.few, &few).map(|change| (few, there, change)))
             else {
