@@ -387,7 +387,7 @@ mod tests {
             let imitation = Imitation { signs: &signs, observed, parameters: parameters() };
             let starts = [vec![0.0, 0.0, 0.5], vec![0.8, 0.0, 0.5]];
             let found = imitation.nearest(&starts, &[0, 1]).unwrap();
-            let told = imitation.told(&found, &[0, 1, 2], &|_| 0.2, 0.5).unwrap();
+            let told = imitation.told(&found, &[0, 1, 2], &|_| 0.2, 0.01).unwrap();
             assert_eq!(told.free, [0, 1]);
             for k in 0..2 {
                 held[k] += u32::from((told.theta[k] - truth[k]).abs() <= 2.0 * told.covariance[(k, k)].sqrt());
