@@ -263,7 +263,6 @@ fn an_arm_is_explained_in_its_own_words() {
     assert!(code == 3 && out.contains("at home link ") && out.contains(" meets wall (estimated: link "), "{out}");
     // Points, by name and reason.
     let points = "task.points=[[300,0,400],[3000,0,300],[350,50,400]]";
-    let begun = std::time::Instant::now();
     let object = json(folder.path(), &["explain", "cell_post.toml", "--set", points]);
     let reasons = object["reasons"].as_array().unwrap();
     assert!(reasons.iter().any(|reason| reason == "p01 cannot be met: out of reach"), "{object}");
