@@ -12,9 +12,9 @@
 //! as regressions in a closed loop are: those of simulations are so alike (indirect inference: Smith, J. Appl.
 //! Econometrics 8, 1993; Gouriéroux, Monfort and Renault, same volume).
 //!
-//! Draws are common to all θ, so that differences of μ are of θ alone. D is descended by Gauss and Newton, damped, with
-//! slopes G = ∂μ/∂θ that are kept up by Broyden's rank-one steps. At the end, with the weights W = Σ⁻¹ of draws that the
-//! descent has not seen,
+//! D is descended by Gauss and Newton, damped, with draws that are common to all θ and slopes G = ∂μ/∂θ that are kept up
+//! by Broyden's rank-one steps; from where that ends by clouds ([`Imitation::told`]), s_k = μ + G (θ_k − θ) + ε_k, of N
+//! draws each (regression adjustment: Beaumont, Zhang and Balding, Genetics 162, 2002). At the end, with W = Σ⁻¹ of ε,
 //!
 //! ```text
 //! C = (N − 1)/(N − m − 2) · max(1, D/(m − p)) · (Gᵀ W G)⁻¹          p parameters
@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::output_error::Parameter;
+use super::random::{named_seed, stream, unit};
 
 /// Signs of the draw of a number with these parameters; `None` where nothing came of it.
 ///
@@ -58,15 +59,15 @@ pub struct Imitated {
     pub freedom: f64,
 }
 
-/// Draws of Σ in a descent, of differences, of slopes, of a first look, and of all at the end.
+/// Draws of Σ in a descent, of differences, of slopes, of a first look, and of a cloud.
 const DRAWS: u64 = 40;
 const FEW: u64 = 8;
 const SLOPES: u64 = 4;
 const LOOKS: u64 = 6;
-const LAST: u64 = 120;
-const LAST_SLOPES: u64 = 8;
-/// So often they are all drawn anew at the end, at most.
-const TURNS: usize = 3;
+const CLOUD: u64 = 240;
+/// Clouds at most, and how far θ moves where it rests, in deviations.
+const TURNS: u64 = 5;
+const RESTS: f64 = 0.3;
 /// The first draw of those that no descent has seen.
 const UNSEEN: u64 = 1000;
 /// Share of the correlations that few draws are not believed of.
@@ -75,7 +76,7 @@ const SHRUNK: [f64; 2] = [0.1, 0.05];
 const FARTHEST: f64 = 50.0;
 /// Starts that are descended from, rounds of each, and of the best one.
 const BEST: usize = 3;
-const ROUNDS: [usize; 2] = [2, 6];
+const ROUNDS: [usize; 2] = [2, 2];
 /// Steps within a round, and the farthest of each, in steps of differences.
 const STEPS: usize = 4;
 const REACH: f64 = 7.0;
@@ -90,8 +91,16 @@ struct Centre {
     mean: DVector<f64>,
     weights: DMatrix<f64>,
     few: Vec<Option<Vec<f64>>>,
-    /// Which: these follow on it.
-    first: u64,
+}
+
+/// What a cloud says of the signs at its middle.
+struct Cloud {
+    mean: DVector<f64>,
+    /// G of all its parameters.
+    slopes: DMatrix<f64>,
+    weights: DMatrix<f64>,
+    /// Variance of each parameter's slopes, of a sign that scatters by 1.
+    scatter: Vec<f64>,
 }
 
 /// Where a descent has come to.
@@ -118,28 +127,75 @@ impl Imitation<'_> {
         self.descend(&nearest.theta, free, nearest.slopes, ROUNDS[1]).map(|descent| descent.theta)
     }
 
-    /// A few steps more from `theta`, by draws that no descent has seen, and the spread there; of those of the parameters
-    /// `all` of which a change by `by` moves the signs by `least` at least in D.
+    /// On from `theta` by clouds, and the spread where that ends; of those of the parameters `all` of which a change by
+    /// `by` moves the signs by `least` at least in D.
+    ///
+    /// A cloud is of draws that no descent has seen, each at a place of its own around θ: a linear regression of their
+    /// signs on their places says μ, G and Σ at once, and from these the next θ follows. Where loops swing, draws that
+    /// are common to two places are as far apart as any.
     pub fn told(&self, theta: &[f64], all: &[usize], by: &dyn Fn(usize) -> f64, least: f64) -> Option<Imitated> {
         let mut theta = theta.to_vec();
+        let mut widths: Vec<f64> = all.iter().map(|own| 2.0 * self.parameters[*own].step).collect();
         for turn in 1.. {
-            let mut centre = self.centre(&theta, UNSEEN..UNSEEN + LAST, SHRUNK[1])?;
-            let slopes = self.slopes(&theta, all, LAST_SLOPES)?;
+            let Cloud { mean, slopes, weights, scatter } = self.cloud(&theta, all, &widths, turn)?;
+            let signs = self.observed.len() as f64;
             let acts = |at: &usize| {
-                let moved = slopes.column(*at) * by(all[*at]);
-                moved.dot(&(&centre.weights * &moved)) >= least
+                let by = by(all[*at]);
+                let moved = slopes.column(*at) * by;
+                // Twice what chance alone makes of it.
+                moved.dot(&(&weights * &moved)) >= least + 2.0 * signs * by * by * scatter[*at]
             };
             let acting: Vec<usize> = (0..all.len()).filter(acts).collect();
             let free: Vec<usize> = acting.iter().map(|at| all[*at]).collect();
             let slopes = slopes.select_columns(&acting);
-            let (mut kept_up, mut damping) = (slopes.clone(), 0.1 * DAMPING[0]);
-            let (before, after) = self.round(&mut centre, &free, &mut kept_up, &mut damping);
-            theta = centre.theta;
-            if turn == TURNS || before - after < GAIN {
-                return self.spread(theta, free, (&slopes, &centre.weights), after);
+            let off = DVector::from_column_slice(&self.observed) - &mean;
+            let there = self.step(&theta, &free, (&slopes, &weights, &off), 0.0).unwrap_or_else(|| theta.clone());
+            let moved = DVector::from_fn(free.len(), |a, _| there[free[a]] - theta[free[a]]);
+            let left = off - &slopes * &moved;
+            let found = self.spread(there, free, (&slopes, &weights), left.dot(&(&weights * &left)))?;
+            let deviation = |a: usize| found.covariance[(a, a)].sqrt();
+            let rests = (0..moved.len()).all(|a| moved[a].abs() <= RESTS * deviation(a));
+            if rests || turn == TURNS {
+                return Some(found);
             }
+            for (a, at) in acting.iter().enumerate() {
+                let step = self.parameters[all[*at]].step;
+                widths[*at] = (2.0 * deviation(a)).clamp(0.3 * step, 4.0 * step);
+            }
+            theta = found.theta;
         }
         None
+    }
+
+    /// See [`Self::told`]: draws at places that are off by up to `widths` and a half times that.
+    fn cloud(&self, theta: &[f64], all: &[usize], widths: &[f64], turn: u64) -> Option<Cloud> {
+        let draw = |number: u64| {
+            let mut random = stream(named_seed(turn, "cloud", number));
+            let (mut there, mut row) = (theta.to_vec(), vec![1.0]);
+            for (own, width) in all.iter().zip(widths) {
+                let Parameter { low, high, .. } = self.parameters[*own];
+                there[*own] = (theta[*own] + 1.5 * width * (2.0 * unit(&mut random) - 1.0)).clamp(low, high);
+                row.push((there[*own] - theta[*own]) / width);
+            }
+            (self.signs)(&there, UNSEEN * turn + number).map(|signs| (row, signs))
+        };
+        let drawn: Vec<_> = (0..CLOUD).into_par_iter().filter_map(draw).collect();
+        if 4 * drawn.len() < 3 * CLOUD as usize {
+            return None;
+        }
+        let (n, m, p) = (drawn.len(), self.observed.len(), all.len());
+        let places = DMatrix::from_fn(n, p + 1, |i, k| drawn[i].0[k]);
+        let signs = DMatrix::from_fn(n, m, |i, j| drawn[i].1[j]);
+        // Where a bound leaves a parameter no place but one it has no slope.
+        let normal = places.transpose() * &places + DMatrix::identity(p + 1, p + 1) * 1e-9;
+        let normal = normal.cholesky()?;
+        let all_slopes = normal.solve(&(places.transpose() * &signs));
+        let left = &signs - &places * &all_slopes;
+        let covariance = left.transpose() * &left / (n - p - 1) as f64;
+        let slopes = DMatrix::from_fn(m, p, |j, k| all_slopes[(k + 1, j)] / widths[k]);
+        let inverted = normal.inverse();
+        let scatter = (0..p).map(|k| inverted[(k + 1, k + 1)] / (widths[k] * widths[k])).collect();
+        Some(Cloud { mean: all_slopes.row(0).transpose(), slopes, weights: inverse(&covariance, SHRUNK[1])?, scatter })
     }
 
     /// C with these slopes and weights, where D is `misfit`.
@@ -151,7 +207,7 @@ impl Imitation<'_> {
         misfit: f64,
     ) -> Option<Imitated> {
         let known = weights.diagonal().iter().filter(|weight| **weight > 0.0).count();
-        let (n, m, p) = (LAST as f64, known as f64, free.len() as f64);
+        let (n, m, p) = (CLOUD as f64 - free.len() as f64, known as f64, free.len() as f64);
         let curvature = slopes.transpose() * weights * slopes;
         let scale = curvature.diagonal().map(|c| c.sqrt().recip());
         let scaled = DMatrix::from_fn(free.len(), free.len(), |a, b| curvature[(a, b)] * scale[a] * scale[b]);
@@ -179,12 +235,11 @@ impl Imitation<'_> {
         Some(self.observed.iter().enumerate().map(off).sum())
     }
 
-    fn centre(&self, theta: &[f64], which: std::ops::Range<u64>, shrunk: f64) -> Option<Centre> {
-        let first = which.start;
-        let draws = self.draws(theta, which);
+    fn centre(&self, theta: &[f64]) -> Option<Centre> {
+        let draws = self.draws(theta, 0..DRAWS);
         let few = draws[..FEW as usize].to_vec();
         let (mean, covariance) = moments(&most(draws)?);
-        Some(Centre { theta: theta.to_vec(), mean, weights: inverse(&covariance, shrunk)?, few, first })
+        Some(Centre { theta: theta.to_vec(), mean, weights: inverse(&covariance, SHRUNK[0])?, few })
     }
 
     /// ∂μ/∂θ by the parameters `free`, central differences of common draws, one-sided at bounds.
@@ -209,7 +264,7 @@ impl Imitation<'_> {
         let mut descent = Descent { theta, slopes, reached: f64::INFINITY };
         let (mut damping, mut idle) = (DAMPING[0], 0);
         for _ in 0..rounds {
-            let mut centre = self.centre(&descent.theta, 0..DRAWS, SHRUNK[0])?;
+            let mut centre = self.centre(&descent.theta)?;
             if idle > 0 {
                 descent.slopes = self.slopes(&descent.theta, free, SLOPES)?;
             }
@@ -231,7 +286,7 @@ impl Imitation<'_> {
         let (mut now, mut taken) = (before, 0);
         while *damping < DAMPING[1] && taken < STEPS {
             let there = self.step(&centre.theta, free, (slopes, &centre.weights, &off), *damping);
-            let drawn = there.map(|there| (self.draws(&there, centre.first..centre.first + FEW), there));
+            let drawn = there.map(|there| (self.draws(&there, 0..FEW), there));
             let Some((few, there, change)) =
                 drawn.and_then(|(few, there)| change(&centre.few, &few).map(|change| (few, there, change)))
             else {
@@ -353,7 +408,7 @@ fn inverse(covariance: &DMatrix<f64>, shrunk: f64) -> Option<DMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::random::{standard_normals, stream};
+    use crate::math::random::standard_normals;
 
     /// An AR(1) process seen through noise, of which least squares make too little memory: mean, variance and two
     /// covariances of 400 samples.
@@ -387,7 +442,7 @@ mod tests {
             let imitation = Imitation { signs: &signs, observed, parameters: parameters() };
             let starts = [vec![0.0, 0.0, 0.5], vec![0.8, 0.0, 0.5]];
             let found = imitation.nearest(&starts, &[0, 1]).unwrap();
-            let told = imitation.told(&found, &[0, 1, 2], &|_| 0.2, 0.01).unwrap();
+            let told = imitation.told(&found, &[0, 1, 2], &|k| [0.2, 1.0, 0.2][k], 0.5).unwrap();
             assert_eq!(told.free, [0, 1]);
             for k in 0..2 {
                 held[k] += u32::from((told.theta[k] - truth[k]).abs() <= 2.0 * told.covariance[(k, k)].sqrt());

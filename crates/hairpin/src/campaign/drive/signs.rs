@@ -48,11 +48,14 @@ pub(super) struct Looked {
     moved: Vec<[f64; 3]>,
 }
 
+/// A row of least squares, and what it is to make.
+type Row = (Vec<f64>, f64);
+
 /// What a log adds to the signs of all.
 pub(super) struct Part {
-    turning: Vec<(Vec<f64>, f64)>,
-    going: Vec<(Vec<f64>, f64)>,
-    sliding: Vec<(Vec<f64>, f64)>,
+    turning: Vec<Row>,
+    going: Vec<Row>,
+    sliding: Vec<Row>,
     curvatures: Vec<f64>,
     /// Mean squares of third differences of x and y, and of ψ.
     scatter: [f64; 2],
@@ -183,10 +186,10 @@ fn before(said: &[f64], tick: f64, t: f64, corners: &[f64]) -> Vec<f64> {
 }
 
 /// Coefficients of least squares over all logs, and the colour of what is left; 0 of a column without anything in it.
-fn regress<'a>(parts: &'a [Part], rows: fn(&'a Part) -> &'a Vec<(Vec<f64>, f64)>, into: &mut Vec<f64>) -> Option<()> {
+fn regress(parts: &[Part], rows: fn(&Part) -> &[Row], into: &mut Vec<f64>) -> Option<()> {
     let width = rows(parts.first()?).first()?.0.len();
     let (mut normal, mut right) = (DMatrix::zeros(width, width), DVector::zeros(width));
-    for (row, value) in parts.iter().flat_map(|part| rows(part)) {
+    for (row, value) in parts.iter().flat_map(rows) {
         for (a, x) in row.iter().enumerate() {
             right[a] += x * value;
             row.iter().enumerate().for_each(|(b, y)| normal[(a, b)] += x * y);
@@ -195,7 +198,7 @@ fn regress<'a>(parts: &'a [Part], rows: fn(&'a Part) -> &'a Vec<(Vec<f64>, f64)>
     (0..width).for_each(|a| normal[(a, a)] = normal[(a, a)] * (1.0 + RIDGE) + f64::MIN_POSITIVE.sqrt());
     let solved = normal.cholesky()?.solve(&right);
     into.extend(solved.iter());
-    let left = |(row, value): &(Vec<f64>, f64)| value - row.iter().zip(&solved).map(|(x, c)| x * c).sum::<f64>();
+    let left = |(row, value): &Row| value - row.iter().zip(&solved).map(|(x, c)| x * c).sum::<f64>();
     colour(&parts.iter().map(|part| rows(part).iter().map(left).collect()).collect::<Vec<_>>(), &[1, 2], into);
     Some(())
 }
