@@ -430,7 +430,9 @@ mod tests {
     }
 
     fn parameters() -> Vec<Parameter> {
-        [(-0.95, 0.95), (-9.0, 9.0), (0.0, 1.0)].map(|(low, high)| Parameter { low, high, step: 0.02 }).to_vec()
+        [(-0.95, 0.95, 0.02), (-9.0, 9.0, 0.2), (0.0, 1.0, 0.02)]
+            .map(|(low, high, step)| Parameter { low, high, step })
+            .to_vec()
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::simulation::Acceptance;
 const OUTPUTS: [(Output, usize); 4] =
     [(Output::Position(0), 0), (Output::Position(1), 0), (Output::Axis(0, 0), 1), (Output::Axis(0, 1), 1)];
 
-/// Of fits by imitation; latency and steering lag missed by a little more than they should (docs/fit.md).
+/// They were tried on the vehicles alone that the method was made on (docs/fit.md).
 const DOUBT: &str = "intervals of drives are not shown to hold on drawn vehicles";
 
 /// Slips by slope are of rovers alone.
