@@ -12,8 +12,8 @@
 //! as regressions in a closed loop are: those of simulations are so alike (indirect inference: Smith, J. Appl.
 //! Econometrics 8, 1993; Gouriéroux, Monfort and Renault, same volume).
 //!
-//! D is descended by Gauss and Newton, damped, with draws that are common to all θ and slopes G = ∂μ/∂θ that are kept up
-//! by Broyden's rank-one steps; from where that ends by clouds ([`Imitation::told`]), s_k = μ + G (θ_k − θ) + ε_k, of N
+//! D is descended by Gauss and Newton, damped, with draws that are common to all θ and slopes G = ∂μ/∂θ that are kept
+//! up by Broyden's rank-one steps; from where that ends by clouds ([`Imitation::told`]), s_k = μ + G (θ_k − θ) + ε_k, of N
 //! draws each (regression adjustment: Beaumont, Zhang and Balding, Genetics 162, 2002). At the end, with W = Σ⁻¹ of ε,
 //!
 //! ```text
@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::output_error::Parameter;
+use super::power::square;
 use super::random::{named_seed, stream, unit};
 
 /// Signs of the draw of a number with these parameters; `None` where nothing came of it.
@@ -316,10 +317,10 @@ impl Imitation<'_> {
     /// Broyden's: the least change, in units of the parameters' steps, by which slopes say what was seen.
     fn keep_up(&self, slopes: &mut DMatrix<f64>, free: &[usize], (from, to): (&[f64], &[f64]), change: &DVector<f64>) {
         let moved = DVector::from_fn(free.len(), |a, _| to[free[a]] - from[free[a]]);
-        let unit = DVector::from_fn(free.len(), |a, _| moved[a] / self.parameters[free[a]].step.powi(2));
-        let square = moved.dot(&unit);
-        if square > 1e-12 {
-            *slopes += (change - &*slopes * &moved) * unit.transpose() / square;
+        let unit = DVector::from_fn(free.len(), |a, _| moved[a] / square(self.parameters[free[a]].step));
+        let squared = moved.dot(&unit);
+        if squared > 1e-12 {
+            *slopes += (change - &*slopes * &moved) * unit.transpose() / squared;
         }
     }
 

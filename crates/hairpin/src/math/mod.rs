@@ -20,7 +20,7 @@
 //! | [`circular`], [`power`] | sin, cos, xⁿ with the same bits everywhere | hot loops |
 //! | [`ridge`] | polynomial ridge regression, cross-validated | learned scores |
 //! | [`output_error`] | min −2 log L of a simulation's outputs, and how far it can rise | fits to logs |
-//! | [`imitation`] | min (s − μ)ᵀ Σ⁻¹ (s − μ) of a simulation's signs, which chance is in | fits to logs of loops that swing |
+//! | [`imitation`] | min (s − μ)ᵀ Σ⁻¹ (s − μ) of signs of a simulation by chance | fits to logs of loops that swing |
 //! | [`random`] | named streams | everything that draws |
 //! | [`simd`] | which compiled version of a kernel runs | kernels |
 //!

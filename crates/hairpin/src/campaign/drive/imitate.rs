@@ -10,8 +10,8 @@ use crate::trajectory::Flight;
 
 /// Latencies that a fit begins at, s.
 const LATENCIES: [f64; 4] = [0.03, 0.12, 0.22, 0.34];
-/// And with each these steering lags, s. A lag and a latency of the same sum differ by the lag's square: at none of it D
-/// is level along that sum, and a descent that begins there stays.
+/// And with each these steering lags, s. A lag and a latency of the same sum differ by the lag's square: at none of it
+/// D is level along that sum, and a descent that begins there stays.
 const LAGS: [f64; 3] = [0.08, 0.18, 0.34];
 /// And the speed lag, s.
 const SPEED_LAG: f64 = 0.15;

@@ -1,7 +1,7 @@
 //! What logs of drives show of the vehicle, in numbers.
 //!
 //! ```text
-//! Δψ_i = Δs_i Σ_j b_j κ̄_j(t_i) + …      how the vehicle turns after what its controller would have said along the log:
+//! Δψ_i = Δs_i Σ_j b_j κ̄_j(t_i) + …      how the vehicle turns after what its controller would have said:
 //! Δs_i = Σ_j c_j v̄_j(t_i) Δt + d climb   κ̄_j, v̄_j means of commands τ_j before, weighed by a triangle
 //! Δl_i = e side |Δs_i|                   how it slides where the ground is steep
 //! ```
@@ -31,7 +31,7 @@ const LEAST: usize = 40;
 /// Least squares are damped by this share of each column's square.
 const RIDGE: f64 = 1e-3;
 
-/// Where turning begins in [`signs`], how many numbers are of it, where speeds begin and how many, and where scatter is.
+/// Where in [`signs`] turning stands, where speeds do, and where scatter does.
 pub(super) const LAYOUT: [std::ops::Range<usize>; 3] = {
     let (turns, speeds) = (TURNS.len() - 1, SPEEDS.len() - 1);
     let from = turns + COLOUR;
@@ -143,7 +143,8 @@ pub(super) fn signs(parts: &[Part]) -> Option<Vec<f64>> {
     all.iter().all(|sign| sign.is_finite()).then_some(all)
 }
 
-/// Variance of a sample's own scatter in `signs`: of x or y, m², and of ψ, rad². Third differences have twenty times it.
+/// Variance of a sample's own scatter in `signs`: of x or y, m², and of ψ, rad². Third differences have twenty times
+/// it.
 pub(super) fn scatter(signs: &[f64]) -> [f64; 2] {
     let [place, turn] = [0, 1].map(|k| libm::exp(signs[LAYOUT[2].start + k]));
     [place / 40.0, turn / 20.0]

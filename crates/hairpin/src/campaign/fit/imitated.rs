@@ -177,8 +177,8 @@ fn signs(loops: &Loops, imitator: &dyn Imitator, which: &[usize], theta: &[f64],
     imitator.signs(&(0..which.len()).into_par_iter().map(log).collect::<Option<Vec<_>>>()?)
 }
 
-/// `driven` when the log was sampled, and as often after it, off as localisations are: by `noise`, scatter and drift, of
-/// draw `draw`.
+/// `driven` when the log was sampled, and as often after it, off as localisations are: by `noise`, scatter and drift,
+/// of draw `draw`.
 fn seen(driven: &GroundLog, stamps: &[f64], (noise, draw, own): (&[f64], u64, u64)) -> GroundLog {
     let (begin, end) = (stamps[0], driven.times.last().copied().unwrap_or_default());
     let lasts = stamps[stamps.len() - 1] - begin;

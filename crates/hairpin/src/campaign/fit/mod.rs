@@ -10,12 +10,13 @@
 //! missions, logs ─▶ Compared: legs, samples (k + ½) · period, outputs y by a line through the samples around
 //! Loops: setup with θ in its keys, no chance ─▶ simulate ─▶ f(θ), sampled alike
 //! stretches, whiten: r = y − f(θ), filtered leg by leg ─▶ math::output_error ─▶ θ̂, profile intervals
-//! imitated: log ─▶ signs s;  Loops with θ and noise, drawn again and again ─▶ signs ─▶ math::imitation ─▶ θ̂, intervals
+//! imitated: log ─▶ signs s; Loops with θ and noise, drawn ─▶ signs s_k ─▶ math::imitation ─▶ θ̂, intervals
 //! gap: distances log by log, given, fitted, and fitted to the others
 //! ```
 //!
 //! θ are the kind's adjustable numbers, each within its bounds, in its own unit. Deterministic: what is drawn is drawn
-//! from seeds of its own. Cost: simulations of all missions, two a number for the derivatives of a turn, shared out over threads.
+//! from seeds of its own. Cost: simulations of all missions, two a number for the derivatives of a turn, and of what is
+//! imitated some two thousand; shared out over threads.
 
 mod answer;
 mod compare;

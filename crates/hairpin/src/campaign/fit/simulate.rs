@@ -95,8 +95,8 @@ impl<'a> Loops<'a> {
         self.setup.kind().imitator(&cases).map_err(|error| FitError::NotFittable(error.to_string()))
     }
 
-    /// The motion that `imitator`, of logs `which`, makes of number `own` of them with `setup`, drawn by `seed`, with so
-    /// much noise; `None` where it does not come to its end.
+    /// The motion that `imitator`, of logs `which`, makes of number `own` of them with `setup`, drawn by `seed`, with
+    /// so much noise; `None` where it does not come to its end.
     pub(super) fn imitate(
         &self,
         setup: &Setup,

@@ -4,7 +4,7 @@
 
 use nalgebra::Point3;
 
-use super::{Fittable, Imitator, Same};
+use super::{Fittable, GroundLog, Same};
 use crate::campaign::Case;
 use crate::campaign::placement::Placement;
 use crate::simulation::{Airborne, SimulationError};
@@ -94,8 +94,8 @@ pub(in crate::campaign) trait Act {
         Err("no numbers of robots of this kind are fitted to logs".into())
     }
 
-    /// Who imitates logs of `cases` where loops swing, so that no sample of a run can be held against a log's; `None` where
-    /// they can.
+    /// Who imitates logs of `cases` where loops swing, so that no sample of a run can be held against a log's; `None`
+    /// where they can.
     ///
     /// # Errors
     /// A plan of a case that nobody can follow.
@@ -132,4 +132,26 @@ pub(in crate::campaign) trait LegByLeg {
     /// # Errors
     /// As [`at_start`](Self::at_start).
     fn finish(&self, airborne: &mut Airborne) -> Result<(), SimulationError>;
+}
+
+/// What a kind gives for fits by imitation: one nominal vehicle, and the missions of all logs.
+pub(in crate::campaign) trait Imitator: Sync {
+    /// Carries out mission number `at` as [`Act::run`] does, by `vehicle`, with so many times the usual noise in
+    /// the controller's eyes.
+    ///
+    /// # Errors
+    /// As of that.
+    fn run(&self, vehicle: Same, at: usize, order: &Order, noise: f64) -> Result<Flight, SimulationError>;
+
+    /// Numbers that tell of a vehicle, of logs of all missions in their order: always as many, in one order. `None` of
+    /// logs that are too short for that.
+    fn signs(&self, logs: &[GroundLog]) -> Option<Vec<f64>>;
+
+    /// Where to begin, for logs that have these signs: values of all numbers of [`Fittable`], in their order,
+    /// which are `given` as the robot has them.
+    fn starts(&self, signs: &[f64], given: &[f64]) -> Vec<Vec<f64>>;
+
+    /// Variances of what is independent from sample to sample in logs that have these signs: of x or y, m², and of ψ,
+    /// rad².
+    fn scatter(&self, signs: &[f64]) -> [f64; 2];
 }
