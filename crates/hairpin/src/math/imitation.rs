@@ -13,8 +13,9 @@
 //! Econometrics 8, 1993; Gouriéroux, Monfort and Renault, same volume).
 //!
 //! D is descended by Gauss and Newton, damped, with draws that are common to all θ and slopes G = ∂μ/∂θ that are kept
-//! up by Broyden's rank-one steps; from where that ends by clouds ([`Imitation::told`]), s_k = μ + G (θ_k − θ) + ε_k, of N
-//! draws each (regression adjustment: Beaumont, Zhang and Balding, Genetics 162, 2002). At the end, with W = Σ⁻¹ of ε,
+//! up by Broyden's rank-one steps; from where that ends by clouds of N draws, s_k = μ + G (θ_k − θ) + ε_k
+//! ([`Imitation::told`]; regression adjustment: Beaumont, Zhang and Balding, Genetics 162, 2002). At the end, with
+//! W = Σ⁻¹ of ε,
 //!
 //! ```text
 //! C = (N − 1)/(N − m − 2) · max(1, D/(m − p)) · (Gᵀ W G)⁻¹          p parameters
