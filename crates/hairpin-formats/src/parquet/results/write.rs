@@ -27,7 +27,7 @@ pub fn write(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), 
 /// The same of cases that stand in no other file: how many they are goes with them.
 ///
 /// # Errors
-/// As of [`write`].
+/// As of [`write()`].
 pub fn write_counted(path: &Path, cases: &[Case], results: &[CaseResult]) -> Result<(), WriteError> {
     columns_of(cases, results).write_counted(path, "results")
 }
