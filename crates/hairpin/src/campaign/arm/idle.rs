@@ -1,6 +1,6 @@
 //! Keys of arms that no run reads: given, they are told to be passed over; drawn, they are refused.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::ArmSetup;
 use crate::campaign::check::Findings;
@@ -18,7 +18,7 @@ pub(super) fn passed_over(setup: &ArmSetup) -> Vec<PassedOver> {
     let lag = lag.then(|| ("servo_lag_s", json!(execute.servo_lag_s), OWN_LAGS));
     let noise = noise.then(|| ("noise_mm", json!(execute.noise_mm), RECORDED));
     let all = lag.into_iter().chain(noise);
-    let told = |(key, value, why): (&str, serde_json::Value, &str)| PassedOver {
+    let told = |(key, value, why): (&str, Value, &str)| PassedOver {
         key: format!("execute.{key}"),
         value: value.to_string(),
         why: why.to_owned(),

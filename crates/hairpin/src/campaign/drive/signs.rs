@@ -155,9 +155,7 @@ fn line(log: &GroundLog, t: f64) -> [f64; 3] {
     let GroundLog { times, places } = log;
     let around = times.partition_point(|s| *s < t - AROUND)..times.partition_point(|s| *s <= t + AROUND);
     if around.len() < 3 {
-        let next = times.partition_point(|s| *s <= t).clamp(1, times.len() - 1);
-        let share = ((t - times[next - 1]) / (times[next] - times[next - 1])).clamp(0.0, 1.0);
-        return [0, 1, 2].map(|k| places[next - 1][k] + share * (places[next][k] - places[next - 1][k]));
+        return log.between(t);
     }
     let count = around.len() as f64;
     let middle = times[around.clone()].iter().sum::<f64>() / count;

@@ -2,15 +2,17 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::FitError;
 use super::answer::{Confounded, Estimate, Fit, Reading};
 use super::gap::Gap;
 use super::simulate::Loops;
 use super::whiten::Filter;
+use crate::campaign::kind::Adjustable;
 use crate::math::output_error::Side;
 use crate::math::power::square;
 
 /// Stretches that there must be more than numbers.
-pub(super) const LEAST_FREEDOM: usize = 8;
+const LEAST_FREEDOM: usize = 8;
 /// Widest interval of a number that is told, as a share of it on either side.
 const WIDEST: f64 = 0.25;
 /// A number whose value a quarter more or less moves Q, or D, by less than this acts on nothing that was flown.
@@ -107,10 +109,24 @@ impl Found {
     }
 }
 
+/// # Errors
+/// `Few` where there are not [`LEAST_FREEDOM`] stretches more than numbers.
+pub(super) fn enough(loops: &Loops, stretches: usize) -> Result<(), FitError> {
+    let (numbers, stretch_s) = (loops.numbers.len(), loops.rule.sampling.stretch);
+    let least = numbers + LEAST_FREEDOM;
+    if stretches < least { Err(FitError::Few { stretches, stretch_s, least, numbers }) } else { Ok(()) }
+}
+
+/// Those of the numbers `free` that are told.
+pub(super) fn told(free: &[usize], readings: &[(Reading, Option<[f64; 2]>)]) -> Vec<usize> {
+    free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect()
+}
+
 /// What an interval says of an estimate.
 ///
-/// Closed on both sides: told if neither end is farther from the best than [`WIDEST`] of it.
-pub(super) fn reading(best: f64, ends: [Side; 2]) -> (Reading, Option<[f64; 2]>) {
+/// Closed on both sides: told if neither end is farther from the best than [`WIDEST`] of it, and if such intervals of
+/// the number are believed.
+pub(super) fn reading(number: &Adjustable, best: f64, ends: [Side; 2]) -> (Reading, Option<[f64; 2]>) {
     let interval = ends.map(|end| match end {
         Side::Closed(at) | Side::Open(at) => at,
     });
@@ -119,5 +135,10 @@ pub(super) fn reading(best: f64, ends: [Side; 2]) -> (Reading, Option<[f64; 2]>)
     }
     let [low, high] = interval;
     let wide = (best - low).max(high - best) > WIDEST * best.abs();
-    (if wide { Reading::Wide } else { Reading::Told }, Some(interval))
+    let reading = match number.doubt {
+        _ if wide => Reading::Wide,
+        Some(_) => Reading::Doubted,
+        None => Reading::Told,
+    };
+    (reading, Some(interval))
 }

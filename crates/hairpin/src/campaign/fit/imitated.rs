@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::FitError;
 use super::answer::Reading;
-use super::found::{Disturbance, Found, LEAST_FREEDOM, NO_EFFECT, reading};
+use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told};
 use super::outputs::has;
 use super::simulate::Loops;
 use crate::campaign::kind::{GroundLog, Imitator, Output};
@@ -43,10 +43,7 @@ pub(super) fn found(
 ) -> Result<Found, FitError> {
     let numbers = given.len();
     let stretches = stretches(loops, which);
-    if stretches < numbers + LEAST_FREEDOM {
-        let (least, stretch_s) = (numbers + LEAST_FREEDOM, loops.rule.sampling.stretch);
-        return Err(FitError::Few { stretches, stretch_s, least, numbers });
-    }
+    enough(loops, stretches)?;
     let observed = observed(loops, imitator, which)?;
     let noise = noise_at_first(imitator, &observed);
     let starts: Vec<Vec<f64>> =
@@ -72,15 +69,12 @@ pub(super) fn found(
         let half = t * imitated.covariance[(k, k)].sqrt();
         let Parameter { low, high, .. } = imitation.parameters[own];
         let end = |at: f64| if at > low && at < high { Side::Closed(at) } else { Side::Open(at.clamp(low, high)) };
-        readings[own] = reading(best[own], [end(best[own] - half), end(best[own] + half)]);
-        if readings[own].0 == Reading::Told && loops.numbers[own].doubt.is_some() {
-            readings[own].0 = Reading::Doubted;
-        }
+        readings[own] = reading(&loops.numbers[own], best[own], [end(best[own] - half), end(best[own] + half)]);
         if imitated.misfit > UNLIKE {
             readings[own].0 = Reading::Unlike;
         }
     }
-    let told: Vec<usize> = free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect();
+    let told = told(&free, &readings);
     let mut written = given.to_vec();
     told.iter().for_each(|own| written[*own] = best[*own]);
     if !told.is_empty() && told.len() < free.len() {
@@ -116,11 +110,7 @@ pub(super) fn refitted(loops: &Loops, found: &Found, noise: &[f64], which: &[usi
 }
 
 fn parameters(loops: &Loops) -> Vec<Parameter> {
-    let numbers = loops.numbers.iter().map(|number| {
-        let [low, high] = number.bounds;
-        Parameter { low, high, step: number.step }
-    });
-    numbers.chain(std::iter::repeat_n(NOISE, NOISES)).collect()
+    loops.parameters().chain(std::iter::repeat_n(NOISE, NOISES)).collect()
 }
 
 /// As good as independent stretches of the logs `which`.
@@ -188,19 +178,13 @@ fn seen(driven: &GroundLog, stamps: &[f64], (noise, draw, own): (&[f64], u64, u6
     let mut random = stream(named_seed(draw, "seen", own));
     let (keep, mut drift) = (libm::exp(-period / DRIFT), standard_normals::<3>(&mut random));
     let fresh = (1.0 - keep * keep).sqrt();
-    let mut next = 1;
     let places = times.iter().map(|t| {
-        while next + 1 < driven.times.len() && driven.times[next] < *t {
-            next += 1;
-        }
-        let [from, to] = [next - 1, next].map(|i| driven.times[i]);
-        let share = ((t - from) / (to - from)).clamp(0.0, 1.0);
+        let there = driven.between(*t);
         let (pushed, scattered) = (standard_normals::<3>(&mut random), standard_normals::<3>(&mut random));
         [0, 1, 2].map(|k| {
             drift[k] = drift[k] * keep + pushed[k] * fresh;
             let [scatter, slow] = if k < 2 { [noise[0], noise[2]] } else { [noise[1], noise[3]] };
-            let there = driven.places[next - 1][k] + share * (driven.places[next][k] - driven.places[next - 1][k]);
-            there + scatter * scattered[k] + slow * drift[k]
+            there[k] + scatter * scattered[k] + slow * drift[k]
         })
     });
     let places = places.collect();

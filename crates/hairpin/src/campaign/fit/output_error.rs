@@ -11,7 +11,7 @@
 
 use super::FitError;
 use super::answer::Reading;
-use super::found::{Disturbance, Found, LEAST_FREEDOM, NO_EFFECT, reading};
+use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told};
 use super::simulate::Loops;
 use super::stretches::{colour, objective, residuals};
 use super::whiten::Filter;
@@ -30,11 +30,7 @@ pub(super) fn found(
     let raw = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &none) };
     let coarse = objective(loops, which, &raw);
     let (stretches, numbers) = (coarse.blocks(), given.len());
-    if stretches < numbers + LEAST_FREEDOM {
-        let least = numbers + LEAST_FREEDOM;
-        let stretch_s = loops.rule.sampling.stretch;
-        return Err(FitError::Few { stretches, stretch_s, least, numbers });
-    }
+    enough(loops, stretches)?;
     let over = |error: FitError| if stopped() { FitError::Stopped } else { error };
     let all: Vec<usize> = (0..numbers).collect();
     let mut start = descend(&coarse, given, &all).ok_or_else(|| over(FitError::NoEffect))?;
@@ -56,15 +52,12 @@ pub(super) fn found(
         let t = student_quantile(spread.freedom[k], SIGMA_95);
         let rise = t * t * spread.covariance[(k, k)] / spread.white[(k, k)];
         let ends = profile(&objective, &best, &free, &spread, (k, rise));
-        readings[own] = reading(best.theta[own], ends);
-        if readings[own].0 == Reading::Told && loops.numbers[own].doubt.is_some() {
-            readings[own].0 = Reading::Doubted;
-        }
+        readings[own] = reading(&loops.numbers[own], best.theta[own], ends);
     }
     if stopped() {
         return Err(FitError::Stopped);
     }
-    let told: Vec<usize> = free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect();
+    let told = told(&free, &readings);
     let mut start = given.to_vec();
     // With the others as they were given, each goes where it fits best within its interval.
     for &own in &told {

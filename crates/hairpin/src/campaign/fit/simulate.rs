@@ -7,6 +7,7 @@ use super::FitError;
 use super::compare::{Compared, Flown, Rule};
 use crate::campaign::kind::{Adjustable, Fittable, Imitator, Order};
 use crate::campaign::{Case, Mistake, Setup};
+use crate::math::output_error::Parameter;
 use crate::trajectory::Track;
 
 /// Who waits for a robot that is slower than the log's, s beyond the log's end.
@@ -41,6 +42,14 @@ impl<'a> Loops<'a> {
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
         let compared = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
         Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, rule, spelt, derives, unit })
+    }
+
+    /// Bounds and steps of the numbers.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = Parameter> {
+        self.numbers.iter().map(|number| {
+            let [low, high] = number.bounds;
+            Parameter { low, high, step: number.step }
+        })
     }
 
     /// The keys of the scenario with `theta` in them.

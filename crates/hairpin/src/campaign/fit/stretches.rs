@@ -3,7 +3,7 @@
 use super::compare::Compared;
 use super::simulate::Loops;
 use super::whiten::{Filter, Leg, filters, whitened};
-use crate::math::output_error::{Objective, Parameter};
+use crate::math::output_error::Objective;
 
 /// The objective on the logs `which`, by the residuals' function.
 ///
@@ -34,11 +34,7 @@ pub(super) fn objective<'a>(
             block.extend(compared.outputs.iter().map(|_| begins.len() - 1));
         }
     }
-    let parameters = loops.numbers.iter().map(|number| {
-        let [low, high] = number.bounds;
-        Parameter { low, high, step: number.step }
-    });
-    Objective { residuals, output, block, begins, parameters: parameters.collect() }
+    Objective { residuals, output, block, begins, parameters: loops.parameters().collect() }
 }
 
 /// Residuals of the logs `which`, filtered leg by leg; `None` where one is not simulated.
