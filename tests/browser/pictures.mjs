@@ -22,7 +22,7 @@ async function taken(report, width, colorScheme) {
   if (await page.locator("#follow").count() && await page.locator("#time").isEnabled()) {
     // Where the plan's ghost stands apart from the robot, near.
     await page.locator("#follow").check();
-    await page.waitForTimeout(150);
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
     await page.locator("#space").screenshot({ path: picture("-near") });
   }
   console.log(`${name} ${colorScheme} ${width}: drawn after ${ready} ms${sideways > 1 ? `, scrolls sideways by ${sideways} px` : ""}`);
