@@ -82,7 +82,7 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
         "robot": asked.out, "logs": found.logs, "logged_s": found.logged_s,
         "parameters": fit.estimates.iter().map(parameter).collect::<Vec<_>>(),
         "confounded": confounded, "execute": found.execute,
-        "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
+        "intervals_tried_on": fit.tried, "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
         "gap": fit.gaps.iter().map(gap).collect::<Vec<_>>(),
         "unseen": fit.unseen.map(|[before, after]| json!({ "before_rmse_m": before, "after_rmse_m": after, "improves": after < before })),
         "exit_code": code,
@@ -123,6 +123,9 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
         rows.push(vec![number.name.into(), number.unit.into(), signed_digits(number.value), fitted, interval, said]);
     }
     console::say_lines(&console::table(&rows));
+    if told(found) > 0 {
+        console::say(&format!("Such intervals held on {}; of others it is not shown", fit.tried));
+    }
     if let Some(Confounded { direction, deviation }) = &fit.confounded {
         let parts: Vec<String> = direction.iter().map(|(field, share)| format!("{share:+.2} {field}")).collect();
         console::say(&format!(

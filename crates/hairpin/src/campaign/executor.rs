@@ -77,6 +77,6 @@ impl Executor for OwnSimulator {
 /// `nominal` is what the plan was made with; the mission has its own setup.
 fn carry_out(nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, SimulationError> {
     let Mission { waypoints, accept, time_limit, seed, .. } = mission;
-    let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed };
+    let order = Order { waypoints, accept: *accept, time_limit: *time_limit, seed: *seed, obstacles: true };
     mission.setup.kind().run(nominal.kind().same(), case, &order)
 }

@@ -185,6 +185,7 @@ impl Trials<'_> {
                     accept: executor.accept,
                     time_limit: at_start,
                     seed: run_seed(case.seed, 0),
+                    obstacles: true,
                 };
                 flying.at_start(&order).map_err(|_| legs)?
             }

@@ -61,6 +61,8 @@ pub struct FlySettings {
     pub linger: f64,
     /// Whether leaving the world is a crash.
     pub walls: bool,
+    /// Whether an obstacle that is touched is one.
+    pub obstacles: bool,
     /// Time from what a controller is told to its command in force, s, rounded to ticks of the rate loop.
     pub latency: f64,
     /// Version of the ticks to run.
@@ -76,6 +78,7 @@ impl Default for FlySettings {
             time_limit: 90.0,
             linger: 2.0,
             walls: false,
+            obstacles: true,
             latency: 0.0,
             simd: Simd::default(),
         }

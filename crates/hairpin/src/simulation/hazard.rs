@@ -27,6 +27,7 @@ pub(crate) fn is_lost(position: &Vector3<f64>, up: f64) -> bool {
 pub(crate) struct Hazards {
     clearance: f64,
     walls: bool,
+    obstacles: bool,
     airborne: bool,
     before: Point3<f64>,
     /// No obstacle comes within the clearance of any point in this ball.
@@ -36,10 +37,19 @@ pub(crate) struct Hazards {
 }
 
 impl Hazards {
-    /// Starts at `start`; obstacles are kept off by `clearance` m; `walls`: leaving the world is a crash.
-    pub(crate) fn new(clearance: f64, walls: bool, start: &Vector3<f64>) -> Self {
-        let before = Point3::from(*start);
-        Self { clearance, walls, airborne: false, before, safe: None, upside_down_since: None, left_world: None }
+    /// Starts at `start`; obstacles are kept off by `clearance` m; which of leaving the world and touching an obstacle
+    /// is a crash.
+    pub(crate) fn new(clearance: f64, [walls, obstacles]: [bool; 2], start: &Vector3<f64>) -> Self {
+        Self {
+            clearance,
+            walls,
+            obstacles,
+            airborne: false,
+            before: Point3::from(*start),
+            safe: None,
+            upside_down_since: None,
+            left_world: None,
+        }
     }
 
     /// Whether the run in `world` ends at `t` with the robot at `position`, its body z axis `up` in the world's z.
@@ -79,7 +89,7 @@ impl Hazards {
     /// subtractions.
     fn hits_obstacle(&mut self, world: &World, p: &Point3<f64>) -> bool {
         let before = std::mem::replace(&mut self.before, *p);
-        if world.obstacles().is_empty() {
+        if !self.obstacles || world.obstacles().is_empty() {
             return false;
         }
         // The chord lies in the ball if both of its ends do.

@@ -370,6 +370,8 @@ fn a_run_says_why_it_ended() {
     assert_eq!(hit.ended, Ended::Obstacle);
     let x = hit.track.position(hit.track.len() - 1).x;
     assert!(x > 9.6 && x < 10.0, "{x}: within the clearance of 0.23 m");
+    let nothing_there = stable(&blocked, &leg, &FlySettings { obstacles: false, ..settings });
+    assert_eq!(nothing_there.ended, Ended::Done);
 
     let out = [[5.0, 5.0, 5.0], [5.0, -3.0, 5.0]];
     let left = stable(&world, &out, &settings);
@@ -392,7 +394,7 @@ fn a_take_off_from_the_floor_is_no_crash() {
 fn turning_over_and_numbers_without_end_are_tumbles() {
     let world = cage();
     let at = Vector3::new(5.0, 5.0, 5.0);
-    let mut hazards = hazard::Hazards::new(0.2, false, &at);
+    let mut hazards = hazard::Hazards::new(0.2, [false, true], &at);
     assert_eq!(hazards.note(&world, 0.0, &at, -0.5), None);
     assert_eq!(hazards.note(&world, 0.4, &at, -0.5), None);
     assert_eq!(hazards.note(&world, 0.6, &at, -0.5), Some(Ended::Tumble));

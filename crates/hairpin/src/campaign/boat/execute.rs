@@ -9,6 +9,7 @@ use crate::simulation::boat::{
     BoatConditions, BoatController, BoatControllerKind, BoatSortie, SailSettings, sail, sail_with,
 };
 use crate::trajectory::{Flight, Track};
+use crate::world::terrain::KeepOuts;
 
 impl Act for BoatSetup {
     /// Plans know `nominal`'s boat; this setup's is the one that sails. The current acts on both; force and noise on
@@ -16,11 +17,12 @@ impl Act for BoatSetup {
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let nominal: &Self = nominal.setup();
         let execute = &self.scenario.execute;
+        let nothing = KeepOuts::default();
         let sortie = BoatSortie {
             boat: &self.boat,
             nominal: &nominal.boat,
             size: self.scenario.world.size_m,
-            keep_outs: &self.keep_out,
+            keep_outs: if order.obstacles { &self.keep_out } else { &nothing },
             waypoints: order.waypoints,
             profile: case.profile(),
         };
@@ -32,7 +34,7 @@ impl Act for BoatSetup {
         let settings = SailSettings {
             accept: order.accept,
             time_limit: order.time_limit,
-            walls: execute.walls,
+            walls: execute.walls && order.obstacles,
             ..SailSettings::default()
         };
         if let Some(own) = &self.controller {

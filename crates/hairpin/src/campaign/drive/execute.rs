@@ -45,7 +45,12 @@ impl Act for DriveSetup {
 impl DriveSetup {
     /// How a run of `order` is simulated.
     pub(super) fn settings(order: &Order) -> DriveSettings {
-        DriveSettings { accept: order.accept, time_limit: Some(order.time_limit), ..DriveSettings::default() }
+        DriveSettings {
+            accept: order.accept,
+            time_limit: Some(order.time_limit),
+            keep_outs: order.obstacles,
+            ..DriveSettings::default()
+        }
     }
 
     /// What drives where under which conditions, and which of our controllers drives.

@@ -1,8 +1,7 @@
 //! What logs of drives may tell: how late and how lazily wheels follow, and how the ground answers them.
 //!
 //! θ and bounds: latency and lags 0 … 3 s, scales of speed and turn 0.3 … 3, slips at 20° below 0.95. Logs need 5 s
-//! at 8 Hz; outputs are sampled every 0.1 s, and stretches of 2 s count as independent. All are doubted: none is
-//! written.
+//! at 8 Hz; outputs are sampled every 0.1 s, and stretches of 2 s count as independent.
 
 use serde_json::json;
 
@@ -15,8 +14,10 @@ use crate::simulation::Acceptance;
 const OUTPUTS: [(Output, usize); 4] =
     [(Output::Position(0), 0), (Output::Position(1), 0), (Output::Axis(0, 0), 1), (Output::Axis(0, 1), 1)];
 
-/// They were tried on the vehicles alone that the method was made on (docs/fit.md).
-const DOUBT: &str = "intervals of drives are not shown to hold on drawn vehicles";
+/// What intervals were found to hold on (docs/fit.md).
+const TRIED: &str = "20 drawn differential drives of 0.5 m/s on a plain, steered by `pure-pursuit`";
+/// Of cars and rovers.
+const DOUBT: &str = "intervals are shown to hold on differential drives alone";
 
 /// Slips by slope are of rovers alone.
 ///
@@ -28,6 +29,8 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         return Err("a controller of ours must drive (`execute.controller`): of others hairpin has no model".into());
     }
     let (response, slip) = (&setup.rover.response, &setup.rover.slip);
+    let described = setup.scenario.robot.resolved().map_err(|mistake| mistake.to_string())?;
+    let doubt = (!matches!(described, GroundDescription::DifferentialDrive(_))).then_some(DOUBT);
     let number = |name, field: &'static str, unit, value, bounds, step, other| Adjustable {
         name,
         field,
@@ -37,7 +40,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         bounds,
         step,
         other,
-        doubt: Some(DOUBT),
+        doubt,
     };
     let lag = |name, field, value: f64| number(name, field, "s", value, [0.0, 3.0], 0.03, value + 0.2);
     let scale = |name, field, value: f64| number(name, field, "", value, [0.3, 3.0], 0.02, 0.9 * value);
@@ -53,7 +56,6 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         scale("speed scale", "speed_scale", response.speed_scale),
         scale("turn scale", "turn_scale", response.turn_scale),
     ];
-    let described = setup.scenario.robot.resolved().map_err(|mistake| mistake.to_string())?;
     let given = match described {
         GroundDescription::Rover(rover) => json!(rover.response),
         GroundDescription::Car(car) => json!(car.response.unwrap_or_default()),
@@ -81,6 +83,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         axes: 2,
         unit: ("m", 1.0),
         sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
+        tried: TRIED,
         acceptance: Acceptance::Cylinder { height: f64::INFINITY },
         timed: false,
     })

@@ -81,6 +81,8 @@ pub struct Fit {
     pub spelt: Vec<(String, Value)>,
     /// Whether what the robot leaves out is derived from its other numbers.
     pub derives: bool,
+    /// Drawn robots, and who steered them, on which intervals were found to hold: of others it is not shown.
+    pub tried: &'static str,
     /// Unit that gaps are told in, and so many of it in a metre.
     pub unit: (&'static str, f64),
 }

@@ -76,6 +76,7 @@ impl Found {
             spelt: loops.spelt.clone(),
             derives: loops.derives,
             unit: loops.unit,
+            tried: loops.tried,
             residual_m,
             inflation: self.inflation,
             stretches: self.stretches,

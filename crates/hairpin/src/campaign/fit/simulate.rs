@@ -27,11 +27,13 @@ pub(super) struct Loops<'a> {
     pub(super) derives: bool,
     /// Of gaps, and so many of it in a metre.
     pub(super) unit: (&'static str, f64),
+    /// On whom intervals were found to hold.
+    pub(super) tried: &'static str,
 }
 
 impl<'a> Loops<'a> {
     pub(super) fn new(setup: &Setup, flown: &'a [Flown]) -> Result<Self, FitError> {
-        let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, timed } =
+        let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, tried, timed } =
             setup.kind().fittable().map_err(FitError::NotFittable)?;
         if flown.is_empty() {
             return Err(FitError::NoLogs);
@@ -41,7 +43,7 @@ impl<'a> Loops<'a> {
         let radius = setup.scenario.executor().accept;
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
         let compared = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
-        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, rule, spelt, derives, unit })
+        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, rule, spelt, derives, unit, tried })
     }
 
     /// Bounds and steps of the numbers.
@@ -119,11 +121,12 @@ impl<'a> Loops<'a> {
         (!flight.ended.is_crash()).then_some(flight.track)
     }
 
-    /// How mission number `at` is flown: somewhat longer than the log.
+    /// How mission number `at` is flown: somewhat longer than the log, and with nothing in the way. With other numbers
+    /// it may come nearer to what the log kept off.
     fn order(&self, at: usize) -> Order<'_> {
         let case = &self.flown[at].case;
         let time_limit = self.compared[at].end + PATIENCE;
-        Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed }
+        Order { waypoints: &case.waypoints, accept: self.rule.radius, time_limit, seed: case.seed, obstacles: false }
     }
 
     /// How far the motion with these numbers is from log number `at`, sample by sample, m.

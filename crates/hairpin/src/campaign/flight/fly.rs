@@ -131,14 +131,16 @@ fn conditions(setup: &FlightSetup) -> Conditions {
     }
 }
 
-/// Step and walls are the scenario's; acceptance radius (m) and time limit (s) are the order's.
+/// Step and walls are the scenario's; acceptance radius (m), time limit (s) and whether anything stands in the way are
+/// the order's.
 fn settings(setup: &FlightSetup, order: &Order) -> FlySettings {
     let execute = &setup.scenario.execute;
     FlySettings {
         step: execute.step_s,
         accept: order.accept,
         time_limit: order.time_limit,
-        walls: execute.walls,
+        walls: execute.walls && order.obstacles,
+        obstacles: order.obstacles,
         latency: execute.latency_s.unwrap_or(0.0),
         simd: setup.simd,
         ..FlySettings::default()

@@ -25,6 +25,10 @@ pub(in crate::campaign) struct Order<'a> {
     /// The run's seed.
     /// Of noise, and of what else is drawn in the simulator; equal seeds give equal bits.
     pub(in crate::campaign) seed: u64,
+    /// Whether what stands in the way, walls among it, ends the run.
+    /// It does not where a motion that has come to its end is simulated again with other numbers: what is looked for
+    /// is how the robot moves.
+    pub(in crate::campaign) obstacles: bool,
 }
 
 /// A key under `execute` that is given, and that no run reads.

@@ -92,6 +92,8 @@ pub(in crate::campaign) struct Fittable {
     pub(in crate::campaign) sampling: Sampling,
     /// Where a waypoint counts as reached.
     pub(in crate::campaign) acceptance: Acceptance,
+    /// Drawn robots, and who steered them, on which intervals were found to hold.
+    pub(in crate::campaign) tried: &'static str,
     /// Whether motions are compared by the clock from their begin, not from waypoint to waypoint.
     pub(in crate::campaign) timed: bool,
 }

@@ -52,11 +52,13 @@ pub struct DriveSettings {
     /// A run whose plan is not over ends `stuck` if the body moves less than 1 cm and 1° in this time, s, or in twice
     /// the longest that the plan takes for that, where it is longer.
     pub patience: f64,
+    /// Whether a place to keep out of that is touched ends the run.
+    pub keep_outs: bool,
 }
 
 impl Default for DriveSettings {
     fn default() -> Self {
-        Self { accept: 0.25, time_limit: None, linger: 1.0, patience: 30.0 }
+        Self { accept: 0.25, time_limit: None, linger: 1.0, patience: 30.0, keep_outs: true }
     }
 }
 

@@ -110,7 +110,8 @@ impl<'a> Watch<'a> {
         }
         let at = [plant.x, plant.y];
         let before = std::mem::replace(&mut self.before, at);
-        if self.sortie.keep_outs.segment_distance(before, at) <= self.sortie.clearance_radius {
+        let touched = || self.sortie.keep_outs.segment_distance(before, at) <= self.sortie.clearance_radius;
+        if self.settings.keep_outs && touched() {
             return Some(Ended::Obstacle);
         }
         let over = self.progress(t, at, plant.speed == 0.0);

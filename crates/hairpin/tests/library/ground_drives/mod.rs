@@ -288,10 +288,12 @@ fn runs_end_where_they_must() {
     };
     let site = Site::new("rocky8", plane(0.0, 0.0));
     let lander = KeepOut { name: "lander".into(), shape: KeepOutShape::Circle { center_m: [2.0, 0.4], radius_m: 0.3 } };
-    let hit = ended(&site, &far, vec![lander], DriveSettings::default());
+    let hit = ended(&site, &far, vec![lander.clone()], DriveSettings::default());
     assert_eq!((hit.ended, hit.reached[1]), (Ended::Obstacle, None));
     let place = hit.track.position(hit.track.len() - 1);
     assert!((((place.x - 2.0).powi(2) + 0.16).sqrt() - 0.8).abs() < 0.011, "{place}");
+    let through = DriveSettings { keep_outs: false, ..DriveSettings::default() };
+    assert_ne!(ended(&site, &far, vec![lander], through).ended, Ended::Obstacle);
     let limit = DriveSettings { time_limit: Some(5.0), ..DriveSettings::default() };
     assert_eq!(ended(&site, &far, vec![], limit).ended, Ended::Time);
     // Wheels that spin on a climb which the plan thought firm.

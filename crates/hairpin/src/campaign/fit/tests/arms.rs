@@ -47,7 +47,8 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Ve
     let run = |number: usize| {
         let plan = solver.draw(100 * seed + number as u64, &Stop::never()).unwrap();
         let case = plan.case(seed, 0, number);
-        let order = Order { waypoints: &case.waypoints, accept: 1e-3, time_limit: 240.0, seed: case.seed };
+        let order =
+            Order { waypoints: &case.waypoints, accept: 1e-3, time_limit: 240.0, seed: case.seed, obstacles: true };
         let track = arm.kind().run(setup.kind().same(), &case, &order).unwrap().track;
         let mut noise = stream(named_seed(seed, "encoders", number as u64));
         let times = track.times().iter().map(|t| t + 1e-3 * unit(&mut noise)).collect();

@@ -54,7 +54,8 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, (count, bumps_m): (
     let drive = |number: usize| {
         let plan = solver.draw(100 * seed + number as u64, &Stop::never()).unwrap();
         let case = plan.case(seed, 0, number);
-        let order = Order { waypoints: &case.waypoints, accept: 0.5, time_limit: 240.0, seed: case.seed };
+        let order =
+            Order { waypoints: &case.waypoints, accept: 0.5, time_limit: 240.0, seed: case.seed, obstacles: true };
         let track = vehicle.kind().run(setup.kind().same(), &case, &order).unwrap().track;
         let mut noise = stream(named_seed(seed, "localisation", number as u64));
         let mut next = 0.0;
