@@ -133,7 +133,7 @@ const DAYS: [&str; 3] = ["monday", "tuesday", "wednesday"];
 fn an_hour_with_a_rover() {
     let folder = tempfile::tempdir().unwrap();
     follow("rover-hour.md", folder.path(), &|here| {
-        let real = Real::of(&here.join("out"), &[("execute.latency_s", json!(0.4))]);
+        let real = Real::of(&here.join("out"), &[("execute.latency_s", json!(0.25))]);
         let to = logs(here, "bags");
         for (number, day) in DAYS.iter().enumerate() {
             let (mut rows, _) = real.moves(number, (number as u64, 1));

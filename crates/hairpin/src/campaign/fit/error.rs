@@ -105,6 +105,12 @@ pub enum FitError {
     /// Nothing that is adjusted acts on what was flown.
     #[error("none of the numbers acts on what was flown: the logs tell nothing of the robot")]
     NoEffect,
+    /// Of what is simulated again and again too much ends early.
+    #[error(
+        "with numbers near to what the logs say, more than one simulation in four does not come to its end: nothing can \
+         be compared"
+    )]
+    Unfinished,
     /// It was asked to stop.
     #[error("stopped")]
     Stopped,

@@ -50,7 +50,7 @@ pub(super) fn found(
         imitator.starts(&observed, given).into_iter().map(|start| [&start[..], &noise].concat()).collect();
     let signs = |theta: &[f64], draw: u64| if stopped() { None } else { signs(loops, imitator, which, theta, draw) };
     let mut imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
-    let over = || if stopped() { FitError::Stopped } else { FitError::NoEffect };
+    let over = || if stopped() { FitError::Stopped } else { FitError::Unfinished };
     let all: Vec<usize> = (0..numbers + NOISES).collect();
     let nearest = imitation.nearest(&starts, &all).ok_or_else(over)?;
     let by = |own: usize| match loops.numbers.get(own) {
@@ -60,7 +60,7 @@ pub(super) fn found(
     let imitated = imitation.told(&nearest, &all, &by, NO_EFFECT).ok_or_else(over)?;
     let free: Vec<usize> = imitated.free.iter().copied().filter(|own| *own < numbers).collect();
     if free.is_empty() {
-        return Err(over());
+        return Err(FitError::NoEffect);
     }
     let best = imitated.theta;
     let t = student_quantile(imitated.freedom, SIGMA_95);
