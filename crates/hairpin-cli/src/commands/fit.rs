@@ -81,8 +81,8 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
     json!({
         "robot": asked.out, "logs": found.logs, "logged_s": found.logged_s,
         "parameters": fit.estimates.iter().map(parameter).collect::<Vec<_>>(),
-        "confounded": confounded, "execute": found.execute,
-        "intervals_tried_on": fit.tried, "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
+        "intervals_tried_on": fit.tried, "confounded": confounded, "execute": found.execute,
+        "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
         "gap": fit.gaps.iter().map(gap).collect::<Vec<_>>(),
         "unseen": fit.unseen.map(|[before, after]| json!({ "before_rmse_m": before, "after_rmse_m": after, "improves": after < before })),
         "exit_code": code,

@@ -5,6 +5,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::close_loop::FlySettings;
 use crate::trajectory::Ended;
 use crate::world::World;
 
@@ -37,13 +38,12 @@ pub(crate) struct Hazards {
 }
 
 impl Hazards {
-    /// Starts at `start`; obstacles are kept off by `clearance` m; which of leaving the world and touching an obstacle
-    /// is a crash.
-    pub(crate) fn new(clearance: f64, [walls, obstacles]: [bool; 2], start: &Vector3<f64>) -> Self {
+    /// Starts at `start`; obstacles are kept off by `clearance` m, and `settings` say what is a crash.
+    pub(crate) fn new(clearance: f64, settings: &FlySettings, start: &Vector3<f64>) -> Self {
         Self {
             clearance,
-            walls,
-            obstacles,
+            walls: settings.walls,
+            obstacles: settings.obstacles,
             airborne: false,
             before: Point3::from(*start),
             safe: None,

@@ -132,8 +132,7 @@ impl Run {
         settings.check()?;
         conditions.check()?;
         let loops = ClosedLoop::new(sortie, conditions, settings, seed)?;
-        let crashes = [settings.walls, settings.obstacles];
-        let hazards = Hazards::new(sortie.robot.clearance_radius, crashes, &sortie.waypoints[0].coords);
+        let hazards = Hazards::new(sortie.robot.clearance_radius, settings, &sortie.waypoints[0].coords);
         let to = Due { watch: 0, log: 0, turn: 0 };
         let mut run = Self {
             loops,

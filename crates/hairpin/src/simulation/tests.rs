@@ -394,7 +394,7 @@ fn a_take_off_from_the_floor_is_no_crash() {
 fn turning_over_and_numbers_without_end_are_tumbles() {
     let world = cage();
     let at = Vector3::new(5.0, 5.0, 5.0);
-    let mut hazards = hazard::Hazards::new(0.2, [false, true], &at);
+    let mut hazards = hazard::Hazards::new(0.2, &FlySettings::default(), &at);
     assert_eq!(hazards.note(&world, 0.0, &at, -0.5), None);
     assert_eq!(hazards.note(&world, 0.4, &at, -0.5), None);
     assert_eq!(hazards.note(&world, 0.6, &at, -0.5), Some(Ended::Tumble));
