@@ -103,6 +103,8 @@ struct Cloud {
     weights: DMatrix<f64>,
     /// Variance of each parameter's slopes, of a sign that scatters by 1.
     scatter: Vec<f64>,
+    /// Draws that came to something, less one for each of its parameters: one more than Σ has degrees of freedom.
+    draws: f64,
 }
 
 /// Where a descent has come to.
@@ -139,7 +141,7 @@ impl Imitation<'_> {
         let mut theta = theta.to_vec();
         let mut widths: Vec<f64> = all.iter().map(|own| 2.0 * self.parameters[*own].step).collect();
         for turn in 1.. {
-            let Cloud { mean, slopes, weights, scatter } = self.cloud(&theta, all, &widths, turn)?;
+            let Cloud { mean, slopes, weights, scatter, draws } = self.cloud(&theta, all, &widths, turn)?;
             let signs = self.observed.len() as f64;
             let acts = |at: &usize| {
                 let by = by(all[*at]);
@@ -154,7 +156,7 @@ impl Imitation<'_> {
             let there = self.step(&theta, &free, (&slopes, &weights, &off), 0.0).unwrap_or_else(|| theta.clone());
             let moved = DVector::from_fn(free.len(), |a, _| there[free[a]] - theta[free[a]]);
             let left = off - &slopes * &moved;
-            let found = self.spread(there, free, (&slopes, &weights), left.dot(&(&weights * &left)))?;
+            let found = self.spread(there, free, (&slopes, &weights, draws), left.dot(&(&weights * &left)))?;
             let deviation = |a: usize| found.covariance[(a, a)].sqrt();
             let rests = (0..moved.len()).all(|a| moved[a].abs() <= RESTS * deviation(a));
             if rests || turn == TURNS {
@@ -197,19 +199,20 @@ impl Imitation<'_> {
         let slopes = DMatrix::from_fn(m, p, |j, k| all_slopes[(k + 1, j)] / widths[k]);
         let inverted = normal.inverse();
         let scatter = (0..p).map(|k| inverted[(k + 1, k + 1)] / (widths[k] * widths[k])).collect();
-        Some(Cloud { mean: all_slopes.row(0).transpose(), slopes, weights: inverse(&covariance, SHRUNK[1])?, scatter })
+        let (mean, weights) = (all_slopes.row(0).transpose(), inverse(&covariance, SHRUNK[1])?);
+        Some(Cloud { mean, slopes, weights, scatter, draws: (n - p) as f64 })
     }
 
-    /// C with these slopes and weights, where D is `misfit`.
+    /// C with these slopes and weights, Σ⁻¹ of `n` draws, where D is `misfit`.
     fn spread(
         &self,
         theta: Vec<f64>,
         free: Vec<usize>,
-        (slopes, weights): (&DMatrix<f64>, &DMatrix<f64>),
+        (slopes, weights, n): (&DMatrix<f64>, &DMatrix<f64>, f64),
         misfit: f64,
     ) -> Option<Imitated> {
         let known = weights.diagonal().iter().filter(|weight| **weight > 0.0).count();
-        let (n, m, p) = (CLOUD as f64 - free.len() as f64, known as f64, free.len() as f64);
+        let (m, p) = (known as f64, free.len() as f64);
         let curvature = slopes.transpose() * weights * slopes;
         let scale = curvature.diagonal().map(|c| c.sqrt().recip());
         let scaled = DMatrix::from_fn(free.len(), free.len(), |a, b| curvature[(a, b)] * scale[a] * scale[b]);

@@ -3,6 +3,7 @@
 use hairpin::campaign::generate::Space;
 use hairpin::campaign::{Case, Known, OwnSimulator, Setup, execute_run, generate};
 use hairpin::math::random::named_seed;
+use hairpin_formats::scenario::setup_for;
 use hairpin_jobs::{Problem, Watch};
 use rayon::prelude::*;
 use serde_json::json;
@@ -46,7 +47,7 @@ pub(super) fn run(
 ) -> Result<(RunRecord, &'static str), Problem> {
     let seed = run_seed(cell, size, number);
     let drawn_from = if cell.same_graphs { seed } else { named_seed(seed, "uniform", 0) };
-    let base = setup(cell, drawn_from, &keys(cell, size, Way::WorstInGraph))?;
+    let base = setup(cell, drawn_from, &keys(cell, size, Way::WorstInGraph)?)?;
     let space = Space::of(&base).map_err(Problem::input)?;
     let field = Field { setup: &base, stress: cell.stress, fresh: size.fresh };
 
@@ -99,7 +100,7 @@ fn found(cell: &Cell, size: &Size, seed: u64, way: Way, watch: &dyn Watch) -> Re
 
 /// What a method of hairpin's finds.
 pub(super) fn searched(cell: &Cell, size: &Size, seed: u64, way: Way, watch: &dyn Watch) -> Result<Found, Problem> {
-    let setup = setup(cell, seed, &keys(cell, size, way))?;
+    let setup = setup(cell, seed, &keys(cell, size, way)?)?;
     let mut cases = Vec::new();
     let begun = process_time();
     let tally = watched(watch, |stop| {
@@ -115,25 +116,28 @@ pub(super) fn searched(cell: &Cell, size: &Size, seed: u64, way: Way, watch: &dy
 }
 
 /// The keys of `way`; random trajectories need those that tell graphs.
-fn keys(cell: &Cell, size: &Size, way: Way) -> Vec<(&'static str, String)> {
+fn keys(cell: &Cell, size: &Size, way: Way) -> Result<Vec<(&'static str, String)>, Problem> {
+    let cases_key = setup_for(&cell.scenario, &cell.sets)?.scenario.head().cases_key;
     let (method, moves) = way.method().unwrap_or(("worst", true));
     let mut keys = vec![
         ("generate.search.method", format!("\"{method}\"")),
-        ("generate.search.cases", size.cases.to_string()),
+        (cases_key, size.cases.to_string()),
         ("generate.search.executions", size.executions.to_string()),
-        ("generate.search.move_waypoints", moves.to_string()),
     ];
+    if cell.coordinates > 0 {
+        keys.push(("generate.search.move_waypoints", moves.to_string()));
+    }
     // Words in JSON are words in TOML.
     match method {
         "worst" => keys.push(("generate.search.target", json!(cell.target).to_string())),
         _ => keys.push(("generate.search.stress", json!(cell.stress).to_string())),
     }
-    keys
+    Ok(keys)
 }
 
 /// What the evolution strategy finds, a start for each case.
 fn evolved(cell: &Cell, size: &Size, seed: u64, watch: &dyn Watch) -> Result<Found, Problem> {
-    let setup = setup(cell, named_seed(seed, "cmaes", 0), &keys(cell, size, Way::Cmaes))?;
+    let setup = setup(cell, named_seed(seed, "cmaes", 0), &keys(cell, size, Way::Cmaes)?)?;
     let space = Space::of(&setup).map_err(Problem::input)?;
     let field = Field { setup: &setup, stress: cell.stress, fresh: 0 };
     let drawn = |case: usize, count: usize| -> Result<Vec<Case>, String> {

@@ -57,7 +57,7 @@ struct Family {
     /// What is searched for; the deviation if nothing is said.
     #[serde(default = "deviation")]
     target: Target,
-    /// Coordinates of a waypoint: three, two where heights are the ground's.
+    /// Coordinates that a waypoint is moved in: three, two where heights are the ground's, none where points are given.
     #[serde(default = "in_space")]
     coordinates: usize,
     /// Whether random trajectories come from the search's own graphs.
@@ -132,13 +132,20 @@ impl Size {
     /// The cells that are asked for.
     ///
     /// # Errors
-    /// A key of a family without a value; coordinates that no waypoint has; a target that the judge does not measure.
+    /// A key of a family without a value; coordinates that no waypoint has; a target that the judge does not measure;
+    /// ways that move waypoints of a family that has none to move.
     pub(super) fn cells(&self) -> Result<Vec<Cell>, Problem> {
         let mut cells = Vec::new();
         for family in &self.families {
-            if !(2..=3).contains(&family.coordinates) {
+            if !matches!(family.coordinates, 0 | 2 | 3) {
                 let given = family.coordinates;
-                return Err(Problem::input(format!("`coordinates` = {given}: must be 2 … 3")));
+                return Err(Problem::input(format!("`coordinates` = {given}: must be 0, 2 or 3")));
+            }
+            if family.coordinates == 0 && family.ways.as_deref() != Some(&[Way::Worst]) {
+                let name = &family.scenario;
+                return Err(Problem::input(format!(
+                    "`ways` of `{name}`: must be [\"worst\"], as other ways move waypoints and it has `coordinates` = 0"
+                )));
             }
             for robot in &family.robots {
                 for controller in &family.controllers {

@@ -47,7 +47,7 @@ pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
     let (mut legs, mut whole) = (Vec::with_capacity(count), true);
     for leg in 0..count {
         let length = (points[leg + 1] - points[leg]).xy().norm();
-        let mut one = PassedLeg { length, broken: proven(setup, &judge, asked, leg), ..PassedLeg::default() };
+        let mut one = PassedLeg { length, broken: proven(setup, asked, leg), ..PassedLeg::default() };
         let times = match asked.speed(leg) {
             Some(speed) => {
                 let factor = match [asked.rests(leg), asked.rests(leg + 1)] {
@@ -153,8 +153,9 @@ fn joined(mut table: Vec<Vec<Reached>>) -> Profile {
 
 /// What no boat can do on leg `leg`, or at the waypoint that it leads to.
 ///
-/// `None` where nothing is: waypoints outside, too near to a keep-out, or a speed beyond what limits and boat allow.
-fn proven(setup: &BoatSetup, judge: &BoatJudge, asked: &Demands, leg: usize) -> Option<Broken> {
+/// `None` where nothing is: waypoints outside, too near to a keep-out, or a speed beyond the limit of speeds. What the
+/// boat itself can keep up is no proof, as a current may be behind it: there a trip is looked for.
+fn proven(setup: &BoatSetup, asked: &Demands, leg: usize) -> Option<Broken> {
     let broken = |waypoint, leg, limit, unit, excess, words| {
         Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
     };
@@ -178,8 +179,7 @@ fn proven(setup: &BoatSetup, judge: &BoatJudge, asked: &Demands, leg: usize) -> 
         let words = format!("it lies {near:.2} m too near to a place to keep out of");
         return broken(*waypoint, None, "clearance", "m", Some(near), words);
     }
-    let speed = asked.speed(leg)?;
-    let most = judge.fastest().min(judge.top_speed());
+    let (speed, most) = (asked.speed(leg)?, setup.scenario.generate.limits.max_speed_m_s?);
     let words = format!("{speed} m/s are demanded, {most} m/s is the most");
     let over = speed > most * (1.0 + ROUNDING);
     if over { broken(leg + 1, Some(leg), "speed", "m/s", Some(speed - most), words) } else { None }
@@ -197,10 +197,19 @@ fn refused(leg: usize, why: &BoatInfeasible) -> Broken {
         BoatLimit::KeepOut => ("clearance", "m"),
         BoatLimit::Duration => ("duration", "s"),
     };
-    let (BoatInfeasible::Violates { at, margin, .. } | BoatInfeasible::Unproven { at, margin, .. }) = *why;
-    let excess = (-margin).max(0.0);
-    let words =
-        format!("no trip was found: the last one tried breaks the {limit} by {excess:.3} {unit} after {at:.1} s");
+    let (excess, words) = match *why {
+        BoatInfeasible::Violates { at, margin, .. } => (
+            -margin,
+            format!(
+                "no trip was found: the last one tried breaks the {limit} by {:.3} {unit} after {at:.1} s",
+                -margin
+            ),
+        ),
+        BoatInfeasible::Unproven { at, .. } => (
+            0.0,
+            format!("no trip was found: of the last one tried the {limit} could not be shown to hold at {at:.1} s"),
+        ),
+    };
     let certainty = Certainty::NotFound;
     Broken { waypoint: leg + 1, leg: Some(leg), limit, unit, excess: Some(excess), certainty, words }
 }

@@ -14,6 +14,7 @@ use crate::feasibility::reach::mend::mend_over;
 use crate::feasibility::reach::wander::{Wandered, wander};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream, unit};
+use crate::trajectory::Profile;
 
 /// Draws for each waypoint, at most.
 const TRIES: u64 = 1000;
@@ -80,21 +81,23 @@ impl<'a> BoatSolver<'a> {
         BoatRoadmap::new(&self.judge, points, &settings)
     }
 
-    /// `plan` over `points`, as many as its own, passed with the velocities that it has; `None` where they are not
-    /// feasible.
+    /// `plan` over what `points`, as many as its own, are in the plane, passed with the velocities that it has; `None`
+    /// where they are not feasible, or take longer than `generate.limits.max_time_s`.
     fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
-        let indices: Vec<usize> = (0..points.len()).collect();
-        let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, points)?;
-        Some(Plan::witnessed(points.to_vec(), profile))
+        let (points, indices) = (in_the_plane(points), (0..points.len()).collect::<Vec<_>>());
+        let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, &points)?;
+        self.in_time(points, profile)
     }
 
     /// The same; where velocities are in the way, other ones are chosen at what changed, and then beside it.
-    ///
-    /// At most `generate.limits.max_time_s` long.
     fn mended(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
-        let profile = plan.witness.as_ref()?.profile()?;
-        let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;
-        (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points.to_vec(), profile))
+        let (points, profile) = (in_the_plane(points), plan.witness.as_ref()?.profile()?);
+        let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, &points)?;
+        self.in_time(points, profile)
+    }
+
+    fn in_time(&self, points: Vec<Point3<f64>>, profile: Profile) -> Option<Plan> {
+        (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points, profile))
     }
 
     fn search(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
@@ -127,6 +130,11 @@ impl<'a> BoatSolver<'a> {
         }
         outcome
     }
+}
+
+/// Waypoints on the water: searches move them in space.
+fn in_the_plane(points: &[Point3<f64>]) -> Vec<Point3<f64>> {
+    points.iter().map(|point| Point3::new(point.x, point.y, 0.0)).collect()
 }
 
 impl Solver for BoatSolver<'_> {
@@ -162,8 +170,7 @@ impl Solver for BoatSolver<'_> {
     }
 
     fn over(&self, _: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
-        let in_the_plane: Vec<_> = points.iter().map(|point| Point3::new(point.x, point.y, 0.0)).collect();
-        self.mended(plan, &in_the_plane)
+        self.mended(plan, points)
     }
 
     fn elsewhere(&self, graph: u64, random: &mut Stream) -> Option<Point3<f64>> {

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use serde_json::{Value, json};
 
-use crate::campaign::passage::Demands;
+use crate::campaign::passage::{Certainty, Demands};
 use crate::campaign::passes::passes;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::{Known, OwnSimulator, Scenario, Setup, Stop, execute_run, generate, judge, verify};
@@ -109,4 +109,42 @@ fn a_stop_leaves_the_bow_where_it_is() {
         assert!(libm::remainder(turned, std::f64::consts::TAU).abs() < 1e-9, "{current:?}: {turned} rad");
         assert!(after.derivative(0.0, 1).norm() < 1e-12, "it stops there");
     }
+}
+
+/// Searches move waypoints in space; a boat's stay on the water, and its trips within their limit of time.
+#[test]
+fn waypoints_that_a_search_moves_stay_on_the_water() {
+    let moving = [
+        ("generate.search.method", json!("in-loop")),
+        ("generate.search.executions", json!(60)),
+        ("generate.search.move_waypoints", json!(true)),
+        ("generate.search.cases", json!(1)),
+        ("generate.limits.max_time_s", json!(300.0)),
+    ];
+    let setup = changed(&moving).expect("a setup");
+    let mut cases = Vec::new();
+    generate(&setup, &Known::default(), &OwnSimulator, &Stop::never(), &mut |found, _| cases.extend_from_slice(found));
+    let [case] = &cases[..] else { panic!("{} cases", cases.len()) };
+    assert!(case.waypoints.iter().all(|point| point.z == 0.0), "{:?}", case.waypoints);
+    assert!(case.profile().expect("a profile").duration() <= 300.0);
+    let proof = verify(&setup, case).proof.expect("a witness");
+    assert!(proof.ok(), "{:?}", proof.findings);
+}
+
+/// With the current behind it a boat is faster over ground than through the water, and only the limit of speeds is a
+/// proof that it is not.
+#[test]
+fn a_current_behind_a_boat_carries_it_faster_than_it_sails() {
+    let waypoints = [[3.0, 3.0], [10.0, 3.0], [16.0, 3.0], [22.0, 3.0]].map(|[x, y]| Point3::new(x, y, 0.0));
+    let asked = Demands { waypoints: &waypoints, speeds: &[Some(0.62); 3], stops: &[], hold: 0.0 };
+    let flowing = [("world.current_m_s", json!([0.25, 0.0]))];
+    let passed = passes(&changed(&flowing).expect("a setup"), &asked).expect("an answer");
+    let leg = &passed.legs[1];
+    assert!(passed.witness.is_some() && leg.top_speed.is_some_and(|top| (top - 0.62).abs() < 0.05), "{passed:?}");
+    let still = passes(&changed(&[("world.current_m_s", json!([0.0, 0.0]))]).expect("a setup"), &asked);
+    let broken = still.expect("an answer").legs[1].broken.clone().expect("faster than it sails");
+    assert_eq!((broken.limit, broken.certainty), ("thrust", Certainty::NotFound));
+    let limited = changed(&[flowing[0].clone(), ("generate.limits.max_speed_m_s", json!(0.5))]).expect("a setup");
+    let broken = passes(&limited, &asked).expect("an answer").legs[1].broken.clone().expect("above the limit");
+    assert_eq!((broken.limit, broken.certainty), ("speed", Certainty::Proven));
 }

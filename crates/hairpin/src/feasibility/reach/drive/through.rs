@@ -142,16 +142,17 @@ fn standing([x, y]: [f64; 2], yaw: f64) -> Planar {
     Planar { x, y, yaw, curvature: 0.0 }
 }
 
-/// The headings that place `index` may be passed in, without repetitions.
+/// The headings that place `index` may be passed in, without repetitions; a neighbour that is the same place says none.
 fn headings(places: &[[f64; 2]], index: usize) -> Vec<f64> {
     let along = |from: usize| {
         let (a, b) = (places[from], places[from + 1]);
         let way = [b[0] - a[0], b[1] - a[1]];
         let length = libm::hypot(way[0], way[1]);
-        way.map(|part| part / length)
+        (length > 0.0).then(|| way.map(|part| part / length))
     };
     let yaw = |[x, y]: [f64; 2]| libm::atan2(y, x);
-    let (before, after) = (index.checked_sub(1).map(along), (index + 1 < places.len()).then(|| along(index)));
+    let before = index.checked_sub(1).and_then(along);
+    let after = (index + 1 < places.len()).then(|| along(index)).flatten();
     match (before, after) {
         (Some(a), Some(b)) => {
             let middle = [a[0] + b[0], a[1] + b[1]];
@@ -188,5 +189,9 @@ mod tests {
         near(headings(&corner, 2), &[FRAC_PI_2]);
         near(headings(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], 1), &[0.0]);
         assert_eq!(headings(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 1).len(), 2);
+        let twice = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 2.0]];
+        near(headings(&twice, 1), &[0.0]);
+        near(headings(&twice, 2), &[FRAC_PI_2]);
+        near(headings(&[[1.0, 0.0], [1.0, 0.0]], 0), &[0.0]);
     }
 }
