@@ -16,6 +16,8 @@ use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream, unit};
 
 /// Draws for each waypoint, at most.
+///
+/// They are of all waypoints together: waypoints · 1000 draws.
 const TRIES: u64 = 1000;
 
 /// The part of a search that is the same for every graph.
@@ -69,6 +71,8 @@ impl<'a> BoatSolver<'a> {
     }
 
     /// The states of graph number `graph` over `points`.
+    ///
+    /// Velocities are drawn from the graph's seed, `velocities` of them a waypoint; both ends are at rest.
     pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> BoatRoadmap<'_> {
         let scenario = &self.setup.scenario;
         let settings = BoatRoadmapSettings {
@@ -82,6 +86,8 @@ impl<'a> BoatSolver<'a> {
 
     /// `plan` over `points`, as many as its own, passed with the velocities that it has; `None` where they are not
     /// feasible.
+    ///
+    /// Leg times are the shortest of the ladder; where a leg has none with these velocities nothing else is tried.
     fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let indices: Vec<usize> = (0..points.len()).collect();
         let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, points)?;
@@ -97,6 +103,7 @@ impl<'a> BoatSolver<'a> {
         (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points.to_vec(), profile))
     }
 
+    /// Legs that were judged are kept for the next round of an adaptive campaign, within a bound of memory.
     fn search(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let scenario = &self.setup.scenario;
         let mut roadmap = self.roadmap(graph, points);
