@@ -11,9 +11,13 @@ use crate::search::{Additive, Found, Task, beam_grown};
 use crate::simulation::Airborne;
 
 /// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
+///
+/// About as many logs are in memory at once.
 const FRONTIER: usize = 1000;
 
 /// Makes plans of what the beam grows, and has them executed.
+///
+/// An error tells how many executions were used up; 0 where no plan could be made.
 struct Carried<'q, 'a, N, O> {
     question: &'q Question<'a, N, O>,
     partials: &'q Partials<'a>,
@@ -36,6 +40,8 @@ impl<N: Copy, O> Execute<N> for Carried<'_, '_, N, O> {
 /// The frontier is at most 1000 partial trajectories.
 ///
 /// Scores are stresses of what was flown so far; the plan's own score only settles which legs are flown first.
+///
+/// The budget is `generate.search.executions` a graph, iterations `generate.search.iterations`: whichever ends first.
 pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &Question<N, O>,
     partials: &Partials,
