@@ -72,7 +72,8 @@ pub fn gap(
 ///
 /// O(points). The first of equals; a direction of NaN gives the first point.
 ///
-/// # Panics Without points.
+/// # Panics
+/// Without points.
 pub fn farthest(points: &[Point3<f64>], direction: &Vector3<f64>) -> Point3<f64> {
     let (mut best, mut most) = (points[0], f64::NEG_INFINITY);
     for p in points {

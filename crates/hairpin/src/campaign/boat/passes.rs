@@ -18,8 +18,6 @@ use crate::feasibility::steering::LegTiming;
 use crate::trajectory::{Profile, ProfileLeg};
 
 /// Shares of the top speed that a waypoint is passed with where none is demanded; 0: at rest.
-///
-/// The quickest chain takes what it can of them.
 const SHARES: [f64; 4] = [0.9, 0.6, 0.3, 0.0];
 /// The shortest leg time that is tried, s.
 ///

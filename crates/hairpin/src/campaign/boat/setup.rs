@@ -38,7 +38,8 @@ pub struct BoatSetup {
 impl BoatSetup {
     /// The boat of `keys`: that of `known`, if it is described alike.
     ///
-    /// # Errors As [`boat_of`].
+    /// # Errors
+    /// As [`boat_of`].
     pub(super) fn boat(keys: &BoatScenario, known: Option<&Self>) -> Result<Arc<Boat>, Mistake> {
         match known {
             Some(known) if known.scenario.robot == keys.robot => Ok(known.boat.clone()),
@@ -48,7 +49,8 @@ impl BoatSetup {
 
     /// The places to keep out of, likewise.
     ///
-    /// # Errors The keep-out that is no place, by its key.
+    /// # Errors
+    /// The keep-out that is no place, by its key.
     pub(super) fn keep_out(keys: &BoatScenario, known: Option<&Self>) -> Result<Arc<KeepOuts>, Mistake> {
         match known {
             Some(known) if known.scenario.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),

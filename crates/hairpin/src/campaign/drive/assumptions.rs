@@ -1,7 +1,7 @@
 //! What a drive's claim, execution and limits rest on, said from the run's own settings.
 //!
-//! Every number in a sentence is read from the setup that ran, with defaults in force; nothing is said that the run did
-//! not rest on. Sentences are appended in the order in which a report has them.
+//! Every number in a sentence is read from the setup that ran, with defaults in force. Sentences are
+//! appended in the order in which a report has them.
 
 use super::DriveSetup;
 use crate::campaign::scenario::GroundReach;

@@ -19,8 +19,6 @@ use crate::world::terrain::Terrain;
 /// At most eight questions of up to three legs each for every leg that is refused.
 const LET_OUT: [f64; 8] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0, 16.0];
 /// A speed within this share of the limit keeps it.
-///
-/// Demands come from files of decimals.
 const ROUNDING: f64 = 1e-9;
 
 /// What the claim says of `asked`; heights are the ground's.

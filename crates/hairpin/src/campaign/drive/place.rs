@@ -91,8 +91,7 @@ impl<'a> Claimed<'a> {
 
     /// What must be kept beyond the vehicle's radius for the claim to see that the radius is, m.
     ///
-    /// Looks of a drive are a step apart; a disc between two of them is seen by at least one if it is kept that much
-    /// farther.
+    /// A look vouches for the metres of the step around it, and so must be that much farther away than the radius.
     fn beyond(&self) -> f64 {
         match self {
             Self::Straight(_) => 0.0,

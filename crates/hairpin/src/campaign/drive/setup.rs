@@ -160,7 +160,8 @@ impl DriveSetup {
     /// In that order: `rover`, `planner`. The first one's bound of curvature is cut to what the commanded speed leaves
     /// without a change of speed; what the acceleration of a plan takes of κ′ besides is taken in [`Self::bounds`].
     ///
-    /// # Errors The robot's key that is out of bounds; a name that was not resolved before.
+    /// # Errors
+    /// The robot's key that is out of bounds; a name that was not resolved before.
     pub(super) fn rovers(keys: &DriveScenario, known: Option<&Self>) -> Result<[Arc<Rover>; 2], Mistake> {
         let kinematics = keys.generate.kinematics;
         if let Some(known) = known
@@ -178,7 +179,8 @@ impl DriveSetup {
 
     /// Ground that is generated is made once, and shared by all draws that do not change it.
     ///
-    /// # Errors The key that is out of bounds; a file that was not read before.
+    /// # Errors
+    /// The key that is out of bounds; a file that was not read before.
     pub(super) fn map(
         keys: &DriveScenario,
         files: &Attachments,
@@ -195,7 +197,8 @@ impl DriveSetup {
 
     /// The keep-outs of `keys`, likewise.
     ///
-    /// # Errors The keep-out that is no place: without a shape or with two, or of numbers that are none.
+    /// # Errors
+    /// The keep-out that is no place: without a shape or with two, or of numbers that are none.
     pub(super) fn keep_out(keys: &DriveScenario, known: Option<&Self>) -> Result<Arc<KeepOuts>, Mistake> {
         match known {
             Some(known) if known.scenario.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),

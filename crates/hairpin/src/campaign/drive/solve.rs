@@ -47,7 +47,7 @@ const LEARNED_FROM: &str = "slope+slip";
 ///
 /// One for all graphs. Holds no legs but those that rounds of an adaptive search come back to.
 pub(super) struct DriveSolver<'a> {
-    /// What is searched for whom.
+    /// Its planner's vehicle drives the legs.
     pub(super) setup: &'a DriveSetup,
     /// Of all graphs; the seed of what waypoints draw is set for each graph.
     pub(super) settings: DriveSettings,
@@ -290,7 +290,8 @@ fn times(drive: &Drive) -> Vec<f64> {
 /// Speed, rate of turns, bounds, tilt and pace are the setup's; a turn in place is allowed only where the robot can. A
 /// clearance of the underside that is not given is −∞: not asked.
 ///
-/// # Errors A score of legs that has an unknown term, in a sentence's part.
+/// # Errors
+/// A score of legs that has an unknown term, in a sentence's part.
 pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
     let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
     let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
@@ -330,7 +331,8 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
 /// A score of a file, a program of the user's and an adaptive search see [`LEARNED_FROM`]; all others the score by
 /// name.
 ///
-/// # Errors The unknown terms, in a sentence's part.
+/// # Errors
+/// The unknown terms, in a sentence's part.
 fn ground_score(setup: &DriveSetup) -> Result<GroundScore, String> {
     let (search, files) = (&setup.scenario.generate.search, &setup.attachments);
     let of_file = files.model(&search.score).is_some() || files.user_score(&search.score).is_some();

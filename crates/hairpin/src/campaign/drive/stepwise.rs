@@ -168,7 +168,7 @@ impl<'a> Stepwise<'a> {
 
     /// What stands behind its legs.
     ///
-    /// The hull is a filter and proves nothing of a drive; the other two are no filter at all.
+    /// The hull is a filter and proves nothing of a drive; of the other two nothing is claimed.
     fn evidence(&self) -> Evidence {
         match self.set {
             Set::Hull(_) => Evidence::HullFeasible,

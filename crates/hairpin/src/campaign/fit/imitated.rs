@@ -47,7 +47,8 @@ const UNLIKE: f64 = 10.0;
 /// An end beyond a bound is open. Numbers that are told are fitted once more with the others as they were given, each
 /// within its interval.
 ///
-/// # Errors Too few stretches, a log without headings, one in which the vehicle hardly moves, numbers without any
+/// # Errors
+/// Too few stretches, a log without headings, one in which the vehicle hardly moves, numbers without any
 /// effect, or that it was stopped.
 pub(super) fn found(
     loops: &Loops,

@@ -24,7 +24,8 @@ use crate::math::output_error::{Parameter, acting, descend, profile, spread};
 /// covariance by stretches and W that of white residuals, so that profiles of a likelihood that counts neighbours twice
 /// are as wide as they should be.
 ///
-/// # Errors Too few stretches, numbers without any effect, no simulation at the start, or that it was stopped.
+/// # Errors
+/// Too few stretches, numbers without any effect, no simulation at the start, or that it was stopped.
 pub(super) fn found(
     loops: &Loops,
     given: &[f64],

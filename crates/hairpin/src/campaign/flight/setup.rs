@@ -169,7 +169,8 @@ fn mistake(prefix: &str, error: WorldError) -> Mistake {
     Mistake { key: format!("world.{prefix}{}", error.field), value: error.value, bound: error.bound }
 }
 
-/// # Errors No shape at all, or numbers that are none: the shape's own field, value and bound.
+/// # Errors
+/// No shape at all, or numbers that are none: the shape's own field, value and bound.
 fn shape_of(obstacle: &ObstacleSection) -> Result<Shape, WorldError> {
     match obstacle {
         ObstacleSection { cuboid: Some(b), .. } => Shape::cuboid(b.center_m, b.size_m),

@@ -67,7 +67,8 @@ impl Steered for Quadrotor {
         plan.duration()
     }
 
-    /// # Errors Keys that go with no command, or a quaternion whose norm is off, in a sentence.
+    /// # Errors
+    /// Keys that go with no command, or a quaternion whose norm is off, in a sentence.
     fn command(answer: &Value) -> Result<FlightCommand, String> {
         let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys::<Self, Answer>(answer)?;
         match (v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s) {

@@ -7,13 +7,13 @@
 //! ```text
 //! none        every waypoint
 //! sphere      ‖b − a‖ ≤ v_max T
-//! hull        b − a − v T within the hull of the ends of runs of T at constant rotor speeds, from level rest
+//! hull        b − a − v φ(T) within the hull of the ends of runs of T at constant rotor speeds, from level rest
 //! published   the same with ends by one Euler step
 //! carried     the same from attitudes and rates that an earlier leg may have left
 //! ```
 //!
-//! v is the velocity that is assumed where the leg begins: the one before over T, or none (`estimate.velocity`). With a
-//! speed limit a leg is no longer than limit · T.
+//! v is the velocity that is assumed where the leg begins: the one before over T, or none (`estimate.velocity`); φ(T) is
+//! how far a unit of it carries against the linear drag, s. With a speed limit a leg is no longer than limit · T.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -211,7 +211,7 @@ impl<'a> Stepwise<'a> {
 
     /// By walls, speed, obstacle, reach and whether the end can still be reached.
     ///
-    /// A candidate counts once. `fast` is asked of the leg's length over the step, in m.
+    /// A candidate counts once. A leg is too fast where it is longer than the speed limit times the step.
     fn count_by<N: Copy + Eq + Hash, R: Reach<N>>(
         &self,
         reach: R,

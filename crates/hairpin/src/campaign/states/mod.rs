@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! t(s, turned) = T(s) + |turned|/ω          T the time of the speed profile, s the metres driven
-//! wheel i:  rolling speed = rolls_i · v / r   rolls_i its share of the body's twist, v m/s (ω in a turn in place), r radius
+//! rolling speed of wheel i = rolls_i · v / r   rolls_i its share of the body's twist, v m/s (ω turned in place), r m
 //! ```
 //!
 //! Attitudes, joints and clearances are those of the body at rest on the ground at each step (quasi-static). Rates of

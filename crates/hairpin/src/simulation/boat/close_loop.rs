@@ -155,7 +155,8 @@ impl<'a> Run<'a> {
     }
 }
 
-/// # Errors Fewer than two waypoints, numbers that are not finite, or another number of legs than the waypoints ask
+/// # Errors
+/// Fewer than two waypoints, numbers that are not finite, or another number of legs than the waypoints ask
 /// for.
 fn check_course(sortie: &BoatSortie) -> Result<(), SimulationError> {
     let points = sortie.waypoints;

@@ -16,7 +16,7 @@ pub(super) struct Recorder {
     weighs: bool,
 }
 
-/// Velocities of the body's origin in the map's frame; speed along the way, negative in reverse; the curvature of the
+/// Velocities of the body's origin in the map's frame; speed of the wheels, negative in reverse; the curvature of the
 /// wheels and the one that was commanded.
 const MOTION: [&str; 7] =
     ["leg", "vx_m_s", "vy_m_s", "vz_m_s", "speed_m_s", "curvature_1_m", "commanded_curvature_1_m"];
@@ -44,7 +44,8 @@ impl Recorder {
     ///
     /// Only a margin that was not looked at yet is asked of the plant, which may have lost the ground: [`Lost`].
     ///
-    /// # Errors The ground was lost where the margin had to be asked.
+    /// # Errors
+    /// The ground was lost where the margin had to be asked.
     pub(super) fn push(
         &mut self,
         t: f64,

@@ -11,7 +11,7 @@ use crate::campaign::scenario::{
 
 /// A trip is given up after this multiple of its planned duration …
 ///
-/// The limit of a run without one given is 2 · planned + 60 s.
+/// The limit of a run without one given is 2 · planned + 60 s, or what its kind calls the slowest if that is more.
 const SLOWNESS: f64 = 2.0;
 /// … and this time, s.
 const SPARE_SECONDS: f64 = 60.0;

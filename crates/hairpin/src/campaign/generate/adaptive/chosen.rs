@@ -18,7 +18,7 @@ impl Campaign<'_> {
     /// Finds as many graphs as cases are asked for, in the order of their numbers, and draws in each, `share` in all.
     ///
     /// ⌈share / graphs⌉ draws are asked of each, of which each graph keeps those that it is dealt. Graphs in which
-    /// nothing is feasible count as units, not as graphs.
+    /// nothing is feasible count as units and take no place.
     pub(super) fn first(&mut self, share: u64) -> Vec<Todo> {
         let wanted = self.search.adaptive_graphs() as usize;
         let units = self.search.graphs.unwrap_or(self.search.cases.saturating_mul(GRAPHS_PER_CASE));
