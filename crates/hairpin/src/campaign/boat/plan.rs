@@ -35,7 +35,7 @@ pub(super) fn timed(case: &Case) -> Vec<Timed> {
 
 /// Heading at each waypoint, rad: of a witness the one that it passes with, else along the leg that follows.
 ///
-/// At the last waypoint the heading at the end of the last leg. [0] for a single waypoint without a leg.
+/// At the last waypoint the heading at the end of the last leg. One 0 for a single waypoint without a leg.
 pub(super) fn headings(case: &Case) -> Vec<f64> {
     let legs = case.waypoints.len().saturating_sub(1);
     let along = |leg: usize| {

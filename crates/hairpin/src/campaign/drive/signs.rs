@@ -93,7 +93,7 @@ pub(super) struct Part {
 impl Looked {
     /// `None` of a log that is too short.
     ///
-    /// Places are laid through by lines ([`line`]); what moved is in the frame of the mean heading of both looks, so
+    /// Places are laid through by lines (`line`); what moved is in the frame of the mean heading of both looks, so
     /// that an arc between them has no part to the left.
     pub(super) fn at(log: &GroundLog) -> Option<Self> {
         let count = (log.times.last()? / PERIOD).floor() as usize;

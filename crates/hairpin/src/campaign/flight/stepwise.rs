@@ -12,8 +12,8 @@
 //! carried     the same from attitudes and rates that an earlier leg may have left
 //! ```
 //!
-//! v is the velocity that is assumed where the leg begins: the one before over T, or none (`estimate.velocity`); φ(T) is
-//! how far a unit of it carries against the linear drag, s. With a speed limit a leg is no longer than limit · T.
+//! v is the velocity that is assumed where the leg begins: the one before over T, or none (`estimate.velocity`); φ(T)
+//! is how far a unit of it carries against the linear drag, s. With a speed limit a leg is no longer than limit · T.
 
 use std::cell::RefCell;
 use std::collections::HashSet;

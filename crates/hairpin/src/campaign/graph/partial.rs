@@ -11,8 +11,6 @@ use crate::search::{Additive, Found, Task, beam_grown};
 use crate::simulation::Airborne;
 
 /// Partial trajectories on the frontier at most: each keeps a robot in mid-air, and its log.
-///
-/// About as many logs are in memory at once.
 const FRONTIER: usize = 1000;
 
 /// Makes plans of what the beam grows, and has them executed.

@@ -61,7 +61,7 @@ pub fn descend(objective: &Objective, start: &[f64], free: &[usize]) -> Option<D
 /// The same in few turns with the derivatives `jacobian`, a column for each of `free`, which were taken nearby: a
 /// simulation a turn. Where that ends Q is an upper bound of its minimum.
 ///
-/// At most 4 simulations.
+/// At most 5 simulations, one of them at the start.
 pub(super) fn settle(objective: &Objective, start: &[f64], free: &[usize], jacobian: &DMatrix<f64>) -> Option<Descent> {
     let mut theta: Vec<f64> = start.iter().zip(&objective.parameters).map(|(x, p)| x.clamp(p.low, p.high)).collect();
     let mut value = objective.at(&theta)?;

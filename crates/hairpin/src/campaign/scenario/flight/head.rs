@@ -12,7 +12,8 @@ use crate::campaign::scenario::{
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
 ///
-/// The limit of a run without one given is this times the waypoints, or what its kind calls the slowest if that is more.
+/// The limit of a run without one given is this times the waypoints, or what its kind calls the slowest if that is
+/// more.
 const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
