@@ -48,8 +48,8 @@ const UNLIKE: f64 = 10.0;
 /// within its interval.
 ///
 /// # Errors
-/// Too few stretches, a log without headings, one in which the vehicle hardly moves, no simulation that comes to an end,
-/// numbers without any effect, or that it was stopped.
+/// Too few stretches, a log without headings, one in which the vehicle hardly moves, no simulation that comes to an
+/// end, numbers without any effect, or that it was stopped.
 pub(super) fn found(
     loops: &Loops,
     imitator: &dyn Imitator,

@@ -110,7 +110,7 @@ impl<'a> Growing<'a> {
 
     /// Adds points of `cloud` until none lies beyond the hull; all triangles must be of the hull.
     ///
-    /// Each insertion takes the point farthest beyond one open triangle. O(points · new triangles), the planes eight
+    /// Each insertion takes the point farthest beyond one open triangle. O(points · new triangles), points eight
     /// abreast in [`Cloud`].
     pub(super) fn grow(&mut self, cloud: &Cloud) -> Result<(), Tangled> {
         self.farthest.clear();

@@ -18,9 +18,8 @@ const ANYWHERE: usize = 4;
 
 /// Appends up to M poses at waypoint `w`.
 ///
-/// Depends on the waypoint's number and the seed, so that no waypoint's headings change with another's. Aimed in the
-/// direction of travel: in reverse away from the target, and by the crab angle aside. Each draw asks whether the body
-/// stands.
+/// Draws are of a stream of the waypoint's own number, whatever other waypoints drew. Aimed in the direction of travel:
+/// in reverse away from the target, and by the crab angle aside. Each draw asks whether the body stands.
 pub(super) fn draw_headings(
     site: &DriveSite,
     settings: &DriveSettings,
