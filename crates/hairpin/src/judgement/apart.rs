@@ -7,6 +7,8 @@ const NOTHING: f64 = 5e-6;
 
 /// A number of `unit` as a verdict tells it: with the digits that `limit` was given with, two decimals at least (of
 /// degrees one), and as many more as it takes to see that they differ.
+///
+/// A value without a limit has the unit's least decimals, or its first two digits where those would show zeros.
 pub fn told(value: f64, limit: Option<f64>, unit: &str) -> String {
     apart(value, limit.unwrap_or(f64::NAN), limit.map_or(least(unit), |limit| decimals_of(limit, least(unit)))).0
 }
@@ -18,6 +20,8 @@ pub(super) fn least(unit: &str) -> usize {
 
 /// Two numbers with as many decimals as it takes to see that they differ, and that a value is not zero: at least
 /// `least`.
+///
+/// At most 11 decimals, then all digits that the numbers have. Equal numbers are told alike. NaN is told as such.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
     // Of −0 too: what is nothing has no sign. How far below zero is always told, for a bound may be there.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
@@ -38,6 +42,8 @@ fn two_digits(value: f64, least: usize) -> usize {
 }
 
 /// Decimals that `limit` was given with, from `least` to four; `least` of one that was drawn or computed, and has more.
+///
+/// 10^k · limit is whole to 1e-7 for the answer k.
 pub fn decimals_of(limit: f64, least: usize) -> usize {
     let mut scaled = limit;
     for decimals in 0..=4 {

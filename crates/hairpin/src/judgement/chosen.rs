@@ -1,5 +1,10 @@
 //! The share of violations, and what it says: of cases that were drawn at random it is an estimate of all that are
 //! feasible, of any others it is a count.
+//!
+//! ```text
+//! drawn at random      failed/N in [low, high] (Clopper and Pearson)     the interval decides
+//! any other            failed of N                                       the count alone decides
+//! ```
 
 use super::statistics::{Share, rule_of_three, share};
 
@@ -61,6 +66,8 @@ pub(super) enum Against {
 }
 
 /// What is counted.
+///
+/// `of` may be 0; `confidence` lies in [0.5, 1).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Count {
     pub(super) chosen: Chosen,
@@ -73,6 +80,8 @@ pub(super) struct Count {
 
 impl Count {
     /// Of cases at random the interval decides, of any others their own share.
+    ///
+    /// A limit that is met exactly is not broken. `Open` without a case.
     pub(super) fn against(&self, limit: f64) -> Against {
         let Some(plain) = share(self.failed, self.of, self.confidence) else { return Against::Open };
         match self.chosen.share(self.failed, self.of, self.confidence) {
@@ -121,6 +130,7 @@ pub(super) fn draws_sentence(failed: usize, of: usize, confidence: f64) -> Optio
     Some(if failed == 0 { words } else { format!("{failed} of {of} draws of `[vary]` violate: {words}") })
 }
 
+/// No failure at all is told by the rule of three at 95 %, whatever the confidence: 3/N.
 fn share_words(share: Share, (failed, of): (usize, usize), confidence: f64, what: &str) -> String {
     if failed == 0 {
         return format!("no violation in {of} {what}: share at most {} % (3/N, 95 %)", percent(rule_of_three(of)));
@@ -131,6 +141,8 @@ fn share_words(share: Share, (failed, of): (usize, usize), confidence: f64, what
 }
 
 /// A share in percent: one decimal, or two digits where it is below 0.1 %.
+///
+/// Up to 12 decimals.
 fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent == 0.0 || percent >= 0.1 {

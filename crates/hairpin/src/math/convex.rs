@@ -1,9 +1,15 @@
 //! How far two convex sets are apart, of which only the farthest points in given directions are asked: bounds on both
 //! sides, so that whoever decides by them need not trust that the search ended well.
+//!
+//! Sets are asked by their support function alone, s(n) = argmax over the set of n·p, so that capsules, hulls and boxes
+//! need no common form. A step costs one question to each set and the nearest point of a simplex, O(1).
 
 use nalgebra::{Point3, Vector3};
 
 /// Bounds of a distance, m.
+///
+/// least ≤ distance ≤ most, to rounding. Both are 0 for sets that meet and were found to; `least` alone may be 0 where
+/// the search ended early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gap {
     /// No two points are nearer: the sets are separated by a plane with this room.
@@ -29,6 +35,9 @@ const EQUAL: f64 = 1e-12;
 /// where both are equal, or where they tell enough: `most` is at most `met`, or `least` is more than `clear`.
 ///
 /// Rounding leaves both bounds within some 1e-15 of the sets' size.
+///
+/// `met` and `clear` are m; [0, ∞] asks for the distance itself. After 64 steps the bounds so far are the answer. Not
+/// for depths: of sets that overlap it tells 0, not by how much. NaN in a point leaves bounds that say nothing.
 pub fn gap(
     a: impl Fn(&Vector3<f64>) -> Point3<f64>,
     b: impl Fn(&Vector3<f64>) -> Point3<f64>,
@@ -60,6 +69,11 @@ pub fn gap(
 }
 
 /// The farthest of `points` in a direction; they are never none.
+///
+/// O(points). The first of equals; a direction of NaN gives the first point.
+///
+/// # Panics
+/// Without points.
 pub fn farthest(points: &[Point3<f64>], direction: &Vector3<f64>) -> Point3<f64> {
     let (mut best, mut most) = (points[0], f64::NEG_INFINITY);
     for p in points {
@@ -72,6 +86,8 @@ pub fn farthest(points: &[Point3<f64>], direction: &Vector3<f64>) -> Point3<f64>
 }
 
 /// At most four points.
+///
+/// Corners are differences a − b; `count` is 1 to 4 and those beyond it are left over.
 struct Simplex {
     points: [Vector3<f64>; 4],
     count: usize,
@@ -80,6 +96,9 @@ struct Simplex {
 impl Simplex {
     /// Takes in `w` and drops the points that are not needed: the point of all that is nearest to the origin, `None` if
     /// that is the origin itself, inside four points.
+    ///
+    /// Of four points the faces are looked at that the origin lies outside of; one whose fourth point lies in its plane
+    /// counts as such, so that flat bodies are searched and not taken for a meeting.
     fn with(&mut self, w: Vector3<f64>) -> Option<Vector3<f64>> {
         self.points[self.count] = w;
         self.count += 1;
@@ -102,6 +121,8 @@ impl Simplex {
         }
     }
 
+    /// Keeps the points of the smallest simplex that holds the nearest point, which is what keeps the next step well
+    /// posed.
     fn keep(&mut self, (kept, nearest): (Kept, Vector3<f64>)) -> Vector3<f64> {
         self.count = kept.1;
         self.points[..kept.1].copy_from_slice(&kept.0[..kept.1]);
@@ -113,6 +134,12 @@ impl Simplex {
 type Kept = ([Vector3<f64>; 3], usize);
 
 /// The point of the segment a–b nearest to the origin, and the ends that it needs.
+///
+/// ```text
+/// p = a + d · clamp(−a·d/|d|², 0, 1),   d = b − a
+/// ```
+///
+/// Of a segment without length it is `a`.
 fn segment(a: &Vector3<f64>, b: &Vector3<f64>) -> (Kept, Vector3<f64>) {
     let d = b - a;
     let (along, square) = (-a.dot(&d), d.norm_squared());
@@ -127,6 +154,8 @@ fn segment(a: &Vector3<f64>, b: &Vector3<f64>) -> (Kept, Vector3<f64>) {
 
 /// The point of a triangle nearest to the origin, and the corners that it needs (Ericson, "Real-Time Collision
 /// Detection", 2005, §5.1.5).
+///
+/// Of a flat triangle the nearest of its three edges. O(1), without a division but by |n|² and |d|².
 fn triangle(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> (Kept, Vector3<f64>) {
     let normal = (b - a).cross(&(c - a));
     let square = normal.norm_squared();

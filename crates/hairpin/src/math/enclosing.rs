@@ -1,10 +1,19 @@
 //! Few points and a radius around many points: what a mesh's convex hull is taken for, never smaller.
+//!
+//! ```text
+//! all points ⊂ { p : distance(p, hull of taken) ≤ radius }
+//! ```
+//!
+//! Conservative by construction: distances to the enclosed body are bounded from below by those to the hull less the
+//! radius.
 
 use nalgebra::{Point3, Vector3};
 
 use super::convex::{farthest, gap};
 
 /// All points within `radius` of the convex hull of `points`.
+///
+/// Both in the unit of the points; the radius is 0 where all of them lie in the hull.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enclosing {
     /// Some of those that were given.
@@ -16,6 +25,8 @@ pub struct Enclosing {
 /// Points that a hull is made of, at most.
 const MOST_POINTS: usize = 64;
 /// Points this near to the hull so far are not looked at again, as a share of the size.
+///
+/// A point dropped so stays within it, as the hull only grows.
 const NEAR: f64 = 1e-3;
 
 /// Few of `points`, and the radius with which their hull holds all of them; `None` without points.
@@ -23,6 +34,9 @@ const NEAR: f64 = 1e-3;
 /// Starts with the farthest in 50 directions; then whatever lies farthest outside is taken in, until nothing does by
 /// more than a thousandth of the size or 64 points are taken. The radius is an upper bound of the distance of every
 /// other point from the hull ([`gap`]), so that nothing is left out, whatever the search did.
+///
+/// Size is the largest distance from the first point. Cost: up to 64 rounds of a [`gap`] to every point that is still
+/// open, each O(points taken) a step; done once for a mesh. Deterministic.
 pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
     let first = points.first()?;
     let size = points.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
@@ -62,6 +76,8 @@ pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
 }
 
 /// To the faces, edges and corners of a cube, and between them: 50.
+///
+/// Not of unit length: 26 of a cube, and 24 with components 0, ± 1, ± 2.
 pub fn directions() -> impl Iterator<Item = Vector3<f64>> {
     let side = |i: usize| i as f64 - 1.0;
     let cube = (0..27).map(move |i| Vector3::new(side(i % 3), side(i / 3 % 3), side(i / 9)));

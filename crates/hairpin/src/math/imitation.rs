@@ -73,6 +73,8 @@ const RESTS: f64 = 0.3;
 /// The first draw of those that no descent has seen.
 const UNSEEN: u64 = 1000;
 /// Share of the correlations that few draws are not believed of.
+///
+/// Of the covariance of a centre's 40 draws, and of a cloud's 240.
 const SHRUNK: [f64; 2] = [0.1, 0.05];
 /// A start's signs that are farther off than the root of this, in deviations, count as so far.
 const FARTHEST: f64 = 50.0;
@@ -88,6 +90,8 @@ const DAMPING: [f64; 2] = [1e-2, 1e2];
 const GAIN: f64 = 1.0;
 
 /// A place, and what stands around it: the mean of signs, weights, and few draws that others are compared with.
+///
+/// `mean` has m entries, `weights` m × m; `few` are the first 8 draws, whose numbers every other place is asked with.
 struct Centre {
     theta: Vec<f64>,
     mean: DVector<f64>,
@@ -96,6 +100,8 @@ struct Centre {
 }
 
 /// What a cloud says of the signs at its middle.
+///
+/// m × p, in units of a sign by a parameter.
 struct Cloud {
     mean: DVector<f64>,
     /// G of all its parameters.
@@ -108,6 +114,8 @@ struct Cloud {
 }
 
 /// Where a descent has come to.
+///
+/// `slopes` has a column for each of the free parameters, in their order.
 struct Descent {
     theta: Vec<f64>,
     slopes: DMatrix<f64>,
@@ -118,6 +126,10 @@ struct Descent {
 impl Imitation<'_> {
     /// Few draws at each of `starts` say from which to descend in the parameters `free`; the nearest of what these come
     /// to. `None` where no simulation comes of any, or no parameter acts.
+    ///
+    /// Cost: 6 draws a start; for each of the three best a slope of 4 draws at both sides of each parameter, two rounds
+    /// of 40 draws and a few tries of 8; two more rounds from the nearest. Draws run in parallel; the answer does not
+    /// depend on it.
     pub fn nearest(&self, starts: &[Vec<f64>], free: &[usize]) -> Option<Vec<f64>> {
         let mut looked: Vec<(f64, &Vec<f64>)> =
             starts.iter().filter_map(|start| Some((self.look(start)?, start))).collect();
@@ -137,6 +149,10 @@ impl Imitation<'_> {
     /// A cloud is of draws that no descent has seen, each at a place of its own around θ: a linear regression of their
     /// signs on their places says μ, G and Σ at once, and from these the next θ follows. Where loops swing, draws that
     /// are common to two places are as far apart as any.
+    ///
+    /// At most five clouds of 240 draws. It rests where no parameter moves by more than 0.3 of its deviation. `free`
+    /// are the parameters whose change moves the signs by more than chance makes of it; the others have neither slope
+    /// nor covariance. `None` where more than a quarter of a cloud's draws fail, or a matrix cannot be factorised.
     pub fn told(&self, theta: &[f64], all: &[usize], by: &dyn Fn(usize) -> f64, least: f64) -> Option<Imitated> {
         let mut theta = theta.to_vec();
         let mut widths: Vec<f64> = all.iter().map(|own| 2.0 * self.parameters[*own].step).collect();
@@ -172,6 +188,11 @@ impl Imitation<'_> {
     }
 
     /// See [`Self::told`]: draws at places that are off by up to `widths` and a half times that.
+    ///
+    /// ```text
+    /// s_k = μ + Σ_j g_j (θ_kj − θ_j) + ε_k,   θ_kj uniform within ± 1.5 width_j, cut to the bounds
+    /// (μ, g) by least squares,   Σ = Σ_k ε_k ε_kᵀ/(n − p − 1)
+    /// ```
     fn cloud(&self, theta: &[f64], all: &[usize], widths: &[f64], turn: u64) -> Option<Cloud> {
         let draw = |number: u64| {
             let mut random = stream(named_seed(turn, "cloud", number));
@@ -204,6 +225,12 @@ impl Imitation<'_> {
     }
 
     /// C with these slopes and weights, Σ⁻¹ of `n` draws, where D is `misfit`.
+    ///
+    /// ```text
+    /// C = (n − 1)/(n − m − 2) · max(1, D/(m − p)) · (Gᵀ W G)⁻¹,   m the signs that have a weight
+    /// ```
+    ///
+    /// Inverted with unit diagonal, so that parameters of different units do not spoil it. The freedom told is n − m.
     fn spread(
         &self,
         theta: Vec<f64>,
@@ -230,6 +257,8 @@ impl Imitation<'_> {
     }
 
     /// How far signs at `theta` are off, each by its own deviation.
+    ///
+    /// Σ over signs of min(50, (s − μ)²/σ²); correlations are left out, as 6 draws say nothing of them.
     fn look(&self, theta: &[f64]) -> Option<f64> {
         let draws = most(self.draws(theta, 0..LOOKS))?;
         let (mean, covariance) = moments(&draws);
@@ -240,6 +269,7 @@ impl Imitation<'_> {
         Some(self.observed.iter().enumerate().map(off).sum())
     }
 
+    /// 40 draws.
     fn centre(&self, theta: &[f64]) -> Option<Centre> {
         let draws = self.draws(theta, 0..DRAWS);
         let few = draws[..FEW as usize].to_vec();
@@ -264,6 +294,8 @@ impl Imitation<'_> {
     }
 
     /// Where a descent of at most so many rounds ends: Σ anew each round, slopes anew where one wins little.
+    ///
+    /// A round that wins less than 1 of D has the slopes taken anew; after two of them in a row it ends.
     fn descend(&self, start: &[f64], free: &[usize], slopes: DMatrix<f64>, rounds: usize) -> Option<Descent> {
         let theta = start.iter().zip(&self.parameters).map(|(x, p)| x.clamp(p.low, p.high)).collect();
         let mut descent = Descent { theta, slopes, reached: f64::INFINITY };
@@ -284,6 +316,9 @@ impl Imitation<'_> {
     }
 
     /// Steps with one Σ; D before and after them.
+    ///
+    /// D is followed by the mean change of 8 common draws from one place to the other, which takes most of chance out
+    /// of it. A step that does not come nearer multiplies the damping by 10, one that does divides it by 10.
     fn round(&self, centre: &mut Centre, free: &[usize], slopes: &mut DMatrix<f64>, damping: &mut f64) -> (f64, f64) {
         let mut off = DVector::from_column_slice(&self.observed) - &centre.mean;
         let weighed = |off: &DVector<f64>, weights: &DMatrix<f64>| off.dot(&(weights * off));

@@ -6,6 +6,9 @@
 
 /// Solves A X = B in place for the augmented rows [A | B], `N` rows of `W` = N + number of right-hand sides; X is in
 /// the last columns afterwards. False if A is singular: a pivot of 1e-12 at most.
+///
+/// O(N² W) operations. The bound of pivots is absolute: rows must be of the order of 1. Where it is false the rows are
+/// left as far as they were reduced.
 pub fn reduce<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> bool {
     for pivot in 0..N {
         let lead = *choose(rows, pivot);
@@ -28,6 +31,9 @@ pub fn reduce<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> bool 
 
 /// The solution of A x = b of the augmented rows [A | b], `N` rows of `W` = N + 1; `None` where A is singular to
 /// rounding, a pivot being 1e-18 of its largest component at most, or the solution is not finite.
+///
+/// N³/3 operations for the elimination. The bound is relative to the matrix, so that scaled systems are told alike; NaN
+/// in A or b is `None`. The rows are overwritten.
 pub fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> Option<[f64; N]> {
     const { assert!(W == N + 1, "one right-hand side") };
     let largest = rows.iter().flat_map(|row| &row[..N]).fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -52,6 +58,8 @@ pub fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> Option
 }
 
 /// Puts the row with the largest component in column `pivot`, of those from there on, in its place.
+///
+/// O(N): one column. Of equals the first; a NaN there is not chosen unless it is at the pivot already.
 fn choose<const N: usize, const W: usize>(rows: &mut [[f64; W]; N], pivot: usize) -> &[f64; W] {
     let mut best = pivot;
     for row in pivot + 1..N {

@@ -3,6 +3,12 @@
 //! w² = M⁻¹ (m a, τ), clipped by priority and not component by component: a clipped roll moment is a crash, a clipped
 //! yaw moment a turn that comes late. The same order of priorities as in Faessler, Falanga and Scaramuzza, IEEE RA-L
 //! 2(2), 2017.
+//!
+//! ```text
+//! s = thrust · c + share (roll · r + pitch · p) + share_y · yaw · y,   w_i = √s_i,   least ≤ s_i ≤ most
+//! share    largest for which some thrust fits:  share · need_ij ≤ room_ij for all i, j
+//! thrust   nearest to what is asked within that;   share_y   largest that is left
+//! ```
 
 use nalgebra::{Matrix4, Vector4};
 use wide::f64x4;
@@ -15,6 +21,8 @@ use crate::robot::quadrotor::Quadrotor;
 ///
 /// Roll and pitch moments are kept first, because they keep the robot upright; then thrust; yaw moment is what is
 /// left. If even roll and pitch do not fit, both are scaled alike and the thrust goes where they fit best.
+///
+/// In four lanes, one a rotor. Made once for a robot, copied with it.
 #[derive(Debug, Clone)]
 pub(crate) struct Mixer {
     /// Columns: w² per angular acceleration about body x, y, z and per acceleration by thrust.
@@ -36,6 +44,8 @@ pub(crate) struct Mixed {
 impl Mixer {
     /// `None` where the rotors cannot give thrust and all three moments independently, or one of them would have to
     /// push down to hover.
+    ///
+    /// Inertia and mass are put into the columns, so that accelerations are asked for and not moments.
     pub(crate) fn new(robot: &Quadrotor) -> Option<Self> {
         let inverse: Matrix4<f64> = robot.unmixing()?;
         let usable = inverse.iter().all(|c| c.is_finite()) && inverse.column(0).iter().all(|c| *c > 0.0);
@@ -62,6 +72,9 @@ impl Mixer {
     /// Squared rotor speeds s = thrust · c + roll · r + pitch · p + yaw · y, each kept within [least, most]: roll and
     /// pitch first, both by the largest common share that some thrust still allows; then thrust as near to what is
     /// asked as that leaves; then the yaw that is left room for.
+    ///
+    /// O(16) divisions. Roll and pitch are scaled by one share, so that their direction stays; no moment changes its
+    /// sign. `at_limit` counts what is within 1e-9 of a bound.
     #[cold]
     fn saturate(&self, [roll, pitch, yaw, thrust]: [f64; 4]) -> Mixed {
         let [per_roll, per_pitch, per_yaw, collective] = self.inverse.map(|c| Vector4::from(c.to_array()));

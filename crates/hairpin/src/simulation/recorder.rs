@@ -26,8 +26,10 @@ struct Samples {
 /// Columns being filled, and earlier parts of the log, which copies share.
 #[derive(Debug, Clone)]
 pub(crate) struct Recorder {
+    /// In the order in which they were flown; never changed.
     sealed: Vec<Arc<Samples>>,
     open: Samples,
+    /// Time of the last sample, s, whichever part it is in.
     last: Option<f64>,
 }
 
@@ -47,6 +49,8 @@ impl Recorder {
     }
 
     /// Lets copies made from now on share what was logged so far.
+    ///
+    /// Costs one shrink; a copy made then costs as little as its open part, however long the flight was.
     pub(crate) fn seal(&mut self) {
         let mut samples = std::mem::take(&mut self.open);
         if samples.times.is_empty() {
@@ -75,6 +79,8 @@ impl Recorder {
     }
 
     /// The track.
+    ///
+    /// O(samples); parts are joined only here.
     pub(crate) fn into_track(self) -> Track {
         let Samples { times, poses, columns } = match self.sealed.is_empty() {
             true => self.open,

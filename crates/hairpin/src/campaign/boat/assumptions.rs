@@ -1,10 +1,14 @@
 //! What a boat's claim, execution and limits rest on, said from the run's own settings.
+//!
+//! Every number in a sentence is read from the setup that ran, with defaults in force.
 
 use super::BoatSetup;
 use crate::campaign::kind::reached_within;
 use crate::campaign::scenario::DeviationFrom;
 
 /// What stands behind the legs.
+///
+/// The share of thrust is told only where one is given.
 pub(super) fn claim(setup: &BoatSetup, said: &mut Vec<String>) {
     said.push(
         "Reach `witness`: each leg has a surge force, a sway force and a yaw moment within the thrusters' limits all along, for the \
@@ -22,6 +26,8 @@ pub(super) fn claim(setup: &BoatSetup, said: &mut Vec<String>) {
 }
 
 /// Who sailed them.
+///
+/// Nothing where a program of the user's sails: how that simulates is its own business.
 pub(super) fn act(setup: &BoatSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     let who = match (&setup.controller, execute.controller_in_force()) {

@@ -29,6 +29,8 @@ impl Build for BoatSetup {
         Ok(Self::of(given, boat, keep_out))
     }
 
+    /// All mistakes are told, in the order of the file's sections. A setup is made only without any; what was built on
+    /// the way goes into it.
     fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {
         let Given { keys, files, known } = given;
         let mut found = Findings::default();
@@ -117,6 +119,9 @@ fn check_generate(generate: &BoatGenerate, found: &mut Findings) {
 }
 
 /// A file's score is read as one of the caller's; `executed` scores have bounds of their own.
+///
+/// No stress of joints, tilt, saturation or lateness is measured on trips. Beside the scores of all kinds boats have
+/// `across-current`.
 fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
     let (generate, key) = (&keys.generate, "generate.score");
     let (search, score) = (&generate.search, generate.score.as_str());
@@ -138,6 +143,8 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
     found.require(known, key, format!("\"{score}\""), &bound);
 }
 
+/// `speed_m_s` is at most the boat's top speed, 100 m/s where the boat is wrong itself. Forces within ± 1e6 N a
+/// component.
 fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Findings) {
     found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
     found.count("execute.repeat", execute.repeat, 1, 100_000);

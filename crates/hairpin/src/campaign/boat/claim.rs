@@ -48,6 +48,7 @@ impl Claim for BoatSetup {
         Ok(passes::passes(self, asked))
     }
 
+    /// Waters without keep-outs, margin or current, as large as a mission from elsewhere needs.
     fn open_world(&self, size: &Vector3<f64>) -> Option<Value> {
         Some(json!({ "size_m": [size.x, size.y], "keep_in_margin_m": 0.0 }))
     }
@@ -58,6 +59,8 @@ impl Claim for BoatSetup {
 }
 
 /// The case that others are planned after.
+///
+/// Each waypoint is passed with the velocity that the case has at the one whose place it takes.
 struct Replanned(Case);
 
 impl Replanner for Replanned {

@@ -14,6 +14,8 @@ const AROUND: usize = 32;
 const HEIGHT: f64 = 0.5;
 
 /// All of the waters.
+///
+/// Water has no height: the box is there so that pictures have one.
 pub(super) fn waters(setup: &BoatSetup) -> Drawing {
     let [x, y] = setup.scenario.world.size_m;
     Drawing {
@@ -30,6 +32,8 @@ pub(super) fn waters(setup: &BoatSetup) -> Drawing {
 }
 
 /// A hull of a ship's proportions inside its disc of `radius` (m); how long and wide it is, is a stand-in.
+///
+/// Body frame, bow along x: 1.9 radii long, 0.56 wide. The bridge stands aft, the bow is marked on deck.
 fn figure(radius: f64) -> RobotFigure {
     let (half, beam, deck) = (0.95 * radius, 0.28 * radius, 0.18 * radius);
     let outline = [

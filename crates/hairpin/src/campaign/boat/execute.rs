@@ -14,6 +14,9 @@ use crate::world::terrain::KeepOuts;
 impl Act for BoatSetup {
     /// Plans know `nominal`'s boat; this setup's is the one that sails. The current acts on both; force and noise on
     /// this run alone.
+    ///
+    /// Without a scenario's word the controller is `line-of-sight`. Leaving the waters ends a run only with
+    /// `execute.walls` and where the order has obstacles at all.
     fn run(&self, nominal: Same, case: &Case, order: &Order) -> Result<Flight, SimulationError> {
         let nominal: &Self = nominal.setup();
         let execute = &self.scenario.execute;

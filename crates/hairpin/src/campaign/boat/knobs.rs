@@ -8,6 +8,7 @@ use crate::campaign::Scenario;
 use crate::campaign::kind::{Condition, Knob, Knobs, Standing};
 use crate::judgement::Stress;
 
+/// Leg times and score are written out, so that a default can be turned as well.
 pub(super) fn knobs(setup: &BoatSetup) -> Knobs {
     let scenario = &setup.scenario;
     let count = scenario.world.keep_out.len();
@@ -31,6 +32,8 @@ pub(super) fn knobs(setup: &BoatSetup) -> Knobs {
 
 /// In the order they are tried in: the task's length, limits, the longest leg time, the waters, and last what makes
 /// the search larger.
+///
+/// Numbers that are not given bind nothing and have no knob; a share of thrust goes up to 1.
 fn turned(scenario: &BoatScenario) -> Vec<Knob> {
     let (generate, world) = (&scenario.generate, &scenario.world);
     let (limits, search) = (&generate.limits, &generate.search);
@@ -53,6 +56,8 @@ fn turned(scenario: &BoatScenario) -> Vec<Knob> {
 }
 
 /// Each is what takes it away from the scenario.
+///
+/// The current is one of them: plans know it, runs without it show whether it is what breaks them.
 fn conditions(scenario: &BoatScenario) -> Vec<Condition> {
     let execute = &scenario.execute;
     let force = execute.external_force_n.is_some_and(|force| force != [0.0; 2]);
@@ -65,6 +70,7 @@ fn conditions(scenario: &BoatScenario) -> Vec<Condition> {
     all.into_iter().flatten().collect()
 }
 
+/// Nothing for a scenario of another kind.
 fn change(scenario: &mut Scenario, how: impl FnOnce(&mut BoatScenario)) {
     if let Some(boat) = scenario.own_mut() {
         how(boat);

@@ -11,12 +11,16 @@ use crate::search::Score;
 const OF_HEIGHTS: [&str; 2] = ["cut-corner", "crest"];
 
 /// Scores by hand that say something of boats.
+///
+/// `across-current` first; what is tried beside a learned score, or for want of one.
 fn by_hand() -> impl Iterator<Item = &'static str> {
     std::iter::once(ACROSS_CURRENT).chain(Score::by_hand().filter(|name| !OF_HEIGHTS.contains(name)))
 }
 
 /// The score for graph number `graph`, the scenario's or the first model of a round, and those beside it; `top_speed`
 /// (m/s) scores 1.
+///
+/// `across-current` is what the roadmap tells of a leg as its `ground`. The random score is seeded by the graph.
 pub(super) fn scores<'a>(
     setup: &'a BoatSetup,
     graph: u64,

@@ -22,6 +22,8 @@ pub(super) fn losses(setup: &BoatSetup, graphs: u64) -> Losses {
     counter.losses("pairs of waypoint states near the start")
 }
 
+/// States of a roadmap are counted: with V velocities there are V² pairs between two waypoints. The end may be no
+/// waypoint on the way.
 fn count(roadmap: &BoatRoadmap, length: usize, end: usize, counter: &mut Counter) {
     let arrives = |next: &WitnessNode, left: usize| {
         let last = next.waypoint as usize == end;
@@ -32,6 +34,8 @@ fn count(roadmap: &BoatRoadmap, length: usize, end: usize, counter: &mut Counter
 }
 
 /// Forces of thrusters are what the boat can reach; speeds and times are limits that were asked for.
+///
+/// `None` is a pair whose distance no leg time covers; nothing was judged of it.
 fn told(why: Option<BoatInfeasible>) -> (Stage, String) {
     let Some(why) = why else { return (Stage::Limits, "top speed times the longest leg time".into()) };
     let (stage, limit) = match why.limit() {

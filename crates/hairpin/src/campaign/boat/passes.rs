@@ -20,13 +20,19 @@ use crate::trajectory::{Profile, ProfileLeg};
 /// Shares of the top speed that a waypoint is passed with where none is demanded; 0: at rest.
 const SHARES: [f64; 4] = [0.9, 0.6, 0.3, 0.0];
 /// The shortest leg time that is tried, s.
+///
+/// The ladder from here to the longest passage has ratio 1.2.
 const SHORTEST_S: f64 = 1.0;
 /// A rest-to-rest septic's peak speed by its mean one.
+///
+/// A leg that is demanded at v between two rests takes PEAK · L/v, so that v is its greatest speed.
 const PEAK: f64 = 35.0 / 16.0;
 /// A speed within this share of the limit keeps it.
 const ROUNDING: f64 = 1e-9;
 
 /// A state at a waypoint, and how it was come to.
+///
+/// `from` is the index of the state before in its own column, and the leg from there; `None` at the head of a chain.
 struct Reached {
     end: BoatEnd,
     /// Seconds from the beginning of the chain.
@@ -38,6 +44,9 @@ struct Reached {
 ///
 /// What no boat can do is told as proven; what was not found under these states and times as not found, which says
 /// nothing of others. O(legs · states² · times) judgements at most.
+///
+/// Of the first time that is feasible between two states no longer one is tried. A mission that is longer than
+/// `generate.limits.max_time_s` has no witness, but legs. Top speeds are those of 65 instants a leg, m/s over ground.
 pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
     let judge = setup.judge();
     let points = asked.waypoints;
@@ -113,6 +122,9 @@ pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
 /// The states that waypoint `number` may be passed in.
 ///
 /// One where it rests or a speed is demanded (the smaller of both legs'), else [`SHARES`] of the top speed.
+///
+/// The direction is that of the bisector of both legs, or of the leg that goes on where that turns straight back. In
+/// still water a boat at rest keeps its bow along the bisector.
 fn states(judge: &BoatJudge, asked: &Demands, number: usize) -> Vec<Reached> {
     let points = asked.waypoints;
     let reached = |end: BoatEnd| Reached { end, cost: 0.0, from: None };
@@ -138,6 +150,9 @@ fn states(judge: &BoatJudge, asked: &Demands, number: usize) -> Vec<Reached> {
 }
 
 /// The legs along the quickest chain of `table`.
+///
+/// Backwards from the quickest state of the last column; the sum of leg times is least among all chains of these states
+/// and times.
 fn joined(mut table: Vec<Vec<Reached>>) -> Profile {
     let (mut legs, mut at) = (Vec::new(), None);
     while let Some(mut states) = table.pop() {
@@ -188,6 +203,8 @@ fn proven(setup: &BoatSetup, asked: &Demands, leg: usize) -> Option<Broken> {
 /// A leg that none was found for.
 ///
 /// By the last judgement that failed: other states break other limits.
+///
+/// The excess is ≥ 0, in the unit of the limit; 0 where the last try was only not proven.
 fn refused(leg: usize, why: &BoatInfeasible) -> Broken {
     let (limit, unit) = match why.limit() {
         BoatLimit::Speed => ("speed", "m/s"),

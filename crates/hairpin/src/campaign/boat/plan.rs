@@ -9,6 +9,8 @@ use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, and of the timed reference that executors get, Hz: boats are slow.
+///
+/// A sample every 0.2 s of what is drawn and compared, every 0.5 s of what executors are handed.
 const RATE: f64 = 5.0;
 const REFERENCE_RATE: f64 = 2.0;
 
@@ -32,6 +34,8 @@ pub(super) fn timed(case: &Case) -> Vec<Timed> {
 }
 
 /// Heading at each waypoint, rad: of a witness the one that it passes with, else along the leg that follows.
+///
+/// At the last waypoint the heading at the end of the last leg. One 0 for a single waypoint without a leg.
 pub(super) fn headings(case: &Case) -> Vec<f64> {
     let legs = case.waypoints.len().saturating_sub(1);
     let along = |leg: usize| {
@@ -56,6 +60,8 @@ pub(super) fn headings(case: &Case) -> Vec<f64> {
 /// A case whose numbers are no track.
 ///
 /// At [`RATE`] Hz, both ends included.
+///
+/// Attitudes are turns about z alone. `vz_m_s` is 0 throughout.
 pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError> {
     let case = &*paced(case, setup.boat.default_speed, 1.0 / RATE);
     let moments = moments(&case.leg_times, RATE);
@@ -78,6 +84,7 @@ pub(super) fn track(setup: &BoatSetup, case: &Case) -> Result<Track, TrackError>
     Track::new(moments.iter().map(|moment| moment.t).collect(), poses, channels)
 }
 
+/// Of a witness (x, y, ψ) = p(τ) and (ẋ, ẏ) of p′(τ); else constant velocity along the straight leg, the bow along it.
 fn sample(case: &Case, Moment { leg, tau, .. }: Moment) -> Sample {
     if let Some(piece) = case.profile().and_then(|profile| profile.legs.get(leg)) {
         let (at, rate) = (piece.derivative(tau, 0), piece.derivative(tau, 1));

@@ -108,6 +108,8 @@ impl Say for BoatSetup {
 /// Every sample: speed over ground, the angle between bow and motion through the water, the rate of turn.
 ///
 /// m/s, deg and deg/s. A channel that is missing counts as 0.
+///
+/// Drift is atan2(|sway|, surge) in 0 … 180°, of the motion through the water: 180° is straight astern.
 fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
     let column = |name| track.channel(name).unwrap_or_default();
     let (vx, vy) = (column("vx_m_s"), column("vy_m_s"));

@@ -15,6 +15,8 @@ use crate::simulation::OwnController;
 use crate::world::terrain::KeepOuts;
 
 /// A resolved scenario of boats and what it describes.
+///
+/// What [`Setup::own`](crate::campaign::setup::Setup::own) gives for boats. Draws share what they leave as it is.
 #[derive(Debug, Clone)]
 pub struct BoatSetup {
     /// Every key, the robot's table inline.
@@ -22,6 +24,8 @@ pub struct BoatSetup {
     /// What its files hold.
     pub attachments: Arc<Attachments>,
     /// The boat.
+    ///
+    /// As it is planned and sailed; a draw of `[vary]` has one of its own.
     pub boat: Arc<Boat>,
     /// Where it must not come.
     pub keep_out: Arc<KeepOuts>,
@@ -33,6 +37,9 @@ pub struct BoatSetup {
 
 impl BoatSetup {
     /// The boat of `keys`: that of `known`, if it is described alike.
+    ///
+    /// # Errors
+    /// As [`boat_of`].
     pub(super) fn boat(keys: &BoatScenario, known: Option<&Self>) -> Result<Arc<Boat>, Mistake> {
         match known {
             Some(known) if known.scenario.robot == keys.robot => Ok(known.boat.clone()),
@@ -41,6 +48,9 @@ impl BoatSetup {
     }
 
     /// The places to keep out of, likewise.
+    ///
+    /// # Errors
+    /// The keep-out that is no place, by its key.
     pub(super) fn keep_out(keys: &BoatScenario, known: Option<&Self>) -> Result<Arc<KeepOuts>, Mistake> {
         match known {
             Some(known) if known.scenario.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),
@@ -49,6 +59,8 @@ impl BoatSetup {
     }
 
     /// Controller and kernels stay those of the setup that is known.
+    ///
+    /// Nothing is checked here.
     pub(super) fn of(given: Given<'_, Self>, boat: Arc<Boat>, keep_out: Arc<KeepOuts>) -> Self {
         let Given { keys, files, known } = given;
         let controller = known.and_then(|known| known.controller.clone());
@@ -57,6 +69,9 @@ impl BoatSetup {
     }
 
     /// The waters as claims have them.
+    ///
+    /// From (0, 0) to `size` (m), the south-western corner first; the current in m/s, east and north. A copy of the
+    /// keep-outs.
     pub(super) fn waters(&self) -> BoatWaters {
         let WatersSection { size_m, keep_in_margin_m, .. } = self.scenario.world;
         let (keep_outs, current) = (self.keep_out.as_ref().clone(), self.scenario.world.current());
@@ -76,6 +91,8 @@ impl BoatSetup {
     }
 
     /// How long legs may take.
+    ///
+    /// A geometric ladder from the shortest to the longest leg time, s, with neighbours at most a fifth apart.
     pub(super) fn timing(&self) -> LegTiming {
         let [shortest, longest] = self.scenario.generate.leg_time_s;
         LegTiming::ladder(shortest, longest)

@@ -17,6 +17,8 @@ use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::trajectory::Profile;
 
 /// Draws for each waypoint, at most.
+///
+/// They are of all waypoints together: waypoints · 1000 draws.
 const TRIES: u64 = 1000;
 
 /// The part of a search that is the same for every graph.
@@ -70,6 +72,8 @@ impl<'a> BoatSolver<'a> {
     }
 
     /// The states of graph number `graph` over `points`.
+    ///
+    /// Velocities are drawn from the graph's seed, `velocities` of them a waypoint; both ends are at rest.
     pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> BoatRoadmap<'_> {
         let scenario = &self.setup.scenario;
         let settings = BoatRoadmapSettings {
@@ -83,6 +87,8 @@ impl<'a> BoatSolver<'a> {
 
     /// `plan` over what `points`, as many as its own, are in the plane, passed with the velocities that it has; `None`
     /// where they are not feasible, or take longer than `generate.limits.max_time_s`.
+    ///
+    /// Leg times are the shortest of the ladder; where a leg has none with these velocities nothing else is tried.
     fn moved(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let (points, indices) = (in_the_plane(points), (0..points.len()).collect::<Vec<_>>());
         let profile = through(&self.judge, &self.timing.rungs(), plan.witness.as_ref()?.profile()?, &indices, &points)?;
@@ -100,6 +106,7 @@ impl<'a> BoatSolver<'a> {
         (profile.duration() <= self.setup.longest()).then(|| Plan::witnessed(points, profile))
     }
 
+    /// Legs that were judged are kept for the next round of an adaptive campaign, within a bound of memory.
     fn search(&self, graph: u64, points: &[Point3<f64>], looped: Looped) -> Outcome {
         let scenario = &self.setup.scenario;
         let mut roadmap = self.roadmap(graph, points);

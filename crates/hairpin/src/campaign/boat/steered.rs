@@ -11,6 +11,8 @@ use crate::robot::boat::Boat;
 use crate::simulation::boat::{BoatCommand, BoatState};
 use crate::trajectory::Profile;
 
+/// Surge and sway, N, ahead and to the left in the boat's frame; the moment is positive to the left. Other keys are
+/// refused.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Answer {

@@ -12,6 +12,9 @@ use crate::trajectory::Profile;
 /// rest at both ends, the shortest leg times of `rungs`. `None` where there is none.
 ///
 /// `judge.judge` is asked rung by rung, the shortest first: at most rungs × legs judgements.
+///
+/// Velocities over ground at `indices` are read from the end of the leg before. `None` also where a waypoint in between
+/// would be at rest in still water, where its heading is not defined.
 pub(super) fn through(
     judge: &BoatJudge,
     rungs: &[f64],
@@ -39,6 +42,8 @@ pub(super) fn through(
 
 /// `case` with `points` in the place of its waypoints, if they are feasible as its own were. Of waypoints made
 /// elsewhere nothing was claimed but that they lie in free water, if they did.
+///
+/// Every leg is judged anew, as all of its times may change; longer than `max_time_s` it is none.
 pub(super) fn replan(setup: &BoatSetup, case: &Case, indices: &[usize], points: &[Point3<f64>]) -> Option<Case> {
     let unwitnessed = Case {
         waypoints: points.to_vec(),

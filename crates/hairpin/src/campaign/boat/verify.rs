@@ -8,10 +8,14 @@ use crate::verification::{Collector, EndError, Proof, Tolerances};
 use crate::world::terrain::KeepOutShape;
 
 /// Error of the integrated state, SI: damping has bends, which no order makes smooth.
+///
+/// It is the tolerance of the proof's own integrator, not that of what is proven.
 const ACCURACY: f64 = 1e-8;
 
 /// The proof of the witness of `case`, and its end error with thrusters that lag; `None` for a case that claims none.
 /// An environment is found by no search of boats: that it acts, or is clear, is not known.
+///
+/// Limits are those of the setup that is asked: the share of thrust, the top speed, the waters less their margin.
 pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<EndError>) {
     let (mut proof, with_lag) = witness(setup, case).unzip();
     if case.environment.is_some() {
@@ -57,6 +61,9 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
 }
 
 /// The boat's numbers, its forces to the `share` that plans use.
+///
+/// Numbers alone: mass is [surge, sway, coupling of sway and yaw, yaw] with the water that moves along; bounds of
+/// forces are [least, greatest] of surge (N), sway (N) and yaw (N·m).
 fn hull_of(boat: &Boat, share: f64) -> BoatHull {
     let (m, d) = (&boat.inertia, &boat.damping);
     BoatHull {

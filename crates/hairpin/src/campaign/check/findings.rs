@@ -12,9 +12,13 @@ use crate::campaign::scenario::{
 use crate::judgement::Stress;
 
 /// Each is tried against every leg for every execution.
+///
+/// Of obstacles of one environment.
 const MOST_PLACED: u64 = 100;
 
 /// The mistakes found so far, with the few questions that most keys are asked.
+///
+/// In the order in which they were found, which is that of the file. Empty: nothing is wrong.
 #[derive(Default)]
 pub(in crate::campaign) struct Findings(pub(in crate::campaign) Vec<Mistake>);
 
@@ -33,6 +37,8 @@ impl Findings {
     }
 
     /// One mistake, with the value as it was given, unless `fine`.
+    ///
+    /// `bound` says in words what the value must be; it is told after "must be".
     pub(in crate::campaign) fn require(&mut self, fine: bool, key: &str, value: impl ToString, bound: &str) {
         if !fine {
             self.add(Mistake { key: key.into(), value: value.to_string(), bound: bound.into() });
@@ -54,6 +60,8 @@ impl Findings {
     }
 
     /// Both ends are allowed.
+    ///
+    /// The message has thousands grouped: 1 … 1 000 000.
     pub(in crate::campaign) fn count(&mut self, key: &str, value: u64, least: u64, most: u64) {
         self.require((least..=most).contains(&value), key, value, &format!("{least} … {}", grouped(most)));
     }
@@ -80,6 +88,8 @@ impl Findings {
     }
 
     /// `world.origin`: degrees, and metres above mean sea level.
+    ///
+    /// Latitude ± 90°, longitude ± 180°, altitude −1 … 20 km, heading of the x axis 0 … 360°, all ends allowed.
     pub(in crate::campaign) fn origin(&mut self, origin: &Origin) {
         self.from("world.origin.lat_deg", origin.lat_deg, -90.0, 90.0, "°");
         self.from("world.origin.lon_deg", origin.lon_deg, -180.0, 180.0, "°");
@@ -163,6 +173,8 @@ impl Findings {
 
     /// Whether a score that a file tells was read: a model, which must be of the legs of `subject`, or one of the
     /// user's own. `false` where `score` names no file.
+    ///
+    /// `true` says that the score is one of a file, whether or not it was right: no other question about it is left.
     pub(in crate::campaign) fn score_of_file(
         &mut self,
         key: &str,
@@ -240,6 +252,8 @@ impl Findings {
     /// Whether a search that executes is for what an `execution`, a flight or a drive, is measured by: its target, its
     /// stress, or at least one of the limits that the method `worst` searches for. Where `near` is false there are none
     /// of the `things` that a clearance is measured from.
+    ///
+    /// Searches that execute nothing are not asked. A target of the user's own has no stress, and is taken as measured.
     pub(in crate::campaign) fn sought(
         &mut self,
         head: &Head<'_>,
@@ -270,6 +284,8 @@ impl Findings {
 
     /// Refuses a clearance as the only limit, and so as what the method `worst` searches for, where there are none of
     /// the `things` that it is measured from.
+    ///
+    /// The value told is the limit's own; among the terms a clearance has the opposite sign.
     fn limited_nearness(&mut self, head: &Head<'_>, things: &str) {
         if let [(Stress::Clearance, least)] = head.terms.limited()[..] {
             let key = head.limits.iter().find(|key| key.contains("clearance")).copied().unwrap_or("spec");

@@ -1,4 +1,7 @@
 //! Whether places to keep out of lie where anything moves.
+//!
+//! A place that lies elsewhere is nearly always one of another frame or unit: it would keep nobody out, and all runs
+//! would seem clear of it.
 
 use super::Findings;
 use crate::campaign::digits::number;
@@ -7,6 +10,8 @@ use crate::world::terrain::KeepOuts;
 /// A place outside of all that can be driven or sailed keeps nobody out: its coordinates are another frame's.
 ///
 /// Each must have a part within `low` … `high` (m), which is called `what`.
+///
+/// One mistake for each place that does not reach the box, with both extents in its words.
 pub(in crate::campaign) fn check_places_within(
     places: &KeepOuts,
     [low, high]: [[f64; 2]; 2],
@@ -21,6 +26,7 @@ pub(in crate::campaign) fn check_places_within(
     }
 }
 
+/// Both sides in m, from west to east and from south to north.
 fn extent(low: [f64; 2], high: [f64; 2]) -> String {
     let side = |axis: usize| format!("{} … {}", number(Some(low[axis])), number(Some(high[axis])));
     format!("x {}, y {} m", side(0), side(1))

@@ -6,11 +6,24 @@ use crate::campaign::scenario::{EXECUTED, LEAST_PER_ROUND, SearchMethod, SearchS
 /// Rounds at most.
 const MOST_ROUNDS: u64 = 1_000;
 /// Every round of an adaptive campaign keeps its legs: at ten legs a trajectory, a million rows to fit.
+///
+/// Trajectories, each with all of its legs.
 const MOST_LEARNED: u64 = 100_000;
 
 /// Bounds of all that does not depend on what moves: but for `waypoints`.
 ///
 /// Upper bounds refuse what would fill the memory, not what is slow.
+///
+/// | key | bound |
+/// | --- | --- |
+/// | `width` | 1 … 1e5 |
+/// | `cases`, `per_graph`, `executions` | 1 … 1e6 |
+/// | `iterations`, `graphs` | 1 … 1e9 |
+/// | `frontier` | 1 … 1e7 |
+/// | `rounds` | 1 … 1000 |
+/// | `explore` | 0 … 1 |
+/// | `seconds`, `time_s` | above 0, at most 1e6 s |
+/// | `confirm` | 0 … 1000, and fewer than `executions` |
 pub(in crate::campaign) fn check_search(search: &SearchSection, found: &mut Findings) {
     found.count("generate.search.width", search.width, 1, 100_000);
     found.count("generate.search.cases", search.cases, 1, 1_000_000);
@@ -53,6 +66,9 @@ pub(in crate::campaign) fn check_search(search: &SearchSection, found: &mut Find
 }
 
 /// What the score `executed`, the value of `key`, needs.
+///
+/// The beam alone grows trajectories leg by leg; it executes at least one for each trajectory that is kept, does not
+/// move waypoints, and confirms none.
 pub(in crate::campaign) fn check_executed(search: &SearchSection, key: &str, found: &mut Findings) {
     let beam = search.method == SearchMethod::Beam;
     let bound = "another score, or generate.search.method = \"beam\": no other method grows trajectories leg by leg";

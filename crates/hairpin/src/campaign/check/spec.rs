@@ -4,6 +4,9 @@ use super::Findings;
 use crate::campaign::scenario::SpecSection;
 
 /// Limits are finite, times at most `longest` (s); the share of violations lies in [0, 1), the confidence in [0.5, 1).
+///
+/// Lengths are at most 1e6 m, accelerations 1e6 m/s². A limit of deviation, acceleration or time is above 0; corner,
+/// overshoot and clearance may be 0. Limits that are not given are not asked.
 pub(in crate::campaign) fn check_spec(spec: &SpecSection, longest: f64, found: &mut Findings) {
     if let Some(deviation) = &spec.deviation {
         found.above("spec.deviation.max_m", deviation.max_m, 0.0, 1e6, " m");

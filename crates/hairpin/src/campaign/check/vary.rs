@@ -6,6 +6,9 @@ use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
 use crate::campaign::vary::{Tree, apply, shapes_the_plan};
 
 /// Keys that say what the campaign is, not what happens in a case.
+///
+/// Each with why, which is told after the key. A key is compared whole; parts of it are refused only where
+/// [`FIXED_WITHIN`] says so.
 const FIXED: &[(&str, &str)] = &[
     ("hairpin", "it is the format of the whole file"),
     ("seed", "all draws come from it"),
@@ -46,6 +49,8 @@ const FIXED_WITHIN: [&str; 3] = ["vary", "world.origin", "execute.flaky"];
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;
 /// Smallest share of draws that a truncation may keep.
+///
+/// Draws outside are drawn again: at a share of 1 % a hundred draws are made for one.
 const LEAST_SHARE: f64 = 0.01;
 
 /// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was
@@ -54,6 +59,9 @@ const LEAST_SHARE: f64 = 0.01;
 /// Each key is tried alone, the others nominal: two that are fine by themselves may make a scenario that is not.
 ///
 /// Costs two builds a key, or as many as it has choices.
+///
+/// Necessary, not sufficient: a bound that is broken between the ends of a range, or by two keys together, is found
+/// when a run is drawn.
 pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scenario) -> Vec<Mistake>) -> Vec<Mistake> {
     let mut nominal = Tree::new(scenario);
     let entries = scenario.vary().iter();
@@ -63,6 +71,8 @@ pub(in crate::campaign) fn check_vary(scenario: &Scenario, built: &dyn Fn(&Scena
 }
 
 /// Keys of which another is the whole, or the same in other letters.
+///
+/// Asked only where each key is right by itself. O(keys²).
 fn drawn_twice(scenario: &Scenario) -> Vec<Mistake> {
     let paths: Vec<(&String, KeyPath)> =
         scenario.vary().keys().filter_map(|key| Some((key, KeyPath::parse(key)?))).collect();
@@ -79,6 +89,9 @@ fn drawn_twice(scenario: &Scenario) -> Vec<Mistake> {
 }
 
 /// A scenario is built for both ends of the range or every choice, up to 1000.
+///
+/// Values are put into the scenario as a draw would put them; mistakes at the score's own key do not count for keys
+/// that do not shape the plan.
 fn check_entry(
     scenario: &Scenario,
     nominal: &mut Tree,
@@ -118,6 +131,9 @@ fn check_entry(
 /// The values at the ends of the range, or every choice; what is wrong with the distribution as (value, bound).
 ///
 /// Of a normal distribution the ends of its interval, where at least 1 % of the draws lie within the truncation.
+///
+/// Arrays are taken entry by entry, with the shape of the nominal value; whole numbers keep whole ends. A range is
+/// rising, low = high allowed; a deviation of 0 is one value.
 fn ends(distribution: &Distribution, nominal: Option<&Value>) -> Result<Vec<Value>, (String, String)> {
     let refuse = |value: String, bound: &str| Err((value, bound.to_owned()));
     match (&distribution.uniform, &distribution.normal, &distribution.choice) {
@@ -181,6 +197,9 @@ fn ends(distribution: &Distribution, nominal: Option<&Value>) -> Result<Vec<Valu
 /// The probability that a draw lies between `min` and `max`.
 ///
 /// Φ((high − μ)/σ) − Φ((low − μ)/σ) with Φ(x) = erfc(−x/√2)/2; 1 or 0 where σ = 0.
+///
+/// Accurate to rounding, but in the far tails, where both terms are near 1 and their difference loses digits; so far
+/// out it is refused anyway.
 fn share_kept(distribution: &Distribution, mean: f64, deviation: f64) -> f64 {
     let (low, high) = distribution.interval(mean, deviation);
     if deviation <= 0.0 {

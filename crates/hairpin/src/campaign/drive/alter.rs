@@ -20,6 +20,8 @@ const TURNS: [f64; 3] = [PI / 12.0, PI / 3.0, PI];
 /// What is changed at a waypoint.
 ///
 /// Only what the scenario leaves open is drawn.
+///
+/// A heading can always be changed; the others where a range is open, or more than one way of driving is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Change {
     Heading,
@@ -37,6 +39,9 @@ impl DriveSolver<'_> {
     ///
     /// `leg` counts from 0. Headings change by a uniform angle within ± one of three bounds; directions and speeds
     /// are drawn uniformly from what is allowed.
+    ///
+    /// The waypoint is the leg's begin or its end, each as often, but never the task's start. For another way of
+    /// driving the waypoint is turned about first in half of the draws.
     pub(super) fn passed_otherwise(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let drive = plan.witness.as_ref()?.commands()?;
         let (site, settings) = (self.site(), &self.settings);
@@ -98,6 +103,8 @@ impl DriveSolver<'_> {
     /// passed as they were: the leg that joins both is solved, no other one.
     ///
     /// `None` where there is no such leg, or a waypoint would come twice that may not.
+    ///
+    /// At most one leg is solved; with a step-wise reach set all legs are asked again, which is cheap.
     pub(super) fn joined(&self, plan: &Plan, other: &Plan, leg: usize) -> Option<Plan> {
         let rest = other.waypoints.get(leg + 1..).filter(|rest| !rest.is_empty())?;
         let first = plan.waypoints.get(..=leg)?;
@@ -115,6 +122,8 @@ impl DriveSolver<'_> {
 }
 
 /// In a heading by `angle` (rad) farther left.
+///
+/// The place and its curvature stay; the heading is wrapped to [−π, π].
 fn turned(passing: Passing, angle: f64) -> Passing {
     let yaw = libm::remainder(passing.at.yaw + angle, 2.0 * PI);
     Passing { at: Planar { yaw, ..passing.at }, ..passing }

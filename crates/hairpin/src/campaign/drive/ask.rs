@@ -26,6 +26,9 @@ pub(super) struct Graph<'a> {
 }
 
 /// A graph, and what its legs and scores are.
+///
+/// Nodes `N` are those of the reach set: of a roadmap headed waypoints, of a step-wise set waypoints with what came
+/// before.
 pub(super) struct Asked<'a, N> {
     pub(super) scenario: &'a DriveScenario,
     pub(super) graph: Graph<'a>,
@@ -44,6 +47,9 @@ pub(super) struct Asked<'a, N> {
 ///
 /// Without an end the trajectory has a leg more in the search, which leads from any waypoint to an end that all have in
 /// common and costs nothing; plans come without it.
+///
+/// The uniform method draws from a stream of its own for each graph. Without an end the lookahead is 0: every node
+/// arrives by its last leg.
 pub(super) fn ask<N>(
     asked: Asked<'_, N>,
     may_arrive: &dyn Fn(&N, usize) -> bool,

@@ -1,4 +1,7 @@
 //! What a drive's claim, execution and limits rest on, said from the run's own settings.
+//!
+//! Every number in a sentence is read from the setup that ran, with defaults in force. Sentences are
+//! appended in the order in which a report has them.
 
 use super::DriveSetup;
 use crate::campaign::scenario::GroundReach;
@@ -9,6 +12,8 @@ use crate::robot::rover::{Kinematics, Response, Suspension};
 ///
 /// Sentences of the reach set, the bounds of plans, and what the map may hide: cells coarser than half the wheelbase,
 /// and cells without data.
+///
+/// Then kinematics, torque, directions of travel and latency, each only where it plays a part.
 pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     said.push(match generate.reach {
@@ -83,6 +88,8 @@ pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
 }
 
 /// How fast plans are, and what they know of stops.
+///
+/// Waypoints' speeds are told as they are used: cut to the commanded speed.
 fn pace(setup: &DriveSetup) -> String {
     let speed = setup.speed();
     let slopes = |slopes: Slopes, how: &str| {
@@ -103,6 +110,8 @@ fn pace(setup: &DriveSetup) -> String {
 }
 
 /// Who drove them.
+///
+/// Nothing where a program of the user's drives: how that simulates is its own business.
 pub(super) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     let who = match (&setup.controller, execute.controller_in_force()) {
@@ -133,6 +142,8 @@ pub(super) fn act(setup: &DriveSetup, said: &mut Vec<String>) {
 }
 
 /// What deviation is.
+///
+/// The margin of tipping over is told only where it is judged.
 pub(super) fn verdict(setup: &DriveSetup, said: &mut Vec<String>) {
     let limits = &setup.scenario.spec.limits;
     said.push(match limits.path_deviation_m {

@@ -44,6 +44,8 @@ pub(super) fn backwards(setup: &DriveSetup, case: &Case, track: &Track) -> Optio
 }
 
 /// Whether leg `leg` of the plan goes more way in reverse than forward.
+///
+/// By metres, not by time: Σ length of forward arcs less those in reverse is below 0.
 fn is_in_reverse(case: &Case, leg: usize) -> bool {
     let way = |gear: Gear, length: f64| if gear == Gear::Reverse { -length } else { length };
     let planned = case.commands().and_then(|drive| drive.legs.get(leg));

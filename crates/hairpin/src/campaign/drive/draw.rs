@@ -12,6 +12,8 @@ use crate::search::{NoWalk, stroll};
 
 /// Sets of waypoints that are tried for one drive.
 /// Drive k asks for sets 6k … 6k + 5, so that no two drives share waypoints.
+///
+/// Numbers wrap at 2⁶⁴, so that every number has a drive to ask for.
 const SETS: u64 = 6;
 /// Stream of the waypoints of a drive.
 const WAYPOINTS: &str = "drawn waypoints";
@@ -27,6 +29,9 @@ impl DriveSolver<'_> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
+    ///
+    /// Deterministic in the number and the scenario's seed, on any thread. The reason that is told is that of the last
+    /// set.
     pub(super) fn drawn(&self, number: u64, stop: &Stop) -> Result<Plan, String> {
         let (task, root) = (&self.setup.scenario.task, self.setup.scenario.seed);
         let mut reason = String::new();
@@ -69,6 +74,9 @@ impl DriveSolver<'_> {
     ///
     /// Nodes are waypoints with headings; each leg that the walk asks for is a boundary-value drive on the map, and
     /// refusals are counted by reason.
+    ///
+    /// A leg once solved is kept by the roadmap, so that a walk that comes back asks for nothing twice. Once it is
+    /// stopped every further leg counts as none.
     fn driven(
         &self,
         seed: u64,

@@ -10,6 +10,8 @@ use crate::campaign::kind::{Drawing, Relief, Surface};
 use crate::world::terrain::{KeepOut, KeepOutShape, Terrain};
 
 /// Points along a side of the drawn ground.
+///
+/// At most about 160 × 160 heights, whatever the map's size.
 const RELIEF_POINTS: f64 = 160.0;
 /// Ground around what is drawn, m.
 const MARGIN: f64 = 3.0;
@@ -22,6 +24,9 @@ const AROUND: usize = 32;
 /// 160th of the longer side and no finer than the map's cells.
 ///
 /// Cells beyond the map or without data are NaN.
+///
+/// Low and high of the drawing are those of the known heights; its height is 0.5 m at least, so that level ground has a
+/// box. O(160²) looks at the map.
 pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
     let (map_low, map_high) = setup.map.extent();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -63,6 +68,8 @@ pub(super) fn ground(setup: &DriveSetup, places: &[Point3<f64>]) -> Drawing {
 /// A keep-out as a flat shape a little over the ground at its outline.
 ///
 /// 5 cm above the highest known ground at its corners; a circle has 32 of them.
+///
+/// Concave polygons have an outline that is right and a fan that is not.
 fn keep_out(setup: &DriveSetup, place: &KeepOut) -> Surface {
     let corners: Vec<[f64; 2]> = match &place.shape {
         KeepOutShape::Circle { center_m: [x, y], radius_m } => (0..AROUND)

@@ -54,6 +54,9 @@ impl DriveSetup {
     }
 
     /// What drives where under which conditions, and which of our controllers drives.
+    ///
+    /// Latency is the plant's or the conditions', never both: a scenario's own takes the place of the robot's, which is
+    /// then set to 0. Noise is a factor, 0 or 1. Where no controller of ours is in force `predictive` is made ready.
     pub(super) fn on_its_way<T>(
         &self,
         nominal: &Self,
@@ -96,6 +99,8 @@ impl DriveSetup {
 ///
 /// What the predictive controller asks at each cycle: the same flat solver and ground as the plan's, for the nominal
 /// vehicle.
+///
+/// The end is not free, and no time limit is set. Outside of the bounds a query is none, and nothing is found.
 fn solve(setup: &DriveSetup, from: &Planar, to: &Planar, gear: Gear, direction: Direction) -> Option<SegmentList> {
     let bounds = setup.bounds();
     let within = |at: &Planar| Planar { curvature: at.curvature.clamp(-bounds.most, bounds.most), ..*at };

@@ -1,4 +1,7 @@
 //! A wheeled vehicle as it is drawn: wheels where its suspension has them, and a body over its underside.
+//!
+//! Body frame: x ahead, y left, z up, origin that of the vehicle's pose; m. Links are moved by the channels that runs
+//! record: `rolled` (m), `joint_rocker_rad`, `joint_left_bogie_rad`, `joint_right_bogie_rad` (rad).
 
 use nalgebra::Vector3;
 
@@ -12,6 +15,10 @@ fn about_y(link: FigureLink, parent: Option<usize>, turned: Turned) -> FigureLin
 
 /// Wheels and the links of a rocker-bogie are the robot's own; the body's height is a stand-in, as is its underside
 /// where no file gives one.
+///
+/// The body is a box from the rear to the front of the underside, as tall as a wheel's radius, and a quarter of its
+/// length where no wheels are known; on its front quarter lies a nose half as wide. The radius is the larger of the
+/// wheels' and the body's circle about the origin, and a wheel's radius more.
 pub(super) fn figure(rover: &Rover) -> RobotFigure {
     let (wheels, count, radius) = rover.suspension.wheels(&[0.0; 3]);
     let belly = rover.body.belly;
@@ -69,6 +76,8 @@ pub(super) fn figure(rover: &Rover) -> RobotFigure {
 }
 
 /// Whether a wheel at `x` of `wheels` steers.
+///
+/// Front and rear are the rows farthest ahead and farthest back; within 1e-9 m a wheel is of a row.
 fn steers(steering: Steering, x: f64, wheels: &[Vector3<f64>]) -> bool {
     let (front, rear) = wheels.iter().fold((f64::MIN, f64::MAX), |(f, r), w| (f.max(w.x), r.min(w.x)));
     let near = |end: f64| (x - end).abs() < 1e-9;
@@ -81,6 +90,9 @@ fn steers(steering: Steering, x: f64, wheels: &[Vector3<f64>]) -> bool {
 }
 
 /// Adds a wheel at `place` of its parent, which is at `at` in the body.
+///
+/// Three links: a post without a shape, which steers, and on it the wheel, 0.6 radii wide, and its hub, which roll by
+/// rolled/radius.
 fn roll(
     links: &mut Vec<FigureLink>,
     parent: Option<usize>,
@@ -103,6 +115,9 @@ fn roll(
 }
 
 /// Rockers and bogies on both sides, each with its wheels.
+///
+/// The left side is the robot's own, the right one its mirror image in y; the differential turns the right rocker
+/// against the left one, hence the channel's factor ± 1.
 fn rocker_bogie(links: &mut Vec<FigureLink>, of: &RockerBogie, steering: Steering) {
     let all = of.wheels(&[0.0; 3]);
     let thin = 0.15 * of.wheel_radius;

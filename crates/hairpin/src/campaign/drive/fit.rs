@@ -23,6 +23,9 @@ const DOUBT: &str = "intervals are shown to hold on differential drives alone";
 ///
 /// # Errors
 /// No controller of ours drives: there is no model of who does. A robot's description that was not resolved.
+///
+/// Latency is `execute.latency_s` where the scenario has one, else the robot's. A slip's bound keeps what a load makes
+/// of it below 0.95 as well. `step` is half the width of differences.
 pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
     let execute = &setup.scenario.execute;
     if setup.controller.is_some() || execute.controller_in_force().is_none() {

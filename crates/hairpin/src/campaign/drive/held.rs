@@ -5,8 +5,12 @@ use crate::robot::rover::Rover;
 use crate::verification::DriveReplay;
 
 /// Share by which rounding may exceed a limit.
+///
+/// Of the bounds of κ and κ′ alone; precisions are kept as they are.
 const ROUNDING: f64 = 1e-9;
 /// Jump of curvature that is one, 1/m.
+///
+/// Where two segments meet, and at the start: below it a jump is rounding of what was written.
 const JUMP: f64 = 1e-6;
 
 /// The bounds of curvature with what the steering of `rover` leaves of them at `speed`, m/s.
@@ -14,6 +18,14 @@ const JUMP: f64 = 1e-6;
 /// |δ̇| ≤ |dδ/dκ| |κ′| v, and dδ/dκ of the steered axle is at most its distance.
 ///
 /// `bounds.most` in 1/m, `bounds.most_rate` in 1/m². A vehicle without a steering rate keeps what it is given.
+///
+/// ```text
+/// κ  ≤ min(given, what the wheels can be steered to)
+/// κ′ ≤ min(given, δ̇ / (L v), δ̇_w / (g v))
+/// ```
+///
+/// L the distance of the steered axle (m), δ̇ its rate and δ̇_w that of the wheels (rad/s), g the gain of the steering
+/// at the bound of κ (m). Conservative: the largest |dδ/dκ| of the range is taken for all curvatures.
 pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
     let most = bounds.most.min(rover.steerable_curvature());
     let by_axle = rover.response.steering_rate / (rover.response.steered_axle * speed);
@@ -24,6 +36,8 @@ pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
 /// The first limit that a replayed drive breaks, by its name in answers, and by how much.
 ///
 /// The excess is in the unit that the name ends with. NaN breaks, with a NaN excess. `None`: all are kept.
+///
+/// In the order of the code, so that one drive always breaks by the same name. Cost: O(1); the replay is given.
 pub fn broken(replay: &DriveReplay, bounds: &Curvatures, precision: &Precision) -> Option<(&'static str, Option<f64>)> {
     let [x, y, yaw] = replay.error;
     let found = [

@@ -30,6 +30,9 @@ pub(super) fn knobs(setup: &DriveSetup) -> Knobs {
 }
 
 /// Each with the loosest value that it may be turned to.
+///
+/// Numbers are turned up or down to a loosest value of their own; a switch has one other value. What would change
+/// nothing is no knob.
 fn turned(scenario: &DriveScenario) -> Vec<Knob> {
     let (task, generate) = (&scenario.task, &scenario.generate);
     let search = &generate.search;
@@ -57,6 +60,9 @@ fn turned(scenario: &DriveScenario) -> Vec<Knob> {
 }
 
 /// Limits beside which the robot's own bounds hold.
+///
+/// The loosest value is the robot's own bound; a limit that is not given already lies there, and has no knob. Tilt is
+/// bounded by 90°.
 fn bounded(setup: &DriveSetup) -> impl Iterator<Item = Knob> {
     let (limits, given) = (&setup.rover.limits, &setup.scenario.generate.limits);
     let tilt = limits.tilt.to_degrees().min(90.0);
@@ -69,6 +75,8 @@ fn bounded(setup: &DriveSetup) -> impl Iterator<Item = Knob> {
 }
 
 /// What a run meets that its plan does not know.
+///
+/// Each is something that a run is freed of, to see whether it was that which broke it.
 fn conditions(scenario: &DriveScenario) -> Vec<Condition> {
     let execute = &scenario.execute;
     let all = [
@@ -80,6 +88,7 @@ fn conditions(scenario: &DriveScenario) -> Vec<Condition> {
     all.into_iter().flatten().collect()
 }
 
+/// Nothing for a scenario of another kind.
 fn change(scenario: &mut Scenario, how: impl FnOnce(&mut DriveScenario)) {
     if let Some(drive) = scenario.own_mut() {
         how(drive);

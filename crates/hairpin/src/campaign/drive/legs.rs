@@ -9,12 +9,17 @@ use crate::feasibility::reach::Reach;
 use crate::feasibility::reach::drive::{DriveRoadmap, LegRefusal};
 
 /// Nodes of a roadmap whose legs are solved.
+///
+/// Each has a leg to try for every heading of about 12 waypoints, each a boundary-value problem.
 const NODES: usize = 16;
 
 /// Counts the legs of the first nodes of `roadmap`, of trajectories of `length` waypoints that end at the last one
 /// where `ends`.
 ///
 /// Breadth first from the start, 16 nodes at most: a sample near the start, not the whole roadmap. Each leg is solved.
+///
+/// Refusals are counted once for each pair that was solved, by the stage that they belong to: reach, world, obstacle or
+/// limits. A leg that is one but does not lead to the end is lost to `task.end_m`.
 pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usize, ends: bool, counter: &mut Counter) {
     let mut open = VecDeque::from([(roadmap.start(), 1)]);
     let mut seen = HashSet::from([roadmap.start()]);

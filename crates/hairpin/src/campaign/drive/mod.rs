@@ -11,6 +11,13 @@
 //!
 //! Frame: the map's, x east, y north, z up, m; headings in rad from x towards y; curvatures in 1/m, positive to the
 //! left. θ > 0 is nose down, φ > 0 is left side up.
+//!
+//! The model of the claim is quasi-static: the body rests on its wheels at every step, speed is along the way, and what
+//! a leg keeps is bounded by κ, κ′, tilt, joints, torque and the height of the underside. Left out of plans, and met by
+//! runs: latency, lags of steering and speed, scales of speed and turn, noise and a steady force.
+//!
+//! Two vehicles go through the room: `rover`, as it is driven, and `planner`, the same with the answers that plans
+//! count with. Claim and proof ask the planner, runs the rover.
 
 mod alter;
 mod ask;

@@ -15,6 +15,8 @@ use crate::world::terrain::Terrain;
 
 /// Factors by which a limit is let out to see how much of it a leg would need.
 /// The least that helps is told as the excess, so that it is too large by a step at most.
+///
+/// At most eight questions of up to three legs each for every leg that is refused.
 const LET_OUT: [f64; 8] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0, 16.0];
 /// A speed within this share of the limit keeps it.
 const ROUNDING: f64 = 1e-9;
@@ -26,6 +28,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// Heights of `asked` are not looked at. Speeds above the limit are proven to break; the rest is not found, never
 /// proven.
+///
+/// Leg lengths of the task do not bind: the mission is not of this scenario's making. `witness` is there only if every
+/// leg is one and their speeds settle; then leg times are those within the whole drive, where `fastest` is a leg's own.
 pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, String> {
     let looked = Looked { setup, asked, settings: DriveSettings { leg_m: [0.0, f64::INFINITY], ..settings(setup)? } };
     let places: Vec<[f64; 2]> = asked.waypoints.iter().map(|p| [p.x, p.y]).collect();
@@ -94,6 +99,8 @@ fn model(setup: &DriveSetup) -> String {
 }
 
 /// What is looked at.
+///
+/// `settings` with leg lengths of 0 to infinity.
 struct Looked<'a> {
     setup: &'a DriveSetup,
     asked: &'a Demands<'a>,
@@ -104,6 +111,9 @@ impl Looked<'_> {
     /// Settings of leg `leg`, at the speed that is demanded of it; turns in place go on as they do.
     ///
     /// m/s, at most the scenario's and the robot's limit.
+    ///
+    /// A demand above the scenario's commanded speed has bounds of curvature of its own speed; below, those of the
+    /// commanded speed are kept, which are never wider.
     fn settings_of(&self, leg: usize) -> DriveSettings {
         let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.most_speed()));
         // At another speed it bends otherwise.
@@ -111,11 +121,13 @@ impl Looked<'_> {
         DriveSettings { speed, bounds, ..self.settings.clone() }
     }
 
+    /// The smaller of `generate.limits.speed_m_s` and the robot's limit.
     fn most_speed(&self) -> f64 {
         let given = self.setup.scenario.generate.limits.speed_m_s.unwrap_or(f64::INFINITY);
         given.min(self.setup.rover.limits.speed)
     }
 
+    /// A whole drive has one commanded speed; of legs that differ none is made, which is no refusal.
     fn speeds_are_alike(&self) -> bool {
         let speeds: Vec<f64> = (0..self.asked.waypoints.len() - 1).map(|leg| self.settings_of(leg).speed).collect();
         speeds.windows(2).all(|pair| pair[0] == pair[1])
@@ -128,6 +140,9 @@ impl Looked<'_> {
     /// What nothing can do on leg `leg`, or at the place that it leads to.
     ///
     /// The first of: off the map, no data, keep-out, speed.
+    ///
+    /// `None`: nothing is known to be impossible. Leg 0 answers for the first waypoint too, so that each is asked about
+    /// once.
     fn proven(&self, leg: usize) -> Option<Broken> {
         let broken = |waypoint, leg, limit, unit, excess, words| {
             Some(Broken { waypoint, leg, limit, unit, excess, certainty: Certainty::Proven, words })
@@ -161,6 +176,9 @@ impl Looked<'_> {
     /// A leg that no drive was found for, with how much of the limit one would need.
     ///
     /// Only curvature and slope are let out; of the others no excess is told.
+    ///
+    /// The excess is (f − 1) · limit with f the least factor of [`LET_OUT`] that helped; curvature and its rate are let
+    /// out together. `None`: no factor helped, or the limit is not one that is let out.
     fn refused(&self, leg: usize, why: LegRefusal, places: &[[f64; 2]]) -> Broken {
         let (limit, unit) = named(why);
         let own = self.settings_of(leg);
@@ -203,6 +221,9 @@ impl Looked<'_> {
 }
 
 /// What a refusal is called here, and the unit that it is told in.
+///
+/// A detour and an unsolved leg are told as curvature, which is what is let out to solve them. A body that finds no
+/// rest is told as slope; to let the tilt out does not help it, so that no excess is told.
 fn named(why: LegRefusal) -> (&'static str, &'static str) {
     match why {
         LegRefusal::Detour | LegRefusal::Unsolved | LegRefusal::Curvature => ("curvature", "1/m"),

@@ -17,11 +17,15 @@ use crate::world::terrain::{KeepOut, KeepOutShape, KeepOuts};
 const CHORDS: usize = 600;
 /// What keep-outs keep from the plan beyond the vehicle's radius and what its looks need, m: a little at first, more
 /// where chords hide what is nearer.
+///
+/// They are tried in turn, beginning with the smaller.
 const GAPS: [f64; 2] = [0.002, 0.05];
 
 /// What keep-outs have to be clear of.
 ///
 /// Claims know the plan alone: that an executed drive comes there is what the keep-out shows.
+///
+/// Looks and chords lie at height 0: keep-outs have no height.
 enum Claimed<'a> {
     /// The predicted motion of a drive.
     Drive(ClearanceSamples),
@@ -34,6 +38,9 @@ enum Claimed<'a> {
 ///
 /// Each disc is as near to the executed way as the plan lets it be; the plan keeps the vehicle's radius from all of
 /// them by the reach set's own test.
+///
+/// A disc stands where all of it lies on the map and the claim keeps out of it; it may give way in the directions of
+/// [`directions`]. Discs are named by their number. The case's own keep-outs of an earlier placement are replaced.
 pub(super) fn place(setup: &DriveSetup, case: &Case, track: &Track, asked: PlacedDiscsSection) -> Option<Placement> {
     let claimed = Claimed::by(setup, case)?;
     let beyond = claimed.beyond();
@@ -83,6 +90,8 @@ impl<'a> Claimed<'a> {
     }
 
     /// What must be kept beyond the vehicle's radius for the claim to see that the radius is, m.
+    ///
+    /// A look vouches for the metres of the step around it, and so must be that much farther away than the radius.
     fn beyond(&self) -> f64 {
         match self {
             Self::Straight(_) => 0.0,
@@ -91,6 +100,8 @@ impl<'a> Claimed<'a> {
     }
 
     /// Whether all of it keeps `radius` from `circle`, by the test that the reach set holds its legs to.
+    ///
+    /// False for a disc that is no shape, as of radius 0.
     fn keeps_out(&self, circle: &CircleSection, radius: f64) -> bool {
         let shape = KeepOutShape::Circle { center_m: circle.center_m, radius_m: circle.radius_m };
         let Ok(alone) = KeepOuts::new(vec![KeepOut { name: String::new(), shape }]) else { return false };
@@ -117,6 +128,8 @@ fn circle(asked: PlacedDiscsSection, center: &Point3<f64>) -> CircleSection {
 }
 
 /// All of the disc, by the map's extent.
+///
+/// Cells without data inside the extent are not asked for: a keep-out may cover them.
 fn on_map(setup: &DriveSetup, circle: &CircleSection) -> bool {
     let (low, high) = setup.map.extent();
     let (center, radius) = (circle.center_m, circle.radius_m);

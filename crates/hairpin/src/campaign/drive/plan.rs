@@ -16,17 +16,24 @@ use crate::trajectory::{Drive, DriveLeg, Track};
 ///
 /// Poses are the settled body's, step by step of the motion prediction; velocities are the planned speeds along its
 /// way.
+///
+/// Deterministic; O(length of the drive / step of the prediction). The planner's vehicle drives: latency, lags and
+/// scales are not in it.
 pub(super) fn track(setup: &DriveSetup, case: &Case) -> Result<Track, PlanError> {
     let drive = drive_of(setup, case);
     Ok(planned_track(&setup.planner, &setup.map, &drive)?)
 }
 
 /// The commands of `case`, or the straight way where it has none.
+///
+/// A copy of the case's own commands. The straight way is driven at the setup's pace.
 pub(super) fn drive_of(setup: &DriveSetup, case: &Case) -> Drive {
     case.commands().cloned().unwrap_or_else(|| straight_legs(setup, &case.waypoints))
 }
 
 /// The body's heading at each waypoint, rad; of a case without a drive those that turns in place come to.
+///
+/// One for each waypoint, the first the start's.
 pub(super) fn headings(setup: &DriveSetup, case: &Case) -> Vec<f64> {
     let drive = drive_of(setup, case);
     let first = drive.legs.first().map(|leg| leg.from.yaw);
@@ -37,6 +44,8 @@ pub(super) fn headings(setup: &DriveSetup, case: &Case) -> Vec<f64> {
 ///
 /// At t = k / rate up to the drive's end, by even accelerations between the track's stamps
 /// ([`Track::motion_at`]). Empty for a drive that the ground does not carry.
+///
+/// Positions m and velocities m/s in the map's frame; the last sample is up to 1/rate before the end.
 pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
     let Ok(track) = track(setup, case) else { return Vec::new() };
     let end = track.times().last().copied().unwrap_or_default();
@@ -51,6 +60,9 @@ pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
 /// Turns towards each waypoint and straight lines to it, from rest to rest.
 ///
 /// Each turn is the shortest, −π to π. Of a range of directions of travel its middle is taken.
+///
+/// Two segments a leg, a turn of 0 included; headings are those of the way less the direction of travel. The start's
+/// curvature is not kept: straight legs have none.
 fn straight_legs(setup: &DriveSetup, waypoints: &[Point3<f64>]) -> Drive {
     let (speed, [low, high]) = (setup.speed(), setup.directions());
     // Straight legs have one direction.

@@ -134,6 +134,8 @@ impl Say for DriveSetup {
 /// Every sample: the tilt of the body, the curvature of its way, the slip of its wheels.
 ///
 /// °, 1/m, and |slip| as a share; a channel that a track has not counts as 0.
+///
+/// Tilt is acos of the vertical part of the body's z axis, 0 … 180°.
 fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
     let column = |name| track.channel(name).unwrap_or_default();
     let (curvature, slip) = (column("curvature_1_m"), column("slip"));
@@ -145,6 +147,9 @@ fn samples_met(track: &Track, meet: &mut dyn FnMut(&[f64])) {
 }
 
 /// How far from a map's origin a place may be, m: maps of the Earth have coordinates of thousands of kilometres.
+///
+/// With E the largest |coordinate| of the map's extent: the usual bound while E is within it, else E and the usual
+/// bound more.
 fn farthest(map: &ElevationMap) -> f64 {
     let (low, high) = map.extent();
     let edge = low.iter().chain(&high).fold(0.0_f64, |most, x| most.max(x.abs()));

@@ -21,6 +21,8 @@ use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 use super::Site;
 
 /// Curvature that is none, 1/m: what is left to wheels that go as fast as they can.
+///
+/// It takes the place of a bound of 0, which rims at their full speed would leave.
 const STRAIGHT: f64 = 1e-6;
 
 /// A resolved scenario of drives and what it describes.
@@ -123,6 +125,8 @@ impl DriveSetup {
     }
 
     /// How exactly legs are solved on the ground.
+    ///
+    /// Iterations, and the precision of where a leg ends: m, rad and 1/m, as `generate.solver` has them.
     pub(super) fn leg_solver(&self) -> rough::Settings {
         let solver = &self.scenario.generate.solver;
         rough::Settings {
@@ -133,6 +137,8 @@ impl DriveSetup {
     }
 
     /// The flat solver that shapes them.
+    ///
+    /// As the reach set has it for the planner, but for the number of starts and the version of the kernels.
     pub(super) fn flat_solver(&self) -> flat::Settings<'static> {
         let starts = self.scenario.generate.solver.starts as u32;
         flat::Settings { starts, simd: self.simd, ..ReachSettings::of(&self.planner).flat }
@@ -141,6 +147,8 @@ impl DriveSetup {
     /// The vehicle on its ground at the commanded speed, travelling in `direction` of its body.
     ///
     /// With the planner's vehicle.
+    ///
+    /// Its speed is the constant one; speeds of a drive's legs follow from [`Self::pace`].
     pub fn site(&self, direction: Direction) -> Site<'_> {
         Site { rover: &self.planner, map: &self.map, speed: self.speed().into(), direction }
     }
@@ -148,6 +156,12 @@ impl DriveSetup {
 
 impl DriveSetup {
     /// The vehicle of `keys`, and as plans have it: those of `known`, if they are described alike.
+    ///
+    /// In that order: `rover`, `planner`. The first one's bound of curvature is cut to what the commanded speed leaves
+    /// without a change of speed; what the acceleration of a plan takes of κ′ besides is taken in [`Self::bounds`].
+    ///
+    /// # Errors
+    /// The robot's key that is out of bounds; a name that was not resolved before.
     pub(super) fn rovers(keys: &DriveScenario, known: Option<&Self>) -> Result<[Arc<Rover>; 2], Mistake> {
         let kinematics = keys.generate.kinematics;
         if let Some(known) = known
@@ -164,6 +178,9 @@ impl DriveSetup {
     }
 
     /// Ground that is generated is made once, and shared by all draws that do not change it.
+    ///
+    /// # Errors
+    /// The key that is out of bounds; a file that was not read before.
     pub(super) fn map(
         keys: &DriveScenario,
         files: &Attachments,
@@ -179,6 +196,9 @@ impl DriveSetup {
     }
 
     /// The keep-outs of `keys`, likewise.
+    ///
+    /// # Errors
+    /// The keep-out that is no place: without a shape or with two, or of numbers that are none.
     pub(super) fn keep_out(keys: &DriveScenario, known: Option<&Self>) -> Result<Arc<KeepOuts>, Mistake> {
         match known {
             Some(known) if known.scenario.world.keep_out == keys.world.keep_out => Ok(known.keep_out.clone()),
@@ -188,6 +208,7 @@ impl DriveSetup {
 }
 
 impl Kind for DriveSetup {
+    /// `None` for a controller that steers another kind of robot. The map and the robots are shared, not copied.
     fn with(&self, simd: Simd, controller: Option<&AnyController>) -> Option<Arc<dyn Kind>> {
         let controller = match controller {
             Some(own) => Some(own.of::<Rover>()?),
@@ -215,6 +236,8 @@ fn commanded(keys: &DriveScenario, rover: &Rover) -> f64 {
 }
 
 /// `rover` as plans have it.
+///
+/// Only its response differs; mass, limits and suspension are the same, so that both stand alike on the same ground.
 fn planner_of(rover: &Rover) -> Rover {
     Rover { response: rover.response.as_planned(), ..rover.clone() }
 }
@@ -225,6 +248,9 @@ fn planner_of(rover: &Rover) -> Rover {
 ///
 /// # Errors
 /// The key that is out of bounds; a file that was not read before.
+///
+/// What a recipe leaves open has the recipe's own default. `flat` is ground without relief, rocks and craters,
+/// `fractal` ground without craters.
 fn map_of(terrain: &TerrainSection, seed: u64, files: &Attachments) -> Result<Arc<ElevationMap>, Mistake> {
     if let Some(map) = files.map(terrain) {
         return Ok(map.clone());

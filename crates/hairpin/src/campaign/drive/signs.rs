@@ -11,6 +11,16 @@
 //! those of simulated logs are so too, which is all that they are compared with ([`crate::math::imitation`]). Then how
 //! large the residuals are and what memory they have, the commands' own memory, how much samples scatter, and how long
 //! the drives take.
+//!
+//! The order of the signs, 36 numbers:
+//!
+//! ```text
+//!  0 … 10   b_j, turning                       11 … 13   colour of its residuals (lags 1, 2)
+//! 14 … 20   c_j, speeds     21   d, climb      22 … 24   colour of its residuals
+//! 25        e, sliding                         26 … 28   colour of its residuals
+//! 29 … 32   colour of the commanded curvature (lags 2, 5, 10)
+//! 33, 34    ln of scatter, of x and y (m²) and of ψ (rad²)      35   ln of all durations (s)
+//! ```
 
 use nalgebra::{DMatrix, DVector};
 
@@ -20,15 +30,25 @@ use crate::simulation::ground::{DriveCommand, Moment};
 use crate::world::terrain::{ElevationMap, Terrain};
 
 /// Time between looks at a log, and half of the time around each that a line is laid through, s.
+///
+/// A line is laid through 0.16 s, so that neighbouring looks share samples and their differences are a little
+/// correlated; simulated logs are looked at in the same way.
 const PERIOD: f64 = 0.1;
 const AROUND: f64 = 0.08;
 /// Corners of the triangles, s before a look: of curvatures and of speeds.
+///
+/// The first top is at the look itself, and its triangle reaches 0.1 s (of speeds 0.15 s) beyond it. Tops lie denser at
+/// short delays.
 const TURNS: [f64; 12] = [-0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.3, 1.7];
 const SPEEDS: [f64; 8] = [-0.15, 0.0, 0.15, 0.3, 0.5, 0.75, 1.1, 1.6];
 /// Looks at the begin that are left out, and how many a log must have.
+///
+/// 5 looks are half a second, 40 are four seconds.
 const BEGIN: usize = 5;
 const LEAST: usize = 40;
 /// Least squares are damped by this share of each column's square.
+///
+/// Columns are neighbours in time and nearly alike; without damping their coefficients would take each other's part.
 const RIDGE: f64 = 1e-3;
 
 /// Where in [`signs`] turning stands, where speeds do, and where scatter does.
@@ -43,19 +63,26 @@ const COLOUR: usize = 3;
 
 /// A log at even times.
 pub(super) struct Looked {
+    /// x and y, m, and ψ, rad, at each look.
     places: Vec<[f64; 3]>,
     /// Ahead and to the left, m, and turned, rad, from each look to the next.
     moved: Vec<[f64; 3]>,
 }
 
 /// A row of least squares, and what it is to make.
+///
+/// The row's entries are one triangle's mean each; the value is what moved between two looks.
 type Row = (Vec<f64>, f64);
 
 /// What a log adds to the signs of all.
 pub(super) struct Part {
+    /// To Δψ (rad): κ̄_j Δs + ω̄_j Δt.
     turning: Vec<Row>,
+    /// To Δs (m): v̄_j Δt, and the climb along the heading times |Δs|.
     going: Vec<Row>,
+    /// To Δl (m, to the left): the slope across the heading times |Δs|.
     sliding: Vec<Row>,
+    /// Commands at each look, 1/m.
     curvatures: Vec<f64>,
     /// Mean squares of third differences of x and y, and of ψ.
     scatter: [f64; 2],
@@ -65,6 +92,9 @@ pub(super) struct Part {
 
 impl Looked {
     /// `None` of a log that is too short.
+    ///
+    /// Places are laid through by lines (`line`); what moved is in the frame of the mean heading of both looks, so
+    /// that an arc between them has no part to the left.
     pub(super) fn at(log: &GroundLog) -> Option<Self> {
         let count = (log.times.last()? / PERIOD).floor() as usize;
         if count < LEAST {
@@ -82,6 +112,9 @@ impl Looked {
     }
 
     /// How it moves at `t`, linear between looks.
+    ///
+    /// Speed and turn rate are the means from look to look, and constant in between. Past the end the last two looks
+    /// are carried on.
     pub(super) fn moment(&self, t: f64) -> Moment {
         let at = ((t / PERIOD) as usize).min(self.moved.len() - 1);
         let (share, [ahead, _, turned]) = (t / PERIOD - at as f64, self.moved[at]);
@@ -95,6 +128,9 @@ impl Looked {
     }
 
     /// What it shows, given what the controller would have said along it; `None` where that is over too soon.
+    ///
+    /// Cut where the controller says no more: a vehicle that stands at its goal tells nothing. `said` are commands at
+    /// even times from 0; off the map the slope counts as 0. Cost: O(looks · triangles · commands in one).
     pub(super) fn part(&self, log: &GroundLog, said: &[(f64, DriveCommand)], map: &ElevationMap) -> Option<Part> {
         let tick = said.get(1)?.0 - said[0].0;
         let of =
@@ -130,6 +166,8 @@ impl Looked {
 }
 
 /// The signs of all logs together; `None` where a number is none.
+///
+/// `None` also without any log, and where normal equations are not positive definite.
 pub(super) fn signs(parts: &[Part]) -> Option<Vec<f64>> {
     let mut all = Vec::new();
     regress(parts, |part| &part.turning, &mut all)?;
@@ -151,6 +189,9 @@ pub(super) fn scatter(signs: &[f64]) -> [f64; 2] {
 }
 
 /// The log at `t` by a line through the samples around, or between two where these are few.
+///
+/// Weighed alike within ± 0.08 s. A log of even samples at 19 Hz or more always has three there; looks of a slower one
+/// may be interpolated.
 fn line(log: &GroundLog, t: f64) -> [f64; 3] {
     let GroundLog { times, places } = log;
     let around = times.partition_point(|s| *s < t - AROUND)..times.partition_point(|s| *s <= t + AROUND);
@@ -168,6 +209,13 @@ fn line(log: &GroundLog, t: f64) -> [f64; 3] {
 }
 
 /// Means of `said`, one a tick, before `t`, weighed by triangles over the corners τ but the first.
+///
+/// ```text
+/// x̄_j(t) = Σ_k w_j(t − t_k) x_k / Σ_k w_j(t − t_k)      w_j 0 at τ_{j−1}, 1 at τ_j, 0 at τ_{j+1}, linear between
+/// ```
+///
+/// The last triangle falls as it rises. Commands before the first and after the last are those. 0 where a triangle has
+/// no tick in it.
 fn before(said: &[f64], tick: f64, t: f64, corners: &[f64]) -> Vec<f64> {
     let mean = |j: usize| {
         let (near, top) = (corners[j - 1], corners[j]);
@@ -185,6 +233,12 @@ fn before(said: &[f64], tick: f64, t: f64, corners: &[f64]) -> Vec<f64> {
 }
 
 /// Coefficients of least squares over all logs, and the colour of what is left; 0 of a column without anything in it.
+///
+/// ```text
+/// (XᵀX + λ diag(XᵀX)) c = Xᵀy      λ = 1e-3
+/// ```
+///
+/// by Cholesky. Rows of all logs count alike, whichever log they are of. `None` without rows, or where that fails.
 fn regress(parts: &[Part], rows: fn(&Part) -> &[Row], into: &mut Vec<f64>) -> Option<()> {
     let width = rows(parts.first()?).first()?.0.len();
     let (mut normal, mut right) = (DMatrix::zeros(width, width), DVector::zeros(width));
@@ -203,6 +257,12 @@ fn regress(parts: &[Part], rows: fn(&Part) -> &[Row], into: &mut Vec<f64>) -> Op
 }
 
 /// ln of the mean square, and correlations at `lags`, within each log.
+///
+/// ```text
+/// ln r₀, r_l / r₀      r_l = mean over all logs of a_i a_{i+l}
+/// ```
+///
+/// Pairs do not reach from one log into the next. Means are not taken off.
 fn colour(logs: &[Vec<f64>], lags: &[usize], into: &mut Vec<f64>) {
     let at = |lag: usize| {
         let pairs = logs.iter().flat_map(|log| log.iter().zip(log.iter().skip(lag)));

@@ -34,16 +34,24 @@ use crate::world::terrain::Terrain;
 /// Waypoints at a leg's distance that each waypoint has, about: the disc that waypoints are spread over follows from
 /// it.
 /// With fewer, chains break off; with more, legs are solved that no trajectory takes.
+///
+/// Area of the disc = waypoints · π (l₁² − l₀²)/12, of which a ring of radii l₀ and l₁ around a waypoint in the middle
+/// holds 12 others on the average; near the rim it is fewer.
 const NEIGHBOURS: f64 = 12.0;
 /// The ground's part in what learned scores see.
+///
+/// The same two terms whatever is learned, so that a model's inputs mean the same in every campaign.
 const LEARNED_FROM: &str = "slope+slip";
 
 /// The part of a search that is the same for every graph.
 ///
 /// One for all graphs. Holds no legs but those that rounds of an adaptive search come back to.
 pub(super) struct DriveSolver<'a> {
+    /// Its planner's vehicle drives the legs.
     pub(super) setup: &'a DriveSetup,
+    /// Of all graphs; the seed of what waypoints draw is set for each graph.
     pub(super) settings: DriveSettings,
+    /// The scenario's section of the search, with defaults filled in.
     pub(super) search: SearchSection,
     /// The reach set, where it is another than `witness`.
     pub(super) stepwise: Option<Stepwise<'a>>,
@@ -54,6 +62,8 @@ pub(super) struct DriveSolver<'a> {
 impl<'a> DriveSolver<'a> {
     /// # Errors
     /// Why nothing can be searched, in a sentence's part.
+    ///
+    /// The scenario's settings are no settings of legs, as an unknown score; or the hull's inputs give none.
     pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
         let settings = settings(setup)?;
         let stepwise = match setup.scenario.generate.reach {
@@ -68,6 +78,10 @@ impl<'a> DriveSolver<'a> {
     /// moved end are solved again. `None` where they are not feasible.
     ///
     /// Passings (heading, direction, speed) go along with their waypoints.
+    ///
+    /// At most two legs are solved for each waypoint that moved. Headings, directions of travel and wishes of speed are
+    /// the old ones, so that a small move is a small change of the drive; what is not feasible so is given up, not
+    /// searched anew.
     fn moved(&self, graph: u64, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let on_ground = |p: &Point3<f64>| Some(Point3::new(p.x, p.y, self.setup.map.patch(p.x, p.y).ok()?.height));
         let waypoints: Vec<Point3<f64>> = points.iter().map(on_ground).collect::<Option<_>>()?;
@@ -99,6 +113,8 @@ impl<'a> DriveSolver<'a> {
     }
 
     /// Counts what becomes of the candidates for legs near the start of graph number `graph`.
+    ///
+    /// Waypoints that cannot be sampled count for nothing. With `witness` every leg near the start is solved.
     pub(super) fn count(&self, graph: u64, counter: &mut Counter) {
         let [of_points, of_roadmap] = self.seeds_of(graph);
         let Ok(points) = self.sample(of_points, &|| false) else { return };
@@ -113,6 +129,8 @@ impl<'a> DriveSolver<'a> {
     }
 
     /// Seeds of the waypoints of graph number `graph`, and of its roadmap.
+    ///
+    /// Both are pure functions of the scenario's seed and the number: graphs may be made in any order, on any thread.
     fn seeds_of(&self, graph: u64) -> [u64; 2] {
         ["graph", "roadmap"].map(|label| named_seed(self.setup.scenario.seed, label, graph))
     }
@@ -164,6 +182,9 @@ impl<'a> DriveSolver<'a> {
 
     /// Legs that were solved are kept for the next round of an adaptive campaign. Where nothing is found the reason is
     /// what legs were refused for.
+    ///
+    /// The score of a leg is its `ground` unless a model was learned. The lookahead is 0: near the end the beam does
+    /// not ask the reach set whether it arrives, as each leg would be a boundary-value problem.
     fn by_roadmap(&self, graph: Graph) -> Outcome {
         let points = graph.points;
         let (number, again) = (graph.graph, matches!(graph.looped.wanted, Wanted::Round(_)));
@@ -194,6 +215,7 @@ impl<'a> DriveSolver<'a> {
         outcome
     }
 
+    /// With the planner's vehicle; its radius is that of the circle around its footprint.
     pub(super) fn site(&self) -> DriveSite<'_> {
         DriveSite::new(&self.setup.planner, &self.setup.map, &self.setup.keep_out)
     }
@@ -249,17 +271,27 @@ impl Solver for DriveSolver<'_> {
 }
 
 /// `plan` over `waypoints` along another drive. No search saw its legs.
+///
+/// Score, evidence and environment stay those of `plan`; a bound that was proven is dropped.
 pub(super) fn along(plan: &Plan, waypoints: Vec<Point3<f64>>, drive: Drive) -> Plan {
     let leg_times = times(&drive);
     Plan { waypoints, leg_times, seen: Vec::new(), witness: Some(drive.into()), bound: None, ..plan.clone() }
 }
 
 /// Durations of the legs, s.
+///
+/// As each leg is driven within the whole drive, stops included.
 fn times(drive: &Drive) -> Vec<f64> {
     (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect()
 }
 
 /// What legs may do, and how hard they are looked for.
+///
+/// Speed, rate of turns, bounds, tilt and pace are the setup's; a turn in place is allowed only where the robot can. A
+/// clearance of the underside that is not given is −∞: not asked.
+///
+/// # Errors
+/// A score of legs that has an unknown term, in a sentence's part.
 pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
     let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
     let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
@@ -295,6 +327,12 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
 }
 
 /// What a leg's `ground` is: the score that is named or, as an input of a learned one, slope and slip.
+///
+/// A score of a file, a program of the user's and an adaptive search see [`LEARNED_FROM`]; all others the score by
+/// name.
+///
+/// # Errors
+/// The unknown terms, in a sentence's part.
 fn ground_score(setup: &DriveSetup) -> Result<GroundScore, String> {
     let (search, files) = (&setup.scenario.generate.search, &setup.attachments);
     let of_file = files.model(&search.score).is_some() || files.user_score(&search.score).is_some();

@@ -1,4 +1,7 @@
 //! What drives, as code of the user's that steers it knows it.
+//!
+//! What a program of the user's is handed and what it answers, as JSON: SI units with the unit in the key, world frame
+//! of the map, headings from x towards y.
 
 use std::f64::consts::TAU;
 
@@ -12,6 +15,8 @@ use crate::robot::rover::Rover;
 use crate::simulation::ground::{DriveCommand, DriveState};
 use crate::trajectory::Track;
 
+/// `v_m_s` below 0 is in reverse; `turn_rad_s` is meant for turning in place; `direction_rad` is the direction of
+/// travel in the body. What is left out is 0; keys that are not known are refused.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Answer {
@@ -62,6 +67,9 @@ impl Steered for Rover {
     }
 
     /// Velocities are the planned speeds; past the end it rests.
+    ///
+    /// Position and speeds by even accelerations between stamps, ψ linear between them the shorter way round. `None`
+    /// for a plan without stamps.
     fn planned(plan: &Track, t: f64) -> Option<Planned> {
         let (times, poses) = (plan.times(), plan.poses());
         let last = times.len().checked_sub(1)?;

@@ -1,5 +1,14 @@
 //! Reach sets of ground vehicles with one fixed step per leg: `none`, `sphere`, `hull`. They are for comparison: what
 //! they find has no commands, and their scores see straight legs between turns in place.
+//!
+//! ```text
+//! none     every waypoint
+//! sphere   |b − a| ≤ v T                          v commanded speed, T the step
+//! hull     b within the hull of the ends of constant-input runs of T, in the body's frame
+//! ```
+//!
+//! To each of them a leg has besides a length within `task.leg_m` and keeps the vehicle's radius from all keep-outs, as
+//! a straight segment in the plan. Neither slope nor rest on the ground is asked.
 
 use nalgebra::Point3;
 
@@ -18,11 +27,15 @@ use crate::math::random::{Stream, named_seed};
 use crate::search::{Found, LegView, NoWalk, stroll};
 
 /// A step-wise reach set.
+///
+/// Without a map: heights of waypoints are the ground's, but a leg over a hole or a cliff is a leg.
 pub(super) struct Stepwise<'a> {
     setup: &'a DriveSetup,
     set: Set,
 }
 
+/// `Hull` alone has a heading and a state (speed, steering) at its nodes; the others know where they are, and where
+/// they came from.
 enum Set {
     Everywhere(Everywhere),
     Sphere(Sphere),
@@ -34,6 +47,9 @@ impl<'a> Stepwise<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part.
+    ///
+    /// Cost: sampling of the hull's inputs, once for all graphs. Without `reverse` among the manoeuvres the hull's
+    /// least speed is 0.
     pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let (step, speed) = (generate.step_s, setup.speed());
@@ -66,6 +82,8 @@ impl<'a> Stepwise<'a> {
 
     /// The legs from each of `points` to the one after it, the first from the task's start; `None` where one is not
     /// feasible.
+    ///
+    /// The one test that moved, joined and replanned waypoints pass. Cost: one question to the set for each leg.
     pub(super) fn follows(&self, points: &[Point3<f64>]) -> Option<Vec<SeenLeg>> {
         let settings = self.settings();
         let start = StepNode { previous: 0, current: 0 };
@@ -80,6 +98,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// `plan` over other waypoints, the first the task's start; `None` where a leg is not feasible.
+    ///
+    /// Leg times, score and evidence are those of `plan`.
     pub(super) fn planned(&self, plan: &Plan, waypoints: Vec<Point3<f64>>) -> Option<Plan> {
         Some(Plan { seen: self.follows(&waypoints)?, waypoints, bound: None, ..plan.clone() })
     }
@@ -88,6 +108,8 @@ impl<'a> Stepwise<'a> {
     ///
     /// # Errors
     /// There is none, in a sentence's part.
+    ///
+    /// Every leg lasts one step, so that `leg_times` are all the same; its score is 0, as no search ranked it.
     pub(super) fn drawn(&self, points: &[Point3<f64>], walking: &Walking, random: &mut Stream) -> Result<Plan, String> {
         let (settings, start) = (self.settings(), StepNode { previous: 0, current: 0 });
         let at = |node: &StepNode| node.current;
@@ -115,6 +137,8 @@ impl<'a> Stepwise<'a> {
         })
     }
 
+    /// A leg that the set gives is a leg: no step is refused later, and questions are cheap. Numbers of waypoints, the
+    /// start first.
     fn walk<N: Copy + Eq>(
         &self,
         reach: &impl Reach<N>,
@@ -143,6 +167,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// What stands behind its legs.
+    ///
+    /// The hull is a filter and proves nothing of a drive; of the other two nothing is claimed.
     fn evidence(&self) -> Evidence {
         match self.set {
             Set::Hull(_) => Evidence::HullFeasible,
@@ -217,6 +243,9 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Keeps the legs of the task's lengths that are clear of keep-outs, and searches.
+    ///
+    /// Without a learned model a leg's score is that of [`StraightLegs`]: of the straight line between both ends after
+    /// a turn in place, on the same map.
     fn ask<N: Copy + Eq + Ord + std::hash::Hash, R: Reach<N>>(
         &self,
         scored: &DriveSettings,

@@ -16,6 +16,13 @@ use crate::verification::{
 /// claims no witness.
 ///
 /// Tolerances are the scenario's own: positions m, yaw rad, curvatures 1/m, torques N·m, accelerations m/s².
+///
+/// ```text
+/// setup's numbers ─▶ GroundVehicle, DrivesClaim, DriveTolerances ─▶ verify_drives ─▶ Proof
+/// ```
+///
+/// The limits are those of the setup that is asked, not of the case: what was planned under wider ones fails. With a
+/// constant pace accelerations are not bounded.
 pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
@@ -46,6 +53,9 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
 /// any force and disc is as good as another. Nothing for a case without one.
 ///
 /// A force at its bound may exceed it by a share of 10⁻¹², which is rounding.
+///
+/// Clearances of discs are proven by the verification room's own replay of the legs on the map, or along straight legs
+/// where the case claims no more.
 pub(super) fn verify_environment(
     setup: &DriveSetup,
     asked: Option<DriveEnvironmentSection>,
@@ -92,6 +102,9 @@ pub(super) fn verify_environment(
 
 /// Poses as [x, y, yaw, curvature]; durations those of the case, or where it has none those that follow from the
 /// speeds.
+///
+/// In the order of the legs; directions of travel are [start, end] in the body, rad; knots of speed are those of the
+/// leg's own timing.
 fn leg_claims(case: &Case, drive: &Drive) -> Vec<DriveLegClaim> {
     let end = |at: &Planar| [at.x, at.y, at.yaw, at.curvature];
     (drive.legs.iter().enumerate())

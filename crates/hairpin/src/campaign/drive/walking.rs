@@ -16,6 +16,8 @@ pub(super) struct Walking {
 
 impl Walking {
     /// Whether `waypoint` may follow the waypoints `passed`.
+    ///
+    /// With an end, that comes last and only then; without revisits no waypoint comes twice. O(waypoints passed).
     pub(super) fn may_follow(&self, passed: impl ExactSizeIterator<Item = u32>, waypoint: u32) -> bool {
         let is_last = passed.len() + 1 == self.length;
         let arrives = self.end.is_none_or(|end| (waypoint == end) == is_last);

@@ -25,15 +25,31 @@ use crate::trajectory::Track;
 
 /// Numbers of noise, their bounds and their step, as logarithms.
 const NOISES: usize = 5;
+/// Of each, in ln: 6e-6 … 20 of its unit (m, rad, or the usual noise of poses).
 const NOISE: Parameter = Parameter { low: -12.0, high: 3.0, step: 0.15 };
 /// What the controller sees is off by so much at first, of the usual noise.
 const SEEN: f64 = 0.5;
 /// How long a log's drift lasts, s.
+///
+/// The time after which its correlation is 1/e.
 const DRIFT: f64 = 0.7;
 /// Where the signs are farther off than this many times what chance makes them, the simulation shows another vehicle.
+///
+/// A ratio of D to its degrees of freedom; 1 is what chance makes.
 const UNLIKE: f64 = 10.0;
 
 /// On the logs `which`, which `imitator` is of.
+///
+/// ```text
+/// θ = (numbers, ln of noise)      half interval = t_{ν, 95 %} √C_kk      ν the freedom of C
+/// ```
+///
+/// An end beyond a bound is open. Numbers that are told are fitted once more with the others as they were given, each
+/// within its interval.
+///
+/// # Errors
+/// Too few stretches, a log without headings, one in which the vehicle hardly moves, no simulation that comes to an
+/// end, numbers without any effect, or that it was stopped.
 pub(super) fn found(
     loops: &Loops,
     imitator: &dyn Imitator,
@@ -100,6 +116,8 @@ pub(super) fn found(
 }
 
 /// The numbers that are told, from the logs `which` alone.
+///
+/// Noise is held as it was found. `None` where that does not come to an end.
 pub(super) fn refitted(loops: &Loops, found: &Found, noise: &[f64], which: &[usize]) -> Option<Vec<f64>> {
     let imitator = loops.imitator(which).ok().flatten()?;
     let observed = observed(loops, &*imitator, which).ok()?;
@@ -114,6 +132,8 @@ fn parameters(loops: &Loops) -> Vec<Parameter> {
 }
 
 /// As good as independent stretches of the logs `which`.
+///
+/// Σ over logs of floor(samples · period/stretch).
 fn stretches(loops: &Loops, which: &[usize]) -> usize {
     let sampling = &loops.rule.sampling;
     let of = |at: &usize| (loops.compared[*at].samples.len() as f64 * sampling.period / sampling.stretch).floor();
@@ -134,6 +154,8 @@ fn observed(loops: &Loops, imitator: &dyn Imitator, which: &[usize]) -> Result<V
 }
 
 /// Places and headings of a track, which counts from its begin.
+///
+/// Times in s from 0; x and y in m; ψ in rad, unwrapped: neighbours differ by half a turn at most.
 fn logged(track: &Track) -> GroundLog {
     let mut before = 0.0;
     let place = |i: usize| {
@@ -149,12 +171,17 @@ fn logged(track: &Track) -> GroundLog {
 }
 
 /// Scatter as the log's signs have it, and drift as large.
+///
+/// Standard deviations as logarithms: ½ ln of the variance, cut to the bounds.
 fn noise_at_first(imitator: &dyn Imitator, observed: &[f64]) -> [f64; NOISES] {
     let [place, turn] = imitator.scatter(observed).map(|variance| 0.5 * libm::log(variance));
     [libm::log(SEEN), place, turn, place, turn].map(|ln| ln.clamp(NOISE.low, NOISE.high))
 }
 
 /// The signs of draw `draw` of the logs `which` with `theta`, noise and all.
+///
+/// All of chance is drawn from `draw` and the log's number, so that draws are common to all θ. `None` where a run
+/// fails.
 fn signs(loops: &Loops, imitator: &dyn Imitator, which: &[usize], theta: &[f64], draw: u64) -> Option<Vec<f64>> {
     let (numbers, noise) = theta.split_at(theta.len() - NOISES);
     let setup = loops.with(numbers).ok()?;
@@ -169,6 +196,13 @@ fn signs(loops: &Loops, imitator: &dyn Imitator, which: &[usize], theta: &[f64],
 
 /// `driven` when the log was sampled, and as often after it, off as localisations are: by `noise`, scatter and drift,
 /// of draw `draw`.
+///
+/// ```text
+/// y = place(t) + scatter ε + slow d,   d ← d e^{−Δt/0.7 s} + √(1 − e^{−2Δt/0.7 s}) ε′,   ε, ε′ ~ N(0, 1)
+/// ```
+///
+/// Δt the log's mean period, d stationary from the first sample on. A run that lasts longer than the log is sampled on
+/// at that period.
 fn seen(driven: &GroundLog, stamps: &[f64], (noise, draw, own): (&[f64], u64, u64)) -> GroundLog {
     let (begin, end) = (stamps[0], driven.times.last().copied().unwrap_or_default());
     let lasts = stamps[stamps.len() - 1] - begin;

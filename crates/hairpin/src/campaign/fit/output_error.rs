@@ -19,6 +19,13 @@ use crate::judgement::{SIGMA_95, student_quantile};
 use crate::math::output_error::{Parameter, acting, descend, profile, spread};
 
 /// On the logs `which`.
+///
+/// Two starts: as given, and each number at its `other`. The rise of Q that ends an interval is t² C_kk/W_kk, C the
+/// covariance by stretches and W that of white residuals, so that profiles of a likelihood that counts neighbours twice
+/// are as wide as they should be.
+///
+/// # Errors
+/// Too few stretches, numbers without any effect, no simulation at the start, or that it was stopped.
 pub(super) fn found(
     loops: &Loops,
     given: &[f64],
@@ -77,6 +84,8 @@ pub(super) fn found(
 }
 
 /// The numbers that are told, from the logs `which` alone.
+///
+/// With the filters that were found on all logs.
 pub(super) fn refitted(loops: &Loops, found: &Found, colour: &[Filter], which: &[usize]) -> Option<Vec<f64>> {
     let residuals = |theta: &[f64]| residuals(loops, theta, which, colour);
     descend(&objective(loops, which, &residuals), &found.written, &found.told).map(|found| found.theta)

@@ -29,6 +29,9 @@ pub(super) fn has(track: &Track, output: Output) -> bool {
 /// Times within half a period and four samples at least: a moving least-squares line, which takes out noise that is
 /// faster than the period. Positions in m, velocities in m/s, axes as unit vectors' parts, thrust as the mean of the
 /// rotors' squared speeds in (rad/s)², joints in rad.
+///
+/// O(samples in the window · outputs). `t` is cut to the track's time. Axes of a line through unit vectors are a little
+/// shorter than 1.
 pub(super) fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -> Vec<f64> {
     let Window { range, weights } = Window::at(track.times(), t, period);
     let through =
@@ -53,12 +56,15 @@ pub(super) fn outputs_at(track: &Track, which: &[Output], t: f64, period: f64) -
 /// Samples, and what each weighs in the least-squares line through them at one time.
 ///
 /// wᵢ = 1/n + (t − t̄)(tᵢ − t̄)/Σ(tⱼ − t̄)².
+///
+/// Weights add up to 1; at the middle of the samples all are 1/n.
 pub(super) struct Window {
     pub(super) range: Range<usize>,
     pub(super) weights: Vec<f64>,
 }
 
 impl Window {
+    /// At the ends of a track the window is one-sided, and the line leads out to `t`.
     pub(super) fn at(times: &[f64], t: f64, period: f64) -> Self {
         let t = t.clamp(times[0], times[times.len() - 1]);
         let (from, to) = (t - 0.5 * period, t + 0.5 * period);

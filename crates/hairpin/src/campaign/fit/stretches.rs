@@ -9,6 +9,8 @@ use crate::math::output_error::Objective;
 ///
 /// A stretch has `stretch`/`period` samples at least; where stretches are of whole legs it ends at the next leg's
 /// begin. The last one of a log may be shorter. Residuals are numbered sample by sample, output by output.
+///
+/// Blocks that do not follow the one before are marked, as correlations of neighbours do not reach from log to log.
 pub(super) fn objective<'a>(
     loops: &Loops,
     which: &[usize],
@@ -64,6 +66,8 @@ pub(super) fn colour(loops: &Loops, theta: &[f64], which: &[usize]) -> Option<Ve
 }
 
 /// The residuals of a log, leg by leg.
+///
+/// Neighbouring samples of one leg number; a leg flown twice is two.
 fn legs<'a>(compared: &'a Compared, residuals: &'a [Vec<f64>]) -> impl Iterator<Item = Leg<'a>> {
     let mut from = 0;
     compared.samples.chunk_by(|(a, _), (b, _)| a == b).map(move |leg| {

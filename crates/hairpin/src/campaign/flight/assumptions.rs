@@ -1,4 +1,7 @@
 //! What a flight's claim, execution and limits rest on, said from the run's own settings.
+//!
+//! Every sentence is written from the setup that ran, with defaults in force: reach set, estimates, limits, who flew,
+//! and what a deviation is measured from.
 
 use super::fly::makes_own_curve;
 use super::{FlightSetup, idle};
@@ -6,6 +9,8 @@ use crate::campaign::Case;
 use crate::campaign::scenario::{DeviationFrom, EstimatedAttitude, EstimatedVelocity, ReachName, Timing};
 
 /// What stands behind the legs.
+///
+/// The first sentence is the reach set's. Certificates are counted over all cases of the campaign.
 pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     said.push(match generate.reach {
@@ -66,6 +71,8 @@ fn noise_word(setup: &FlightSetup) -> &'static str {
 }
 
 /// Who flew them.
+///
+/// Nothing where a program of the user's flies.
 pub(super) fn act(setup: &FlightSetup, said: &mut Vec<String>) {
     let execute = &setup.scenario.execute;
     let who = match (&setup.controller, execute.controller_in_force()) {
@@ -106,6 +113,8 @@ pub(super) fn verdict(setup: &FlightSetup, said: &mut Vec<String>) {
 }
 
 /// What was searched beside the waypoints.
+///
+/// `None` where nothing was searched. Bounds are those asked for, m/s.
 pub(super) fn searched_beside(setup: &FlightSetup) -> Option<String> {
     let environment = setup.scenario.generate.environment?;
     let mut searched = Vec::new();

@@ -11,6 +11,9 @@ pub(super) fn obstacle(world: &World, index: usize) -> String {
 }
 
 /// The first obstacle that a robot of this `radius` (m) does not pass on the way from `a` to `b`.
+///
+/// In the order of the world's list, not by distance; `None`: the way is clear. O(obstacles), each a distance from
+/// segment to solid.
 pub(super) fn blocking(world: &World, radius: f64, a: &Point3<f64>, b: &Point3<f64>) -> Option<(Stage, String)> {
     let blocked = |index: &usize| world.obstacles()[*index].shape.segment_distance(a, b) < radius;
     let index = (0..world.obstacles().len()).find(blocked)?;

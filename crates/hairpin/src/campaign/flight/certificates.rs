@@ -2,6 +2,9 @@
 //!
 //! A hull's trajectory may or may not have a witness: yes with it, no with a proof, unknown else. Velocities at
 //! waypoints and leg times are chosen for the whole sequence ([`certify`]).
+//!
+//! The limits are the scenario's: speed, tilt and flight time. That a hull's trajectory has no witness in the time of
+//! its step says nothing of other times, which is why a ladder of times is tried.
 
 use nalgebra::Point3;
 
@@ -75,6 +78,8 @@ impl Certifier {
     /// Notes the answer in the plan; a `yes` brings its witness, with leg times of its own.
     ///
     /// `no` and `unknown` leave evidence and leg times as they are.
+    ///
+    /// Deterministic; what it costs is what [`certify`] does, at most a hundred rounds.
     pub(super) fn certify(&self, plan: &mut Plan) {
         match self.answer(&plan.waypoints) {
             Certificate::Yes(profile) => {

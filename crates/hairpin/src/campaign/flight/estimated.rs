@@ -1,9 +1,19 @@
 //! What of a robot was not given decides what is proven of it: then nothing is.
+//!
+//! A proof from numbers that were guessed is none: `proven` becomes `not found`, with the keys named. Which keys count:
+//!
+//! | limit | rests on |
+//! | --- | --- |
+//! | speed | the top speed, where the scenario gives none that is lower |
+//! | thrust, duration | mass, thrust, drag as fits told them; drag that was derived; the top speed likewise |
+//! | cage, clearance | the radius, unless a point would break it as well |
 
 use super::FlightSetup;
 use crate::campaign::passage::{Broken, Certainty};
 
 /// Keys that bound what a robot can become faster, slower or turn by; of drag those that are derived as well.
+///
+/// Keys that a fit has written are estimates too: they are in the robot's own table of what was estimated.
 const PULL: [&str; 6] = [
     "mass_kg",
     "thrust_coefficient_n_s2",

@@ -6,6 +6,9 @@ use crate::campaign::kind::{FigureLink, Look, RobotFigure, block, rod, wheel};
 use crate::robot::quadrotor::Quadrotor;
 
 /// Rotors of half the distance to the nearest one, less a little; the hub is a stand-in.
+///
+/// Reach is the distance of the farthest rotor from the origin; arms are 0.05 and the hub 0.28 of it. A rotor's arrow
+/// is (ω/ω_max)², of its column `rotorN_rad_s`. Rotors stand 2 arms' radii over their arms.
 pub(super) fn figure(robot: &Quadrotor) -> RobotFigure {
     let places: Vec<Vector3<f64>> = robot.rotors.iter().map(|r| Vector3::new(r.x, r.y, 0.0)).collect();
     let reach = places.iter().map(Vector3::norm).fold(0.0, f64::max).max(1e-3);

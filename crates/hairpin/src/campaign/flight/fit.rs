@@ -12,6 +12,8 @@ use crate::math::power::square;
 use crate::simulation::{ControllerKind, ControllerSettings};
 
 /// Position, and velocity, thrust axis and the mean of the rotors' squared speeds where there are any.
+///
+/// The second number is the group of an output: those of one group share the size of their residuals.
 const OUTPUTS: [(Output, usize); 9] = [
     (Output::Position(0), 0),
     (Output::Position(1), 0),
@@ -28,6 +30,12 @@ const OUTPUTS: [(Output, usize); 9] = [
 ///
 /// # Errors
 /// No controller of ours flies: there is no model of who does. A robot's description that was not resolved.
+///
+/// ```text
+/// thrust to weight   r = T_max/(m g)        T_max = 4 kf ω_max²      kf = r · m g/(4 ω_max²)
+/// ```
+///
+/// r is what is fitted, and the keys that a file has are set from it. A drag that is pinned at 0 stays so.
 pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> Result<Fittable, String> {
     let execute = &setup.scenario.execute;
     if setup.controller.is_some() || execute.controller_in_force().is_none() {

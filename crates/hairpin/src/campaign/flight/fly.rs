@@ -21,6 +21,8 @@ const SLOWNESS_OF_PLAN: f64 = 2.0;
 const SLOWNESS_OF_WAY: f64 = 1.5;
 /// The mean speed of who has none of his own, m/s, or this share of the robot's top speed: polynomials from rest to
 /// rest have 16/35 of their greatest.
+///
+/// The smaller of both: 16/35 ≈ 0.46 of the greatest is the mean speed of a septic from rest to rest.
 const MODERATE_M_S: f64 = 3.0;
 const SHARE_OF_TOP_SPEED: f64 = 0.6;
 
@@ -36,6 +38,12 @@ impl Act for FlightSetup {
 
     /// Of our controllers that have a pace of their own legs across the whole world at it; else so many times the plan,
     /// or the way at a moderate speed.
+    ///
+    /// ```text
+    /// max(legs · own pace, 2 · planned, 1.5 · way/speed)      s
+    /// ```
+    ///
+    /// Of a controller of the user's the first term is 0.
     fn slowest(&self, waypoints: &[Point3<f64>], length: usize, planned: f64) -> f64 {
         let pace = || length as f64 * controller(self).own_pace(&self.robot, self.world.size().norm());
         let own = if self.controller.is_some() { 0.0 } else { pace() };
@@ -46,6 +54,8 @@ impl Act for FlightSetup {
     }
 
     /// Of a stranger's controller nobody knows how far it looks ahead.
+    ///
+    /// `None` for controllers that plan over all waypoints: what they fly first depends on what comes last.
     fn leg_by_leg(&self) -> Option<&dyn LegByLeg> {
         (self.controller.is_none() && !controller(self).kind.plans_ahead()).then_some(self)
     }
@@ -66,6 +76,7 @@ impl Act for FlightSetup {
         idle::unfelt(self, key)
     }
 
+    /// `None` too where the scenario asks for no obstacles.
     fn place(&self, case: &Case, track: &Track) -> Option<Placement> {
         place(self, case, track, &self.scenario.generate.environment?.obstacles?)
     }
@@ -87,6 +98,8 @@ impl LegByLeg for FlightSetup {
 }
 
 /// The profile is that of the case's witness, for controllers that follow one; leg by leg there is none.
+///
+/// Waypoints are the order's, m.
 fn sortie<'a>(setup: &'a FlightSetup, order: &Order<'a>, profile: Option<&'a Profile>) -> Sortie<'a> {
     Sortie { robot: &setup.robot, world: &setup.world, waypoints: order.waypoints, profile }
 }
@@ -105,6 +118,8 @@ fn controller(setup: &FlightSetup) -> ControllerSettings {
 
 /// The curve that the controller of ours makes of the waypoints of `case`; `None` where it makes none, or another one
 /// flies.
+///
+/// By the segment times of the scenario; its legs are those of the waypoints.
 pub(super) fn own_curve(setup: &FlightSetup, case: &Case) -> Option<Profile> {
     let curve = || minimum_snap_curve(&setup.robot, setup.scenario.execute.segment_times, &case.waypoints);
     makes_own_curve(setup).then(curve)?
@@ -117,6 +132,9 @@ pub(super) fn makes_own_curve(setup: &FlightSetup) -> bool {
 }
 
 /// Velocities in m/s in the cage's axes.
+///
+/// Gusts have a standard deviation (m/s) and a correlation time (s); the discrete gust begins at `start` and lasts
+/// `duration` (s).
 fn conditions(setup: &FlightSetup) -> Conditions {
     let world = &setup.scenario.world;
     Conditions {

@@ -1,4 +1,7 @@
 //! Sampling one graph: start, free waypoints, end.
+//!
+//! A graph is a list of places: who may follow whom is the reach set's business. Graphs are numbered, and each is made
+//! from its number alone, so that they may be searched in any order and on any thread.
 
 use nalgebra::Point3;
 
@@ -13,6 +16,8 @@ use crate::world::{self, SamplingError};
 ///
 /// # Errors
 /// Too little free space.
+///
+/// Free ones keep the keep-in margin from the walls too. Start and end are not sampled and were checked with the task.
 pub(super) fn sample(setup: &FlightSetup, graph: u64) -> Result<Vec<Point3<f64>>, SamplingError> {
     let search = &setup.scenario.generate.search;
     let seed = named_seed(setup.scenario.seed, "graph", graph);

@@ -13,6 +13,8 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::simulation::ControllerKind;
 
 /// Keys under `execute` that few of our controllers read, and which.
+///
+/// What the others leave unread is told, not refused: whoever changes the controller keeps his numbers.
 const OF_FEW: [(&str, &[ControllerKind]); 3] = [
     ("fixed_velocity_m_s", &[ControllerKind::FixedVelocity]),
     ("segment_times", &[ControllerKind::MinimumSnap, ControllerKind::Geometric]),
@@ -23,6 +25,8 @@ const NO_DRAG: &str = "the robot has no drag (drag_linear_n_s_m, drag_quadratic_
 const ALL_THE_SAME: &str = "the robot has no noise (force_noise_n2_s, moment_noise_n2_m2_s), the world no gusts";
 
 /// Whether `execute.noise` does nothing to it.
+///
+/// Spectral densities of force and moment, both 0.
 pub(super) fn is_noiseless(robot: &Quadrotor) -> bool {
     robot.force_noise <= 0.0 && robot.moment_noise <= 0.0
 }
@@ -33,6 +37,8 @@ fn is_dragless(robot: &Quadrotor) -> bool {
 }
 
 /// Why flights of other seeds are the same flight; `None` where noise, gusts or code of the user's may differ.
+///
+/// A campaign need not repeat such flights: the same seed or another, the bytes are the same.
 pub(super) fn repeats(setup: &FlightSetup) -> Option<&'static str> {
     let keys = &setup.scenario;
     let is_ours = setup.controller.is_none() && keys.execute.controller_in_force().is_some();
@@ -42,6 +48,8 @@ pub(super) fn repeats(setup: &FlightSetup) -> Option<&'static str> {
 }
 
 /// Keys that are given and that nobody reads.
+///
+/// A value that is the default counts as not given, where the section cannot tell.
 pub(super) fn passed_over(setup: &FlightSetup) -> Vec<PassedOver> {
     let (keys, usual) = (&setup.scenario, ExecuteSection::default());
     let execute = &keys.execute;
@@ -88,6 +96,7 @@ fn feels_air(setup: &FlightSetup) -> bool {
     keys.execute.command.is_some() || !is_dragless(&setup.robot) || draws(keys, "drag_")
 }
 
+/// Keys of `[world]`, whole or by a part.
 fn is_air(key: &str) -> bool {
     ["world.wind_m_s", "world.gusts", "world.discrete_gust"].iter().any(|air| key.starts_with(air))
 }

@@ -9,6 +9,8 @@ use crate::campaign::scenario::{FlightScenario, ReachName};
 use crate::judgement::Stress;
 
 /// Timing is written out, so that a default can be turned as well.
+///
+/// The score is written out for the same reason.
 pub(super) fn knobs(setup: &FlightSetup) -> Knobs {
     let scenario = &setup.scenario;
     let timing = json!(scenario.generate.timing_in_force());
@@ -32,6 +34,8 @@ pub(super) fn knobs(setup: &FlightSetup) -> Knobs {
 }
 
 /// Limits that are not given bind nothing and have none; a tilt that is below goes up to 90°, margins down to 0.
+///
+/// In the order in which they are tried: the task, limits, timing, the world, and last what makes the search larger.
 fn turned(scenario: &FlightScenario) -> Vec<Knob> {
     let (generate, world) = (&scenario.generate, &scenario.world);
     let (limits, search) = (&generate.limits, &generate.search);
@@ -72,6 +76,7 @@ fn conditions(scenario: &FlightScenario) -> Vec<Condition> {
     all.into_iter().flatten().collect()
 }
 
+/// Nothing for a scenario of another kind.
 fn change(scenario: &mut Scenario, how: impl FnOnce(&mut FlightScenario)) {
     if let Some(flight) = scenario.own_mut() {
         how(flight);

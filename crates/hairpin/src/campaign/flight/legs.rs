@@ -14,6 +14,9 @@ use crate::search::Score;
 ///
 /// # Errors
 /// A rotor layout without a flatness map, in a sentence's part.
+///
+/// The judge holds the free space and the flatness map; it is made once and asked for every leg. Proofs are taken with
+/// the default settings.
 pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
     judge_up_to(setup, f64::INFINITY)
 }
@@ -37,6 +40,8 @@ pub(super) fn judge_up_to(setup: &FlightSetup, most: f64) -> Result<LegJudge, St
 /// (m/s) scores 1.
 ///
 /// The random score is seeded by the graph: each has its own.
+///
+/// A score by a name that is none would be random: it cannot come here, as names are checked with the scenario.
 pub(super) fn scores<'a>(
     setup: &'a FlightSetup,
     graph: u64,

@@ -37,6 +37,8 @@ pub(super) fn losses(setup: &FlightSetup, graphs: u64) -> Losses {
 }
 
 /// A leg that is refused counts once, by the first limit that refused it.
+///
+/// States of a roadmap are counted, not waypoints: with V velocities there are V² pairs between two of them.
 fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Counter) {
     let arrives = |next: &WitnessNode, left: usize| {
         if left == 0 { next.waypoint as usize == end } else { roadmap.may_arrive(next, left) }
@@ -51,6 +53,8 @@ fn count(setup: &FlightSetup, roadmap: &Roadmap, end: usize, counter: &mut Count
 }
 
 /// The stage, and the scenario's key or the obstacle's name; of thrust and rotor speeds the limit's own.
+///
+/// Thrust and rotor speeds count as reach: they are the robot's own, not limits of the scenario.
 fn stage_of(why: &Infeasible, world: &World) -> (Stage, String) {
     let (Infeasible::Violates { limit, part, .. } | Infeasible::Unproven { limit, part, .. }) = *why;
     let (stage, name) = match limit {

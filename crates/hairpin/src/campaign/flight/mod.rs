@@ -10,6 +10,16 @@
 //!
 //! World frame: the cage, origin in a corner, x and y along its edges, z up; m, m/s, rad. Waypoints are passed level,
 //! with yaw 0.
+//!
+//! The model of the claim is a rigid body with four rotors and, for witnesses, drag: flat in x, y, z and yaw, so that a
+//! polynomial of position fixes thrust, attitude, rates and rotor speeds. Left out of plans, and met by runs: rotor
+//! lag, latency, wind, gusts and noise.
+//!
+//! | reach | a leg is | evidence |
+//! | --- | --- | --- |
+//! | `none`, `sphere` | any, or one within top speed · step | unchecked |
+//! | `hull`, `published` | one whose end lies in the hull of sampled runs of one step | hull-feasible |
+//! | `witness` | a polynomial of degree 7 an axis, proven between samples | witnessed |
 
 mod assumptions;
 mod blocking;

@@ -23,9 +23,13 @@ use crate::feasibility::{Infeasible, Limit};
 use crate::trajectory::{Profile, ProfileLeg};
 
 /// The shortest leg time that is tried where no speed is demanded, s.
+///
+/// From here a ladder of ratio 1.2 goes to the longest leg time of the program.
 const SHORTEST_LEG_S: f64 = 0.05;
 /// Instants of a leg at which its speed is looked at.
 /// For what is told, not for what is held: speeds are bounded by the judge between instants too.
+///
+/// Even in time: 65 instants, both ends included. Between two of them the speed may be a little higher.
 const INSTANTS: u32 = 64;
 /// A speed within this share of the limit keeps it.
 const ROUNDING: f64 = 1e-9;
@@ -37,6 +41,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// `asked` has waypoints in m, speeds in m/s where some are demanded, and stops. The witness is that of the whole
 /// mission; there is none if a single leg breaks.
+///
+/// Sections are those between stops. `estimated` are the keys that were not given and that a refusal rests on, sorted,
+/// each once; such a refusal is not proven any more.
 pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, String> {
     // What a mission asks for is held to the robot's top speed as well.
     let judge = judge_up_to(setup, setup.robot.max_speed)?;
@@ -85,6 +92,8 @@ pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, St
 /// Flying for `duration` (s) and waiting where it is asked to takes more than `most` (s).
 ///
 /// What waits alone take is sure; that no flight is quicker is not.
+///
+/// `None` where it is not. `hold` is the sum of all waits, s, infinite where one has no end.
 fn too_long(asked: &Demands, duration: f64, most: f64) -> Option<Broken> {
     let time = duration + asked.hold;
     if time <= most {
@@ -112,6 +121,8 @@ fn model() -> String {
 }
 
 /// What is looked at.
+///
+/// The judge's limit of speed is the smaller of the scenario's and the robot's.
 struct Looked<'a> {
     setup: &'a FlightSetup,
     judge: &'a LegJudge,
@@ -122,6 +133,9 @@ impl Looked<'_> {
     /// A leg by itself.
     ///
     /// From rest to rest: its least time, and the limit that is nearest there.
+    ///
+    /// `fastest` and `nearest` are `None` where no time up to the longest leg has a flight. How near is told without a
+    /// sign, in the unit of [`named`].
     fn alone(&self, pair: &[Point3<f64>]) -> PassedLeg {
         let found = fastest(self.judge, &pair[0], &pair[1], LONGEST_LEG_S);
         let nearest = found.map(|(_, why)| {
@@ -140,6 +154,9 @@ impl Looked<'_> {
     ///
     /// The first of: place, straight line, speed, turn. The straight line is a necessary test only where legs are
     /// straight; it is told as proven because missions are flown along it.
+    ///
+    /// Excesses are positive: m, m/s or m/s². A turn is asked only of two legs that are both passed at demanded speeds,
+    /// by a bound that holds for any shape of flight ([`turns_too_hard`]).
     fn proven(&self, leg: usize) -> Option<Broken> {
         let points = self.asked.waypoints;
         let broken = |waypoint, leg, limit, unit, excess, words| {
@@ -220,6 +237,9 @@ impl Looked<'_> {
     }
 
     /// A leg that no flight was found for.
+    ///
+    /// The numbers are those of the last leg that was tried, not of the best: how much the limit is broken by says
+    /// where to look, not what would do.
     fn refused(&self, leg: usize, why: &Infeasible) -> Broken {
         let (limit, unit, factor) = named(why.limit());
         let told = match why.limit() {
@@ -251,6 +271,8 @@ impl Looked<'_> {
 /// What a limit is called here, the unit that it is told in, and the factor to that.
 ///
 /// Units are those of what is told, SI but for degrees.
+///
+/// Margins are in the limit's own unit; the factor takes rad to ° and leaves the rest.
 fn named(limit: Limit) -> (&'static str, &'static str, f64) {
     match limit {
         Limit::Speed => ("speed", "m/s", 1.0),

@@ -12,6 +12,8 @@ use crate::world::{Obstacle, Shape, World};
 
 /// Chords of a planned leg that is not straight.
 /// The larger gap covers what a chord cuts off.
+///
+/// Even in time, not in length.
 const CHORDS: usize = 12;
 /// What obstacles keep from the plan beyond the robot's radius, m: a little at first, more where chords hide what is
 /// nearer.
@@ -42,6 +44,8 @@ pub(super) fn place(setup: &FlightSetup, case: &Case, track: &Track, asked: &Pla
 /// straight legs.
 ///
 /// Of a witness the proof of free space, on polynomials rather than samples.
+///
+/// The robot is a ball about its origin. `false` also where the shape makes no world.
 fn leaves_clear(setup: &FlightSetup, case: &Case, shape: &Shape) -> bool {
     let radius = setup.robot.clearance_radius;
     let Some(profile) = case.profile() else {
@@ -68,6 +72,9 @@ fn way(case: &Case) -> Vec<Point3<f64>> {
 /// Directions in which an obstacle may give way: away from the plan, and across that.
 ///
 /// Five unit vectors; `away` is not 0.
+///
+/// `away` and ± two axes across it: the first across that axis of the world which `away` has least of, the second
+/// across both. In three dimensions there is room on all sides.
 fn directions(away: &Vector3<f64>) -> Vec<Unit<Vector3<f64>>> {
     let away = Unit::new_normalize(*away);
     let axis = Vector3::ith(away.iamin(), 1.0);

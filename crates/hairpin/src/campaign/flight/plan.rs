@@ -9,9 +9,13 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::{Channel, Track, TrackError};
 
 /// The rate of planned and of drawn tracks, Hz.
+///
+/// A sample every 10 ms, and one at the end.
 const RATE: f64 = 100.0;
 
 /// Of a witness p(τ) and p′(τ) of its polynomial; else constant velocity along the straight leg.
+///
+/// Position m, velocity m/s. At the joint of two legs the later one is asked.
 fn sample(case: &Case, Moment { t, leg, tau }: Moment) -> Timed {
     if let Some(profile) = case.profile() {
         let piece = &profile.legs[leg];
@@ -25,6 +29,8 @@ fn sample(case: &Case, Moment { t, leg, tau }: Moment) -> Timed {
 /// The timed reference of a mission at `rate` (Hz).
 ///
 /// Positions in m and velocities in m/s, in the cage's frame; the last stamp is the flight's end.
+///
+/// Empty for a case without leg times.
 pub(super) fn timed(case: &Case, rate: f64) -> Vec<Timed> {
     moments(&case.leg_times, rate).into_iter().map(|moment| sample(case, moment)).collect()
 }

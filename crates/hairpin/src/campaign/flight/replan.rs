@@ -15,6 +15,9 @@ use crate::feasibility::certify::Certificate;
 /// held to, that it is in the world and clear of obstacles, if they were. `None`: they are not, or nothing shows it.
 ///
 /// Bounds and certificates are of the old waypoints and are dropped, but for a witness that is found again.
+///
+/// Cost: of a witness a certificate of the whole sequence, else one question a leg. Waypoints made elsewhere may lie
+/// where no plan would put them; those that did before may again.
 pub(super) fn replan(setup: &FlightSetup, case: &Case, points: &[Point3<f64>]) -> Option<Case> {
     let generate = &setup.scenario.generate;
     let made_elsewhere = case.leg_times.is_empty();

@@ -176,6 +176,8 @@ impl FlightSetup {
 /// All numbers of a robot.
 ///
 /// As its file would have them with nothing left out, so that an executor derives nothing.
+///
+/// Keys that were derived are written as if they had been given; `estimated` is empty in it.
 fn description(robot: &Quadrotor, battery: Option<BatteryDescription>) -> QuadrotorDescription {
     let rotor =
         |rotor: &crate::robot::quadrotor::Rotor| RotorDescription { x_m: rotor.x, y_m: rotor.y, spin: rotor.spin };

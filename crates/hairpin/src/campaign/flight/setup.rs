@@ -86,6 +86,8 @@ impl Kind for FlightSetup {
 /// Whether two sections describe one space; its air is not part of it.
 ///
 /// Size, margin and obstacles.
+///
+/// Walls, margin and solids alone: only then may a world, with its trees of obstacles, be shared by draws.
 fn same_space(a: &WorldSection, b: &WorldSection) -> bool {
     (a.size_m, a.keep_in_margin_m) == (b.size_m, b.keep_in_margin_m) && a.obstacles == b.obstacles
 }
@@ -125,6 +127,8 @@ fn world_of(section: &WorldSection) -> Result<World, Mistake> {
 }
 
 /// A mesh that is so many times as long as the world is in another unit.
+///
+/// The longest edge of the mesh's box by the longest edge of the world.
 const LONGEST_MESH: f64 = 100.0;
 
 /// A solid outside of the walls stands in nobody's way: nothing is ever measured of it, and all that keeps clear of it
@@ -152,6 +156,8 @@ fn stands_within(world: &World) -> Result<(), Mistake> {
 }
 
 /// `x 0.00 … 40.00, y 0.00 … 30.00, z 0.00 … 14.00 m`
+///
+/// Bounds in m, in the cage's frame.
 fn extent(bounds: &Bounds) -> String {
     let side = |axis: usize, name: &str| {
         format!("{name} {} … {}", number(Some(bounds.min[axis])), number(Some(bounds.max[axis])))
@@ -163,6 +169,8 @@ fn mistake(prefix: &str, error: WorldError) -> Mistake {
     Mistake { key: format!("world.{prefix}{}", error.field), value: error.value, bound: error.bound }
 }
 
+/// # Errors
+/// No shape at all, or numbers that are none: the shape's own field, value and bound.
 fn shape_of(obstacle: &ObstacleSection) -> Result<Shape, WorldError> {
     match obstacle {
         ObstacleSection { cuboid: Some(b), .. } => Shape::cuboid(b.center_m, b.size_m),

@@ -32,6 +32,9 @@ impl<'a> FlightSolver<'a> {
     ///
     /// # Errors
     /// Why there is none, in a sentence's part; also where the planned duration alone is beyond its limit.
+    ///
+    /// A lower bound of any plan: (length − 1) · shortest leg time, so that a search that cannot find anything is not
+    /// begun.
     pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let set = match generate.reach {
@@ -95,6 +98,8 @@ impl<'a> FlightSolver<'a> {
     /// The same, with all velocities chosen anew for the whole sequence.
     ///
     /// What the loop's shift asks: waypoints and all velocities with them. Dearer than [`Solver::over`], which mends.
+    ///
+    /// Of a witness a certificate is asked, and a yes alone is a plan.
     fn moved_whole(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         self.moved(plan, points, |set| {
             let Certificate::Yes(profile) = set.through(points) else { return None };
@@ -138,6 +143,7 @@ impl Solver for FlightSolver<'_> {
         true
     }
 
+    /// Step-wise sets draw uniformly over trajectories, by counting; witnesses leg by leg, as every leg must be judged.
     fn draw(&self, graph: u64, stop: &Stop) -> Result<Plan, String> {
         let points = graph::sample(self.setup, graph).map_err(|error| error.to_string())?;
         match &self.set {
@@ -161,6 +167,7 @@ impl Solver for FlightSolver<'_> {
         Some(between(&graph::sample(self.setup, graph).ok()?, random))
     }
 
+    /// Of step-wise sets the joined sequence is asked as a whole.
     fn crossed(&self, graph: u64, plan: &Plan, other: &Plan, leg: usize, _: &mut Stream) -> Option<Plan> {
         match &self.set {
             Set::Stepwise(_) => self.over(graph, plan, &plan.spliced(other, leg)?),
@@ -168,6 +175,7 @@ impl Solver for FlightSolver<'_> {
         }
     }
 
+    /// Nothing where nobody reads velocities and times of a plan: it would be the same mission again.
     fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         match &self.set {
             Set::Witness(set) if self.setup.reads_the_plan() => set.altered(plan, leg, random),

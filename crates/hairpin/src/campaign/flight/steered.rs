@@ -1,4 +1,7 @@
 //! What flies, as code of the user's that steers it knows it.
+//!
+//! What a program of the user's is handed and what it answers, as JSON: SI units with the unit in the key, world frame
+//! of the cage, quaternions of `world_from_body` as w, x, y, z, rates in the body's frame.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::Deserialize;
@@ -10,8 +13,12 @@ use crate::simulation::{FlightCommand, FlightState};
 use crate::trajectory::Profile;
 
 /// By how much the norm of a quaternion may differ from 1: whoever rounds to three digits is understood.
+///
+/// What passes is made a unit quaternion.
 const NORM: f64 = 0.01;
 
+/// Exactly one of four sets of keys; the more is asked for, the less of hairpin's own loops is in between: velocity,
+/// acceleration, thrust with attitude, thrust with rates. Thrust is in N.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Answer {
@@ -49,6 +56,7 @@ impl Steered for Quadrotor {
         (state.t, state_of)
     }
 
+    /// Plans have yaw 0. From the end on the plan is at rest; `None` for a plan without legs.
     fn planned(plan: &Profile, t: f64) -> Option<Planned> {
         let (_, motion) = plan.motion(t)?;
         let [p_m, v_m_s, a_m_s2] = motion.map(|part| Some(part.into()));
@@ -59,6 +67,8 @@ impl Steered for Quadrotor {
         plan.duration()
     }
 
+    /// # Errors
+    /// Keys that go with no command, or a quaternion whose norm is off, in a sentence.
     fn command(answer: &Value) -> Result<FlightCommand, String> {
         let Answer { v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s } = keys::<Self, Answer>(answer)?;
         match (v_m_s, a_m_s2, thrust_n, q_wxyz, w_rad_s) {

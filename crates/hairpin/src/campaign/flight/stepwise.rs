@@ -3,6 +3,17 @@
 //!
 //! Legs are straight and take one step each; the state at a waypoint is what the scenario's estimate says. Obstacles
 //! are tested against the straight leg, grown by the robot's radius.
+//!
+//! ```text
+//! none        every waypoint
+//! sphere      ‖b − a‖ ≤ v_max T
+//! hull        b − a − v φ(T) within the hull of the ends of runs of T at constant rotor speeds, from level rest
+//! published   the same with ends by one Euler step
+//! carried     the same from attitudes and rates that an earlier leg may have left
+//! ```
+//!
+//! v is the velocity that is assumed where the leg begins: the one before over T, or none (`estimate.velocity`); φ(T)
+//! is how far a unit of it carries against the linear drag, s. With a speed limit a leg is no longer than limit · T.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -27,6 +38,8 @@ use crate::search::Found;
 
 /// Steps from the end within which the beam knows exactly whether the end can be reached: cheap where legs are.
 /// Hulls are translated, so that a leg costs half-space tests only.
+///
+/// Beyond it the beam has only the necessary test of distances.
 const LOOKAHEAD: usize = 3;
 
 /// One graph, and what a search in the loop asks.
@@ -37,6 +50,7 @@ struct Asked<'a> {
     looped: Looped<'a>,
 }
 
+/// The number of `Carried` is the farthest end of the plain hull, m, which scores are scaled by.
 enum Set {
     Everywhere(Everywhere),
     Sphere(Sphere),
@@ -48,6 +62,8 @@ enum Set {
 /// Whether the end lies within so many steps of the sphere.
 ///
 /// |end − p| ≤ steps · radius, 10⁻⁹ m for rounding: necessary for the end to be reached.
+///
+/// O(1). The velocity that a leg before leaves is not looked at.
 fn set_near(set: &Sphere, points: &[Point3<f64>], node: &StepNode, steps: usize) -> bool {
     (points[points.len() - 1] - points[node.current as usize]).norm() <= set.radius * steps as f64 + 1e-9
 }
@@ -66,6 +82,9 @@ impl<'a> Stepwise<'a> {
     /// Why there is no such set, in a sentence's part.
     ///
     /// A hull is sampled here: resolution⁴ runs.
+    ///
+    /// Cost: resolution⁴ simulated runs of four rotors, 20 736 at the largest resolution of 12; `carried` samples a
+    /// second time, and later from every state that comes up.
     pub(super) fn new(setup: &'a FlightSetup) -> Result<Self, String> {
         let generate = &setup.scenario.generate;
         let step = generate.timing_in_force().step_s.ok_or("`timing.step_s` is missing")?;
@@ -129,6 +148,8 @@ impl<'a> Stepwise<'a> {
     /// Why there is none, in a sentence's part.
     ///
     /// Exactly uniform: by counting walks, as the method `uniform` does.
+    ///
+    /// A round of one draw and no optima. The reason where nothing is drawn is the search's own.
     pub(super) fn draw(&self, graph: u64, points: &[Point3<f64>], stop: &Stop) -> Result<Plan, String> {
         let known = HashSet::new();
         let round = Round { number: 0, place: 0, optima: 0, by_hand: 0, draws: 1, models: &[], known: &known };
@@ -189,6 +210,8 @@ impl<'a> Stepwise<'a> {
     }
 
     /// By walls, speed, obstacle, reach and whether the end can still be reached.
+    ///
+    /// A candidate counts once. A leg is too fast where it is longer than the speed limit times the step.
     fn count_by<N: Copy + Eq + Hash, R: Reach<N>>(
         &self,
         reach: R,
@@ -219,6 +242,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
+    /// Binds a set to the graph's waypoints; the start's node has no waypoint before it.
     fn bound<S: StepSet>(&self, set: &S, asked: Asked, may_arrive: impl Fn(&StepNode, usize) -> bool) -> Outcome {
         let start = StepNode { previous: 0, current: 0 };
         let reach = StepReach::new(set, asked.points, self.settings);

@@ -1,4 +1,9 @@
 //! Wind and gust that are searched beside the waypoints, as numbers between −1 and 1.
+//!
+//! ```text
+//! place = [wind x, y, z | gust x, y, z, τ]      each part only where it is asked for
+//! wind = w_max · place₀₋₂      gust = g_max · place₃₋₅      middle of the gust at (1 + τ)/2 of the flight
+//! ```
 
 use crate::campaign::graph::{Plan, into_unit_ball};
 use crate::campaign::scenario::{DiscreteGustSection, EnvironmentSection};
@@ -28,6 +33,8 @@ pub(super) fn bound(asked: &EnvironmentSection, place: &mut [f64]) {
 /// coordinate τ, and it begins no earlier than the flight.
 ///
 /// The environment of the plan is replaced, its obstacles kept.
+///
+/// `start_s` is max(0, middle − ½ duration), so that a gust may end after the flight.
 pub(super) fn put(asked: &EnvironmentSection, plan: &Plan, place: &[f64], duration: f64) -> Plan {
     let mut environment = plan.environment.clone().unwrap_or_default();
     let mut velocities = place.chunks_exact(3);

@@ -28,6 +28,7 @@ pub(super) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<En
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
 }
 
+/// The seam between claim and proof: numbers alone. SI; rotor speeds in rad/s, spins ± 1.
 fn body_of(robot: &Quadrotor) -> Body {
     Body {
         mass: robot.mass,
@@ -50,6 +51,9 @@ fn body_of(robot: &Quadrotor) -> Body {
 ///
 /// A speed at its bound may exceed it by a share of 10⁻¹², which is rounding. Gusts last as long as was asked for: a
 /// shorter one would be steeper.
+///
+/// Outside of the world by how much: max over axes of (½ edge − centre) and (centre + ½ edge − size), so that 0 is just
+/// inside. Each finding has the name of the key, the value and its bound. Boxes lie along the cage's axes.
 pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentSection>, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
@@ -139,6 +143,9 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
 /// The straight legs of a case that claims no more than these; at 1 m/s where it has no times.
 ///
 /// As polynomials of degree 1 in the time since the leg began.
+///
+/// Coefficients are of 1, τ, τ² … τ⁷ an axis, of which only the first two are not 0. Two waypoints at one place take
+/// the least positive number of seconds, so that nothing is divided by 0.
 fn straight(case: &Case) -> Vec<Leg> {
     let leg = |(number, pair): (usize, &[nalgebra::Point3<f64>])| {
         let way = pair[1] - pair[0];

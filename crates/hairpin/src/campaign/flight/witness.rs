@@ -56,6 +56,9 @@ impl<'a> Witness<'a> {
     /// The witness of `waypoints` flown in order, if one is found for them alone.
     ///
     /// Under the scenario's limits of leg and flight times; velocities at waypoints are chosen for this sequence.
+    ///
+    /// Yes, no with a proof, or unknown. Dearer than a leg of a roadmap: up to a hundred rounds of judging the
+    /// sequence.
     pub(super) fn through(&self, waypoints: &[Point3<f64>]) -> Certificate {
         let longest = self.setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
         certify(&self.judge, waypoints, &self.timing, longest)
@@ -64,6 +67,9 @@ impl<'a> Witness<'a> {
     /// The states of graph number `graph` over `points`.
     ///
     /// Velocities are drawn from the graph's seed; the start and the end are at rest.
+    ///
+    /// `velocities` states a waypoint; nothing is judged here. The stream is named `roadmap`, so that velocities do not
+    /// change with what else is drawn.
     pub(super) fn roadmap(&self, graph: u64, points: &[Point3<f64>]) -> Roadmap<'_> {
         let scenario = &self.setup.scenario;
         let settings = RoadmapSettings {
@@ -98,6 +104,8 @@ impl<'a> Witness<'a> {
     /// as well.
     ///
     /// `None` where the mended profile is too long or a leg has no witness.
+    ///
+    /// `None` too for a plan without a witness.
     pub(super) fn over(&self, plan: &Plan, points: &[Point3<f64>]) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
         let profile = mend_over(&self.judge, &self.timing, profile, &plan.waypoints, points)?;
@@ -107,6 +115,9 @@ impl<'a> Witness<'a> {
     /// `plan` up to the first waypoint of leg `leg`, and `other` after it.
     ///
     /// The leg that joins both is judged anew; where it is none, the velocities at its ends are chosen anew as well.
+    ///
+    /// Waypoints are passed with the velocities of the plan they come from, so that every other leg is the same
+    /// polynomial as before.
     pub(super) fn crossed(&self, plan: &Plan, other: &Plan, leg: usize) -> Option<Plan> {
         let [head, tail] = [plan, other].map(|plan| plan.witness.as_ref().and_then(CaseWitness::profile));
         let (head, tail) = (head?, tail?);
@@ -130,6 +141,8 @@ impl<'a> Witness<'a> {
     /// 3 of 10: another rung of the ladder for leg `leg`. Else the velocity at one end: a uniform share of the top
     /// speed, along the old velocity or the chord of its neighbours, with a spread of 0.3. `None` where that is not
     /// feasible.
+    ///
+    /// At the start and at the end the robot rests: they are not changed. With one leg only its time can be.
     pub(super) fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let profile = plan.witness.as_ref()?.profile()?;
         let last = plan.waypoints.len() - 1;

@@ -1,4 +1,7 @@
 //! Cases by chance: drawn from all that are feasible, so that nobody chose them.
+//!
+//! Each graph gives one draw, by the solver's own way of drawing: uniform over the graph's trajectories, or leg by leg
+//! (`Solver::drawn_how`).
 
 use rayon::prelude::*;
 
@@ -48,6 +51,10 @@ pub struct ByChance {
 ///
 /// Where `[vary]` shapes plans, each case draws its own values first. What a search would find beside the waypoints is
 /// left out. One seed gives the same cases on any number of threads.
+///
+/// Where the draw of a graph fails the next one is asked, so that what is hard to draw is rarer here than it is among
+/// all. `reason` is that of the last graph that gave nothing. Work is done in batches of twice the number of threads;
+/// which graph becomes which case depends on their numbers alone.
 pub fn by_chance(setup: &Setup, (purpose, count): (Purpose, u64), stop: &Stop) -> ByChance {
     let mut drawn = ByChance::default();
     let graphs = match Graphs::of(setup, &OwnSimulator) {
@@ -89,6 +96,8 @@ pub fn by_chance(setup: &Setup, (purpose, count): (Purpose, u64), stop: &Stop) -
 }
 
 /// A plan of case number `number` where plans vary: of the scenario that is drawn for it, in graphs of its own.
+///
+/// Up to 20 graphs, from a range that belongs to the case alone.
 fn drawn_plan(setup: &Setup, (purpose, number): (Purpose, u64), stop: &Stop) -> Result<(u64, Plan), Option<String>> {
     let seed = named_seed(setup.scenario.seed(), purpose.seeds(), number);
     let draws = vary::draw_for_case(&setup.scenario, seed, CaseNumber(number as usize));

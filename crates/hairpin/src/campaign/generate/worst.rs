@@ -23,6 +23,8 @@ use crate::search::in_loop::Trial;
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
 
 /// Runs that the one of the search is chosen among, and random trajectories that they are compared by.
+///
+/// At most: a scenario with fewer repeats has fewer.
 const RUNS: usize = 4;
 const SAMPLE: u64 = 6;
 /// Number of the first of these: no search draws so many.
@@ -46,6 +48,8 @@ struct Plans<'a> {
     first: u64,
     sought: Vec<Sought>,
     /// The run that each is executed as.
+    ///
+    /// 0 is the nominal run.
     run: usize,
     /// What was executed before the search was stopped.
     known: &'a Answers,
@@ -70,6 +74,8 @@ impl Field for Plans<'_> {
         &drawn.plan.waypoints
     }
 
+    /// 128 bits of waypoints (of arms of the program), leg times and the velocities with which legs begin: what is told
+    /// apart is executed, what is not is one trajectory.
     fn fingerprint(&self, drawn: &Drawn) -> [u8; 16] {
         let Plan { waypoints, witness, leg_times, .. } = &drawn.plan;
         // One way may be planned at other speeds, and velocities at waypoints are another plan to who reads them.
@@ -104,6 +110,7 @@ impl Field for Plans<'_> {
         self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
     }
 
+    /// Both `None`s are told apart: not begun, and failed. What is known from before costs no execution.
     fn run_all(
         &self,
         plans: &[&Drawn],

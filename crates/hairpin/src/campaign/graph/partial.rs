@@ -14,6 +14,8 @@ use crate::simulation::Airborne;
 const FRONTIER: usize = 1000;
 
 /// Makes plans of what the beam grows, and has them executed.
+///
+/// An error tells how many executions were used up; 0 where no plan could be made.
 struct Carried<'q, 'a, N, O> {
     question: &'q Question<'a, N, O>,
     partials: &'q Partials<'a>,
@@ -36,6 +38,8 @@ impl<N: Copy, O> Execute<N> for Carried<'_, '_, N, O> {
 /// The frontier is at most 1000 partial trajectories.
 ///
 /// Scores are stresses of what was flown so far; the plan's own score only settles which legs are flown first.
+///
+/// The budget is `generate.search.executions` a graph, iterations `generate.search.iterations`: whichever ends first.
 pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &Question<N, O>,
     partials: &Partials,

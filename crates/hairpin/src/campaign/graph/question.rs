@@ -19,6 +19,7 @@ use crate::search::{Additive, BeamOutcome, BeamSettings, Found, LegGraph};
 ///
 /// `points[0]` is the start, the last the end or the sink; lengths count waypoints.
 pub(in crate::campaign) struct Question<'a, N, O> {
+    /// The scenario's own section: numbers of what is kept, budgets, revisits and the aggregate.
     pub(in crate::campaign) search: &'a SearchSection,
     /// Waypoints of a trajectory, both ends included.
     pub(in crate::campaign) length: usize,
@@ -26,6 +27,7 @@ pub(in crate::campaign) struct Question<'a, N, O> {
     /// Not a type of its own each: it is asked once an expansion, and the searches are compiled once a kind of node.
     /// Which legs there are.
     pub(in crate::campaign) reach: &'a dyn Reach<N>,
+    /// Its waypoint is number 0.
     pub(in crate::campaign) start: N,
     /// What a leg is worth.
     pub(in crate::campaign) score: O,

@@ -30,6 +30,8 @@ pub(in crate::campaign) fn search<N: Copy + Eq + Ord + Hash, O: Additive>(
 }
 
 /// Optima of the method `exact` are proven, its bound holds for the graph; the others find what they find.
+///
+/// `Worst` and `Adaptive` come here only for draws.
 fn by_method<N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &Question<N, O>,
     may_arrive: &dyn Fn(&N, usize) -> bool,
@@ -48,6 +50,8 @@ fn by_method<N: Copy + Eq + Ord + Hash, O: Additive>(
 }
 
 /// Ends with the frontier or the iterations; an empty frontier is a proof only where the beam lost nothing.
+///
+/// O(iterations · width · legs of a node); scores are lower bounds of what there is, never proven best.
 fn by_beam<N: Copy + Eq + Ord + Hash, O: Additive>(
     question: &Question<N, O>,
     may_arrive: &dyn Fn(&N, usize) -> bool,
@@ -58,6 +62,8 @@ fn by_beam<N: Copy + Eq + Ord + Hash, O: Additive>(
     question.answer_of(outcome, capped)
 }
 
+/// Without revisits it is a relaxation that is refined within a budget: the answer's bound says how far off its best
+/// may be. Needs all legs at once: O(legs) memory.
 fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
     let Some(graph) = question.leg_graph() else { return Answer::stopped() };
@@ -79,6 +85,8 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Questio
 }
 
 /// Proven empty where no walk of the length leads from start to end.
+///
+/// With replacement; with revisits forbidden a draw that repeats a waypoint is thrown away and counts.
 fn by_uniform_draws<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
     let Some(graph) = question.leg_graph() else { return Answer::stopped() };

@@ -5,6 +5,8 @@ use std::fmt;
 use serde_json::{Map, Value};
 
 /// A key such as `world.obstacles[0].box.size_m`, `world.obstacles.0.box.size_m` or `vary."world.wind_m_s"`.
+///
+/// At least one part. Whether there is such a value in a scenario is asked of the scenario.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyPath {
     segments: Vec<String>,
@@ -12,6 +14,9 @@ pub struct KeyPath {
 
 impl KeyPath {
     /// Takes a key apart. `None` where it is none: an empty segment, a bracket without a whole number, an open quote.
+    ///
+    /// Bare parts are letters, digits, `_` and `-`; anything but `"` stands in quotes. White space around the key is
+    /// left out. O(length).
     pub fn parse(key: &str) -> Option<Self> {
         let mut segments = Vec::new();
         let mut rest = key.trim();
@@ -44,6 +49,8 @@ impl KeyPath {
     }
 
     /// The value at this key.
+    ///
+    /// `None` where there is none, or a part names an element of what is no array.
     pub fn get<'v>(&self, root: &'v Value) -> Option<&'v Value> {
         self.segments.iter().try_fold(root, |value, segment| match value {
             Value::Object(table) => table.get(segment),
@@ -106,6 +113,7 @@ fn is_index(segment: &str) -> bool {
     segment.bytes().all(|b| b.is_ascii_digit())
 }
 
+/// Digits are indices but at the beginning; parts with a dot or a bracket are put in quotes.
 fn joined(segments: &[String]) -> String {
     let mut key = String::new();
     for segment in segments {

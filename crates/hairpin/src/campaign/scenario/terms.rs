@@ -13,6 +13,8 @@ pub struct Terms {
     /// Inside this distance of the leg's own waypoints overshoot is judged instead, m.
     pub corner: f64,
     /// What is within spec.
+    ///
+    /// m, m/s², s; of drives the margin of tipping over in °. `None`: not judged.
     pub limits: Limits,
 }
 
@@ -45,6 +47,8 @@ impl Terms {
     /// How many legs no sample of which was held against the limit of deviation.
     ///
     /// Of a leg shorter than twice `corner` every place lies in one of its corners, and so does what kept to it.
+    ///
+    /// 0 where nothing is limited, or where the reference is the planned path.
     pub(in crate::campaign) fn in_corners(&self, measures: &Measures, waypoints: &[Point3<f64>]) -> usize {
         let is_judged = self.limits.deviation.is_none() || self.from == DeviationFrom::Path;
         let within = |(ends, leg): &(&[Point3<f64>], &LegMeasures)| {

@@ -3,6 +3,15 @@
 //!
 //! Data flow: a drive → its motion predicted on the ground, step by step → states at even times → wheel speeds, steer
 //! angles, rates and joints of each → the largest of all, held to the vehicle's limits.
+//!
+//! ```text
+//! t(s, turned) = T(s) + |turned|/ω          T the time of the speed profile, s the metres driven
+//! rolling speed of wheel i = rolls_i · v / r   rolls_i its share of the body's twist, v m/s (ω turned in place), r m
+//! ```
+//!
+//! Attitudes, joints and clearances are those of the body at rest on the ground at each step (quasi-static). Rates of
+//! wheels are differences between steps, so that a peak is a mean over one step and errs low by what it bends within
+//! it.
 
 mod peaks;
 mod vehicle_state;
@@ -25,10 +34,14 @@ pub struct Followed<'a> {
     /// The vehicle.
     pub rover: &'a Rover,
     /// Speed along the drive.
+    ///
+    /// m/s, over the metres driven.
     pub speed: SpeedProfile,
     /// Rate of turns in place, rad/s, > 0.
     pub turn_rate: f64,
     /// Direction of travel in the body.
+    ///
+    /// rad, left positive; from the drive's start to its end.
     pub direction: Direction,
     /// Time between states, s, > 0.
     pub time_step: f64,
@@ -50,6 +63,8 @@ pub struct States {
 }
 
 /// Longest step on the ground, m and rad: what its cells and wheels can be told by.
+///
+/// At most 0.02 m, and 0.02 rad in turns.
 const FINEST: f64 = 0.02;
 
 impl Followed<'_> {
@@ -57,6 +72,8 @@ impl Followed<'_> {
     ///
     /// # Errors
     /// Level ground blocks no vehicle; kept for what the wheels of a broken one might do.
+    ///
+    /// Steered axle and suspension stay; height, roll and pitch are those on level ground at height 0.
     pub fn in_the_plane(&self, start: &Planar, segments: &[Segment]) -> Result<States, Blocked> {
         let ideal = Response { steered_axle: self.rover.response.steered_axle, ..Response::default() };
         let rover = Rover { slip: Slip::default(), response: ideal, ..self.rover.clone() };
@@ -71,6 +88,10 @@ impl Followed<'_> {
     ///
     /// # Errors
     /// Where the ground ends or the body finds no rest.
+    ///
+    /// The count of states is about duration/`time_step`, at most `most_steps`; cost is that of one prediction,
+    /// O(length/2 cm) looks at the ground. Peaks are of the steps of the prediction, not of the samples: they do not
+    /// depend on `time_step` but where that makes steps finer.
     pub fn on<T: Terrain>(&self, terrain: &T, start: &Planar, segments: &[Segment]) -> Result<States, Blocked> {
         let latency = self.rover.response.latency;
         let wait = latency * self.speed.start();
@@ -105,6 +126,9 @@ impl Followed<'_> {
     /// The states of commands that act at once, as finely as they are predicted, and the place where they end.
     ///
     /// Times and metres from the stretch's own beginning.
+    ///
+    /// At the ends the states of the first and the last step are carried over, with pose, speed and direction put
+    /// right: what wheels do there is that of half a step inside. No states for commands without length.
     fn along<T: Terrain>(
         &self,
         terrain: &T,
@@ -148,6 +172,8 @@ impl Followed<'_> {
     }
 
     /// `speed` ≥ 0 with the sign of `like`; 0 in turns in place.
+    ///
+    /// `like` is the speed of the step next to the end: its sign is the gear's.
     fn signed(&self, like: f64, speed: f64) -> f64 {
         if like == 0.0 { 0.0 } else { speed.copysign(like) }
     }

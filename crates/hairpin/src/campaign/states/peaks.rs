@@ -3,6 +3,8 @@
 use crate::robot::rover::Rover;
 
 /// The largest that wheels do along a drive.
+///
+/// All ≥ 0, over all wheels of the vehicle; 0 for a vehicle without wheels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WheelPeaks {
     /// |steer angle|, rad.
@@ -33,6 +35,8 @@ impl WheelPeaks {
     ///
     /// Steer angles first, then their rate, speed, acceleration, torque. A share of 10⁻⁶ above a bound is rounding; a
     /// number that is none breaks it.
+    ///
+    /// The excess is in the unit of its field. A bound of ∞ is never broken. `None`: all are kept.
     pub fn broken(&self, rover: &Rover) -> Option<(&'static str, f64)> {
         /// What sampling and rounding may add.
         const ROUNDING: f64 = 1e-6;

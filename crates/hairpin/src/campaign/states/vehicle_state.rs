@@ -21,10 +21,14 @@ pub struct VehicleState {
     /// Direction of travel in the body, rad.
     pub direction: f64,
     /// Angle of the body's z axis from the vertical, rad.
+    ///
+    /// 0 … π; acos(cos roll · cos pitch).
     pub tilt: f64,
     /// Height of the underside over the ground, m; infinite without wheels, negative where it would touch.
     pub clearance: f64,
     /// Angle by which the body must lean further to tip over, rad; π/2 without wheels.
+    ///
+    /// NaN where the ground tells nothing.
     pub tip_over_margin: f64,
     /// What the wheels push or brake with; `None` without a weight.
     pub effort: Option<Effort>,
@@ -45,6 +49,8 @@ pub struct WheelState {
 
 /// `states` at every `step` seconds, linear between, and at both ends; `jumps`: speeds of different sign are not
 /// passed between.
+///
+/// O(states + samples). Times are i · step and the end; no states, no samples. `step` > 0, s.
 pub(super) fn sampled(states: &[VehicleState], step: f64, jumps: bool) -> Vec<VehicleState> {
     let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
     let mut sampled = vec![*first];

@@ -19,6 +19,9 @@ pub(super) struct Walk<'a, T> {
     pub(super) terrain: &'a T,
     pub(super) states: Vec<VehicleState>,
     /// What the wheels did a moment ago, and whether that was in the same stretch.
+    ///
+    /// The second is −1, 0 or 1: reverse, a turn in place, forward. Motions are handed on so that steer angles go on
+    /// from where they were.
     pub(super) before: Option<([WheelMotion; 6], f64)>,
     pub(super) peaks: WheelPeaks,
 }
@@ -26,6 +29,9 @@ pub(super) struct Walk<'a, T> {
 impl<T: Terrain> Walk<'_, T> {
     /// time = t(s) + |turned| / ω; a wheel's rolling speed is its share of the body's twist times the pace over its
     /// radius.
+    ///
+    /// Called once for each step of the prediction, in order, with what holds in its middle. `Effort` in a turn in
+    /// place is 0: no claim is made of what scrubbing takes.
     pub(super) fn add(&mut self, driven: &Driven) {
         let Self { rover, turn_rate, direction, .. } = *self;
         let time = self.timing.time_at(driven.s) + driven.turned / turn_rate;
@@ -68,6 +74,12 @@ impl<T: Terrain> Walk<'_, T> {
     }
 
     /// Keeps the largest of what the wheels do; rates between moments of one stretch.
+    ///
+    /// ```text
+    /// δ̇ ≈ |δ_i − δ_{i−1}| / Δt      dω/dt ≈ |ω_i − ω_{i−1}| / Δt      only within one stretch of one gear
+    /// ```
+    ///
+    /// Where the gear changes or a turn begins the vehicle stands, and its wheels may swing at their own pace.
     fn measure(&mut self, wheels: &[WheelState], time: f64, mode: f64) {
         let peaks = &mut self.peaks;
         for wheel in wheels {

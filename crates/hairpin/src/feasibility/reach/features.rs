@@ -16,6 +16,9 @@ pub(super) const LANES: usize = 8;
 /// What scores see of the displacement `leg` (m) after `before` (0 at the start), both flown in `step` s.
 ///
 /// v = |leg|/step, turn = ∠(before, leg) in [0, π], slope = climb/length.
+///
+/// A leg or one before it without length has a turn of 0. `slope_in` is the sine of the elevation of the leg before, in
+/// [−1, 1]; `ground` is 0, as nothing is known of it here.
 #[inline]
 pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> LegFeatures {
     let length_before = before.norm();
@@ -25,6 +28,8 @@ pub(super) fn features(before: &Vector3<f64>, leg: &Vector3<f64>, step: f64) -> 
 }
 
 /// [`features`] of eight displacements, one row per coordinate.
+///
+/// The same bits as eight single ones, at every level of SIMD.
 #[inline]
 pub(super) fn eight_features(
     simd: Simd,
@@ -72,6 +77,9 @@ kernel! {
 }
 
 /// Length of `leg`, and its angle to `before`, rad; 0 if either has no length.
+///
+/// atan2(|a × b|, a·b): well conditioned at all angles, where the arc cosine of a·b loses half of the digits near 0 and
+/// π.
 #[inline(always)]
 fn length_and_turn(before: [f64; 3], length_before: f64, leg: [f64; 3]) -> (f64, f64) {
     let ([ax, ay, az], [bx, by, bz]) = (before, leg);
@@ -85,6 +93,8 @@ fn length_and_turn(before: [f64; 3], length_before: f64, leg: [f64; 3]) -> (f64,
 /// The angle from the x axis to (`along`, `across`), `across` ≥ 0, rad in [0, π]; undefined at the origin.
 ///
 /// atan2(across, along), folded into [0, π/8] by two halvings of the octant.
+///
+/// Within two units of the last place; O(1), one division for the octant and one for the rational function.
 #[inline(always)]
 fn angle(across: f64, along: f64) -> f64 {
     let size = along.abs();

@@ -22,6 +22,8 @@ pub(super) struct Triangle {
     /// Twice its area, m².
     pub(super) area: f64,
     /// Number of the last insertion that looked at it, and whether that saw it from outside; or [`GONE`].
+    ///
+    /// It saves a clearing of marks: numbers of insertions only grow.
     looked: (u32, bool),
 }
 
@@ -31,6 +33,8 @@ pub(super) struct Triangle {
 pub(super) struct Tangled;
 
 /// The plane through three points, its normal by the right hand, and twice the triangle's area.
+///
+/// NaN for three points in a line; whoever asks looks at the area first.
 pub(super) fn plane(points: &[Vector3<f64>], corners: [u32; 3]) -> (Plane, f64) {
     let [a, b, c] = corners.map(|i| points[i as usize]);
     let normal = (b - a).cross(&(c - a));
@@ -41,11 +45,15 @@ pub(super) fn plane(points: &[Vector3<f64>], corners: [u32; 3]) -> (Plane, f64) 
 }
 
 /// A hull of some of the points.
+///
+/// Triangles are only appended while it grows, and taken out by [`Growing::sweep`]; numbers stay what they are until
+/// then. Lengths in m.
 pub(super) struct Growing<'a> {
     points: &'a [Vector3<f64>],
     triangles: Vec<Triangle>,
     /// For every triangle the farthest point beyond it.
     farthest: Vec<Farthest>,
+    /// m: points no farther beyond a plane than this lie in the hull.
     tolerance: f64,
     insertions: u32,
     /// For every point the new triangle whose first corner it is, if it is one.
@@ -58,6 +66,8 @@ pub(super) struct Growing<'a> {
 
 impl<'a> Growing<'a> {
     /// The tetrahedron of four points, d below the triangle a, b, c as it turns.
+    ///
+    /// Orientation is not checked: d must lie below a, b, c, or every normal points inward.
     pub(super) fn new(points: &'a [Vector3<f64>], [a, b, c, d]: [u32; 4], tolerance: f64) -> Result<Self, Tangled> {
         let mut hull = Self {
             points,
@@ -99,6 +109,9 @@ impl<'a> Growing<'a> {
     }
 
     /// Adds points of `cloud` until none lies beyond the hull; all triangles must be of the hull.
+    ///
+    /// Each insertion takes the point farthest beyond one open triangle. O(points · new triangles), points eight
+    /// abreast in [`Cloud`].
     pub(super) fn grow(&mut self, cloud: &Cloud) -> Result<(), Tangled> {
         self.farthest.clear();
         cloud.farthest(&self.planes(), self.tolerance, &mut self.farthest);
@@ -119,6 +132,9 @@ impl<'a> Growing<'a> {
     }
 
     /// Puts the cone from `point` to the horizon in the place of the triangles seen from it, `visible` among them.
+    ///
+    /// New triangles are a fan (from, to, point) over the horizon; neighbours are joined around it by their first
+    /// corners. The hull is not to be used after [`Tangled`].
     fn insert(&mut self, point: u32, visible: u32) -> Result<(), Tangled> {
         self.insertions += 1;
         // A point that comes back again and again, because rounding takes it out each time.
@@ -162,6 +178,9 @@ impl<'a> Growing<'a> {
     }
 
     /// Takes out the triangles seen from `point`, by neighbourhood from `visible`, and collects the horizon.
+    ///
+    /// Breadth first over neighbours; each triangle is held against the point once. What is seen is meant to be a disc,
+    /// whose edge is the horizon.
     fn look(&mut self, point: u32, visible: u32) {
         let x = self.points[point as usize];
         self.horizon.clear();
@@ -191,6 +210,8 @@ impl<'a> Growing<'a> {
     }
 
     /// Forgets the triangles that are gone.
+    ///
+    /// O(triangles); numbers of triangles change.
     pub(super) fn sweep(&mut self) {
         let mut kept = 0;
         let places: Vec<u32> = (self.triangles.iter())

@@ -1,4 +1,7 @@
 //! The order of half-spaces by which a point outside is refused soonest.
+//!
+//! A point outside of a convex set breaks some half-space; asked in a good order it is refused after a few products.
+//! Points inside have to be asked of all: nothing is saved for them.
 
 use nalgebra::Vector3;
 
@@ -10,12 +13,17 @@ const WORDS: usize = 2;
 const WORD: usize = 64;
 
 /// Points in words, one row per coordinate.
+///
+/// 128 points.
 type Probes = [[[f64; WORD]; 3]; WORDS];
 
 /// Numbers of `planes` such that each cuts off most of what those before it left of the box from `min` to `max`,
 /// counted on evenly spread points; those that cut off nothing more keep their order.
 ///
 /// A permutation; membership does not depend on it, only how soon a point outside is refused.
+///
+/// O(planes · 128) once, and O(planes) for each one that is chosen. The box should hold what is asked about: its points
+/// are what counts as usual.
 pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, max: &Vector3<f64>) -> Vec<u32> {
     let mut cuts = vec![[0; WORDS]; planes.len()];
     let mut order = Vec::with_capacity(planes.len());
@@ -30,6 +38,8 @@ pub(super) fn refusal_order(simd: Simd, planes: &[Plane], min: &Vector3<f64>, ma
 
 /// Evenly spread points of a box: the additive recurrence R3 (Roberts 2018), whose steps are the powers of 1/g with
 /// g⁴ = g + 1.
+///
+/// Deterministic; the i-th is frac(½ + i a) along each axis.
 fn probes(min: &Vector3<f64>, max: &Vector3<f64>) -> Probes {
     let steps = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_4];
     let mut probes = [[[0.0; WORD]; 3]; WORDS];

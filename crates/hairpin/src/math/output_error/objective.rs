@@ -47,6 +47,9 @@ const LEAST_DEVIATION: f64 = 1e-6;
 
 impl Objective<'_> {
     /// Q(θ) = Σ_g n_g ln(RSS_g/n_g); `None` where there is no simulation.
+    ///
+    /// By output g: n_g its residuals, RSS_g the sum of their squares. RSS_g/n_g is 1e-12 at least. The scale of each
+    /// output is profiled out, so that outputs of different units add up. O(residuals).
     pub(super) fn at(&self, theta: &[f64]) -> Option<Value> {
         let residuals = (self.residuals)(theta)?;
         if residuals.iter().any(|r| !r.is_finite()) {
@@ -69,6 +72,9 @@ impl Objective<'_> {
     }
 
     /// Columns ∂f/∂θ_k = −∂r/∂θ_k for the parameters `free`, by central differences, one-sided at bounds.
+    ///
+    /// rows: residuals, columns: `free`. 2 simulations a column, in parallel. `None` where one fails or a number is
+    /// none.
     pub(super) fn jacobian(&self, theta: &[f64], free: &[usize]) -> Option<DMatrix<f64>> {
         let columns: Option<Vec<Vec<f64>>> = free
             .par_iter()
@@ -90,6 +96,8 @@ impl Objective<'_> {
     }
 
     /// H = Σ w J Jᵀ and g = Σ w J r over the residuals of `blocks`.
+    ///
+    /// The Hessian of Gauss and Newton of Q/2 with weights as they are at the point. O(residuals · free²).
     pub(super) fn normal_equations(
         &self,
         value: &Value,

@@ -1,4 +1,13 @@
 //! Sums over rows, and the normal equations that they make.
+//!
+//! ```text
+//! n,  Σ m,  Σ m mᵀ,  Σ m y,  Σ y                     over rows; sums of parts add up, and are taken off again
+//! cov_ij = (Σ m_i m_j/n − m̄_i m̄_j)/(σ_i σ_j),   σ² = Σ m²/n − m̄²
+//! (cov + λ I) w̃ = (Σ m_j y/n − m̄_j ȳ)/σ_j,   w_j = w̃_j/σ_j,   b = ȳ − Σ w_j m̄_j
+//! ```
+//!
+//! Means are taken off at the end, not row by row: inputs are standardised and clamped, so that moments are of the
+//! order of 1 and little is lost.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -21,6 +30,8 @@ kernel! {
 }
 
 /// Sums over rows that a fit needs.
+///
+/// Memory: monomials² numbers, of which the lower triangle is kept.
 #[derive(Clone)]
 pub(super) struct Sums {
     count: f64,
@@ -42,6 +53,9 @@ impl Sums {
     }
 
     /// Sums over rows; `write` puts the monomials of one into the buffer given and gives its value.
+    ///
+    /// One pass, O(rows · monomials²/2). Sums are those of the rows one after the other, at every level of SIMD to the
+    /// bit.
     pub(super) fn over<R>(
         monomials: usize,
         rows: impl Iterator<Item = R>,
@@ -79,6 +93,7 @@ impl Sums {
         }
     }
 
+    /// Both of the same monomials.
     pub(super) fn include(&mut self, other: &Sums) {
         self.count += other.count;
         self.products += &other.products;
@@ -87,6 +102,7 @@ impl Sums {
         self.value += other.value;
     }
 
+    /// Rounding of the whole sum stays behind, some 1e-16 of it.
     pub(super) fn without(&self, other: &Sums) -> Self {
         Self {
             count: self.count - other.count,
@@ -99,6 +115,9 @@ impl Sums {
 
     /// Weights of plain monomials, and the intercept. Monomials are standardised on the way, so that one penalty fits
     /// all.
+    ///
+    /// O(monomials³/3), Cholesky. A variance of at most 1e-12 counts as none. Where the factorisation fails all weights
+    /// are 0 and the answer is the mean. `penalty` > 0.
     pub(super) fn solve(&self, penalty: f64) -> (Vec<f64>, f64) {
         let n = self.count;
         let mean = &self.monomials / n;

@@ -18,6 +18,8 @@ use crate::trajectory::{Flight, ProfileLeg};
 /// Time between two turns of a controller that has no period of its own, s.
 const PERIOD: f64 = 0.1;
 /// Standard deviations of what is measured: position, m; heading, rad; speeds, m/s; rate of turn, rad/s.
+///
+/// White, anew at each turn of the controller; the log has the plant's own numbers.
 const NOISE: [f64; 4] = [0.01, 0.2 * std::f64::consts::PI / 180.0, 0.005, 0.2 * std::f64::consts::PI / 180.0];
 
 /// Sails one run by one of our controllers: the same bytes for the same arguments.
@@ -57,6 +59,8 @@ pub fn sail_with(
 }
 
 /// Plant, course and log of a run.
+///
+/// Nothing is shared between runs; all that is drawn comes from the stream `boat pose` of the run's seed.
 struct Run<'a> {
     sortie: &'a BoatSortie<'a>,
     settings: &'a SailSettings,
@@ -91,6 +95,9 @@ impl<'a> Run<'a> {
     }
 
     /// Sails to the end.
+    ///
+    /// Once a period: the course and what ends the run are noted, a sample is logged where it is due, the controller is
+    /// asked, and the plant goes on with its answer held. The last sample is that of the end.
     fn carry_out(mut self, name: &str, controller: &mut dyn Controller<Boat>) -> Result<Flight, SimulationError> {
         let failed = |t: f64, why: Misbehaviour| Err(SimulationError::Controller { name: name.into(), t, why });
         let period = controller.period().unwrap_or(PERIOD);
@@ -128,6 +135,8 @@ impl<'a> Run<'a> {
         unreachable!("the time limit ends every run")
     }
 
+    /// Velocities over ground in the body's frame, ahead and to port. Ground and water share the noise of the rate of
+    /// turn, not that of the speeds. Without noise the plant's own numbers.
     fn measure(&mut self, t: f64) -> BoatState {
         let plant = &self.plant;
         let over_ground = turned(&plant.over_ground(), -plant.heading());
@@ -146,6 +155,9 @@ impl<'a> Run<'a> {
     }
 }
 
+/// # Errors
+/// Fewer than two waypoints, numbers that are not finite, or another number of legs than the waypoints ask
+/// for.
 fn check_course(sortie: &BoatSortie) -> Result<(), SimulationError> {
     let points = sortie.waypoints;
     if points.len() < 2 {

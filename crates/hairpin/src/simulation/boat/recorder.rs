@@ -6,6 +6,8 @@ use super::plant::BoatPlant;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
 use crate::trajectory::{Channel, Track};
 
+/// Velocities `v…` over ground in the map's frame; `surge`, `sway` and `r` through the water in the body's; forces as
+/// the thrusters give them. `vz_m_s` is 0.
 const CHANNELS: [&str; 11] = [
     "leg",
     "vx_m_s",
@@ -30,6 +32,8 @@ pub(super) struct Recorder {
 
 impl Recorder {
     /// Appends a sample; one that is not finite or not later than the last is left out.
+    ///
+    /// `thrust_at_limit` is taken from the plant, which begins to count anew.
     pub(super) fn push(&mut self, t: f64, plant: &mut BoatPlant, leg: usize) {
         if self.times.last().is_some_and(|last| t <= *last) || !plant.is_finite() {
             return;

@@ -10,6 +10,8 @@ use crate::trajectory::Ended;
 const FARTHEST: f64 = 1e5;
 
 /// Watches one run.
+///
+/// Looked at once a turn of the controller, so that ends are known to a period.
 #[derive(Debug, Clone)]
 pub(super) struct Watch<'a> {
     sortie: &'a BoatSortie<'a>,
@@ -25,6 +27,9 @@ impl<'a> Watch<'a> {
     }
 
     /// Whether the run ends at `t` with the boat at `at`. Chords between looks are held against what it must not meet.
+    ///
+    /// In this order: numbers lost or 100 km off, a keep-out by the chord since the last look, the edge of the waters,
+    /// the end of the course and `linger`, the time limit. Touching a keep-out is meeting it.
     pub(super) fn note(&mut self, t: f64, at: &Vector2<f64>, course: &Course) -> Option<Ended> {
         let far = at.norm_squared();
         if far.is_nan() || far >= FARTHEST * FARTHEST {

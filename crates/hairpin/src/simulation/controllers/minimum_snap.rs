@@ -10,6 +10,9 @@ use crate::simulation::controller::{Controller, Fault, Reference, Schedule};
 use crate::trajectory::Profile;
 
 /// Fixed by `tests/library/step_responses.rs`.
+///
+/// 1/s on position and velocity, 1/s² on the integral; tilt in rad. What is not fed forward, an acceleration a, is
+/// missed by a/(K_p K_v).
 const GAINS: Gains = Gains {
     position: Vector3::new(1.0, 1.0, 1.0),
     velocity_p: Vector3::new(3.0, 3.0, 3.5),
@@ -31,6 +34,7 @@ const LEASH: f64 = 3.0;
 pub(crate) struct MinimumSnap {
     cascade: Cascade,
     pace: Pace,
+    /// `None` before the first reset.
     curve: Option<Curve>,
 }
 
@@ -43,6 +47,8 @@ impl MinimumSnap {
 }
 
 /// The curve that it leads `robot` along, from waypoint to waypoint; `None` where there is none through them.
+///
+/// From rest to rest, with leg times by the rule; velocities and accelerations at waypoints follow from the curve.
 pub fn minimum_snap_curve(robot: &Quadrotor, rule: SegmentTimes, waypoints: &[Point3<f64>]) -> Option<Profile> {
     Some(Curve::through(waypoints, &Pace::new(robot, rule)).ok()?.into_profile())
 }

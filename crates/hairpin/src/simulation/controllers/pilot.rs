@@ -38,6 +38,9 @@ impl Pilot {
     ///
     /// # Errors
     /// A speed that is given and not positive, a bandwidth that is not.
+    ///
+    /// `bandwidth` scales the loops of each; settings of other controllers than the one that is named are not looked
+    /// at.
     pub(crate) fn new(settings: &ControllerSettings, robot: &Quadrotor) -> Result<Self, SimulationError> {
         let bandwidth = positive("bandwidth", settings.bandwidth, "finite and > 0")?;
         let speed = |field, speed| positive(field, speed, "finite and > 0 m/s");
@@ -116,6 +119,7 @@ impl Controller<Quadrotor> for Pilot {
     }
 }
 
+/// NaN and infinities are refused.
 fn positive(field: &'static str, value: f64, bound: &'static str) -> Result<f64, SimulationError> {
     if value.is_finite() && value > 0.0 {
         return Ok(value);

@@ -16,10 +16,13 @@ pub(super) struct Recorder {
     weighs: bool,
 }
 
+/// Velocities of the body's origin in the map's frame; speed of the wheels, negative in reverse; the curvature of the
+/// wheels and the one that was commanded.
 const MOTION: [&str; 7] =
     ["leg", "vx_m_s", "vy_m_s", "vz_m_s", "speed_m_s", "curvature_1_m", "commanded_curvature_1_m"];
 const DIRECTION: [&str; 1] = ["travel_direction_rad"];
 const TORQUE: [&str; 1] = ["wheel_torque_n_m"];
+/// The worst since the sample before, not that of the moment.
 const STANDING: [&str; 2] = ["tip_over_margin_deg", "belly_clearance_m"];
 const JOINTS: [&str; 3] = ["joint_rocker_rad", "joint_left_bogie_rad", "joint_right_bogie_rad"];
 
@@ -40,6 +43,9 @@ impl Recorder {
     /// Appends a sample; one that is not later than the last is left out. `least` is the worst since the sample before.
     ///
     /// Only a margin that was not looked at yet is asked of the plant, which may have lost the ground: [`Lost`].
+    ///
+    /// # Errors
+    /// The ground was lost where the margin had to be asked.
     pub(super) fn push(
         &mut self,
         t: f64,

@@ -25,14 +25,19 @@ pub(super) struct Watch<'a> {
     waypoints: Vec<Point3<f64>>,
     reached: Vec<Option<f64>>,
     /// Of the controller, where it follows something.
+    ///
+    /// `None` for controllers that go from waypoint to waypoint.
     schedule: Option<Schedule>,
     leg: usize,
     next: usize,
+    /// When the course was over, s.
     over: Option<f64>,
     /// Where the body was when it last moved on: s; x, y, ψ.
     moved: (f64, [f64; 3]),
     before: [f64; 2],
     /// How it stood at its worst since the last sample.
+    ///
+    /// Margin in rad, clearance in m; below 0 the vehicle has tipped or touched.
     pub(super) least: Stands,
 }
 
@@ -79,6 +84,8 @@ impl<'a> Watch<'a> {
     /// Takes the controller's word for where it is.
     ///
     /// Legs without a schedule follow from the waypoints that were reached.
+    ///
+    /// The leg is cut to those that there are; a controller's leg may go back.
     pub(super) fn heed(&mut self, schedule: Option<Schedule>) {
         self.schedule = schedule;
         if let Some(schedule) = schedule {
@@ -101,6 +108,9 @@ impl<'a> Watch<'a> {
     ///
     /// In this order: tip-over, belly contact, places to keep out of (by the chord since the last look), the end of the
     /// course, time, no progress.
+    ///
+    /// Stuck is who has moved no more than 1 cm and turned no more than 1° for `patience` seconds, from where that
+    /// began, not from look to look.
     pub(super) fn note(&mut self, t: f64, plant: &Plant) -> Option<Ended> {
         if self.least.margin < 0.0 {
             return Some(Ended::TipOver);
@@ -136,6 +146,9 @@ impl<'a> Watch<'a> {
     /// Which waypoints are reached at `at`, and whether that was all.
     ///
     /// Distances are over the ground plan: z is not compared.
+    ///
+    /// With a schedule both ends of the current leg are looked at, and the course is over where the schedule is and the
+    /// vehicle stands; without one waypoints are reached in their order, and the course ends with the last.
     fn progress(&mut self, t: f64, at: [f64; 2], stands: bool) -> bool {
         let accept = square(self.settings.accept);
         let within = |p: &Point3<f64>| square(p.x - at[0]) + square(p.y - at[1]) <= accept;

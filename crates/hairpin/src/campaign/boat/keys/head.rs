@@ -10,6 +10,8 @@ use crate::campaign::scenario::{
 };
 
 /// A trip is given up after this multiple of its planned duration …
+///
+/// The limit of a run without one given is 2 · planned + 60 s, or what its kind calls the slowest if that is more.
 const SLOWNESS: f64 = 2.0;
 /// … and this time, s.
 const SPARE_SECONDS: f64 = 60.0;
@@ -60,6 +62,8 @@ impl Keys for BoatScenario {
         &mut self.vary
     }
 
+    /// Noise and the steady force stay the scenario's own: they are what a case was found under. `None` for a scenario
+    /// of another kind.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
         let now: &Self = (now as &dyn Any).downcast_ref()?;
         let (noise, force) = (self.execute.noise, self.execute.external_force_n);

@@ -28,6 +28,8 @@ pub struct WatersSection {
 
 impl WatersSection {
     /// Velocity of the water, m/s.
+    ///
+    /// (0, 0) where none is given.
     pub(in crate::campaign::boat) fn current(&self) -> [f64; 2] {
         self.current_m_s.unwrap_or_default()
     }

@@ -10,6 +10,9 @@ use crate::world::terrain::ElevationMap;
 const MOST_FORCE: f64 = 1e6;
 
 /// Robot and map where they could be read: what depends on them is not told without.
+///
+/// What a search looks for (`stress`) is measured on drives: no effort of joints, no saturation, no lateness. A force
+/// that is searched is not given by `[execute]` or drawn by `[vary]` as well, or a case would not say which one it met.
 pub(super) fn check(scenario: &DriveScenario, rover: Option<&Rover>, map: Option<&ElevationMap>, found: &mut Findings) {
     let search = scenario.generate.search.section();
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);

@@ -23,6 +23,8 @@ use crate::robot::rover::{Rover, Steering};
 use crate::world::terrain::{ElevationMap, KeepOuts};
 
 /// Nodes of the roadmap, waypoints × headings: legs are pairs of them, each a boundary-value problem.
+///
+/// At 5000 nodes a search that asked for all legs would solve 25 million; a beam asks for few of them.
 const MOST_NODES: u64 = 5_000;
 
 impl Build for DriveSetup {
@@ -34,6 +36,9 @@ impl Build for DriveSetup {
         Ok(Self::of(given, rovers, map, Self::keep_out(keys, known)?))
     }
 
+    /// Nothing is made twice: robots, map and keep-outs that are right go into the setup. Checks go on after a mistake,
+    /// so that a caller is told of all at once; only ground is made (or read) after all that stands before it is right,
+    /// as it is dear.
     fn check(given: Given<'_, Self>) -> Result<Self, Vec<Mistake>> {
         let Given { keys, files, known } = given;
         let mut found = Findings::default();
@@ -83,6 +88,8 @@ impl DriveSetup {
 }
 
 /// A name, a learned model's file made for the same robot, or a program of the user's own.
+///
+/// A program or a file has its own bounds; a name must be one of the terms of `GroundScore`, or `executed`.
 fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) {
     let (key, search) = ("generate.search.score", &keys.generate.search);
     let score = &search.score;
@@ -102,6 +109,8 @@ fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) 
 const MOST_OFFSET: f64 = 1e8;
 
 /// A file or a generator; the generator's keys only with one.
+///
+/// Whether its file can be read, or what the generator makes of its numbers, is not asked here.
 fn check_ground(world: &GroundSection, found: &mut Findings) {
     let terrain = &world.terrain;
     let one = terrain.file.is_some() != terrain.generator.is_some();
@@ -139,6 +148,8 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
 }
 
 /// Leg lengths within (0, 1000] m and rising; the start's curvature within the robot's.
+///
+/// Whether both ends lie on the map is asked by `places::check`, which needs one.
 fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
     found.count("task.length", task.length, 2, MOST_OF_A_DRIVE as u64);
     let [low, high] = task.leg_m;
@@ -153,6 +164,8 @@ fn check_task(task: &DriveTask, rover: Option<&Rover>, found: &mut Findings) {
 }
 
 /// Roadmaps have at most 5000 nodes (waypoints × headings), a quarter of that for methods other than the beam.
+///
+/// The step lies within (0, 1000] s, the solver's precisions within (1e-6, 1] m, rad and 1/m, headings are 1 … 64.
 fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let search = &generate.search;
     found.count("generate.headings", generate.headings, 1, 64);
@@ -180,6 +193,9 @@ fn check_generate(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
 }
 
 /// What the controls need of manoeuvres and robot.
+///
+/// An arc alone cannot come to the next waypoint's heading, nor can turn-drive-turn without turns: both need
+/// `turn-in-place`. What the robot can do is asked only where there is one.
 fn check_controls(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let turns = generate.manoeuvres.contains(&Manoeuvre::TurnInPlace);
     let word = format!("\"{}\"", generate.control.word());
@@ -198,6 +214,9 @@ fn check_controls(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut F
 }
 
 /// A direction of travel, and the vehicle and reach set it is for.
+///
+/// One number, or a range of them that drives turn through on the way. Other directions than 0 need a vehicle that
+/// steers all of its wheels.
 fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings) {
     let key = "generate.direction_deg";
     let value = match generate.direction_deg {
@@ -220,6 +239,9 @@ fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings
 }
 
 /// Hairpin's own controller or a command, not both.
+///
+/// accept ≤ 1000 m, time limits ≤ 1e6 s, latency ≤ 60 s, each part of the force ≤ 1e6 N in size; a force needs a
+/// vehicle with a weight.
 fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
     found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
     if let Some(repeat) = execute.repeat {

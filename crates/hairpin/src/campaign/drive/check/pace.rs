@@ -5,6 +5,16 @@ use crate::campaign::scenario::{DriveGenerate, DriveLimits, ProfileName};
 use crate::robot::rover::{MOST_SPEED, Rims, Rover};
 
 /// Limits within what is meant by them; those of speed leave driven wheels room to turn.
+///
+/// | key | bound |
+/// | --- | --- |
+/// | `curvature_1_m` | (0, 1e3] 1/m |
+/// | `curvature_rate_1_m2` | (0, 1e6] 1/m² |
+/// | `tilt_deg` | (0, 89]° |
+/// | `speed_m_s` | from 1e-3 m/s to `MOST_SPEED`, and 0.99 of the rims' speed at most |
+/// | `belly_clearance_m` | [0, 10] m |
+///
+/// They are bounds beside the robot's own: where a limit here is wider, the robot's holds.
 pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &mut Findings) {
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
@@ -33,6 +43,9 @@ pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &
 }
 
 /// Profiles that change speed need an acceleration, the robot's or the scenario's, which is no larger than the robot's.
+///
+/// Of a differential drive the acceleration leaves a tenth of its rims' for steering on the sharpest bend at the
+/// commanded speed. Waypoints' speeds say nothing where the speed is constant, and are refused there.
 pub(super) fn check_speed(generate: &DriveGenerate, rover: Option<&Rover>, found: &mut Findings) {
     let speed = &generate.speed;
     if let Some([low, high]) = speed.waypoint_m_s {

@@ -5,6 +5,9 @@ use crate::campaign::scenario::DriveScenario;
 use crate::world::terrain::{ElevationMap, KeepOuts, Terrain};
 
 /// It must be possible to stand at both ends, and to come near every keep-out.
+///
+/// On the map is where a patch of it has heights: within its extent, and not on a cell without data. Heights and slopes
+/// there are not looked at; the search tells whether the body stands.
 pub(super) fn check(keys: &DriveScenario, keep_out: Option<&KeepOuts>, map: &ElevationMap, found: &mut Findings) {
     let (task, (low, high)) = (&keys.task, map.extent());
     for (key, place) in [("task.start", Some([task.start.x_m, task.start.y_m])), ("task.end_m", task.end_m)] {

@@ -7,6 +7,8 @@ use crate::judgement::Stress;
 
 /// Winds and gusts up to 100 m/s, searched only where none is given or varied; obstacles only for the stress
 /// `clearance`, and that only where there are some.
+///
+/// The gust's duration is bounded even where no gust is searched. NaN is refused everywhere.
 pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
     let search = &scenario.generate.search;
     let placed = scenario.generate.environment.and_then(|environment| environment.obstacles);
@@ -43,6 +45,8 @@ pub(super) fn check(scenario: &FlightScenario, found: &mut Findings) {
 }
 
 /// A ball (2 r less than every side of the world) or a box (every edge less than the shortest).
+///
+/// Exactly one of both sizes is given; they are compared with the whole world, margin included.
 fn check_obstacles(scenario: &FlightScenario, placed: &PlacedSection, found: &mut Findings) {
     let key = "generate.environment.obstacles";
     found.placed(&scenario.generate.search, placed.count, "flight");

@@ -4,6 +4,8 @@ use crate::campaign::check::Findings;
 use crate::campaign::scenario::ExecuteSection;
 
 /// Integration steps of 10⁻⁵ … 10⁻³ s.
+///
+/// Latency ≤ 1 s and bandwidth 0.1 … 10 are for controllers of ours; of a program's gains and delays nothing is known.
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);
     found.count("execute.repeat", execute.repeat, 1, 100_000);

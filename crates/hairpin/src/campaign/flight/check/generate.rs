@@ -12,6 +12,8 @@ const MOST_WAYPOINTS: u64 = 100_000;
 /// The dynamic programs keep every pair of waypoints, and visit every triple that is feasible.
 const MOST_WAYPOINTS_IN_PAIRS: u64 = 2_000;
 /// Nodes of the `witness` roadmap, waypoints × velocities: legs are pairs of them, judged once and kept.
+///
+/// Legs are judged when they are first asked for.
 const MOST_NODES: u64 = 50_000;
 /// The same for the dynamic programs, which judge every leg before they start.
 const MOST_NODES_IN_PAIRS: u64 = 16_000;
@@ -55,6 +57,8 @@ fn check_timing(generate: &GenerateSection, found: &mut Findings) {
 }
 
 /// Bounds of waypoints by method, and for `witness` of nodes: waypoints × velocities.
+///
+/// Where the number of waypoints is out of bounds itself nothing is said of nodes.
 fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut Findings) {
     let in_pairs = search.method != SearchMethod::Beam;
     let most = if in_pairs { MOST_WAYPOINTS_IN_PAIRS } else { MOST_WAYPOINTS };
@@ -73,6 +77,7 @@ fn check_search(search: &SearchSection, generate: &GenerateSection, found: &mut 
     check_common(search, found);
 }
 
+/// A file's score brings its own checks; else one of the named ones, or `executed`, which goes with few methods.
 fn check_score(scenario: &FlightScenario, files: &Attachments, found: &mut Findings) {
     let (key, score) = ("generate.score", scenario.generate.score.as_str());
     if found.score_of_file(key, score, files, || scenario.subject()) {

@@ -22,6 +22,8 @@ pub(super) fn check(task: &TaskSection, world: Option<&World>, robot: Option<&Qu
 
 /// Within the walls by the keep-in margin, and the robot's radius from every obstacle; signed distances, m. Outside the
 /// walls nothing is said of obstacles.
+///
+/// One mistake for walls, with the first axis that is off; one for every obstacle that is too near.
 fn check_end(key: &str, p: [f64; 3], world: &World, robot: Option<&Quadrotor>, found: &mut Findings) {
     let margin = world.keep_in_margin();
     for (axis, &x) in p.iter().enumerate() {

@@ -7,9 +7,14 @@ use crate::campaign::scenario::{ObstacleSection, WorldSection};
 /// Every leg is tested against every obstacle.
 const MOST_OBSTACLES: usize = 10_000;
 /// Points of one hull or mesh: a few hundred MB of trees at most.
+///
+/// Also the bound of a mesh's triangles.
 const MOST_POINTS: usize = 1_000_000;
 
 /// A world that passes may still be none: shapes are built afterwards.
+///
+/// Lengths above 0 and at most 10 km, winds and gusts within ± 100 m/s a component. With more obstacles than are
+/// allowed none of them is looked at.
 pub(super) fn check(world: &WorldSection, found: &mut Findings) {
     if let Some(base) = &world.base {
         found.require(false, "world.base", format!("\"{base}\""), "merged into the world first");
@@ -120,6 +125,8 @@ fn place(key: &str, p: [f64; 3], found: &mut Findings) {
 }
 
 /// Every component of `v` must be `fine`; the first that is not is named.
+///
+/// The key gets the index: `world.size_m[2]`.
 pub(super) fn vector(key: &str, v: [f64; 3], found: &mut Findings, fine: impl Fn(f64) -> bool, bound: &str) {
     if let Some(at) = v.iter().position(|&x| !fine(x)) {
         found.require(false, &format!("{key}[{at}]"), v[at], bound);

@@ -12,6 +12,9 @@ type Learned = (f64, Vec<LegSample>);
 
 impl Campaign<'_> {
     /// Executes `todo` in part `part` of round `number`; stresses are added to `sums`, by origin.
+    ///
+    /// `sums` holds (Σ stress, count) for [`Origin`] in its order. What failed counts as an execution and is never
+    /// tried again; what was not begun is neither.
     pub(super) fn execute(
         &mut self,
         (number, part): (u64, u64),
@@ -44,6 +47,9 @@ impl Campaign<'_> {
 
     /// What each of `todo` came to: its stress, and those of its legs to learn from. What is not begun in time does not
     /// count.
+    ///
+    /// One entry for each of `todo`: `None` not begun, `Some(None)` failed or of no finite stress. Names are
+    /// fingerprints of the waypoints, by which an executor may know an earlier answer.
     fn carried_out(&self, (number, part): (u64, u64), todo: &[Todo]) -> Vec<Option<Option<Learned>>> {
         let names: Vec<[u8; 16]> = todo.iter().map(|todo| fingerprint(todo.plan.waypoints.iter().copied())).collect();
         let trials = |todo: &Todo| self.sampled.trials(self.graphs[todo.graph].number);

@@ -16,6 +16,9 @@ use crate::math::random::named_seed;
 
 impl Campaign<'_> {
     /// Finds as many graphs as cases are asked for, in the order of their numbers, and draws in each, `share` in all.
+    ///
+    /// ⌈share / graphs⌉ draws are asked of each, of which each graph keeps those that it is dealt. Graphs in which
+    /// nothing is feasible count as units and take no place.
     pub(super) fn first(&mut self, share: u64) -> Vec<Todo> {
         let wanted = self.search.adaptive_graphs() as usize;
         let units = self.search.graphs.unwrap_or(self.search.cases.saturating_mul(GRAPHS_PER_CASE));
@@ -54,6 +57,13 @@ impl Campaign<'_> {
     }
 
     /// What part of round `number` executes, `share` in all, by what all rounds before it have taught.
+    ///
+    /// ```text
+    /// whole = dealt(share)      optima = whole − free      free = by hand + draws, by `explore`
+    /// ```
+    ///
+    /// Of the free ones every second is by hand, but in round 0. A graph that has fewer new trajectories gives fewer;
+    /// nobody else gets its share.
     pub(super) fn next(&self, (number, part): (u64, u64), share: u64, models: &[ScoreModel]) -> Vec<Todo> {
         let (graphs, search) = (self.graphs.len() as u64, &self.search);
         if graphs == 0 {
@@ -100,6 +110,8 @@ impl Campaign<'_> {
     }
 
     /// Of `share` executions of a later round, those that no model chooses.
+    ///
+    /// Rounded to the nearest, halves away from 0.
     fn unchosen(&self, share: u64) -> u64 {
         libm::round(self.search.explore * share as f64) as u64
     }
@@ -109,6 +121,8 @@ impl Campaign<'_> {
     ///
     /// At most 8: one of all trajectories and bootstrap resamples of them. `told` gets the held-out R² and rank
     /// correlation, or why nothing was learned.
+    ///
+    /// One model for each choice of a graph, up to 8. A resample that cannot be fitted is left out.
     pub(super) fn models(&self, number: u64, share: u64, told: &mut RoundTally) -> Vec<ScoreModel> {
         let chosen = share.saturating_sub(self.unchosen(share));
         if chosen == 0 || self.graphs.is_empty() {

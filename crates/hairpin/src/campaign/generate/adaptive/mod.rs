@@ -44,6 +44,7 @@ const AT_A_TIME: u64 = 8;
 ///
 /// `kept` has executed stresses as scores, and no bound: what was measured bounds nothing.
 struct Graph {
+    /// Its number in the campaign's stream of graphs.
     number: u64,
     /// Fingerprints of what was executed.
     known: HashSet<[u8; 16]>,
@@ -89,6 +90,9 @@ struct Campaign<'a> {
 
 /// Executes `generate.search.executions` trajectories in rounds and gives the most stressful ones to `sink`, at the
 /// end. Of `known` all rounds or none are.
+///
+/// At most `executions` are made; fewer where graphs run out of trajectories or the time ends. Deterministic without a
+/// limit of time.
 pub(super) fn generate(
     sampled: &Graphs<'_>,
     known: &Known,
@@ -117,6 +121,9 @@ pub(super) fn generate(
 impl Campaign<'_> {
     /// Without a limit of time in one part; with one in parts of 8 executions per graph, so that what was found can
     /// still be executed.
+    ///
+    /// Means of stress are told for each origin: the models' choice, scores by hand and draws, `None` where there were
+    /// none.
     fn round(&mut self, number: u64) {
         let share = dealt(self.search.executions, self.search.adaptive_rounds(), number);
         let mut told = RoundTally::default();
@@ -165,6 +172,8 @@ impl Campaign<'_> {
         self.search.time_s.is_none_or(|time| (self.stop.clock)() - self.begun < share * time)
     }
 
+    /// Cases come graph after graph, the most stressful of each first, until as many as asked for; a trajectory that
+    /// two graphs share counts once.
     fn finish(mut self, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
         let wanted = self.search.cases as usize;
         match learn(self.setup, self.search.stress, &self.samples) {

@@ -12,6 +12,8 @@ use crate::campaign::scenario::{
 use crate::judgement::Limits;
 
 /// A drive is given up after this multiple of its planned duration …
+///
+/// The limit of a run without one given is 2 · planned + 60 s, or what its kind calls the slowest if that is more.
 const SLOWNESS: f64 = 2.0;
 /// … and this time, s.
 const SPARE_SECONDS: f64 = 60.0;
@@ -25,6 +27,8 @@ const LIMITS: &[&str] = &[
 ];
 
 impl Keys for DriveScenario {
+    /// Two runs a case where something is drawn and no number is given: run 0 is nominal. Deviations are from the
+    /// planned path, without corners.
     fn head(&self) -> Head<'_> {
         let DriveExecute { command, repeat, timeout_s, accept_m, baseline, flaky, time_limit_s, .. } = &self.execute;
         let limits = &self.spec.limits;
@@ -84,6 +88,7 @@ impl Keys for DriveScenario {
         &mut self.vary
     }
 
+    /// Noise and the steady force stay the scenario's own. `None` for a scenario of another kind.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
         let now: &Self = (now as &dyn Any).downcast_ref()?;
         let (noise, force) = (self.execute.noise, self.execute.external_force_n);
@@ -96,6 +101,8 @@ impl Keys for DriveScenario {
         self.execute.noise = true;
     }
 
+    /// A force of the environment takes the place of the scenario's; keep-outs come beside those that there are.
+    /// Nothing is left to be searched.
     fn surround(&mut self, environment: &Environment) {
         self.execute.external_force_n = environment.external_force_n.or(self.execute.external_force_n);
         self.world.keep_out.extend(environment.keep_out.iter().cloned());

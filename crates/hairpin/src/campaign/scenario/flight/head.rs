@@ -11,6 +11,9 @@ use crate::campaign::scenario::{
 };
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
+///
+/// The limit of a run without one given is this times the waypoints, or what its kind calls the slowest if that is
+/// more.
 const SECONDS_PER_WAYPOINT: f64 = 9.0;
 
 impl Keys for FlightScenario {
@@ -65,6 +68,7 @@ impl Keys for FlightScenario {
         &mut self.vary
     }
 
+    /// Noise stays the scenario's own. `None` for a scenario of another kind.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
         let now: &Self = (now as &dyn Any).downcast_ref()?;
         let noise = self.execute.noise;
@@ -77,6 +81,8 @@ impl Keys for FlightScenario {
         self.execute.noise = true;
     }
 
+    /// Wind and gust of the environment take the place of the world's; obstacles come beside those that there are.
+    /// Nothing is left to be searched.
     fn surround(&mut self, environment: &Environment) {
         let world = &mut self.world;
         world.wind_m_s = environment.wind_m_s.or(world.wind_m_s);
@@ -85,6 +91,7 @@ impl Keys for FlightScenario {
         self.generate.environment = None;
     }
 
+    /// Timing, whether waypoints move, and who flies; nobody where logs are named.
     fn write_defaults(&mut self) {
         self.generate.search.move_waypoints = Some(self.generate.search.moves_waypoints());
         self.generate.timing = Some(self.generate.timing_in_force());

@@ -10,11 +10,16 @@ use crate::math::random::{Stream, named_seed, stream, unit};
 use crate::trajectory::drive::Planar;
 
 /// Headings that are drawn for one that stands, at most.
+///
+/// With all of them refused the waypoint has one heading less.
 const DRAWS: usize = 8;
 /// One heading in so many points anywhere, the others at waypoints.
 const ANYWHERE: usize = 4;
 
 /// Appends up to M poses at waypoint `w`.
+///
+/// Draws are of a stream of the waypoint's own number, whatever other waypoints drew. Aimed in the direction of travel:
+/// in reverse away from the target, and by the crab angle aside. Each draw asks whether the body stands.
 pub(super) fn draw_headings(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -40,6 +45,8 @@ pub(super) fn draw_headings(
 }
 
 /// A heading that is `aimed` at one of `near`, or anywhere; in [−π, π].
+///
+/// One number of the stream, whichever it is.
 fn heading(near: &[&Point3<f64>], anywhere: bool, aimed: impl Fn(&Point3<f64>) -> f64, random: &mut Stream) -> f64 {
     let draw = unit(random);
     if anywhere || near.is_empty() {

@@ -60,6 +60,8 @@ pub(super) struct Ends<'a> {
 ///
 /// `Err` has the reason that came farthest in the order of [`LegRefusal`]. Deterministic: ways in their order, the
 /// first that keeps all limits.
+///
+/// `solves` counts the ways that were solved, not those whose length alone refused them.
 pub(super) fn judge(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -81,6 +83,8 @@ pub(super) fn judge(
 }
 
 /// The drive that joins `ends` the given `way`, or why there is none.
+///
+/// No other way is tried.
 pub(super) fn judge_by(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -92,6 +96,9 @@ pub(super) fn judge_by(
 
 /// Necessary for a drive in one gear to be no longer than the longest detour: Dubins' path is not. A direction that
 /// turns by Δδ bends the way by Δδ/L more, L no less than the distance.
+///
+/// Conservative: what it refuses has no drive in one gear that is short enough; what it lets pass may still be too
+/// long. Ways with more than one gear or with turns are not held to it.
 fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
     let Some(gear) = way.gear() else { return true };
     let (from, to) = (ends.from, ends.to);
@@ -113,6 +120,12 @@ fn may_be_short(settings: &DriveSettings, ends: &Ends, way: Way) -> bool {
 
 /// Solve, follow, time, score, in the order of what they cost. The duration is that of the speed profile of this leg
 /// alone, turns in place added at their rate; demands are shares of what the limits allow.
+///
+/// ```text
+/// duration = T(L) + Σ |turned| / ω      T of the speed profile, L the metres driven
+/// ```
+///
+/// `Steering` where the direction of travel would have to turn faster than the wheels: v · |dδ/ds| > rate.
 fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> Result<Solved, LegRefusal> {
     let segments = solved(site, settings, ends, way, &settings.speed.into())?;
     let turning = settings.speed * ends.direction.rate(metres(&segments)).abs();
@@ -141,6 +154,9 @@ fn driven(site: &DriveSite, settings: &DriveSettings, ends: &Ends, way: Way) -> 
 
 /// Commands that come to the same end the same `way` at the speeds of `profile`; `None`: `segments` do so already, as
 /// they do wherever a lag of the steering makes no difference.
+///
+/// # Errors
+/// As of [`judge_by`], at the speeds of the profile.
 pub(super) fn refitted(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -160,6 +176,10 @@ pub(super) fn refitted(
 }
 
 /// Commands whose predicted motion ends where it should, no longer than the longest detour.
+///
+/// # Errors
+/// `Detour` for what is longer than allowed, in the plane or on the ground; `Tilt`, or what blocked the way;
+/// `Unsolved` where the goal was not met.
 fn solved(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -205,6 +225,8 @@ fn metres(segments: &[Segment]) -> f64 {
 }
 
 /// Changes of gear on the way.
+///
+/// Arcs without length have no gear.
 fn reversals(segments: &[Segment]) -> f64 {
     let mut gears = segments.iter().filter(|s| matches!(s.motion, Motion::Arc { .. }) && s.length_m() > 0.0);
     let Some(first) = gears.next() else { return 0.0 };

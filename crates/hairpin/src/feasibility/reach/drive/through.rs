@@ -1,5 +1,12 @@
 //! Drives through places that somebody else chose, who says nothing of headings: which each is passed with is chosen
 //! from a few by a dynamic program over the legs between them.
+//!
+//! ```text
+//! J(k, ψ′) = min over ψ of J(k − 1, ψ) + T(ψ, ψ′)      ψ, ψ′ of up to three headings a place, T the leg's own time, s
+//! ```
+//!
+//! Times are those of single legs: how speeds follow each other is settled only for the chain that is chosen, so that
+//! it need not be the quickest drive.
 
 use super::draft::DriveDraft;
 use super::judge::{Commands, Ends, judge};
@@ -31,6 +38,8 @@ pub struct Through {
 }
 
 /// A heading of a place, and how it was come to.
+///
+/// World frame: yaw in rad. `from` is the index in the column before.
 struct Reached {
     yaw: f64,
     /// Seconds from the beginning of the chain.
@@ -45,6 +54,9 @@ struct Reached {
 ///
 /// Where no heading leads on, the chain begins anew, so that every leg has an answer of its own. At most 9 legs are
 /// solved for each pair of places.
+///
+/// The refusal of a leg is that of the heading that came farthest, in the order of [`LegRefusal`]. Curvatures are
+/// looked at in 17 places of each segment.
 pub fn through(
     site: &DriveSite,
     settings: &dyn Fn(usize) -> DriveSettings,
@@ -114,6 +126,8 @@ fn begun(places: &[[f64; 2]], index: usize) -> Vec<Reached> {
 }
 
 /// The drive along the quickest chain of `table`.
+///
+/// `None` where speeds do not settle.
 fn joined(
     site: &DriveSite,
     settings: &DriveSettings,
@@ -143,6 +157,9 @@ fn standing([x, y]: [f64; 2], yaw: f64) -> Planar {
 }
 
 /// The headings that place `index` may be passed in, without repetitions; a neighbour that is the same place says none.
+///
+/// rad: between both legs first, then along the one that arrives and the one that leaves; nothing between where they
+/// turn straight back, 0 where all neighbours are the same place.
 fn headings(places: &[[f64; 2]], index: usize) -> Vec<f64> {
     let along = |from: usize| {
         let (a, b) = (places[from], places[from + 1]);

@@ -25,6 +25,8 @@ pub(super) enum Way {
 impl Way {
     /// The way that `segments` are driven, as far as they tell: changes of gear that a way may have and does not need
     /// leave no trace.
+    ///
+    /// Turns are asked first, then changes of gear. Where nothing is driven the gear is the settings'.
     pub(super) fn of(settings: &DriveSettings, segments: &[Segment]) -> Self {
         let turns = segments.iter().any(|segment| matches!(segment.motion, Motion::Turn { .. }));
         let mut gears = segments.iter().filter(|segment| segment.length_m() > 0.0).map(|segment| segment.gear);
@@ -92,6 +94,10 @@ pub(super) fn ways(settings: &DriveSettings) -> impl Iterator<Item = Way> {
 ///
 /// With β the bearing of the goal and d its distance: η = ψ − β, α = β − η, κ = 2 sin η/d, L = d η/sin η. The circle's
 /// curvature ends with the turn of no angle behind it, where the wheels swing back.
+///
+/// Frame of the start, x ahead. Three segments: a turn of α in [−π, π], the arc, and a turn of 0. `None` for a goal in
+/// the start's place, κ beyond the bound, or an arc of more than 1.8 π. The rate of curvature is not asked: wheels
+/// swing at rest.
 fn turn_arc(query: &Query, bounds: &Curvatures, gear: Gear) -> Option<SegmentList> {
     // In reverse, the mirror image about the y axis.
     let sign = gear.sign();

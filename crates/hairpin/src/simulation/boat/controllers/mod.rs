@@ -26,6 +26,8 @@ impl Helmsman {
     ///
     /// # Errors
     /// A speed that is not positive.
+    ///
+    /// The speed is checked whichever controller is named; `tracking` has the plan's.
     pub(super) fn new(controller: &BoatController, nominal: &Boat) -> Result<Self, SimulationError> {
         let speed = controller.speed.unwrap_or(nominal.default_speed);
         if !(speed.is_finite() && speed > 0.0) {

@@ -23,6 +23,8 @@ use crate::simulation::controller::Reference;
 /// Distance of the point on the leg that a turning set point steers to, m.
 const AHEAD: f64 = 5.0;
 /// Cosine of the angle from which on it turns, and the speed (m/s) from which on that counts.
+///
+/// acos 0.98 = 11.5°.
 const TURNING: (f64, f64) = (0.98, 0.2);
 /// Waypoints closer than this are one, m.
 const ONE: f64 = 1e-3;
@@ -30,6 +32,8 @@ const ONE: f64 = 1e-3;
 const CREEPING: f64 = 0.5;
 
 /// From, to, and on to, m.
+///
+/// World frame. At the last waypoint `then` is `to`: nothing is turned into, and it is braked to rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Triplet {
     from: Vector3<f64>,
@@ -38,6 +42,8 @@ struct Triplet {
 }
 
 /// Where a robot is on its leg, seen from above.
+///
+/// By the projection on the leg from above; heights are not looked at. Of a leg without length all is on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     OnLeg,
@@ -53,9 +59,13 @@ enum Place {
 #[derive(Debug, Clone)]
 pub(super) struct Guidance {
     /// The next waypoint's number and where the robot was, as the triplet that is flown was made of them.
+    ///
+    /// `None` before the first turn.
     made_of: Option<(usize, Place)>,
     flown: Triplet,
     /// Horizontal speed before the turn, m/s.
+    ///
+    /// It bounds the speed while the set point turns, so that a turn is never taken faster than it was begun.
     before_turn: f64,
     /// Acceptance radius, m.
     reach: f64,
@@ -69,6 +79,8 @@ impl Guidance {
     }
 
     /// Takes note of where to go and of the robot's `position`, m.
+    ///
+    /// O(1). A robot that is beside its leg is led anew at each call, as its nearest point moves along.
     pub(super) fn note(&mut self, to: &Reference<Quadrotor>, position: &Vector3<f64>) {
         let last = to.waypoints.len() - 1;
         let at = |number: usize| to.waypoints[number.min(last)].coords;
@@ -92,6 +104,9 @@ impl Guidance {
     /// The velocity that the set point `point` is to come to, m/s.
     ///
     /// `horizontal` and `vertical` bound it, with the cruise speed and the speed of climb or sink.
+    ///
+    /// World frame; 0 where the set point stands at its aim. Its norm is at most √(level² + upright²), both speeds
+    /// within their bounds.
     pub(super) fn velocity(
         &mut self,
         point: &JerkLimited,
@@ -115,6 +130,8 @@ impl Guidance {
     }
 
     /// Whether the set point flies off the direction to `to`, which it has not reached.
+    ///
+    /// v·w < 0.98 |v| |w| with v the set point's velocity and w its way to the waypoint, both from above.
     fn turns(&self, point: &JerkLimited, to: &Vector3<f64>) -> bool {
         let (velocity, way) = (point.velocity.xy(), (to - point.position).xy());
         let (aligned, moving) = TURNING;
@@ -123,6 +140,8 @@ impl Guidance {
     }
 
     /// Horizontal speed now.
+    ///
+    /// A waypoint whose next one is within reach is passed at rest: no corner is made of it.
     fn level_speed(&self, at: &Vector3<f64>, to: &Vector3<f64>, then: &Vector3<f64>, limits: &AxisLimits) -> f64 {
         let (arriving, leaving) = ((to - at).xy(), (to - then).xy());
         let on = leaving.norm();
@@ -138,6 +157,9 @@ impl Guidance {
 }
 
 /// Vertical speed now: as the horizontal one, of the path in height over its own length from above.
+///
+/// Vectors are (distance from above, height), so that the angle is that of both slopes; a climb that goes on is passed
+/// at speed, a peak at rest.
 fn climb_speed(at: &Vector3<f64>, to: &Vector3<f64>, then: &Vector3<f64>, limits: &AxisLimits) -> f64 {
     let mut passing: f64 = 0.0;
     if (to.z - then.z).abs() > ONE {
@@ -156,6 +178,8 @@ fn cosine(a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
 }
 
 /// The point of the leg's line that is `far` m from `at`, ahead; the nearest one where the line is farther.
+///
+/// With d the distance of `at` from the line: nearest + û √(max(0, far² − d²)). Of a leg without length its start.
 fn ahead(from: &Vector3<f64>, to: &Vector3<f64>, at: &Vector3<f64>, far: f64) -> Vector3<f64> {
     let along = (to - from).try_normalize(0.0).unwrap_or(Vector3::zeros());
     let nearest = from + along * (at - from).dot(&along);
@@ -164,6 +188,8 @@ fn ahead(from: &Vector3<f64>, to: &Vector3<f64>, at: &Vector3<f64>, far: f64) ->
 }
 
 /// Where `position` is on the leg of `given`, and the leg's nearest point, at the height of its end.
+///
+/// Margins of `reach` (m) at the start and aside, none at the end: who has passed the end is past it at once.
 fn place(given: &Triplet, position: &Vector3<f64>, reach: f64) -> (Place, Vector3<f64>) {
     let along = (given.to - given.from).xy().try_normalize(1e-9).unwrap_or(Vector2::zeros());
     let (come, left) = ((position - given.from).xy(), (given.to - position).xy());
@@ -183,6 +209,8 @@ fn place(given: &Triplet, position: &Vector3<f64>, reach: f64) -> (Place, Vector
 }
 
 /// `v` no faster than `most` m/s from above, its direction kept unless both creep.
+///
+/// Below 0.5 m/s, asked and allowed, the vertical part is left alone.
 fn cut_level(v: &Vector3<f64>, most: f64) -> Vector3<f64> {
     let speed = v.xy().norm();
     if speed <= most {

@@ -40,11 +40,15 @@ pub(super) const CRUISE: f64 = parameters::MPC_XY_CRUISE;
 #[derive(Debug, Clone)]
 pub(crate) struct Px4Mission {
     mass: f64,
+    /// m/s, of the robot.
     max_speed: f64,
     guidance: Guidance,
     tracking: Tracking,
+    /// `None` before the first turn; then it starts at rest at the first waypoint.
     point: Option<JerkLimited>,
     /// Whether the set point was last asked to climb.
+    ///
+    /// It chooses the limits of the next turn, one turn late.
     climbs: bool,
 }
 
@@ -62,6 +66,8 @@ impl Px4Mission {
     }
 
     /// Horizontal and vertical limits of the set point.
+    ///
+    /// m/s, m/s² and m/s³: horizontally for x and y alike, vertically those of climb or sink.
     fn limits(&self) -> (AxisLimits, AxisLimits) {
         use self::parameters as px4;
         let bounded = |speed: f64, acceleration: f64| AxisLimits {
@@ -78,6 +84,8 @@ impl Px4Mission {
     }
 
     /// The set point after `dt` s, on its way to where `to` says.
+    ///
+    /// The set point's own time goes by `stretch`, so that its limits hold in its time and are milder in the robot's.
     fn advance(&mut self, dt: f64, position: &Vector3<f64>, to: &Reference<Quadrotor>) -> JerkLimited {
         let mut point = self.point.unwrap_or_else(|| JerkLimited::at_rest(to.waypoints[0].coords));
         self.guidance.note(to, position);
@@ -104,6 +112,8 @@ impl Controller<Quadrotor> for Px4Mission {
 }
 
 /// Share of the time that passes for the set point: less, the farther the robot is behind it.
+///
+/// 1 − min(1, |p_s − p|/2 m) where (p_s − p)·v_s ≥ 0, from above; else 1. At 2 m and more the point stands still.
 fn stretch(point: &JerkLimited, position: &Vector3<f64>) -> f64 {
     let behind = (point.position - position).xy();
     if behind.dot(&point.velocity.xy()) < 0.0 {

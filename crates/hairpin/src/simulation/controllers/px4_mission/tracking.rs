@@ -24,6 +24,8 @@ const VELOCITY_P: Vector3<f64> = Vector3::new(px4::MPC_XY_VEL_P_ACC, px4::MPC_XY
 const VELOCITY_I: Vector3<f64> = Vector3::new(px4::MPC_XY_VEL_I_ACC, px4::MPC_XY_VEL_I_ACC, px4::MPC_Z_VEL_I_ACC);
 const VELOCITY_D: Vector3<f64> = Vector3::new(px4::MPC_XY_VEL_D_ACC, px4::MPC_XY_VEL_D_ACC, px4::MPC_Z_VEL_D_ACC);
 /// How fast saturation leads the integral back: 2 over the proportional gain.
+///
+/// s; divided by the bandwidth, as the gain grows with it.
 const LED_BACK: f64 = 2.0 / px4::MPC_XY_VEL_P_ACC;
 
 /// Position and velocity control with its memory.
@@ -32,11 +34,17 @@ pub(super) struct Tracking {
     gravity: f64,
     /// Thrust per mass, m/s²: all there is.
     all: f64,
+    /// 1 at 45°.
     tan_tilt: f64,
     /// How many times as fast as by the parameters the loops are.
+    ///
+    /// b scales K_p and K_v, b² K_i; K_d stays, as it is of the velocity's own course.
     bandwidth: f64,
+    /// m/s², world frame; the vertical part within ± g.
     integral: Vector3<f64>,
+    /// Of the turn before; without one nothing is differentiated.
     velocity: Option<Vector3<f64>>,
+    /// v̇_f, m/s².
     acceleration: Vector3<f64>,
 }
 
@@ -55,6 +63,8 @@ impl Tracking {
     }
 
     /// Thrust per mass, m/s², world frame, for the next `dt` s.
+    ///
+    /// O(1). The integral is led on after the thrust is known, with what the limits left of the error.
     pub(super) fn thrust(&mut self, dt: f64, now: &FlightState, point: &JerkLimited) -> Vector3<f64> {
         let b = self.bandwidth;
         let correction = (POSITION * b).component_mul(&(point.position - now.position));
@@ -74,6 +84,9 @@ impl Tracking {
     }
 
     /// The thrust for an acceleration, as far as there is one, and what of `error` (m/s) the integral may learn from.
+    ///
+    /// In this order: tilt, least thrust, then height before way. The answer's norm lies in [0.12, 1] of all thrust,
+    /// its horizontal part within tan 45° of its vertical one.
     fn limit(&self, wanted: &Vector3<f64>, error: &mut Vector3<f64>) -> Vector3<f64> {
         let (least, most) = (px4::MPC_THR_MIN * self.all, px4::MPC_THR_MAX * self.all);
         // The tilt is that of level flight: what climbs or sinks does not tilt more or less for it.
@@ -99,6 +112,8 @@ impl Tracking {
 }
 
 /// a + b, cut to `most` by shortening b; a alone, cut, where that does not suffice.
+///
+/// The larger root of |a + s u|² = most², O(1).
 fn cut_in_second(a: &Vector2<f64>, b: &Vector2<f64>, most: f64) -> Vector2<f64> {
     let sum = a + b;
     if sum.norm() <= most {
