@@ -162,6 +162,8 @@ impl<'a> Ways<'a> {
         self.angles(at).or_else(|| self.graph.postures.as_ref()?[at.row].as_ref().ok())
     }
 
+    /// The memory grows with the pairs asked for, never shrinks, and holds answers alone: the order of asking changes
+    /// nothing.
     fn is_followed(&self, from: Place, to: Place) -> bool {
         let known = || self.followed.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(leads) = known().get(&[from, to]) {
@@ -173,6 +175,9 @@ impl<'a> Ways<'a> {
         leads
     }
 
+    /// Moves from and to home are joint moves and keep the settings' margin all along; moves between points are those
+    /// of the scenario's kind. `None`: not possible, or one end has no angles. The angles reached at the end are those
+    /// of the posture asked for, or the move does not count.
     fn follow(&self, from: Place, to: Place) -> Option<()> {
         let station = &self.setup.station;
         let (arm, tool, settings) = (&station.arm, &station.tool, &self.settings);
