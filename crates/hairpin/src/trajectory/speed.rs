@@ -125,7 +125,7 @@ impl SpeedProfile {
     /// own or 0.
     ///
     /// ```text
-    /// a = given (trapezoid), or top²/length for a ramp between two stops: v rises over half of the metres and falls over half
+    /// a = given (trapezoid), or top²/length for a ramp between two stops: up over half of the metres, down over the rest
     /// top² = min(cruise², a L + (v₀² + v_f²)/2)
     /// up = |top² − v₀²|/2a,   down = |top² − v_f²|/2a,   level = L − up − down
     /// ```

@@ -7,9 +7,9 @@
 //! a = (v₁² − v₀²)/(2 Δs),   Δt = 2 Δs/(v₀ + v₁),   t = Σ Δt + Σ |turn|/ω
 //! ```
 //!
-//! Checked in this order, and nothing after the first two that fail: speeds are numbers within [0, highest]; metres do
-//! not fall; the first speed is the last one of the leg before (10⁻⁹ m/s); stops; accelerations; the duration. Times
-//! are compared to 10⁻⁶ of one second more than they are.
+//! Checked in this order, of which the first two end the check where they fail: speeds are numbers within [0,
+//! highest]; metres do not fall; the first speed is the last one of the leg before (10⁻⁹ m/s); stops; accelerations;
+//! the duration, to 10⁻⁶ (1 + duration) s.
 
 use super::drive::DrivePiece;
 use super::finding::Collector;

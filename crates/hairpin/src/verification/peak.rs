@@ -13,12 +13,11 @@ const CLOSED: f64 = 1e-10;
 /// derivative down, each gives the next one's intervals.
 ///
 /// ```text
-/// stops(p⁽ⁿ⁻¹⁾) ⊂ … ⊂ [0, length];   max |p| = max over {0, length} and the roots of p′ of |p(s)|
+/// max |p| = max of |p(s)| over s = 0, s = length and the roots of p′ between
 /// ```
 ///
-/// At most 5 + 4 + 3 + 2 roots are looked for. A value beside the true root is off by the square of what the root is
-/// off by. Coefficients of magnitude a_i ~ p/lengthⁱ are the usual ones. Double roots of a slope, where it does not
-/// change sign, are no peaks and may be passed by.
+/// At most 1 + 2 + 3 + 4 roots are looked for. A value beside the true root is off by the square of what the root is
+/// off by. Double roots of a slope, where it does not change sign, are no peaks and may be passed by.
 pub(super) fn peak(p: &[f64; MOST], length: f64) -> f64 {
     let degree = p.iter().rposition(|a| *a != 0.0).unwrap_or(0);
     let mut derivatives = [[0.0; MOST]; MOST];

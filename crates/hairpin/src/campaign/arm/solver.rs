@@ -160,8 +160,8 @@ impl Solver for ArmSolver<'_> {
         self.planned(&child).filter(|child| !alike(plan, child))
     }
 
-    /// As [`Self::altered`], of two plans; `None` where either is no way through the cloud, or the child has its first
-    /// parent's moves.
+    /// As [`Self::altered`], of two plans; `None` where either is no way through the cloud, no cut is possible, or
+    /// the child has its first parent's moves.
     fn crossed(&self, _: u64, plan: &Plan, other: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let child = self.ways(&Stop::never()).ok()?.crossed(&self.way_of(plan)?, &self.way_of(other)?, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))

@@ -102,7 +102,8 @@ impl Station {
     /// ```
     ///
     /// The centre lies on the base's z axis, about which the first joint is taken to turn. Lengths add up as if the
-    /// arm were straight: larger than what the arm reaches, never smaller.
+    /// arm were straight: larger than what the arm reaches, and never smaller where the first joint turns about that
+    /// axis.
     pub(super) fn reach(&self) -> (Vector3<f64>, f64) {
         let chain = &self.arm.chain;
         let shoulder = (chain.joints[0].origin * chain.joints[1].origin).translation.vector;

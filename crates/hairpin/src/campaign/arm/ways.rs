@@ -175,9 +175,9 @@ impl<'a> Ways<'a> {
         leads
     }
 
-    /// Moves from and to home are joint moves and keep the settings' margin all along; moves between points are those
-    /// of the scenario's kind. `None`: not possible, or one end has no angles. The angles reached at the end are those
-    /// of the posture asked for, or the move does not count.
+    /// Moves from and to home go in joints, which are not held to singularities; moves between points are those of
+    /// the scenario's kind and must arrive within 10⁻³ rad of the angles asked for. `None`: not possible, or one end
+    /// has no angles.
     fn follow(&self, from: Place, to: Place) -> Option<()> {
         let station = &self.setup.station;
         let (arm, tool, settings) = (&station.arm, &station.tool, &self.settings);

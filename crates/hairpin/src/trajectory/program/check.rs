@@ -258,7 +258,8 @@ impl Check<'_> {
     }
 
     /// Only the first that is wrong is told: 0.1 mm between any two points, 1° between via and end as seen from the
-    /// start, 240° of arc. Three points on a line whose via lies beyond the start or the end count as 360°.
+    /// start, 240° of arc. Three points on a line with via behind the start count as 360°, with via beyond the end
+    /// as flat.
     fn arc(&self, found: &mut Vec<ProgramError>) {
         let Motion::Circular { via, to } = &self.m.motion else { return };
         let Some(previous) = self.index.checked_sub(1).and_then(|index| self.program.moves.get(index)) else {
