@@ -125,7 +125,7 @@ impl SpeedProfile {
     /// own or 0.
     ///
     /// ```text
-    /// a = given (trapezoid), or top²/length for a ramp between two stops: up over half of the metres, down over the rest
+    /// a = given (trapezoid), or top²/length for a ramp between two stops, up over one half, down over the other
     /// top² = min(cruise², a L + (v₀² + v_f²)/2)
     /// up = |top² − v₀²|/2a,   down = |top² − v_f²|/2a,   level = L − up − down
     /// ```

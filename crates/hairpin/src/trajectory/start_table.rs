@@ -7,7 +7,7 @@
 //! no arc keeps the bounds the entry says so.
 //!
 //! ```text
-//! entry (k · 17 + j) · 33 + i:  x = −4 + 0.5 i (i = 0 … 32),  y = 0.5 j (j = 0 … 16),  ψ = −π + 2πk/16 (k = 0 … 15)
+//! entry (17 i + j) · 16 + k:  x = −4 + 0.5 i (i = 0 … 32),  y = 0.5 j (j = 0 … 16),  ψ = −π + 2πk/16 (k = 0 … 15)
 //! ```
 //!
 //! x, y in radii 1/most of the tightest circle, in the start's frame (x forward, y left). Single precision is enough:

@@ -132,6 +132,9 @@ impl Limits {
 }
 
 /// The largest y ≥ 0 with |a·y + b·other| ≤ most.
+///
+/// 0 where `other` alone is beyond, which the caps exclude but for rounding; infinite where y has no share in the
+/// bound.
 fn largest(a: f64, b: f64, other: f64, most: f64) -> f64 {
     if a == 0.0 { f64::INFINITY } else { ((most - a.signum() * b * other) / a.abs()).max(0.0) }
 }
