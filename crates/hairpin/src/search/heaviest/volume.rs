@@ -30,7 +30,8 @@ impl Ascent {
     /// Programming 87, 2000.
     ///
     /// ```text
-    /// v̄ ← α d + (1 − α) v̄,   α = clamp((v̄² − d·v̄)/|d − v̄|², share/10, share),   λ = λ_best + factor (L_best − target)/|v̄|² · v̄
+    /// v̄ ← α d + (1 − α) v̄,   α = clamp((v̄² − d·v̄)/|d − v̄|², share/10, share)
+    /// λ = λ_best + factor (L_best − target)/|v̄|² · v̄
     /// ```
     ///
     /// d is the excess at λ. The factor grows by 1.1 where a better bound lies along the mean (d·v̄ ≥ 0), up to 2, and

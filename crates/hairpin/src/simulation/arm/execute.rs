@@ -230,6 +230,8 @@ impl Cursor {
     }
 
     /// The move that is being executed, and whether the set points move.
+    ///
+    /// The section is the one that the set points are in; `end` is when the last law is over, s.
     fn place(&self, plan: &Plan, begins: &[f64], time: f64, end: f64) -> (usize, Status) {
         let law = &plan.timed[self.section].law;
         let since = time - begins[self.section];

@@ -69,6 +69,15 @@ pub(super) struct Limits {
 
 impl Limits {
     /// Of joints that may use the share `used` of their accelerations.
+    ///
+    /// ```text
+    /// caps    x ≤ limit²,  x ≤ (q̇_max/q′)²,  x ≤ q̈_max/|q″|      at both ends of an interval, speeds in its middle too
+    /// bounds  |q″ x_end + q′ (x₁ − x₀)/2h| ≤ q̈_max                of each joint at either end
+    ///         |x₁ − x₀|/2h ≤ min(a_tool/way, α_tool/turn)
+    /// ```
+    ///
+    /// Speeds go to 98.5 % and accelerations to the share `used`: that is the room for what lies between knots, an
+    /// estimate and no proof.
     pub(super) fn of(
         section: &Section,
         knots: &Knots,
