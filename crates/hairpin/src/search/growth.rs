@@ -87,8 +87,7 @@ pub struct ByLegs<'a, O> {
 /// What is taken off a leg that is worth less than all before it, as a multiple of its score: so many records at most
 /// change the order of a frontier that may be long.
 ///
-/// After k records the least is at least 1.125ᵏ times the first: scores that fall by orders of magnitude reorder the
-/// frontier some dozens of times.
+/// In magnitude the least grows by an eighth or more with each record: some twenty records for a power of ten.
 const BELOW: f64 = 1.125;
 
 impl<'a, O> ByLegs<'a, O> {

@@ -22,8 +22,8 @@ pub(super) fn velocity_of(track: &Track) -> Option<[&[f64]; 3]> {
 /// p(σ) = a + (b − a) σ + σ(1 − σ) [(1 − σ)(v − (b − a)) − σ (w − (b − a))],   σ ∈ [0, 1]
 /// ```
 ///
-/// `speeds` [v, w] are derivatives by σ: velocities times the span, m. Hermite's cubic, written as the line and what
-/// bends it, so that equal ends with no speed come back exactly.
+/// `speeds` \[v, w\] are derivatives by σ: velocities times the span, m. Hermite's cubic, written as the line and
+/// what bends it, so that equal ends with no speed come back exactly.
 pub(super) fn place(share: f64, [a, b]: [f64; 2], speeds: Option<[f64; 2]>) -> f64 {
     let line = a + (b - a) * share;
     let Some([v, w]) = speeds else { return line };

@@ -141,8 +141,8 @@ pub(super) fn level(position: [f64; 3], velocity: [f64; 3]) -> State {
 /// atan2(½ |(R₃₂ − R₂₃, R₁₃ − R₃₁, R₂₁ − R₁₂)|, ½ (tr R − 1))
 /// ```
 ///
-/// From sine and cosine both, so that small angles keep their digits; in [0, π]. R need not be quite orthonormal after
-/// an integration.
+/// From sine and cosine both, so that small angles keep their digits; from 0 to π. R need not be quite orthonormal
+/// after an integration.
 pub(super) fn attitude_error(state: &State) -> f64 {
     let r = Matrix3::from_column_slice(&state[6..15]);
     let sine = 0.5 * Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12).norm();

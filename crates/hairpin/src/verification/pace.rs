@@ -7,8 +7,8 @@
 //! a = (v₁² − v₀²)/(2 Δs),   Δt = 2 Δs/(v₀ + v₁),   t = Σ Δt + Σ |turn|/ω
 //! ```
 //!
-//! Checked in this order, of which the first two end the check where they fail: speeds are numbers within [0,
-//! highest]; metres do not fall; the first speed is the last one of the leg before (10⁻⁹ m/s); stops; accelerations;
+//! Checked in this order, of which the first two end the check where they fail: speeds are numbers from 0 to the
+//! highest; metres do not fall; the first speed is the last one of the leg before (10⁻⁹ m/s); stops; accelerations;
 //! the duration, to 10⁻⁶ (1 + duration) s.
 
 use super::drive::DrivePiece;

@@ -170,8 +170,8 @@ impl Way {
 
     /// What a rim's speed or acceleration is at most along `stretch`, and what it is in its middle.
     ///
-    /// [bound, value in the middle], both in m/s (`which` 0) or m/s² (1); the bound is never below what any place of
-    /// the stretch has, but for rounding. v² at the middle is the mean of both ends, since it is linear.
+    /// \[bound, value in the middle\], both in m/s (`which` 0) or m/s² (1); the bound is never below what any place
+    /// of the stretch has, but for rounding. v² at the middle is the mean of both ends, since it is linear.
     fn at_most(&self, stretch: &Stretch, which: usize) -> [f64; 2] {
         let (middle, half) = (0.5 * (stretch.from + stretch.to), 0.5 * (stretch.to - stretch.from));
         let at = |p: &[f64; 6]| p.iter().rev().fold(0.0, |sum, a| sum * middle + a);

@@ -255,7 +255,7 @@ impl ArmSetup {
 
 /// Durations of the moves; none where the arm stops before the last one, or takes no time for one.
 ///
-/// `passed` are the times (s, from the start) at which moves end; duration k is passed[k] − passed[k − 1].
+/// `passed` are the times (s, from the start) at which moves end; duration k is `passed[k] − passed[k − 1]`.
 fn times(passed: &[f64], moves: usize) -> Vec<f64> {
     let mut before = 0.0;
     let times: Vec<f64> = passed

@@ -22,7 +22,7 @@ struct Onward([u64; 6]);
 
 /// turn, slope_in.
 ///
-/// rad and a slope, as the reach set has them.
+/// rad and the sine of an elevation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Turn([u64; 2]);
 

@@ -109,8 +109,7 @@ impl<N: Copy> LegGraph<'_, N> {
     /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no
     /// more than `length` waypoints.
     ///
-    /// Few are nodes whose legs are a sixteenth of all at most: beyond, a whole layer costs no more than finding which
-    /// nodes count. Rows are rising and without repeats.
+    /// Few are nodes whose legs are a sixteenth of all at most. Rows are rising and without repeats.
     pub(in crate::search) fn near_start(&self, length: usize) -> Vec<Vec<u32>> {
         let mut layers = vec![vec![0]];
         let legs = |nodes: &[u32]| nodes.iter().map(|&node| self.legs_from(node).len()).sum::<usize>();

@@ -34,8 +34,9 @@ impl Ascent {
     /// λ = λ_best + factor (L_best − target)/|v̄|² · v̄
     /// ```
     ///
-    /// d is the excess at λ. The factor grows by 1.1 where a better bound lies along the mean (d·v̄ ≥ 0), up to 2, and
-    /// falls by 0.66 after ten looks in vain. Ends early where 1000 looks bring the gap down by less than a twentieth.
+    /// d is the excess at λ. The factor grows by 1.1 where a better bound lies along the mean (d·v̄ ≥ 0), up to 2,
+    /// and shrinks to 0.66 of itself after ten looks in vain. Ends early where 1000 looks bring the gap down by less
+    /// than a twentieth.
     pub(super) fn mean<R: Relaxation>(
         &mut self,
         relaxation: &mut R,

@@ -223,9 +223,9 @@ impl Law {
     ///
     /// At most 1: the law keeps every limit at every look. `slower` are factors of x, one a knot.
     ///
-    /// A limit that is exceeded by a ratio takes 0.97/ratio off the caps of all knots that the window holds at that
-    /// look: a rate's square goes with x, and so does what an acceleration is made of. O(looks · joints), 20 looks a
-    /// window.
+    /// A limit that is exceeded by a ratio multiplies the caps of all knots that the window holds at that look by
+    /// 0.97/ratio: a rate's square goes with x, and so does what an acceleration is made of. O(looks · joints), 20
+    /// looks a window.
     fn lower(&self, section: &Section, asked: &Asked, slower: &mut [f64]) -> f64 {
         let step = self.window / LOOKS;
         let (mut worst, mut span, mut head, mut tail) = (0.0f64, 0, 0, 0);

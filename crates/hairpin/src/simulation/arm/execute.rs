@@ -310,8 +310,8 @@ impl Columns {
 
 /// What an instrument says of `pose`.
 ///
-/// p + σ_p n₁,  R exp([σ_o n₂]×), with n₁, n₂ of three standard normals each: the turn is about axes of the tool.
-/// Draws six numbers where either is not 0, none else.
+/// p + σ_p n₁,  R · exp(σ_o n₂ as a rotation vector), with n₁, n₂ of three standard normals each: the turn is about
+/// axes of the tool. Draws six numbers where either is not 0, none else.
 fn measured(pose: &Isometry3<f64>, noise: &Noise, random: &mut Stream) -> Isometry3<f64> {
     if noise.position == 0.0 && noise.orientation == 0.0 {
         return *pose;

@@ -158,9 +158,9 @@ impl Section {
 
 /// The slope at node `i` of `spans` equal spans, from their chords: exact for cubics inside and at the ends.
 ///
-/// Weights by how far the node is from a piece's end, chords being (q_(i+1) − q_i)/h: [7, 7, −1, −1]/12 inside (fourth
-/// order), [11, −7, 2]/6 at the end and [2, 5, −1]/6 beside it (third order), [3, −1]/2 and the mean of pieces of two
-/// spans (second).
+/// Weights by how far the node is from a piece's end, chords being (q_(i+1) − q_i)/h: (7, 7, −1, −1)/12 inside
+/// (fourth order), (11, −7, 2)/6 at the end and (2, 5, −1)/6 beside it (third order), (3, −1)/2 and the mean of
+/// pieces of two spans (second).
 fn slope_at(i: usize, spans: usize, chord: impl Fn(usize) -> f64) -> f64 {
     let from_end = |i: usize, chord: &dyn Fn(usize) -> f64| match i {
         0 => (11.0 * chord(0) - 7.0 * chord(1) + 2.0 * chord(2)) / 6.0,

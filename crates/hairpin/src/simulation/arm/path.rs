@@ -292,8 +292,8 @@ impl<'a> Builder<'a> {
 
     /// The share `from` … `to` of a leg.
     ///
-    /// At least 8 spans, 512 at most: of a tool's way one every 10 mm and every 0.035 rad, of a joint move every 0.035
-    /// rad of the joint that turns most.
+    /// At least 8 spans, 512 at most: of a tool's way one every 10 mm and every 0.035 rad of its turn or its arc, of
+    /// a joint move every 0.035 rad of the joint that turns most.
     fn along(&mut self, leg: &Leg, from: f64, to: f64) -> Result<(), Stop> {
         let way = leg.length * (to - from);
         if way < NOTHING {

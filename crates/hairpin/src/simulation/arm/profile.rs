@@ -71,7 +71,7 @@ impl Limits {
     /// Of joints that may use the share `used` of their accelerations.
     ///
     /// ```text
-    /// caps    x ≤ limit²,  x ≤ (q̇_max/q′)²,  x ≤ q̈_max/|q″|      at both ends of an interval, speeds in its middle too
+    /// caps    x ≤ limit²,  x ≤ (q̇_max/q′)²,  x ≤ q̈_max/|q″|      at both ends of an interval, speeds in its middle
     /// bounds  |q″ x_end + q′ (x₁ − x₀)/2h| ≤ q̈_max                of each joint at either end
     ///         |x₁ − x₀|/2h ≤ min(a_tool/way, α_tool/turn)
     /// ```

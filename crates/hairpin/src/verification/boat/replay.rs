@@ -62,8 +62,8 @@ impl Sailor<'_> {
 
     /// M⁻¹ p.
     ///
-    /// u = p_u/m11, and v, r from the two by two block [m22 m23; m23 m33], whose determinant `is_physical` keeps above
-    /// 0.
+    /// u = p_u/m11, and v, r from the two by two block (m22 m23; m23 m33), whose determinant `is_physical` keeps
+    /// above 0.
     fn nu(&self, state: &State) -> [f64; 3] {
         let [a, b, c, d] = self.hull.mass;
         let determinant = b * d - c * c;
