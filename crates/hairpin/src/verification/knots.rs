@@ -39,7 +39,8 @@ const ROUNDING: f64 = 1e-12;
 /// Eight a leg: four orders at either end, each the worst of its axes by difference/allowed. Velocities at a leg's
 /// start are compared with the leg before, at its end only the flight's last must be at rest.
 ///
-/// Position is compared with the waypoint's own digits. NaN counts as an infinite difference.
+/// Position is compared with the waypoint, whose own size counts towards the rounding. NaN counts as an infinite
+/// difference.
 pub(super) fn mismatches(body: &Body, claim: &Claim, absolute: f64) -> Vec<Mismatch> {
     let mut found = Vec::with_capacity(8 * claim.legs.len());
     let still: Derivative = [(0.0, 0.0); 3];

@@ -152,7 +152,7 @@ impl Way {
     ///
     /// `None` where all of the stretch keeps the bound, or where `depth` halvings leave it open. The place is the
     /// middle of the part that is beyond, metres of the piece. The first along the way that is found, by halves from
-    /// the left: at most 2^`depth` parts, usually some tens.
+    /// the left: 2^`depth` parts at most.
     fn beyond(&self, stretch: &Stretch, which: usize, bound: f64, depth: u32) -> Option<(f64, f64)> {
         let [most, there] = self.at_most(stretch, which);
         let bound_kept = bound * (1.0 + ROUNDING);

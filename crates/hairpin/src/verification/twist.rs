@@ -40,8 +40,8 @@ const ENOUGH: f64 = 1e-6;
 /// ```
 ///
 /// R₀, p₀ are the body's attitude and place (world) at the first rest, R₁, p₁ at the next; dots are whatever the
-/// ground makes of them. The commanded rates are asked at the mean of both rolls and pitches. One rest a try, usually
-/// few. Ends at 3 · 10⁻⁹.
+/// ground makes of them. The commanded rates are asked at the mean of both rolls and pitches. One rest a try. Ends
+/// at 3 · 10⁻⁹.
 pub(super) fn carry<T: Terrain>(
     stand: &Stand,
     terrain: &T,

@@ -21,7 +21,8 @@ pub(super) fn knobs(setup: &ArmSetup) -> Knobs {
 /// keep (clearance, singularity margin, spec), then what is in the way, and last the count of points.
 ///
 /// Each knob has the value that it goes to in the end: 0 for clearance and least cost, a hundredth of themselves for
-/// the singularity margin and for what the spec allows, 4 for a count of drawn points.
+/// the singularity margin and for what the spec allows, four times itself for a count of drawn points; switches turn
+/// a key off, or moves to those in joints.
 fn turned(scenario: &ArmScenario) -> Vec<Knob> {
     let (moves, search) = (&scenario.generate.moves, &scenario.generate.search);
     let drawn = match &scenario.task.points {

@@ -93,8 +93,7 @@ const SHARES: [f64; AXES + 1] = [0.15, 0.14, 0.11, 0.10, 0.08, 0.07, 0.055];
 /// Stand-in capsules along the dimensions of an arm.
 ///
 /// Radii are shares of c2 + c3, lengths those of the dimensions, all in m, in the link frames of [`Opw::chain`]. One
-/// capsule a link, two of link 3 (to the forearm's axis and along it); those of link 5 and of an arm without length in
-/// a link are balls.
+/// capsule a link, two of link 3 (to the forearm's axis and along it); that of link 5 is a ball.
 pub(super) fn of_opw(opw: &Opw) -> [Vec<Capsule>; AXES + 1] {
     let length = opw.c2 + opw.c3;
     let radius: [f64; AXES + 1] = SHARES.map(|share| share * length);
@@ -153,7 +152,7 @@ const POSTURES: usize = 6;
 
 /// The largest distance of the axes of two links' capsules, over postures of the joints between them, m.
 ///
-/// 6^(high − low) postures at most, 6³ for neighbours of the rule and 6⁶ for base and flange: ended by the first in
+/// 6^(high − low) postures at most: 216 for links three apart, 46 656 for base and flange; ended by the first in
 /// which they are apart enough. A lower bound of the true largest distance.
 fn most_apart(chain: &Chain, capsules: &[Capsule; AXES + 1], [low, high]: [usize; 2]) -> f64 {
     // The first of the joints between turns the higher link about a line through the lower one's end, and the last of

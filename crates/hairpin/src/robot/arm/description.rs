@@ -226,8 +226,8 @@ fn are_zero(numbers: &[f64; 3]) -> bool {
 impl MassDescription {
     /// The tensor of inertia about the centre, kg m².
     ///
-    /// Rows (xx, xy, xz), (xy, yy, yz), (xz, yz, zz): products enter with the sign that they are given with, so that ∫
-    /// −xy dm is what a file must have.
+    /// Rows (xx, xy, xz), (xy, yy, yz), (xz, yz, zz): products enter with the sign that they are given with, so that
+    /// a file has −∫ xy dm, as URDF does.
     pub fn tensor(&self) -> Matrix3<f64> {
         let ([xx, yy, zz], [xy, xz, yz]) = (self.inertia_kg_m2, self.products_kg_m2);
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)

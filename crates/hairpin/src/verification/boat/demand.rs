@@ -50,8 +50,8 @@ fn choose(n: usize, k: usize) -> f64 {
 /// p = M ν,   X = ṗ_u − r p_v + D_X,   Y = ṗ_v + r p_u + D_Y,   N = ṗ_r + u p_v − v p_u + D_N
 /// ```
 ///
-/// The current is even and steady. Values and first derivatives are told; the third coefficients of the series are not
-/// used.
+/// The current is even and steady. Values and first derivatives are told; the third coefficients of their series are
+/// unknown and left out.
 pub(super) fn demand<N: Angle>(hull: &BoatHull, claim: &BoatClaim, taylor: &Taylor<N>) -> Demand<N> {
     let scaled = |c: N, factor: f64| c * N::constant(factor);
     let rate = |axis: usize| {
@@ -85,8 +85,8 @@ fn momenta<N: Angle>(hull: &BoatHull, [u, v, r]: [Series<N>; 3]) -> [Series<N>; 
 /// D_Y = −(Y_v + Y_|v|v |v| + Y_|r|v |r|) v − (Y_r + Y_|v|r |v| + Y_|r|r |r|) r
 /// ```
 ///
-/// and D_N with N's as D_Y. Published coefficients are negative, so that D is what the water takes. Values and first
-/// derivatives only: |·| has no second one.
+/// and D_N with N's as D_Y. Coefficients have their published signs, so that minus the sum is what the water takes.
+/// Values and first derivatives only: |·| has no second one.
 pub(super) fn damping<N: Angle>(hull: &BoatHull, [u, v, r]: [Series<N>; 3]) -> [Series<N>; 3] {
     let (ahead, drift, turn) = (u.abs(), v.abs(), r.abs());
     let part = |k: &[f64; 3], first: Series<N>, second: Series<N>| {

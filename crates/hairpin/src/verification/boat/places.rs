@@ -48,8 +48,8 @@ pub(super) fn near(hull: &BoatHull, claim: &BoatClaim, leg: &BoatLeg) -> Vec<Nea
 /// ```
 ///
 /// m is the middle of the box that holds the way in `time`, spread the half of its diagonal: distances are
-/// 1-Lipschitz. Undecided after 24 halvings counts as broken; the distance told is that of the middle. The room of
-/// distances is rounded to nearest, not outwards, hence the nanometre.
+/// 1-Lipschitz. Undecided after 24 halvings counts as broken; the distance told is that of the middle. The distance
+/// itself is rounded to nearest, not outwards, hence the nanometre.
 fn too_near(
     leg: &BoatLeg,
     away: &impl Fn([f64; 2]) -> f64,
