@@ -188,6 +188,8 @@ impl<O: Additive> Additive for OpenScore<'_, O> {
 
 impl<O> OpenScore<'_, O> {
     /// `leg` without the sink behind the graph's own candidates.
+    ///
+    /// Whoever looks at all candidates, as a score of the user's may, sees the graph's own.
     fn inner<'l>(&self, leg: &LegView<'l>) -> LegView<'l> {
         LegView { candidates: &leg.candidates[..self.sink as usize], ..*leg }
     }

@@ -1,5 +1,16 @@
 //! The rows of a track where it bends: a few of them say what thousands do, by the motion
 //! [between](super::between) them.
+//!
+//! ```text
+//! within(i, j):  for every row i < r < j
+//!     |p(r) − p̂(r)|² / position²  ≤ 1                       all three axes together, cubic or line
+//!     |v(r) − v̂(r)|  / (share · range)  ≤ 1                 each axis, where there are velocities
+//!     2 (1 − |q·q̂|) / attitude²  ≤ 1                        |q − q̂|² of unit quaternions, the nearer of both signs
+//!     |c(r) − ĉ(r)|  / (share · range)  ≤ 1                 every other channel but `leg`
+//! ```
+//!
+//! Hats are the motion between rows i and j alone. The bounds hold at the rows that were there, not between them. A
+//! channel that is constant has a tolerance of 10⁻⁹ in its own unit.
 
 use std::collections::BTreeSet;
 
@@ -99,6 +110,9 @@ impl<'a> Columns<'a> {
     ///
     /// Strides grow from `stride` by doubling what is added, and are halved between the last that was within and the
     /// first that was not.
+    ///
+    /// At least `from` + 1. A stretch that is within although a shorter one is not may be passed by: the answer is
+    /// within tolerance in any case.
     fn reach(&self, from: usize, end: usize, stride: usize, errors: &mut Vec<f64>) -> usize {
         let (mut within, mut beyond, mut more) = (from + 1, end + 1, (stride / 8).max(1));
         let mut next = (from + stride).clamp(within, end);
@@ -119,6 +133,9 @@ impl<'a> Columns<'a> {
     /// Whether all rows between two are within tolerance of the motion between these.
     ///
     /// Column by column, as most spans that are too long are so in the first ones. Errors are squares of tolerances.
+    ///
+    /// `errors` is scratch, one entry a row between. Rows that are neighbours are always within. O((to − from) ·
+    /// columns).
     fn within(&self, from: usize, to: usize, errors: &mut Vec<f64>) -> bool {
         if to - from < 2 {
             return true;

@@ -7,14 +7,23 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::track::{Channel, Track};
 
+/// Channels of the velocity, m/s, world frame.
 pub(super) const VELOCITY: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 
+/// `None` where one of the three is missing: then positions go in straight lines.
 pub(super) fn velocity_of(track: &Track) -> Option<[&[f64]; 3]> {
     let [x, y, z] = VELOCITY.map(|name| track.channel(name));
     Some([x?, y?, z?])
 }
 
 /// Between the `ends` at `share`: on the cubic that has both ways a span at their `speeds`, or on the line.
+///
+/// ```text
+/// p(σ) = a + (b − a) σ + σ(1 − σ) [(1 − σ)(v − (b − a)) − σ (w − (b − a))],   σ ∈ [0, 1]
+/// ```
+///
+/// `speeds` \[v, w\] are derivatives by σ: velocities times the span, m. Hermite's cubic, written as the line and
+/// what bends it, so that equal ends with no speed come back exactly.
 pub(super) fn place(share: f64, [a, b]: [f64; 2], speeds: Option<[f64; 2]>) -> f64 {
     let line = a + (b - a) * share;
     let Some([v, w]) = speeds else { return line };
@@ -101,6 +110,10 @@ impl<'a> Between<'a> {
     }
 
     /// Pose and channels at `stamp`, between the rows `from` and `from` + 1.
+    ///
+    /// Base of all resampling: poses by [`place`] and by normalised linear interpolation of quaternions, velocities by
+    /// the cubic's derivative, `leg` from the row before, all others linear. Linear quaternions turn unevenly by a
+    /// share of the angle cubed: little at the spacing that rows have.
     fn at(&self, from: usize, stamp: f64) -> (Isometry3<f64>, Vec<f64>) {
         let (times, poses) = (self.track.times(), self.track.poses());
         let span = times[from + 1] - times[from];
@@ -135,6 +148,7 @@ struct Rows {
 }
 
 impl Rows {
+    /// Passed over where it does not come after the last row that was gathered: two stamps may lie near one row.
     fn take(&mut self, track: &Track, row: usize) {
         if self.times.last().is_some_and(|before| *before >= track.times()[row]) {
             return;

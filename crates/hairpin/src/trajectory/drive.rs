@@ -77,6 +77,8 @@ impl Segment {
     }
 
     /// A clothoid: curvature from `start` to `end` (1/m), linear over `length_m`.
+    ///
+    /// dκ/ds = (end − start)/length, 1/m²; of no length the curvature is `start` and `end` is not met.
     pub fn clothoid(length_m: f64, start: f64, end: f64, gear: Gear) -> Self {
         let rate = if length_m > 0.0 { (end - start) / length_m } else { 0.0 };
         Self { motion: Motion::Arc { length_m, curvature: [start, rate, 0.0, 0.0, 0.0, 0.0] }, gear }
@@ -131,6 +133,9 @@ pub struct Planar {
 }
 
 /// `segments` without their last `metres`; turns in place stay.
+///
+/// Cut from the end of the drive, across segments: polynomials keep their coefficients and are only followed less far.
+/// What is cut may leave segments of no length; metres beyond the drive's own cut all of it.
 pub fn shortened(segments: &[Segment], mut metres: f64) -> Vec<Segment> {
     let mut all = segments.to_vec();
     for segment in all.iter_mut().rev() {

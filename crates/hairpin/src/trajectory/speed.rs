@@ -123,6 +123,16 @@ impl SpeedProfile {
 
     /// The speeds of a stretch of `length` metres, ≥ 0, that is driven from `start` to `end`, which are the profile's
     /// own or 0.
+    ///
+    /// ```text
+    /// a = given (trapezoid), or top²/length for a ramp between two stops, up over one half, down over the other
+    /// top² = min(cruise², a L + (v₀² + v_f²)/2)
+    /// up = |top² − v₀²|/2a,   down = |top² − v_f²|/2a,   level = L − up − down
+    /// ```
+    ///
+    /// Where top would be below the faster end, a single phase from `start` to `end` replaces all three, at |v_f² −
+    /// v₀²|/2L, which is harder than a. Stretches of no length keep both speeds, which [`Speeds::hardest`] tells as
+    /// infinite where they differ.
     pub(super) fn between(&self, start: f64, end: f64, length: f64) -> Speeds {
         let (cruise, acceleration) = match *self {
             Self::Constant { speed } => {
@@ -163,6 +173,8 @@ impl From<f64> for SpeedProfile {
 }
 
 /// Constant acceleration over some metres.
+///
+/// `length` m, `from` and `to` m/s: v² is linear in the metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Phase {
     length: f64,
@@ -183,10 +195,13 @@ impl Phase {
         (self.from * self.from + (self.to * self.to - self.from * self.from) * share).sqrt()
     }
 
+    /// t = 2 s/(v₀ + v(s)): the mean speed of constant acceleration is the mean of both speeds. Needs no division by
+    /// the acceleration, so that constant speeds are no special case.
     fn time(&self, s: f64) -> f64 {
         if s <= 0.0 { 0.0 } else { 2.0 * s / (self.from + self.speed(s)) }
     }
 
+    /// (v_to² − v_from²)/2 length, m/s²; infinite where the speed changes in no metres.
     fn acceleration(&self) -> f64 {
         if self.from == self.to { 0.0 } else { (self.to * self.to - self.from * self.from) / (2.0 * self.length) }
     }
@@ -243,6 +258,8 @@ impl Speeds {
     }
 
     /// dv/dt after `s` metres, m/s².
+    ///
+    /// At a joint of two phases that of the later one.
     pub fn acceleration_at(&self, s: f64) -> f64 {
         self.phase_at(s).0.acceleration()
     }
@@ -254,6 +271,9 @@ impl Speeds {
     }
 
     /// Metres after `time` seconds: the inverse of [`Speeds::time_at`].
+    ///
+    /// s = Σ lengths before + v₀ t + ½ a t² in the phase under way. Times below 0 count as 0, times beyond the end
+    /// give the stretch's length.
     pub fn place_at(&self, time: f64) -> f64 {
         let (mut time, mut s) = (time.max(0.0), 0.0);
         for phase in &self.phases {

@@ -5,6 +5,13 @@
 //! what steering takes of that circle. Goals to the right are the mirror images of those to the left, so that half of
 //! the plane is enough. The ends' curvatures are zero in the table; of others the mean heading is taken care of. Where
 //! no arc keeps the bounds the entry says so.
+//!
+//! ```text
+//! entry (17 i + j) · 16 + k:  x = −4 + 0.5 i (i = 0 … 32),  y = 0.5 j (j = 0 … 16),  ψ = −π + 2πk/16 (k = 0 … 15)
+//! ```
+//!
+//! x, y in radii 1/most of the tightest circle, in the start's frame (x forward, y left). Single precision is enough:
+//! what a table gives is where iterations begin, never an answer.
 
 use thiserror::Error;
 
@@ -31,6 +38,8 @@ pub const ENTRIES: usize = NODES[0] * NODES[1] * NODES[2];
 ///
 /// Saves nothing over Dubins' words (docs/rover-generator.md, "Start values"), and is therefore off; kept since the
 /// source's user guide has one.
+///
+/// `entries` has [`ENTRIES`] = 33 · 17 · 16 = 8976 rows of five single-precision numbers.
 #[derive(Clone, PartialEq)]
 pub struct StartTable {
     steering: f64,

@@ -12,6 +12,13 @@ const MOST_STRETCHES: usize = MOST_SEGMENTS + 1;
 /// Speed and time along a whole drive, with its stops.
 ///
 /// On the stack; a query walks the stretches, of which a leg has one or two.
+///
+/// ```text
+/// t(s) = Σ durations of the stretches before + t_stretch(s)          without the time of turns in place
+/// ```
+///
+/// `stretches` are (m, speeds) in driving order; `constant` is set where no stretch has a stop or a slope, and then
+/// answers everything.
 #[derive(Debug, Clone, Copy)]
 pub struct Timing {
     stretches: [(f64, Speeds); MOST_STRETCHES],
@@ -72,6 +79,9 @@ impl Timing {
     }
 
     /// The stretch that holds `s`, where in it that is, and the seconds before it.
+    ///
+    /// `s` beyond the end is the end of the last stretch; a stop belongs to the stretch after it. `None` of a drive
+    /// that only turns.
     fn stretch_at(&self, s: f64) -> Option<(&Speeds, f64, f64)> {
         let (mut s, mut time) = (s, 0.0);
         for (index, (length, speeds)) in self.stretches[..self.len].iter().enumerate() {
@@ -114,6 +124,9 @@ impl Timing {
     }
 
     /// Seconds from `s` to `s + h` metres.
+    ///
+    /// One division where the speed is constant; else a difference of two times, which for steps far below the drive's
+    /// length loses digits.
     pub fn time_over(&self, s: f64, h: f64) -> f64 {
         match self.constant {
             Some(speed) => h / speed,

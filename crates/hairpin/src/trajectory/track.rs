@@ -155,6 +155,14 @@ impl Track {
     ///
     /// In m, m/s and m/s². Between two stamps of places p, q and velocities v, w the acceleration is even, (w − v)/h,
     /// where that leads from p to q; where velocities jump on the way, the way is even and goes by (q − p)/h.
+    ///
+    /// ```text
+    /// σ = (t − t_i)/h
+    /// even:   p + σ (q − p) + ½ h (w − v)(σ² − σ),   v + σ (w − v),   (w − v)/h
+    /// else:   p + σ (q − p),   (q − p)/h,   0
+    /// ```
+    ///
+    /// Even is what ½ h (v + w) leads from p to q within 5 % of the way and 1 nm. A binary search a question.
     pub fn motion_at(&self, t: f64) -> Option<(Point3<f64>, Vector3<f64>, Vector3<f64>)> {
         let [x, y, z] = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| self.channel(name));
         let [x, y, z] = [x?, y?, z?];
@@ -184,6 +192,7 @@ impl Track {
     }
 }
 
+/// The first value that is not finite, with the column's name.
 fn finite(column: &str, values: impl Iterator<Item = f64>) -> Result<(), TrackError> {
     for (index, value) in values.enumerate() {
         if !value.is_finite() {

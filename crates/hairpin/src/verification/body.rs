@@ -62,6 +62,10 @@ pub(super) struct Mixer {
 impl Body {
     /// Thrust along body z at (x, y): total force, moments y·f, −x·f, and the reaction spin·km·w². `None` where the
     /// rotors cannot exert every force and moment.
+    ///
+    /// Each row of the matrix is divided by its largest entry before the determinant is looked at: thrust in N and yaw
+    /// moments in N·m differ by orders of magnitude. Rotors whose scaled determinant is below 10⁻⁹, as of four on one
+    /// line, count as unable.
     pub(super) fn mixer(&self) -> Option<Mixer> {
         let (kf, km) = (self.thrust_coefficient, self.moment_coefficient);
         let columns = self.rotors.map(|r| Vector4::new(kf, kf * r.y, -kf * r.x, km * r.spin));
@@ -132,6 +136,13 @@ pub(super) fn level(position: [f64; 3], velocity: [f64; 3]) -> State {
 }
 
 /// Angle between the state's attitude and level with yaw 0, rad.
+///
+/// ```text
+/// atan2(½ |(R₃₂ − R₂₃, R₁₃ − R₃₁, R₂₁ − R₁₂)|, ½ (tr R − 1))
+/// ```
+///
+/// From sine and cosine both, so that small angles keep their digits; from 0 to π. R need not be quite orthonormal
+/// after an integration.
 pub(super) fn attitude_error(state: &State) -> f64 {
     let r = Matrix3::from_column_slice(&state[6..15]);
     let sine = 0.5 * Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12).norm();

@@ -56,6 +56,14 @@ impl Course<'_> {
     }
 
     /// d(x, y, ψ) at heading `yaw` and `rest` per metre commanded, or per radian of a turn in place.
+    ///
+    /// ```text
+    /// a = cos θ vx + sin θ sin φ vy,   b = cos φ vy
+    /// x′ = cos ψ a − sin ψ b,   y′ = sin ψ a + cos ψ b,   ψ′ = (cos φ/cos θ) ωz
+    /// ```
+    ///
+    /// Roll φ, pitch θ, yaw ψ (z-y-x Euler angles); vx, vy, ωz are those in the body. What keeps the wheels on the
+    /// ground (vz, ωx, ωy) is left out of it: that is the difference from `carry`.
     pub(super) fn rates(&self, rest: &Rest, yaw: f64, s: f64) -> [f64; 3] {
         let [(sf, cf), (st, ct), (sp, cp)] = [rest.roll(), rest.pitch(), yaw].map(libm::sincos);
         let [vx, vy, turn] = self.body_rates(&Place { roll: rest.roll(), pitch: rest.pitch() }, s);
@@ -65,6 +73,14 @@ impl Course<'_> {
     }
 
     /// vx, vy (per metre commanded) and ωz (1/m) in the body, or 0, 0, 1 of a turn in place.
+    ///
+    /// ```text
+    /// progress = direction − slip · rise(along)/sin 20°,   drift = −side slip · rise(across)/sin 20°
+    /// vx, vy = progress · along + drift · across,   ωz = κ progress
+    /// ```
+    ///
+    /// `rise` is the sine of the slope along a direction in the body; slips are the shares lost on a slope of 20°, and
+    /// linear in the sine: uphill it goes slower, downhill faster, across it slides down.
     pub(super) fn body_rates(&self, place: &Place, s: f64) -> [f64; 3] {
         let DrivePiece::Arc { direction, .. } = self.piece else { return [0.0, 0.0, 1.0] };
         let [(sf, _), (st, ct), (sd, cd)] = [place.roll, place.pitch, self.crab(s)].map(libm::sincos);
@@ -156,6 +172,9 @@ impl GroundVehicle {
 
     /// Parts of a step that takes `time` seconds: near rest steps are long, and the lag of each must stay small. Of n
     /// equal lengths from rest the first takes the share 1/√n.
+    ///
+    /// n = (8 t/τ)², 1 to 400 parts, t being the time of the whole step and τ the time constant: the first part of a
+    /// step from rest then takes an eighth of τ.
     fn substeps(&self, time: f64) -> usize {
         if self.steering_time_constant_s <= 0.0 {
             return 1;

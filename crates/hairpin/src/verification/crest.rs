@@ -1,4 +1,9 @@
 //! The largest tilt and torque along a piece that was driven, also between the looks that the way took.
+//!
+//! Tilt and torque are seen at the looks of the way alone, up to a tenth of a metre or of a radian apart. Tilts are
+//! looked for again only in intervals that might hold a larger one than the largest so far, judged by how they change
+//! from look to look: an estimate, not a bound. Torques are asked of rests that are interpolated between looks, at
+//! about 2000 places a drive, and the body is looked at once where that is largest.
 
 use super::stand::{Rest, tilt};
 use super::stride::{FELL, Look, Pose, Stretch, Taken, foreseen};
@@ -24,6 +29,9 @@ pub(super) const SHOWN: f64 = 2000.0;
 const STEEP: f64 = 0.5;
 const NEAR: f64 = 0.005;
 /// Rests that differ by less are one, m and rad.
+///
+/// A body that, walked with in small steps, comes to the next look within this of the look's own rest has been the
+/// same body all along.
 const SAME: f64 = 1e-3;
 
 impl<T: Terrain> Stretch<'_, T> {

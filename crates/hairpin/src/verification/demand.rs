@@ -67,6 +67,9 @@ pub(super) fn demand(body: &Body, mixer: &Mixer, leg: &Leg, tau: f64) -> Result<
 }
 
 /// (c₁ + c₂|v|) v. At v = 0, |v| has no series but |v| v has: |a| a t² with v = a t + ….
+///
+/// As a series to second order, N. Below |v|² = 10⁻²⁰⁰ the first coefficients of |v| v vanish and its second is |a| a,
+/// which is one-sided in time: exact for τ after the moment of rest.
 pub(super) fn drag(body: &Body, velocity: &JetVector) -> JetVector {
     let square = dot(velocity, velocity);
     let quadratic = if square.value() > 1e-200 {
@@ -79,6 +82,13 @@ pub(super) fn drag(body: &Body, velocity: &JetVector) -> JetVector {
 }
 
 /// Body x and y for yaw 0 (z-y-x Euler angles): body x has no component along world y.
+///
+/// ```text
+/// x = (z₃, 0, −z₁)/hypot(z₁, z₃),   y = z × x
+/// ```
+///
+/// x is across z and has no component along world y; it points forward as long as the thrust points up (z₃ > 0). `Yaw`
+/// where the hypotenuse, the sine between thrust and world y, is 10⁻⁶ or less.
 fn heading(z: &JetVector) -> Result<(JetVector, JetVector), Singular> {
     let along: JetVector = [z[2], Jet::ZERO, Jet::ZERO - z[0]];
     let square = dot(&along, &along);

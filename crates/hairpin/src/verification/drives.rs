@@ -183,6 +183,9 @@ fn check_rims(leg: &DriveLegClaim, turn_rate: f64, rims: Option<&WheelRims>, fou
 }
 
 /// A leg begins at its waypoint, and as the one before ends.
+///
+/// Differences of x, y (m), ψ (rad), κ (1/m) and of the direction of travel (rad) are held to one number, 10⁻⁹, and
+/// the largest of them is told, as m. The leg's own ends are held against its two waypoints as well.
 fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     let leg = &claim.legs[number];
     let [x, y] = claim.waypoints[number];

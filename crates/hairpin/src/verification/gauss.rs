@@ -4,6 +4,13 @@
 //!
 //! Symplectic and symmetric of order 2s = 12: ẋ at the nodes of Gauss' quadrature, x(t + c_i h) = x + h Σ_j a_ij
 //! f(x_j). RᵀR is a quadratic invariant, so that no renormalisation hides an error.
+//!
+//! ```text
+//! P₆(2c_i − 1) = 0,   b_i = 1/((1 − x_i²) P₆′(x_i)²) with x_i = 2c_i − 1,   a_ij = ∫₀^c_i ℓ_j(τ) dτ
+//! ```
+//!
+//! ℓ_j is Lagrange's polynomial of node j, of degree 5: the method's own six-point quadrature, exact to degree 11,
+//! integrates it without error.
 
 /// Stages.
 pub(super) const STAGES: usize = 6;
@@ -96,6 +103,8 @@ impl Gauss {
 pub(super) type Slopes<const N: usize> = [[f64; N]; STAGES];
 
 /// state + h Σ weight_j slope_j.
+///
+/// At the stages with a row of the matrix, at the step's end with the weights b.
 fn combine<const N: usize>(state: &[f64; N], h: f64, weights: &[f64; STAGES], slopes: &Slopes<N>) -> [f64; N] {
     let mut at = *state;
     for (weight, slope) in weights.iter().zip(slopes) {
@@ -107,6 +116,9 @@ fn combine<const N: usize>(state: &[f64; N], h: f64, weights: &[f64; STAGES], sl
 }
 
 /// The Legendre polynomial of degree [`STAGES`] and its derivative, by the three-term recurrence.
+///
+/// (n + 1) P_(n+1) = (2n + 1) x P_n − n P_(n−1);  P_s′ = s (x P_s − P_(s−1))/(x² − 1): not at x = ±1, where no node
+/// is.
 fn legendre(x: f64) -> (f64, f64) {
     let (mut before, mut p) = (1.0, x);
     for n in 1..STAGES {

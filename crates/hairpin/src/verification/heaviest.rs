@@ -10,6 +10,9 @@
 //! | a path and its cost | arc by arc, in 128 bits | n |
 //! | a tree of steps | every bound, every decision, every branch recomputed | n² to n³ a bound |
 //! | no tree | the heaviest path searched again, backwards over subsets | 2ⁿ n² |
+//!
+//! Costs and the path's own cost must be 0 or more for a tree, and stay below 2⁶⁰ when scaled; without a tree any
+//! whole numbers will do whose sums fit 64 bits.
 
 use super::heaviest_bound::Prices;
 use super::heaviest_choices::{Chosen, IN, Layout, OPEN, OUT};
@@ -99,6 +102,10 @@ fn check_path(claim: &HeaviestClaim) -> Result<(), String> {
 /// f(S, j): the heaviest way on from j when S has been met, from the full set downwards.
 ///
 /// 2ⁿ n numbers: at most [`MOST_SEARCHED_AGAIN`] points. `None` where no path meets the ends.
+///
+/// ```text
+/// f(S, j) = max( 0 if j may end,  max over k ∉ S of w(j, k) + f(S ∪ {k}, k) ),   answer max over starts s of f({s}, s)
+/// ```
 fn search_again(claim: &HeaviestClaim) -> Option<i64> {
     let n = claim.points;
     let full = (1usize << n) - 1;

@@ -4,6 +4,16 @@
 //!
 //! Slow on purpose: O(n²) for a tree, O(n³) for an arborescence, whatever the table, without the search's keys, orders
 //! or warm starts.
+//!
+//! ```text
+//! undirected  L = 2 Σ λ_i + λ_s + Σ_cuts price (|S| − 1) + MST(w′) + max over ends of −λ_e
+//!     w′(i, j)     = scale · w_ij − λ_i − λ_j − cuts       start i:  −λ_i − λ_s       loop i:  −2 λ_i − cuts
+//! directed    L =   Σ λ_i + λ_s + arborescence(w′) + max over ends of −λ_e
+//!     w′(i → j)    = scale · w_ij − λ_i                    start:    −λ_s             loop i:  −λ_i
+//! ```
+//!
+//! λ_i are the multipliers of the points, λ_s that of the start, MST and arborescence those of largest weight over the
+//! n points and a dummy, to which starts and loops lead. Any λ gives a bound: a bad one only proves less.
 
 use super::heaviest_choices::{Chosen, IN, Layout, OUT};
 use super::heaviest_claim::{CutClaim, StepClaim};
@@ -57,6 +67,8 @@ impl<'a> Prices<'a> {
     }
 
     /// 0 of what no cut counts.
+    ///
+    /// Of a choice inside several cuts the sum of their prices, in units of cost / scale.
     fn taken(&self, choice: usize) -> i128 {
         self.taken.get(choice).copied().unwrap_or(0)
     }

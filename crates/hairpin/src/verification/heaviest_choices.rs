@@ -2,6 +2,12 @@
 //!
 //! Fixpoint of all rules, looked at one after the other until none changes anything: what the search propagates by
 //! queues.
+//!
+//! ```text
+//! directed     each point: exactly one of {arcs out, end, loop} and exactly one of {arcs in, start, loop}
+//! undirected   each point: two of {arcs, start, end} and no loop, or the loop alone
+//! all          exactly one start, exactly one end, no circle of chosen arcs
+//! ```
 
 /// May be in or out.
 pub(super) const OPEN: u8 = 0;
@@ -155,6 +161,8 @@ impl Chosen {
     }
 
     /// Two of these, or the loop and none of these.
+    ///
+    /// `beside` are the arcs of a point, its start and its end: a path of one point alone has both of its two there.
     fn two_or_loop(&mut self, beside: &[usize], looped: usize) -> Option<()> {
         let (chosen, open) = (self.count(beside, IN), self.count(beside, OPEN));
         if chosen > 2 || chosen > 0 && self.state[looped] == IN || chosen + open < 2 && self.state[looped] == OUT {

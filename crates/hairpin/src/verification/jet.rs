@@ -27,6 +27,8 @@ impl Jet {
     }
 
     /// √self; the value must be positive.
+    ///
+    /// r² = a, 2 r r₁ = b, 2 r r₂ + r₁² = c.
     pub(super) fn sqrt(self) -> Self {
         let [a, b, c] = self.0;
         let root = a.sqrt();
@@ -35,6 +37,8 @@ impl Jet {
     }
 
     /// 1/self; the value must not be zero.
+    ///
+    /// 1/a, −b/a², b²/a³ − c/a².
     pub(super) fn recip(self) -> Self {
         let [a, b, c] = self.0;
         let r = 1.0 / a;
@@ -61,6 +65,7 @@ impl Sub for Jet {
     }
 }
 
+/// (a + bt + ct²)(d + et + ft²) cut after t²: ad, ae + bd, af + be + cd.
 impl Mul for Jet {
     type Output = Self;
     fn mul(self, other: Self) -> Self {

@@ -38,6 +38,9 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// Eight a leg: four orders at either end, each the worst of its axes by difference/allowed. Velocities at a leg's
 /// start are compared with the leg before, at its end only the flight's last must be at rest.
+///
+/// Position is compared with the waypoint, whose own size counts towards the rounding. NaN counts as an infinite
+/// difference.
 pub(super) fn mismatches(body: &Body, claim: &Claim, absolute: f64) -> Vec<Mismatch> {
     let mut found = Vec::with_capacity(8 * claim.legs.len());
     let still: Derivative = [(0.0, 0.0); 3];
@@ -78,6 +81,13 @@ fn derivative(leg: &Leg, tau: f64, order: usize) -> Derivative {
 }
 
 /// Acceleration and jerk at which the body is level and does not turn, for the knot's velocity and acceleration.
+///
+/// ```text
+/// v̇ = −D(v)/m,   v̈ = −(dD/dt)/m,   D(v) = (c₁ + c₂|v|) v
+/// ```
+///
+/// With them the thrust is m g e₃ and stands still. The second numbers are sizes that rounding is a share of: the
+/// value's own, and an upper estimate of |∂D/∂v|/m times the largest terms of velocity and acceleration.
 fn level(body: &Body, knot: &[Derivative; 4]) -> (Derivative, Derivative) {
     let velocity: JetVector = std::array::from_fn(|axis| Jet([knot[1][axis].0, knot[2][axis].0, 0.0]));
     let drag = drag(body, &velocity);

@@ -15,6 +15,12 @@ use crate::world::terrain::Terrain;
 ///
 /// The end is (x, y, ψ) in m and rad, the tilt in rad.
 ///
+/// ```text
+/// y_(n+½) = y_n + ½ h f(y_n, s_n),   y_(n+1) = y_n + h f(y_(n+½), s_n + ½ h),   y = (x, y, ψ)
+/// ```
+///
+/// Exact vehicles are carried as rigid bodies instead (`carry`), which has its own midpoint.
+///
 /// # Errors
 /// [`NoRest`]: where the body finds none on the way.
 pub(super) fn by_midpoints<T: Terrain>(

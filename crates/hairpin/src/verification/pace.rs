@@ -2,6 +2,14 @@
 //!
 //! Between two knots v² is linear, so that acceleration is constant, (v₁² − v₀²)/2Δs, and a stretch takes 2Δs/(v₀ +
 //! v₁): no other integral is needed.
+//!
+//! ```text
+//! a = (v₁² − v₀²)/(2 Δs),   Δt = 2 Δs/(v₀ + v₁),   t = Σ Δt + Σ |turn|/ω
+//! ```
+//!
+//! Checked in this order, of which the first two end the check where they fail: speeds are numbers from 0 to the
+//! highest; metres do not fall; the first speed is the last one of the leg before (10⁻⁹ m/s); stops; accelerations;
+//! the duration, to 10⁻⁶ (1 + duration) s.
 
 use super::drive::DrivePiece;
 use super::finding::Collector;
@@ -68,6 +76,9 @@ pub(super) fn check_speeds(claim: &PaceClaim, found: &mut Collector) {
 }
 
 /// The vehicle stands where it begins and ends, where the gear changes, and before and after turns in place.
+///
+/// A leg joins the one before without a stop only where both have the same gear there. Speeds below [`STILL`] are
+/// rest: √ of a rounding error of v² is far larger than that error.
 fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut Collector) {
     let gear = |piece: Option<&DrivePiece>| match piece {
         Some(DrivePiece::Arc { direction, .. }) => Some(*direction),
@@ -94,6 +105,9 @@ fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut Collector) 
 }
 
 /// The slowest of the speeds `s` metres after the leg's beginning, m/s, as far as rounding tells places apart.
+///
+/// Two knots at one place, as at a stop, give the slower of both; between knots v² is interpolated; beyond the last
+/// the last speed. `s` within 10⁻⁹ (1 + s) m of a knot is that knot's.
 fn speed_at(knots: &[[f64; 2]], s: f64) -> f64 {
     let near = 1e-9 * (1.0 + s);
     let there = knots.iter().filter(|knot| (knot[0] - s).abs() <= near).map(|knot| knot[1]);

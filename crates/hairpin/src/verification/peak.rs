@@ -11,6 +11,13 @@ const CLOSED: f64 = 1e-10;
 ///
 /// Between two neighbouring turns of p⁽ᵏ⁺¹⁾'s sign p⁽ᵏ⁾ is monotone and has one root at most: from the highest
 /// derivative down, each gives the next one's intervals.
+///
+/// ```text
+/// max |p| = max of |p(s)| over s = 0, s = length and the roots of p′ between
+/// ```
+///
+/// At most 1 + 2 + 3 + 4 roots are looked for. A value beside the true root is off by the square of what the root is
+/// off by. Double roots of a slope, where it does not change sign, are no peaks and may be passed by.
 pub(super) fn peak(p: &[f64; MOST], length: f64) -> f64 {
     let degree = p.iter().rposition(|a| *a != 0.0).unwrap_or(0);
     let mut derivatives = [[0.0; MOST]; MOST];
@@ -39,6 +46,9 @@ pub(super) fn peak(p: &[f64; MOST], length: f64) -> f64 {
 }
 
 /// Where `f`, which gives value and slope, is 0 in (low, high], if it changes its sign there.
+///
+/// Newton steps kept within the bracket, else its middle; converged where a step is below 10⁻¹⁰ of the first bracket,
+/// or after 60. `None` where `f` keeps its sign, or is 0 at `low`: a root there belongs to the interval before.
 fn root(f: &impl Fn(f64) -> [f64; 2], mut low: f64, mut high: f64) -> Option<f64> {
     let ([at_low, _], [at_high, _]) = (f(low), f(high));
     if at_high == 0.0 && at_low != 0.0 {

@@ -156,6 +156,8 @@ fn velocity_at(leg: &Leg, tau: f64) -> [f64; 3] {
 }
 
 /// Of a state at the end of the whole flight.
+///
+/// Position and velocity (at rest in the end) by their norms, m and m/s; attitude as the angle from level, rad.
 fn end_error(state: &State, claim: &Claim) -> EndError {
     let last = claim.waypoints[claim.waypoints.len() - 1];
     EndError {
@@ -166,6 +168,9 @@ fn end_error(state: &State, claim: &Claim) -> EndError {
 }
 
 /// A finding `thrust`, `yaw` or `integration` of a leg that could not be flown.
+///
+/// Values are what vanished (N for thrust, a sine for yaw) or the last change between two runs; the bound of the first
+/// two is the smallest positive number, which only says "above 0".
 fn unflown(proof: &mut Proof, trouble: Trouble, leg: usize, began: f64, tolerances: &Tolerances) {
     let (what, value, bound, unit, tau) = match trouble {
         Trouble::Singular(tau, Singular::FreeFall(thrust)) => ("thrust", thrust, f64::MIN_POSITIVE, "N", tau),

@@ -52,6 +52,8 @@ pub(super) enum Trouble {
 const FIRST_STEP: f64 = 0.2;
 /// How much nearer to the truth the finer of two runs is than the two are to each other: 4096 for a smooth motion; drag
 /// and aerodynamic moment have a bend where speed or rates vanish, so less is assumed.
+///
+/// Accepted is a change of 64 times the accuracy asked for: with order 12 a halving brings the error down by 2¹².
 const GAIN: f64 = 64.0;
 /// Steps per leg at most.
 /// From 0.2 s on a leg of 800 s still has one halving.
@@ -202,6 +204,9 @@ fn standstills(leg: &Leg) -> Vec<f64> {
 }
 
 /// The ends of `steps` steps over `leg`: even, but for those that are nearest to a standstill, which lie there.
+///
+/// A step's end is moved, so that the two beside it become longer and shorter: with two standstills nearer to one end
+/// than to any other, the later one has it.
 fn times(leg: &Leg, steps: usize, standstills: &[f64]) -> Vec<f64> {
     let mut times: Vec<f64> = (0..=steps).map(|step| leg.duration * step as f64 / steps as f64).collect();
     for at in standstills {

@@ -2,6 +2,16 @@
 //!
 //! A wheel h beside the middle goes at v (1 ± κ h); between two knots v² is linear, so that v̇ is constant, and the rim
 //! speeds up by v̇ ± h (v̇ κ + v² κ′).
+//!
+//! ```text
+//! |v_rim| ≤ v (1 + h |κ|)                          the outer of both
+//! |a_rim| = max over ± of |v̇ ± h (v̇ κ + v² κ′)| = |v̇| + h |v̇ κ + v² κ′|
+//! ```
+//!
+//! h is half of the track, m; κ and κ′ = dκ/ds are the piece's polynomial and its slope. On a part of half-length d
+//! around its middle |κ| ≤ |κ_m| + d max|κ′| and |κ′| ≤ |κ′_m| + d max|κ″|: bounds that hold for the whole part, and
+//! halve with it. What is told as beyond is a value that is taken somewhere, never only a bound; what 20 halvings
+//! leave undecided counts as kept.
 
 use super::drive::DrivePiece;
 use super::peak::peak;
@@ -86,6 +96,10 @@ struct Stretch {
 }
 
 /// The parts of a piece of `length` m, which begins `driven` m after the start, between knots.
+///
+/// `knots` count metres of the whole drive, a stretch's `from` and `to` those of the piece. Before the first knot and
+/// after the last the speed is constant. Without knots the one stretch has speeds that are no number, which is beyond
+/// every bound. Knots at one place make no stretch.
 fn stretches(knots: &[[f64; 2]], driven: f64, length: f64) -> Vec<Stretch> {
     let ends = [knots.first(), knots.last()].map(|knot| knot.copied().unwrap_or([0.0, f64::NAN]));
     let mut all = Vec::with_capacity(knots.len() + 1);
@@ -117,6 +131,8 @@ impl Stretch {
 }
 
 /// A piece's curvature, and by how much it and its slope change per metre at most.
+///
+/// `steepest` holds max|κ′| (1/m²) and max|κ″| (1/m³) over the whole piece, from the polynomials' peaks.
 struct Way {
     curvature: [f64; 6],
     slope: [f64; 6],
@@ -133,6 +149,10 @@ impl Way {
     }
 
     /// A value of `stretch` beyond `bound`, and where: of rims' speed (`which` 0) or acceleration (1).
+    ///
+    /// `None` where all of the stretch keeps the bound, or where `depth` halvings leave it open. The place is the
+    /// middle of the part that is beyond, metres of the piece. The first along the way that is found, by halves from
+    /// the left: 2^`depth` parts at most.
     fn beyond(&self, stretch: &Stretch, which: usize, bound: f64, depth: u32) -> Option<(f64, f64)> {
         let [most, there] = self.at_most(stretch, which);
         let bound_kept = bound * (1.0 + ROUNDING);
@@ -149,6 +169,9 @@ impl Way {
     }
 
     /// What a rim's speed or acceleration is at most along `stretch`, and what it is in its middle.
+    ///
+    /// \[bound, value in the middle\], both in m/s (`which` 0) or m/s² (1); the bound is never below what any place
+    /// of the stretch has, but for rounding. v² at the middle is the mean of both ends, since it is linear.
     fn at_most(&self, stretch: &Stretch, which: usize) -> [f64; 2] {
         let (middle, half) = (0.5 * (stretch.from + stretch.to), 0.5 * (stretch.to - stretch.from));
         let at = |p: &[f64; 6]| p.iter().rev().fold(0.0, |sum, a| sum * middle + a);

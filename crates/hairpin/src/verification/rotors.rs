@@ -62,6 +62,10 @@ pub(super) fn check_rotors(
 }
 
 /// The extreme of one rotor's squared speed within a grid interval of `from`, by golden-section search.
+///
+/// `from` is (squared speed, τ), `sign` +1 for a maximum and −1 for a minimum. 24 sections narrow two grid intervals
+/// to 2 · 0.618²⁴ ≈ 2 · 10⁻⁵ of one; the value there is off by the square of that. It finds the extreme where the
+/// squared speed has one within the two intervals.
 fn refine(flyer: &Flyer, leg: &Leg, rotor: usize, sign: f64, from: (f64, f64), h: f64) -> Result<(f64, f64), Trouble> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let (mut low, mut high) = ((from.1 - h).max(0.0), (from.1 + h).min(leg.duration));

@@ -68,6 +68,15 @@ impl<T: Terrain> Stretch<'_, T> {
 
     /// The next stride, `stride` long at most and no longer than what is `left`: halved, or more, until it is near
     /// enough; a plain step where none is short enough for a body that falls.
+    ///
+    /// ```text
+    /// allowed(h) = ACCURACY · h / extent,   next h = h · clamp(0.9 √(allowed/off), …)
+    /// ```
+    ///
+    /// `off` is what the stride is estimated to leave out (m, and rad times metres). It goes with h³ and what is
+    /// allowed with h, so that the square root of their ratio is the step's factor: between 0.5 and 2 after a stride
+    /// that is taken, between 0.2 and 0.7 after one that is not, a quarter where the body fell. The shortest stride is
+    /// taken whatever it leaves out.
     fn step(&self, station: &Station, looks: &[Look], stride: f64, left: f64) -> Result<Step, NoRest> {
         let shortest = SHORTEST.1.max(SHORTEST.0 * self.extent);
         let mut h = stride.min(left);
@@ -89,6 +98,9 @@ impl<T: Terrain> Stretch<'_, T> {
     }
 
     /// The first plain step that finds a rest.
+    ///
+    /// Plain steps of 1, 2, 4, 8 and 16 times the shortest, none longer than what is left; the last refusal where none
+    /// finds a rest.
     fn fall(&self, station: &Station, looks: &[Look], shortest: f64, left: f64) -> Result<Step, NoRest> {
         let mut refused = NoRest::NotFound;
         for times in PLAIN {

@@ -33,6 +33,15 @@ const ENOUGH: f64 = 1e-6;
 /// `body` gives vx, vy (m) and ωz (rad) per unit of `h`. A fixed-point iteration on the place: what the twist lacks is
 /// added, turned into the world; it contracts as steps are small beside the ground's curvature. `NoRest` where the body
 /// finds no rest, or 60 tries leave more than 10⁻⁶.
+///
+/// ```text
+/// R₀ᵀ R₁ = exp([θ]×),   R_m = R₀ exp([θ/2]×)
+/// R_mᵀ (p₁ − p₀) = (h vx, h vy, ·),   θ_z = h ωz          three equations for (x, y, ψ) of the next rest
+/// ```
+///
+/// R₀, p₀ are the body's attitude and place (world) at the first rest, R₁, p₁ at the next; dots are whatever the
+/// ground makes of them. The commanded rates are asked at the mean of both rolls and pitches. One rest a try. Ends
+/// at 3 · 10⁻⁹.
 pub(super) fn carry<T: Terrain>(
     stand: &Stand,
     terrain: &T,
@@ -67,6 +76,9 @@ pub(super) fn carry<T: Terrain>(
 }
 
 /// Axis times angle of a rotation of less than a right angle, from its antisymmetric part, which is axis times sine.
+///
+/// Below a sine of 10⁻⁸ the sine is the angle to a double's digits. Angles beyond a right one would come out as their
+/// supplement: steps are far smaller.
 fn small_turn(rotation: &Matrix3<f64>) -> Vector3<f64> {
     let odd = 0.5 * (rotation - rotation.transpose());
     let sines = Vector3::new(odd[(2, 1)], odd[(0, 2)], odd[(1, 0)]);

@@ -174,6 +174,9 @@ impl Ways<'_> {
     }
 
     /// `way` without the arcs that its order does not have any more.
+    ///
+    /// Where an arc's three points are no arc of the graph any more, or two passed points stand side by side, the
+    /// point is met by straight moves instead. Whether these are possible is asked afterwards.
     fn mended(&self, mut way: Vec<Met>) -> Vec<Met> {
         for k in 0..way.len() {
             let standings =
@@ -186,6 +189,8 @@ impl Ways<'_> {
 
     /// Whether `way` leads from home to home: every move is possible and comes once, no point comes too often, and the
     /// ends are those that are asked for.
+    ///
+    /// O(points²) for the counts, and one question of the graph or one followed move a leg.
     pub(super) fn is_possible(&self, way: &[Met]) -> bool {
         let search = &self.setup.scenario.generate.search;
         let (Some(first), Some(last)) = (way.first(), way.last()) else { return false };
@@ -219,6 +224,10 @@ impl Ways<'_> {
 
 /// The place of a point that leg number `leg` leads to, or comes from: legs lead from home to where moves end, and
 /// home.
+///
+/// Arcs make legs and points differ: a point that an arc passes ends no move, so leg k leads to the k-th of the points
+/// that are not passed. The first or the second of a leg's two ends is taken with even odds; numbers beyond the last
+/// end are the last. `None` of a way without an end.
 fn place_of(way: &[Met], leg: usize, random: &mut Stream) -> Option<usize> {
     let ends: Vec<usize> = (0..way.len()).filter(|k| !way[*k].passed).collect();
     let comes_from = unit(random) < 0.5;

@@ -32,6 +32,9 @@ pub(super) fn cell_of(section: &CellSection) -> Result<Cell, Mistake> {
     Ok(cell)
 }
 
+/// Keys are in mm, regions in m, base frame. A box with an orientation becomes the hull of its eight corners, one
+/// without stays a box; a half space keeps its normal as given. Sizes that are none (NaN, negative) are the shape's
+/// own error, told with the key in mm.
 fn region_of(key: &str, obstacle: &CellObstacle) -> Result<Region, Mistake> {
     let CellObstacle { name: _, cuboid, sphere, capsule, cylinder, hull, mesh, half_space } = obstacle;
     let given = [
@@ -124,6 +127,8 @@ fn in_mm(field: &str) -> String {
     }
 }
 
+/// The eight corners of a box of edges `size` (m) centred in `frame`; bit k of a corner's number says on which side it
+/// is along axis k.
 fn corners(frame: &Isometry3<f64>, size: [f64; 3]) -> Vec<[f64; 3]> {
     let half = Vector3::from(size) * 0.5;
     let corner = |c: usize| {

@@ -67,6 +67,8 @@ fn check_task(task: &ArmTask, points: u64, found: &mut Findings) {
     }
 }
 
+/// Units are those of the keys: mm, °, s. Arcs exclude joint moves, Cartesian graphs, repeated visits and costs that
+/// come from a table or a model; with home's two points their cloud must stay within what triples are searched for.
 fn check_generate(generate: &ArmGenerate, points: u64, files: &Attachments, found: &mut Findings) {
     if let CostSection::Weighted(weights) = &generate.cost {
         let all = [

@@ -1,4 +1,11 @@
 //! What clocking every move of a graph on the real controller takes.
+//!
+//! ```text
+//! n points, m ≤ n(n − 1) moves that are possible  →  targets in the work object, pairs of rows, one speed for all
+//! ```
+//!
+//! A controller's own times are costs that no model has: this room only says what is to be driven, in which frames,
+//! and from where. The times come back as a table of costs.
 
 use super::ArmSetup;
 use super::arm_graph::ArmGraph;

@@ -16,6 +16,9 @@ use crate::robot::arm::{APART, AXES};
 impl ArmSetup {
     /// The same arm where pairs of bodies of which neither is known are not held against each other; `None` where there
     /// are no such pairs.
+    ///
+    /// The pairs are those \[low, high\] of bodies at least [`APART`] links from each other, of which neither has a
+    /// shape of its own. The cell is held against all bodies as before.
     fn without_doubtful(&self) -> Option<Self> {
         let station = &self.station;
         let known = |body: usize| is_known(&station.arm, &station.tool, body);

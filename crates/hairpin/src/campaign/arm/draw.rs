@@ -46,6 +46,10 @@ impl Ways<'_> {
     }
 
     /// Where a walk from home may go on to, as far as nothing need be followed to know.
+    ///
+    /// `walk` holds home and the points so far. The candidates are all standings of rows that are free: not at the
+    /// fixed start's or end's turn unless it is that row, fewer than `visits` times used, the move not used before,
+    /// the branch unchanged where moves are straight. O(rows · postures · walk).
     fn next(&self, walk: &[Place], length: usize) -> Vec<Place> {
         if walk.len() == length + 1 {
             return vec![Place::Home];

@@ -18,6 +18,8 @@ use crate::trajectory::{Channel, Ended, Flight, Track};
 /// Time over which an s-curve averages the progress of a trapezoid, s: a usual one of controllers of this size.
 const S_CURVE: f64 = 0.04;
 /// Jitter of fine points beside that of positions, s per mm of noise.
+///
+/// So one key, the noise in mm, makes both repeats that differ in place and repeats that differ in time.
 const PAUSE_PER_MM: f64 = 0.05;
 
 impl ArmSetup {
@@ -46,6 +48,9 @@ impl ArmSetup {
     }
 
     /// What is wrong with the arm.
+    ///
+    /// Degrees and mm of the keys become rad and m; `slower` s is an axis that has the share 1 − s of its speed; axes
+    /// stay counted from 1. A delayed start is one of move 0.
     fn faults(&self) -> Vec<Fault> {
         let faults = &self.scenario.execute.faults;
         let mut all = Vec::new();
@@ -127,6 +132,9 @@ pub(super) fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
 }
 
 /// When each waypoint was reached: when the next move began, and the last at the end.
+///
+/// `None` of a waypoint that no sample is beyond, and of the last where the arm halted. Stamps are those of samples:
+/// late by a sample's period at most.
 fn reached(track: &Track, waypoints: usize, ended: Ended) -> Vec<Option<f64>> {
     let legs = track.channel("leg").unwrap_or_default();
     let begins = |leg: usize| legs.iter().position(|at| *at >= leg as f64).map(|i| track.times()[i]);

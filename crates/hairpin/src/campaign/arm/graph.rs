@@ -75,6 +75,8 @@ pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
 
 /// What is in `known`, or else made. Nobody waits for another thread, which might be waiting for this one's work: what
 /// several make at once is the same.
+///
+/// Two threads may make the same at once, and one of both is thrown away: dear, but nothing can wait in a circle.
 pub(super) fn once<T>(known: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     if known.get().is_none() {
         // Another's counts where there is one by now.
@@ -99,6 +101,8 @@ pub fn graph_until(setup: &ArmSetup, stop: &Stop) -> Result<Arc<ArmGraph>, Strin
     once(&setup.graph, || made(setup, stop).map(Arc::new)).clone()
 }
 
+/// Beyond a graph it asks for a way: some point met, some way out from home and some way back. Whether the two belong
+/// to one path is the search's to find out.
 fn made(setup: &ArmSetup, stop: &Stop) -> Result<ArmGraph, String> {
     let graph = whole_graph(setup, stop)?;
     let met = graph.postures.as_ref().is_none_or(|postures| postures.iter().any(Result::is_ok));
@@ -171,6 +175,8 @@ fn nowhere(setup: &ArmSetup) -> String {
     )
 }
 
+/// The tool's sphere alone is proven along n(n − 1) segments, against the cell and the ball of reach; home can be left
+/// for every point and reached from every point, which nobody looked at.
 fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let (station, scenario) = (&setup.station, &setup.scenario);
     let points: Vec<Point3<f64>> = station.points.iter().map(|point| point.pose.translation.vector.into()).collect();
@@ -290,6 +296,10 @@ pub(super) fn configuration([cf1, cf4, cf6, cfx]: [i32; 4]) -> Option<Configurat
 
 /// What the scenario asks to count.
 ///
+/// A sum counts in millionths of the weights' units: ways in µm and times in µs are so already for weights of m and
+/// s, the other two are multiplied by 10⁶. A table's missing entries go in as 0 and are taken out of the graph
+/// afterwards (`masked`); a learned cost stands as distance until its model is asked (`with_learned`).
+///
 /// # Errors
 /// A table of another size than the cloud, in a sentence's part.
 fn cost_of(setup: &ArmSetup) -> Result<Cost, String> {
@@ -328,6 +338,9 @@ fn by_name(name: CostName) -> Cost {
 }
 
 /// What one unit of a cost is, and in which unit users are told.
+///
+/// One factor turns whole units into what is told: micrometres into mm, microseconds into s, millionths of a model's
+/// unit or of a weighted sum into that; loads and efforts are told as they are.
 fn unit_of(cost: &Cost, setup: &ArmSetup) -> (f64, String) {
     let files = &setup.attachments;
     if let CostSection::Learned(learned) = &setup.scenario.generate.cost {
@@ -351,6 +364,9 @@ fn unit_of(cost: &Cost, setup: &ArmSetup) -> (f64, String) {
 }
 
 /// The costs of a graph's moves as a table has them, and without those that it leaves out.
+///
+/// A move is there only where it is possible and the table has it; its cost is then the table's. n² entries, row =
+/// from.
 fn masked(costs: Vec<Option<i64>>, setup: &ArmSetup) -> Vec<Option<i64>> {
     let CostSection::Table(table) = &setup.scenario.generate.cost else { return costs };
     let Some(matrix) = setup.attachments.costs(table) else { return costs };

@@ -45,6 +45,9 @@ impl ArmSetup {
     }
 
     /// The joint angles at a target, under the name that its pose has with another first letter.
+    ///
+    /// rad, the first turn of all axes within the bounds whose configuration is the target's; `None` where the target
+    /// tells none or the arm has no such posture.
     pub(super) fn joints_at(&self, object: &WorkObject, to: &PoseTarget) -> Option<JointTarget> {
         let wanted = to.configuration.and_then(configuration)?;
         let joints = self.posture(&(object.base_from_object() * to.pose), &wanted)?;

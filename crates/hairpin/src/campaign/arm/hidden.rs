@@ -76,6 +76,13 @@ struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
+    /// Takes the angles from the channels `q1_rad` … `q6_rad` where the log has all six, else from its poses by
+    /// inverse kinematics, unless its attitude is marked as unknown. L_k is the sum of all offsets between joint k + 1
+    /// and the tool's point, m:
+    ///
+    /// ```text
+    /// L_6 = |flange| + |tcp|,   L_k = L_(k+1) + |origin of joint k+1|       (triangle inequality: whatever the angles)
+    /// ```
     fn of(arm: &'a Arm, tcp: &'a Isometry3<f64>, home: &Joints, recording: &'a Track) -> Self {
         let joints = recorded(recording).or_else(|| {
             let known = recording.channel(ATTITUDE_UNKNOWN).is_none();
@@ -90,6 +97,7 @@ impl<'a> Log<'a> {
         Self { arm, tcp, recording, joints, longest }
     }
 
+    /// h of interval i, between samples i and i + 1, s.
     fn seconds(&self, i: usize) -> f64 {
         self.recording.times()[i + 1] - self.recording.times()[i]
     }
@@ -112,6 +120,9 @@ impl<'a> Log<'a> {
 }
 
 /// The angles that the log itself tells.
+///
+/// One row of six angles (rad) a sample; `None` where a channel is missing. They are the log's own and are not held
+/// against its poses.
 fn recorded(recording: &Track) -> Option<Vec<Joints>> {
     let channels: Vec<&[f64]> =
         (1..=AXES).map(|k| recording.channel(&format!("q{k}_rad"))).collect::<Option<Vec<_>>>()?;
@@ -133,6 +144,18 @@ fn along_a_branch(arm: &Arm, tcp: &Isometry3<f64>, home: &Joints, recording: &Tr
 }
 
 impl Between for Log<'_> {
+    /// Farthest (m) that the tool's point can be from where the joints' lines put it, within interval i. From the last
+    /// axis to the first:
+    ///
+    /// ```text
+    /// a_k = min(α_k h²/8, ω_k h/2)                              aside, rad
+    /// d_k = min(max(d_k(i), d_k(i+1)) + b_k, L_k)               distance from axis k, at most
+    /// b_k = Σ_{j>k} (|Δq_j|/2 + a_j) L_j                        what joints beyond axis k add to it
+    /// hidden = Σ_k a_k d_k
+    /// ```
+    ///
+    /// Without angles it is bounded as a point of its own: min(|ẍ| h²/8, |ẋ| h/2), with |ẋ| = Σ ωₖ Lₖ and |ẍ| as in
+    /// the head of this file. An upper bound either way, as far as the limits are the arm's.
     fn hidden(&self, i: usize) -> f64 {
         let seconds = self.seconds(i);
         let aside = self.aside(seconds);
@@ -154,6 +177,8 @@ impl Between for Log<'_> {
         most
     }
 
+    /// Half of how far the tool's point comes within interval i at most (m) where joints turn evenly: ½ Σ |Δq_k| L_k;
+    /// of a log of poses half of the chord.
     fn half(&self, i: usize) -> f64 {
         match &self.joints {
             Some(joints) => {
@@ -163,6 +188,9 @@ impl Between for Log<'_> {
         }
     }
 
+    /// `count` + 1 places (m, base frame) of the tool's point along interval i, evenly in time, both samples included:
+    /// by forward kinematics of joints that turn evenly, or along the straight line between two poses. `count` is at
+    /// least 1.
     fn chord(&self, i: usize, count: usize) -> Vec<Point3<f64>> {
         let point = |n: usize| {
             let share = n as f64 / count as f64;

@@ -19,6 +19,10 @@ pub(super) fn knobs(setup: &ArmSetup) -> Knobs {
 
 /// In the order they are tried in: first what was asked for beside the program (a least cost), then what moves must
 /// keep (clearance, singularity margin, spec), then what is in the way, and last the count of points.
+///
+/// Each knob has the value that it goes to in the end: 0 for clearance and least cost, a hundredth of themselves for
+/// the singularity margin and for what the spec allows, four times itself for a count of drawn points; switches turn
+/// a key off, or moves to those in joints.
 fn turned(scenario: &ArmScenario) -> Vec<Knob> {
     let (moves, search) = (&scenario.generate.moves, &scenario.generate.search);
     let drawn = match &scenario.task.points {

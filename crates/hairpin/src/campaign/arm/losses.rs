@@ -46,6 +46,9 @@ pub(super) fn losses(setup: &ArmSetup) -> Losses {
 }
 
 /// The limit is named as users name it: a part of the cell, an axis (from 1), a kind of singularity.
+///
+/// `reach` is the name that the ball of reach has among a cell's parts: what meets that is out of reach, not in the
+/// way of something.
 pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
     let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
     match *refusal {

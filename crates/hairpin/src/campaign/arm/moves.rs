@@ -98,6 +98,8 @@ fn digest(program: &Program) -> String {
     hasher.finalize().to_hex()[..16].to_owned()
 }
 
+/// Seven numbers in units of [`TELLING`]: position (m), then i, j, k, w of the quaternion, with that sign which makes
+/// its last part that is not 0 positive.
 fn tell_pose(told: &mut Vec<f64>, pose: &Isometry3<f64>) {
     told.extend(pose.translation.vector.iter().map(|part| part / TELLING));
     let q = pose.rotation.coords;

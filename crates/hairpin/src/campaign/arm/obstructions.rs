@@ -32,6 +32,10 @@ pub(super) struct Meetings {
 
 impl Meetings {
     /// At the posture that programs begin at.
+    ///
+    /// A check names the first pair that meets alone: each pair found is excluded and the posture looked at again,
+    /// then each part of the cell by itself. Between the arm's own bodies no clearance is asked, towards the cell
+    /// the scenario's. In Cartesian mode nothing meets.
     pub(super) fn at_home(setup: &ArmSetup) -> Self {
         let station = &setup.station;
         let mut found = Self { pairs: Vec::new(), refusals: Vec::new() };
@@ -163,6 +167,9 @@ fn of_moves(setup: &ArmSetup, graph: &ArmGraph) -> Vec<String> {
 }
 
 /// What is wrong with places within reach, where none of those to be drawn fits.
+///
+/// From a stream of its own, so that a place's verdict is that of the graph of one point, moves from and to home
+/// included. A sample: what is told are counts of 200, by one reason each, the first that was met.
 fn of_places(setup: &ArmSetup) -> Vec<String> {
     let (station, scenario) = (&setup.station, &setup.scenario);
     if scenario.generate.mode == ArmMode::Cartesian {

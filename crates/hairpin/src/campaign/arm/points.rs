@@ -78,6 +78,10 @@ fn wrong(key: &str, error: ArmError) -> Mistake {
 }
 
 /// The frame that points are given in, and how those are turned that do not say it.
+///
+/// base_from_points is the identity (`base`), the work object's frame (`wobj`), or base_from_world (`world`), the
+/// inverse of where the base stands in the world. A default orientation that is no quaternion is a mistake whatever
+/// the points say.
 fn frame_of_points(
     scenario: &ArmScenario,
     work_object: &WorkObject,
@@ -120,6 +124,14 @@ fn at(place: Vector3<f64>, turn: UnitQuaternion<f64>) -> Isometry3<f64> {
 ///
 /// Given up after [`DRAWS`] further places of which none fits: an error where there are some points, an empty list,
 /// which the graph then explains, where there is none.
+///
+/// ```text
+/// p = centre + radius · u,  u uniform in the unit ball;  kept where `fits`
+/// ```
+///
+/// By rejection, from the stream `points` of the scenario's seed or of `seed` beside the count: the kept ones are
+/// uniform in the part of the ball where the arm can stand. All have one orientation, `turn` in the base frame. Cost
+/// is one `fits` a draw, which in joint mode follows moves from and to home.
 fn draw(
     seed: u64,
     drawn: &DrawnPoints,

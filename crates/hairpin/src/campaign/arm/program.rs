@@ -146,6 +146,8 @@ impl ArmSetup {
 }
 
 /// Moves from and to home.
+///
+/// 200 mm/s at the tool's point. The fallback (0.2 m/s, 1 rad/s) is for a table of names without `v200`.
 pub(super) fn slow() -> Speed {
     Speed::predefined("v200").unwrap_or(Speed {
         name: None,

@@ -21,6 +21,8 @@ pub struct Shorter {
 }
 
 /// Samples of a recording that are looked at to find its program.
+///
+/// Alignment costs samples times path: 512 tell one program from another.
 const SAMPLES: usize = 512;
 
 impl ArmSetup {
@@ -89,6 +91,8 @@ impl ArmSetup {
 }
 
 /// `recording` along `path`.
+///
+/// Turns count in the alignment only where orientations were recorded.
 fn aligned(path: &PlannedPath, recording: &Track, orientation_known: bool) -> Result<Measured, SimulationError> {
     let usual = MeasureSettings::default();
     let turn_weight = if orientation_known { usual.turn_weight } else { 0.0 };
@@ -98,6 +102,13 @@ fn aligned(path: &PlannedPath, recording: &Track, orientation_known: bool) -> Re
 }
 
 /// Where `recording` ends, if that is before its program does.
+///
+/// ```text
+/// reached = 1 + last move whose target was arrived at, at most the last; 0 where none was
+/// short   ⇔ the last target was missed, and (reached < last, or |end − p_(last−1)| < |end − p_last|)
+/// ```
+///
+/// Places in m, base frame; p_k is where the planned path passes target k.
 fn shorter(path: &PlannedPath, measured: &Measured, recording: &Track) -> Option<Shorter> {
     let moves = path.moves().len();
     let last = moves.saturating_sub(1);

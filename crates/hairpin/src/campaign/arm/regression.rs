@@ -137,6 +137,8 @@ impl ArmSetup {
     }
 }
 
+/// Told in this order: a case too many, a case too few, moves of other names, other numbers under the same names (by
+/// the digest that a baseline keeps).
 fn same_programs(release: &str, old: &[CaseMoves], new: &[CaseMoves]) -> Result<(), RegressionError> {
     let refuse = |case, what| Err(RegressionError::Programs { case, what });
     if let Some(extra) = new.iter().find(|one| old.iter().all(|other| other.case != one.case)) {

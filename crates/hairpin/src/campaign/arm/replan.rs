@@ -15,6 +15,11 @@ use crate::trajectory::program::{Motion, Program, Zone};
 ///
 /// A subset of the waypoints is a program again where every move between neighbours of the subset is one of the
 /// graph's: no search, O(points) a trial. Speeds stay, so what is shortened is the same program with points left out.
+///
+/// ```text
+/// rows r_1 … r_m of the kept waypoints:  possible ⇔ w(r_k, r_(k+1)) in the graph for all k, home → r_1, r_m → home
+/// score = Σ w(r_k, r_(k+1)) · unit
+/// ```
 pub(super) struct Shortened {
     graph: Arc<ArmGraph>,
     case: Case,

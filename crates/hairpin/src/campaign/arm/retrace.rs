@@ -104,6 +104,11 @@ impl ArmSetup {
     }
 
     /// Hands arm, tool and cell to `look`.
+    ///
+    /// What `look` gets, base frame and SI: six joints with their bounds; one body for each capsule (two points) and
+    /// hull (all its points) of links 1 … 6, in the link's own frame, each a convex set of points grown by a radius;
+    /// the tool as a capsule of link 6 from the flange to its point; the cell's solids. The base (link 0) is left out,
+    /// since it does not move. The clearance is the scenario's plus the deviation that the spec allows.
     fn claimed<T>(&self, look: impl FnOnce(&ArmClaim) -> T) -> T {
         let station = &self.station;
         let chain = &station.arm.chain;

@@ -112,12 +112,12 @@ impl Say for ArmSetup {
         false
     }
 
-    /// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to
-    /// the words.
     fn posed(&self, case: &Case, planned: Track) -> Track {
         plan::posed(self, case, planned)
     }
 
+    /// The cell around what is drawn: half-spaces, keep-outs in words and what has no surface of its own are left to
+    /// the words.
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
         let (mut low, mut high) = (Point3::origin(), Point3::origin());
         for place in places {
@@ -174,6 +174,11 @@ impl Say for ArmSetup {
 }
 
 /// Every sample of every joint that moves, and where it turns back the fastest that it was on the way there.
+///
+/// Rates are differences between neighbouring samples, rad/s, as shares of the joint's limit. What is met are bins
+/// of \[joint + ½, % of the range, % of the fastest, direction\]: 0.5 rising, 1.5 falling, 2.5 a reversal, which
+/// counts with the fastest speed of the stroke before it. Samples slower than 1 % of the limit count for nothing and
+/// end no stroke. Joints without a channel are left out.
 fn joints_met(setup: &ArmSetup, track: &Track, meet: &mut dyn FnMut(&[f64])) {
     let times = track.times();
     for joint in 0..AXES {

@@ -35,6 +35,9 @@ impl ArmSetup {
     }
 
     /// Angles with the tool at `pose` in a configuration.
+    ///
+    /// The first in the inverse's order, among all turns of all axes within the bounds; `None` where the arm cannot
+    /// stand so. For arms without a closed inverse the search begins at home.
     pub(super) fn posture(&self, pose: &Isometry3<f64>, wanted: &Configuration) -> Option<Joints> {
         let (station, flange) = (&self.station, self.station.flange(pose));
         let turned = station.arm.inverse(&flange, &station.home).into_iter().flat_map(|q| station.arm.turns_of(&q));

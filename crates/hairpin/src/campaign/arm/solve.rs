@@ -19,6 +19,8 @@ use crate::simulation::arm as controller;
 use crate::trajectory::program::{Program, Speed, Zone};
 
 /// Nodes of a search for the heaviest walk that only begins another one.
+///
+/// The walk that a random search begins from need not be proven heaviest.
 const MOST_NODES: u64 = 100;
 
 /// A graph as it is searched.
@@ -47,6 +49,15 @@ impl ArmSetup {
     ///
     /// Home's two points are row n (out) and row n + 1 (back). Where every point can begin and end a program the
     /// question has the cloud's n points alone.
+    ///
+    /// ```text
+    /// w(n, to) = 0         where home can be left for `to`
+    /// w(from, n + 1) = 0   where `from` can be left for home
+    /// w(from, to)          as in the graph; every other pair with home has no arc
+    /// ```
+    ///
+    /// So the sum over a path with home is the sum over the cloud's moves alone. O(n²) in time and memory. Where a
+    /// start or an end is fixed and home is in the question, only that row has an arc from home, or to it.
     fn question(&self, graph: &ArmGraph) -> Question {
         let search = &self.scenario.generate.search;
         let n = graph.points();
@@ -229,6 +240,9 @@ impl ArmSetup {
 
 impl ArmSetup {
     /// Durations that the virtual controller plans for the moves of `program`; none where it cannot.
+    ///
+    /// One entry a move after the first (which only stands at home), s, each above 0: the lag of servos and noise are
+    /// not in them.
     pub(super) fn leg_times(&self, program: &Program) -> Vec<f64> {
         let station = &self.station;
         let planned = self.orders(program).and_then(|orders| {
@@ -240,6 +254,8 @@ impl ArmSetup {
 }
 
 /// Durations of the moves; none where the arm stops before the last one, or takes no time for one.
+///
+/// `passed` are the times (s, from the start) at which moves end; duration k is `passed[k] − passed[k − 1]`.
 fn times(passed: &[f64], moves: usize) -> Vec<f64> {
     let mut before = 0.0;
     let times: Vec<f64> = passed

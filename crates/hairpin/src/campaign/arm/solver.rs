@@ -18,6 +18,8 @@ use crate::math::random::{Stream, named_seed, stream};
 use crate::search::heaviest::Method;
 
 /// Walks that are tried for one program.
+///
+/// A walk fails where the graph leads no further, or where the virtual controller stops on the way.
 const DRAWS: usize = 8;
 
 /// The search for an arm's programs.
@@ -150,12 +152,16 @@ impl Solver for ArmSolver<'_> {
         None
     }
 
+    /// One change of `plan` mostly near leg `leg` (`alter`), planned again; `None` where no change is possible or none
+    /// alters a move as it is written: a point's zone, for one, may be cut away by what stands beside it.
     fn altered(&self, plan: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let way = self.way_of(plan)?;
         let child = self.ways(&Stop::never()).ok()?.altered(&way, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))
     }
 
+    /// As [`Self::altered`], of two plans; `None` where either is no way through the cloud, no cut is possible, or
+    /// the child has its first parent's moves.
     fn crossed(&self, _: u64, plan: &Plan, other: &Plan, leg: usize, random: &mut Stream) -> Option<Plan> {
         let child = self.ways(&Stop::never()).ok()?.crossed(&self.way_of(plan)?, &self.way_of(other)?, leg, random)?;
         self.planned(&child).filter(|child| !alike(plan, child))

@@ -84,6 +84,8 @@ impl Station {
     }
 
     /// The cell and the sphere that the tool's point must stay in.
+    ///
+    /// That part comes last, so that the others keep their numbers.
     pub(super) fn cell_within_reach(&self) -> Cell {
         let (center, radius) = self.reach();
         let mut cell = self.cell.clone();
@@ -93,6 +95,15 @@ impl Station {
 
     /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at
     /// rest, as far as all lengths after it add up to, and what the first joint carries it around.
+    ///
+    /// ```text
+    /// centre = (0, 0, z_s),   radius = hypot(x_s, y_s) + Σ_{k=3…6} |origin_k| + |flange| + |tcp|
+    /// (x_s, y_s, z_s)  the second joint with the first at 0, base frame
+    /// ```
+    ///
+    /// The centre lies on the base's z axis, about which the first joint is taken to turn. Lengths add up as if the
+    /// arm were straight: larger than what the arm reaches, and never smaller where the first joint turns about that
+    /// axis.
     pub(super) fn reach(&self) -> (Vector3<f64>, f64) {
         let chain = &self.arm.chain;
         let shoulder = (chain.joints[0].origin * chain.joints[1].origin).translation.vector;

@@ -40,6 +40,8 @@ pub(super) fn verify(setup: &ArmSetup, case: &Case) -> Option<Proof> {
 }
 
 /// The leg that a move is, the first of which leads to where the legs begin, and when it is planned to end, s.
+///
+/// `at` is Σ of the planned durations of the moves before it, s: times beyond what is planned count as the plan's end.
 fn leg_of(case: &Case, index: usize) -> (usize, f64) {
     (index.saturating_sub(1), case.leg_times.iter().take(index).sum())
 }

@@ -162,6 +162,8 @@ impl<'a> Ways<'a> {
         self.angles(at).or_else(|| self.graph.postures.as_ref()?[at.row].as_ref().ok())
     }
 
+    /// The memory grows with the pairs asked for, never shrinks, and holds answers alone: the order of asking changes
+    /// nothing.
     fn is_followed(&self, from: Place, to: Place) -> bool {
         let known = || self.followed.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(leads) = known().get(&[from, to]) {
@@ -173,6 +175,9 @@ impl<'a> Ways<'a> {
         leads
     }
 
+    /// Moves from and to home go in joints, which are not held to singularities; moves between points are those of
+    /// the scenario's kind and must arrive within 10⁻³ rad of the angles asked for. `None`: not possible, or one end
+    /// has no angles.
     fn follow(&self, from: Place, to: Place) -> Option<()> {
         let station = &self.setup.station;
         let (arm, tool, settings) = (&station.arm, &station.tool, &self.settings);

@@ -38,6 +38,9 @@ pub(super) fn moves_of(
     program.moves.iter().map(|one| move_of(program, one, &told)).collect()
 }
 
+/// A configuration is told on only where the move demands one; `angles` (rad) only of joint moves whose target demands
+/// one and for which `told` knows them. Targets stay in the work object's frame, of which `object` has both parts:
+/// base_from_object = user · object.
 fn move_of(
     program: &Program,
     one: &Move,

@@ -51,6 +51,10 @@ fn distance(a: &Joints, b: &Joints) -> f64 {
 
 /// The posture at a target: the demanded one, else the one nearest to `near`.
 ///
+/// The refusal, from the strongest reason down: nothing reaches the pose at all; of the solutions in the demanded
+/// branch one is beyond a bound, told with the bound that is passed by least; the pose can be met but not so demanded.
+/// Axes of a chain without closed inverse are looked for from `near`: there `OutOfReach` means that none was found.
+///
 /// # Errors
 /// Why there is none, and the posture with the most room that would do instead.
 pub(super) fn choose(

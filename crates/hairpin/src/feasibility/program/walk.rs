@@ -1,4 +1,16 @@
 //! A program followed move by move in the joints of an arm.
+//!
+//! The state between two moves is where the arm stands, in joints, if that is known:
+//!
+//! ```text
+//! q_(k+1) = end of the followed move                 MoveL, MoveC: by continuation from q_k
+//!         = the posture at the target                MoveJ: demanded, or nearest to q_k by Σ|Δq|
+//!         = what is told                             MoveAbsJ
+//!         = a posture at the target, or unknown      after a refusal
+//! ```
+//!
+//! Arms of which the meaning of a configuration is not known (chains) are followed in the posture that is nearest, and
+//! everything that rests on that is told as open.
 
 use nalgebra::Isometry3;
 
@@ -192,6 +204,10 @@ impl Walk<'_> {
     }
 
     /// Notes where bodies of which neither is known meet on a move that is fine but for them.
+    ///
+    /// A collision of two bodies that are both stand-ins is no finding about the arm. It is looked for apart, after a
+    /// move passed with all that is known, and is told as open. Any other refusal of that second look is left out: the
+    /// first look had it.
     fn doubt(&mut self, index: usize, m: &Move, way: &Way, start: &Joints) {
         let Carried { tool, doubtful, .. } = &self.tools[m.tool];
         let Some(doubtful) = doubtful else { return };
@@ -217,6 +233,9 @@ impl Walk<'_> {
     }
 
     /// Takes the arm to the target in joints.
+    ///
+    /// Tried in this order: what is demanded; where nothing is demanded and nothing was ever known, the configuration
+    /// that the target carries; else any, the nearest by Σ|Δq| to where the arm stood last.
     fn arrive(&mut self, index: usize, m: &Move, to: &PoseTarget, demanded: Option<[i32; 4]>) {
         // Nobody demands it, but where nothing else is known it is what the program's maker saw.
         let seen = to.configuration.filter(|_| demanded.is_none() && self.last.is_none());
@@ -259,6 +278,10 @@ impl Walk<'_> {
     }
 
     /// The posture at the move's start from which it fits with the most room.
+    ///
+    /// Every other posture that has the same pose at the start is followed along the whole way: up to eight branches
+    /// on all turns of the axes, each as dear as the move. Not looked for after 50 findings, nor for arms whose
+    /// configurations are not known.
     fn remedy(&self, m: &Move, way: &Way, start: &Joints) -> Option<Fit> {
         if self.checked.findings.len() >= MOST_REMEDIES || !self.arm.knows_configurations() {
             return None;

@@ -91,6 +91,9 @@ pub const APART: usize = 3;
 const SHARES: [f64; AXES + 1] = [0.15, 0.14, 0.11, 0.10, 0.08, 0.07, 0.055];
 
 /// Stand-in capsules along the dimensions of an arm.
+///
+/// Radii are shares of c2 + c3, lengths those of the dimensions, all in m, in the link frames of [`Opw::chain`]. One
+/// capsule a link, two of link 3 (to the forearm's axis and along it); that of link 5 is a ball.
 pub(super) fn of_opw(opw: &Opw) -> [Vec<Capsule>; AXES + 1] {
     let length = opw.c2 + opw.c3;
     let radius: [f64; AXES + 1] = SHARES.map(|share| share * length);
@@ -111,6 +114,14 @@ pub(super) fn of_opw(opw: &Opw) -> [Vec<Capsule>; AXES + 1] {
 
 /// Stand-in capsules from joint to joint, a twelfth of the reach thick at the base and a twenty-fourth at the flange;
 /// two that would meet in every posture are as much thinner as it takes for them not to.
+///
+/// ```text
+/// radius_k = reach/(12 + 2k),   k = 0 (base) … 6;     from the link's origin to the next joint's, or to the flange
+/// ```
+///
+/// A pair at least [`APART`] links from each other whose axes come no farther apart than both radii, in any posture
+/// looked at, shrinks to 0.9 of that distance in all; pairs are looked at in turn, so that a link may become thinner
+/// more than once.
 pub(super) fn of_chain(chain: &Chain) -> [Vec<Capsule>; AXES + 1] {
     let reach = chain.reach();
     let mut capsules: [Capsule; AXES + 1] = std::array::from_fn(|link| {
@@ -140,6 +151,9 @@ const THINNEST: f64 = 0.33;
 const POSTURES: usize = 6;
 
 /// The largest distance of the axes of two links' capsules, over postures of the joints between them, m.
+///
+/// 6^(high − low) postures at most: 216 for links three apart, 46 656 for base and flange; ended by the first in
+/// which they are apart enough. A lower bound of the true largest distance.
 fn most_apart(chain: &Chain, capsules: &[Capsule; AXES + 1], [low, high]: [usize; 2]) -> f64 {
     // The first of the joints between turns the higher link about a line through the lower one's end, and the last of
     // them its own: their angles count as well, of few postures each.
@@ -178,6 +192,13 @@ impl Chain {
     /// Σ over k, from the tip: `turns[k]` · (distance from axis k + what the joints beyond have added), since an arc is
     /// no longer than angle times radius. `points` are those of the link whose hull it is: a capsule's two ends bound
     /// its axis.
+    ///
+    /// `points`, `axes` in the base frame, m; the sum is over the joints that carry the link, 1 … `link`, from the tip
+    /// inwards:
+    ///
+    /// ```text
+    /// D_k = D_(k+1) + Δ_k (d_k + D_(k+1)),   D_(link+1) = 0,   d_k the largest distance of a point from axis k
+    /// ```
     pub fn displacement(
         axes: &[(Point3<f64>, Vector3<f64>); AXES],
         link: usize,

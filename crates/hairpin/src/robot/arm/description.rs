@@ -225,6 +225,9 @@ fn are_zero(numbers: &[f64; 3]) -> bool {
 
 impl MassDescription {
     /// The tensor of inertia about the centre, kg m².
+    ///
+    /// Rows (xx, xy, xz), (xy, yy, yz), (xz, yz, zz): products enter with the sign that they are given with, so that
+    /// a file has −∫ xy dm, as URDF does.
     pub fn tensor(&self) -> Matrix3<f64> {
         let ([xx, yy, zz], [xy, xz, yz]) = (self.inertia_kg_m2, self.products_kg_m2);
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
@@ -460,6 +463,7 @@ impl ChainDescription {
     }
 }
 
+/// Degrees become radians here. Accelerations that are missing are speed/0.2 s and marked as estimated.
 impl JointsDescription {
     fn build(&self, estimated: &mut Vec<String>) -> Result<[JointLimit; AXES], ArmError> {
         if self.acceleration_deg_s2.is_none() {
@@ -494,6 +498,9 @@ impl JointsDescription {
 }
 
 /// What a link's outline is with a body more, which may be so much larger than what it is around.
+///
+/// mm in, m kept: the most that any body of the link may be too large; a millimetre or less counts as the shape
+/// itself.
 fn larger(key: &str, mm: f64, before: Outline) -> Result<Outline, ArmError> {
     let much = within(key, mm, 0.0, 1e5)? * 1e-3;
     Ok(match before {
@@ -504,6 +511,7 @@ fn larger(key: &str, mm: f64, before: Outline) -> Result<Outline, ArmError> {
     })
 }
 
+/// origin = Trans(mm · 10⁻³) · Rz(yaw) Ry(pitch) Rx(roll), as URDF has roll, pitch and yaw.
 fn frame([at, turned]: [&str; 2], mm: &[f64; 3], rpy_deg: &[f64; 3]) -> Result<Isometry3<f64>, ArmError> {
     for angle in rpy_deg {
         within(turned, *angle, -3600.0, 3600.0)?;
@@ -520,6 +528,7 @@ pub(super) fn place(key: &str, at: &[f64; 3]) -> Result<Vector3<f64>, ArmError> 
     Ok(Vector3::from(*at))
 }
 
+/// NaN is within no bounds.
 pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<f64, ArmError> {
     if (low..=high).contains(&value) {
         Ok(value)

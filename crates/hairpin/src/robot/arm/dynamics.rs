@@ -24,6 +24,16 @@ impl Arm {
     ///
     /// q in rad, q̇ in rad/s, q̈ in rad/s². The tool is a point mass at its centre of mass; links have whole tensors of
     /// inertia.
+    ///
+    /// ```text
+    /// outwards   α_k = α_(k−1) + a_k q̈_k + ω_(k−1) × a_k q̇_k,   ω_k = ω_(k−1) + a_k q̇_k
+    ///            ẍ_k = ẍ_(k−1) + α × r + ω × (ω × r),   ẍ_0 = (0, 0, g)
+    ///            f_k = m_k ẍ_centre,   n_k = I_k α_k + ω_k × I_k ω_k
+    /// inwards    τ_k = a_k · Σ_{j ≥ k} [n_j + (c_j − o_k) × f_j],   the tool's force as one more
+    /// ```
+    ///
+    /// All in the base frame; a_k and o_k are axis k's direction and origin, r leads from one axis' origin to the
+    /// next. Motion of the base and friction are none.
     pub fn torques(&self, tool: &Tool, q: &Joints, speed: &Joints, acceleration: &Joints) -> Option<Joints> {
         let frames = self.chain.frames(q);
         let axes = self.chain.axes(&frames);

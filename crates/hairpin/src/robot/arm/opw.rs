@@ -75,6 +75,9 @@ impl Opw {
     }
 
     /// The same arm as a chain of joints.
+    ///
+    /// Offsets turn the joints' frames at rest by −offset about their axes and signs turn the axes round, so that q
+    /// counts as the file has it: frames at q are those of θ = sign · q − offset.
     pub fn chain(&self) -> Chain {
         let (y, z) = (Vector3::y(), Vector3::z());
         let axes = [z, y, y, z, y, z];
@@ -97,6 +100,10 @@ impl Opw {
     }
 
     /// The wrist centre at the joint angles `q`.
+    ///
+    /// ```text
+    /// e = θ₃ + atan2(a2, c3),   (x, z) = c2 (sin θ₂, cos θ₂) + k (sin(θ₂ + e), cos(θ₂ + e)),   forward = x + a1
+    /// ```
     pub fn wrist_centre(&self, q: &Joints) -> WristCentre {
         let theta = self.paper(q);
         let elbow = theta[2] + self.slant();
@@ -193,6 +200,8 @@ impl Opw {
 }
 
 /// The same direction in (−π, π].
+///
+/// NaN stays NaN. −π itself becomes π.
 fn half_turn(angle: f64) -> f64 {
     let turned = angle - TAU * (angle / TAU).round();
     if turned <= -PI { turned + TAU } else { turned }

@@ -52,6 +52,9 @@ impl Arm {
     }
 
     /// ‖J(q)⁻¹‖ grows by no more than ‖J⁻¹‖·L·‖Δq‖ at first order, L = √72 with lengths over the reach (docs/arms.md).
+    ///
+    /// With ‖J⁻¹‖ at most doubled on the piece, rates are at most twice those at the sample, and the margin no less
+    /// than half of it: which the piece must be short enough for.
     fn of_chain(&self, q: &Joints, sweep: &Sweep, half: f64) -> Option<PieceBounds> {
         const GROWTH: f64 = 8.49;
         let inverse = 1.0 / self.chain_margin(q);
@@ -74,6 +77,15 @@ impl Arm {
     }
 }
 
+/// ```text
+/// V = speed + turn |flange→tcp + c4 e_z|                       of the wrist's centre, m per unit of the parameter
+/// |θ₁′| ≤ V/forward,   planar ≤ V √(1 + b²/forward²)           with the least `forward` of the piece
+/// |θ₂′| ≤ planar/(c2 |sin e|),   |θ₃′| ≤ p_far planar/(c2 k |sin e|)
+/// |θ₄′|, |θ₆′| ≤ relative/|sin θ₅|,   |θ₅′| ≤ relative = turn + hypot(θ₁′, planar/(k |sin e|))
+/// ```
+///
+/// Sines are the least on the piece: the elbow's at the nearest and the farthest distance of the wrist from the
+/// shoulder, the wrist's at θ₅ ± relative · half. `None` where one of the three may become 0.
 fn of_opw(opw: &Opw, q: &Joints, sweep: &Sweep, half: f64) -> Option<PieceBounds> {
     let at = opw.wrist_centre(q);
     let k = opw.forearm();

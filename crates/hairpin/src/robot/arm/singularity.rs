@@ -40,6 +40,9 @@ pub struct Margin {
 
 impl Margin {
     /// The least of several.
+    ///
+    /// A margin that is no number is passed over, and of none the margin is infinite: postures that are none are told
+    /// by their bounds (`Arm::outside_limits`), not here.
     pub(super) fn least(margins: impl IntoIterator<Item = Self>) -> Self {
         let none = Self { of: Singularity::Chain, value: f64::INFINITY };
         margins.into_iter().fold(none, |least, margin| if margin.value < least.value { margin } else { least })

@@ -112,6 +112,7 @@ pub fn unit_quaternion_of(field: &str, q1_q4: [f64; 4]) -> Result<UnitQuaternion
     }
 }
 
+/// mm become m; `at` and `turned` are the keys that errors name.
 fn frame([at, turned]: [&str; 2], mm: [f64; 3], q1_q4: [f64; 4]) -> Result<Isometry3<f64>, ArmError> {
     let shift = place(at, &mm)? * 1e-3;
     Ok(Isometry3::from_parts(Translation3::from(shift), unit_quaternion_of(turned, q1_q4)?))

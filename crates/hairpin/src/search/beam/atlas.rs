@@ -99,6 +99,9 @@ where
     }
 
     /// The legs from `node`: indices that hold until [`Atlas::tidy`].
+    ///
+    /// The first time one question to the reach set; afterwards O(1). Indices are into one list of all legs known, in
+    /// the order of the reach set's answer.
     pub(super) fn legs(&mut self, node: u32) -> Range<usize> {
         let (mut first, mut count) = self.spans[node as usize];
         if (first, count) == UNKNOWN {
@@ -165,6 +168,7 @@ where
         self.cannot[word] |= 1 << (steps % 64);
     }
 
+    /// New nodes get the next number and room for their bits: `words` words each for yes and for no.
     fn number(&mut self, node: N, waypoint: u32) -> u32 {
         let next = self.nodes.len() as u32;
         let number = *self.numbers.entry(node).or_insert(next);

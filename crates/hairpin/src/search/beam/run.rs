@@ -266,6 +266,9 @@ where
     }
 
     /// Orders the frontier anew where a leg was worth less than all before it.
+    ///
+    /// O(n log n) whenever a new least is met; `least` never rises and is 0 at first, so that scores of 0 and more
+    /// never pay for it.
     fn rank_again(&mut self) {
         if self.growth.least() >= self.least {
             return;
@@ -292,6 +295,7 @@ where
         self.outcome.dropped + self.outcome.unkept == 0 && (self.outcome.reduced == 0 || self.settings.revisits)
     }
 
+    /// Indices of candidates with the aggregated score, in the order given.
     fn show(&self, entries: &[Entry]) -> Vec<(Vec<u32>, f64)> {
         entries.iter().map(|entry| (self.tree.waypoints(entry.id), self.tree.get(entry.id).score)).collect()
     }

@@ -111,6 +111,7 @@ pub(super) fn best_first<N: Copy>(
     result
 }
 
+/// Nodes and waypoints have one entry a waypoint, leg times (s) one less.
 fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<f64>, id: u32) -> Found<N> {
     let mut nodes: Vec<u32> = tree.backwards(id).map(|p| p.node).collect();
     let mut leg_times: Vec<f64> = tree.backwards(id).map(|p| p.duration).collect();

@@ -86,6 +86,9 @@ pub(super) fn descent<N: Copy>(
 
 /// The best `width` in order, the others gone. Beside the search, which is compiled for each kind of node: a sort is as
 /// large as it is.
+///
+/// Ties by the aggregated score, then by parent and leg: the order is total, so that the layer is the same in every
+/// run. O(n + width log width).
 fn keep_best(labels: &mut Vec<Label>, width: usize) {
     let best = |a: &Label, b: &Label| {
         b.bound.total_cmp(&a.bound).then(b.score.total_cmp(&a.score)).then((a.parent, a.leg).cmp(&(b.parent, b.leg)))
@@ -107,6 +110,9 @@ fn key(waypoint: u64) -> u64 {
 }
 
 /// The visited sets of `labels`, from those of their parents.
+///
+/// One row of `words` 64-bit words a label, rows in the order of the labels: bit w is set where waypoint w was
+/// visited.
 fn sets(labels: &[Label], parents: &[u64], words: usize, waypoint: impl Fn(&Label) -> u32) -> Vec<u64> {
     let mut sets = Vec::with_capacity(labels.len() * words);
     for label in labels {
@@ -118,6 +124,7 @@ fn sets(labels: &[Label], parents: &[u64], words: usize, waypoint: impl Fn(&Labe
     sets
 }
 
+/// Follows the labels' parents back through the layers, one leg a layer.
 fn trace<N: Copy>(graph: &LegGraph<'_, N>, layers: &[Vec<Label>], label: usize) -> Found<N> {
     let last = layers.len() - 1;
     let mut legs = vec![0; last];

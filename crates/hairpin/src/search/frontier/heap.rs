@@ -32,6 +32,9 @@ impl<T: Copy> IntervalHeap<T> {
     }
 
     /// O(log n) comparisons along the side of the heap that the item belongs to.
+    ///
+    /// Equal items may lie in any order: an order that tells all items apart makes what is taken independent of how
+    /// they came.
     pub(in crate::search) fn push(&mut self, item: T, order: impl Fn(&T, &T) -> Ordering) {
         self.items.push(item);
         let at = self.items.len() - 1;
@@ -120,6 +123,8 @@ impl<T: Copy> IntervalHeap<T> {
         Some(worst)
     }
 
+    /// Up the lows while the item is less than its parent's low: item `at` ≥ 2 has its parent in the pair (⌊at/2⌋ −
+    /// 1)/2.
     fn raise_low(&mut self, mut at: usize, order: impl Fn(&T, &T) -> Ordering) {
         while at > 1 {
             let parent = low_of_parent(at);

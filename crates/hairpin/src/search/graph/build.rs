@@ -95,6 +95,9 @@ struct Known<N> {
 impl<N: Copy + Eq + Hash> LegGraph<'_, N> {
     /// Appends the legs of one node. Where nodes differ in what was before their waypoint, rows lead to the same nodes:
     /// these are copied, and not looked up.
+    ///
+    /// Rows are taken for alike where their first legs lead to the same node at the same speed and they are as long;
+    /// then leg by leg, so that a row is only copied where all of it is the same.
     fn add_row(&mut self, legs: &[Leg<N>], known: &mut Known<N>) {
         let Some(head) = legs.first() else { return };
         let begin = *known.rows.entry((head.to, head.features.v_in.to_bits(), legs.len())).or_insert(self.to.len());
@@ -210,6 +213,8 @@ impl<N: Copy> LegGraph<'_, N> {
     }
 
     /// Fewest legs from the start; `u32::MAX` where there is no way.
+    ///
+    /// Breadth first, O(nodes + legs).
     fn distances_from_start(&self) -> Vec<u32> {
         let mut distance = vec![u32::MAX; self.nodes()];
         distance[0] = 0;
@@ -230,6 +235,8 @@ impl<N: Copy> LegGraph<'_, N> {
 
     /// Fewest legs to the end; `u32::MAX` where there is no way. In rounds over the nodes whose distance is not known:
     /// a list of the legs backwards would take longer, for few rounds are needed.
+    ///
+    /// O(rounds · legs of what is open), as many rounds as the farthest node has legs to the end.
     fn distances_to_end(&self) -> Vec<u32> {
         let nodes = 0..self.nodes() as u32;
         let mut distance: Vec<u32> = nodes.clone().map(|node| if self.at_end(node) { 0 } else { u32::MAX }).collect();

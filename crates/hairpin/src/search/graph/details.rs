@@ -15,10 +15,14 @@ pub(super) struct Details {
 }
 
 /// Duration, v_in, v_out, length, climb, ground: as bits, so that equal ones are one and the same number.
+///
+/// s, m/s, m/s, m, m and what the reach set says of the ground, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Onward([u64; 6]);
 
 /// turn, slope_in.
+///
+/// rad and the sine of an elevation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Turn([u64; 2]);
 

@@ -127,6 +127,8 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     }
 
     /// The legs along `nodes`, the first of which is the start's; `None` where there is no such leg.
+    ///
+    /// O(legs of the nodes): the row of each node is looked through once. `None` of an empty list too.
     pub(super) fn legs_along(&self, nodes: &[N]) -> Option<Vec<u32>>
     where
         N: Eq,

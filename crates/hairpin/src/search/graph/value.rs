@@ -46,6 +46,9 @@ impl LegScores {
 
 /// Best aggregated score of the walks of exactly s legs from a node to the end, for every s and every node that a walk
 /// of the whole length meets with s legs to go.
+///
+/// Layer s has one number a node, `NO_WALK` (NaN) where no walk of s legs leads to the end, or where no walk of the
+/// whole length meets the node with s legs to go.
 #[derive(Debug, Clone)]
 pub(in crate::search) struct Values {
     aggregate: Aggregate,
@@ -105,6 +108,8 @@ impl<N: Copy> LegGraph<'_, N> {
 
     /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no
     /// more than `length` waypoints.
+    ///
+    /// Few are nodes whose legs are a sixteenth of all at most. Rows are rising and without repeats.
     pub(in crate::search) fn near_start(&self, length: usize) -> Vec<Vec<u32>> {
         let mut layers = vec![vec![0]];
         let legs = |nodes: &[u32]| nodes.iter().map(|&node| self.legs_from(node).len()).sum::<usize>();

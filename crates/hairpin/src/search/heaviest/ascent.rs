@@ -16,6 +16,8 @@ const MOMENTUM: f64 = 0.3;
 const LOOKED_AT: usize = 1 << 17;
 
 /// Limits below leave room for the sums of all prices, whose number `cuts` bounds.
+///
+/// With a limit per multiplier below 2³⁵ every sum of prices fits; above it cuts share the room among themselves.
 const SMALL: i64 = 1 << 35;
 
 /// Multipliers, the best so far, and what relaxed solutions had in common.
@@ -64,6 +66,8 @@ pub(super) struct Pace {
 }
 
 /// Looks after which it is asked whether to stop: so many as take some milliseconds.
+///
+/// ⌊2¹⁷/choices⌋ looks, 1 to 32.
 pub(super) fn asked_every(choices: &Choices) -> usize {
     (LOOKED_AT / choices.len()).clamp(1, 32)
 }

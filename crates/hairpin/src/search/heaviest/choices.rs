@@ -185,6 +185,8 @@ impl Choices {
     }
 
     /// Calls `rule(number, share)` for every rule that a choice has a share in.
+    ///
+    /// Shares are 1, but for an undirected loop, which is both of its point's two.
     fn rules_of(&self, id: usize, mut rule: impl FnMut(usize, i32)) {
         let leaves = |point: usize| point;
         let enters = |point: usize| if self.directed { self.points + point } else { point };
@@ -216,6 +218,8 @@ impl Choices {
     }
 
     /// What a rule's shares sum to.
+    ///
+    /// Directed: 1 out of and 1 into each point. Undirected: 2 at each point. 1 of starts and of ends.
     fn whole(&self, rule: usize) -> i32 {
         if self.directed || rule >= self.starts_rule { 1 } else { 2 }
     }

@@ -51,6 +51,9 @@ pub(super) struct Circulation {
 impl Net {
     /// Arcs from the dummy to where a path may begin, and to it from where one may end, cost nothing. That sums of them
     /// stay within 64 bits is checked before.
+    ///
+    /// n + 1 rows and columns; arcs that are missing and the diagonal are out, where the diagonal of a point stands
+    /// for its loop.
     pub(super) fn new(arcs: &Arcs, ends: Ends, visits: i64) -> Self {
         let n = arcs.points();
         let nodes = n + 1;
@@ -175,6 +178,8 @@ impl<'a> Transport<'a> {
     ///
     /// One unit of an open arc, K of a point's loop, nothing where a branch has decided: what is in has been sent
     /// beforehand.
+    ///
+    /// The dummy has no loop: every circulation passes it once.
     fn capacity(&self, from: usize, to: usize) -> i64 {
         match self.net.state((from, to)) {
             State::Open => 1,
@@ -285,6 +290,8 @@ impl<'a> Transport<'a> {
     }
 
     /// More than the bound is above 0.
+    ///
+    /// max(bound, 0) + 1: moving a price by it brings the bound below 0, as it falls by one unit or more for each.
     fn far(&self) -> i64 {
         i64::try_from(self.net.bound(&self.prices).max(0)).map_or(i64::MAX / 8, |bound| bound + 1)
     }

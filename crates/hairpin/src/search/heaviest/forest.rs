@@ -119,6 +119,8 @@ fn weight(choices: &Choices, id: usize, multipliers: &[i64]) -> i64 {
 }
 
 /// The set's name; O(log n), as sets are joined by size.
+///
+/// Walks up without shortening the way: the order of joins along it is what [`Forest::narrowest`] reads.
 #[inline(always)]
 fn root(links: &[Link], mut point: u32) -> u32 {
     while links[point as usize].time != ROOT {
@@ -194,6 +196,9 @@ impl<K: Key> Forest<K> {
     ///
     /// Tarjan's way to test minimal trees (1979), with paths halved: near O(m) for all of them. `None` where nothing
     /// else joins the two parts.
+    ///
+    /// Choices beside the tree come heaviest first; each covers the tree's edges on its way that none covered before,
+    /// and is their best replacement. One entry a join, in the order of joins.
     fn replacements(&mut self, choices: &Choices) -> Vec<Option<i64>> {
         let n = choices.points + 1;
         // The tree as parents, from the dummy outwards.

@@ -285,6 +285,8 @@ impl<'a, R: Relaxation> Root<'a, R> {
     }
 
     /// Whether a round took a twentieth of what was left between the bound and the best.
+    ///
+    /// gap after < 0.95 · gap before, in scaled costs, both against the best path so far.
     fn nearer(&self, before: i64) -> bool {
         let best = self.best.cost().max(0) * self.scale;
         ((self.ascent.bound - best) as f64) < 0.95 * (before - best) as f64
@@ -305,6 +307,10 @@ impl<'a, R: Relaxation> Root<'a, R> {
     }
 
     /// Bounds the whole problem, and goes on while paths get better; whether nothing is left to prove.
+    ///
+    /// Rounds go in three stages: kicks and subgradient steps while paths get better and two rounds beyond; then,
+    /// where much is open, steps along means of relaxed solutions; then cuts that the mean violates, priced by further
+    /// means, eight rounds of them at most.
     fn settle(&mut self, settings: &HeaviestSettings) -> bool {
         // Branching with a path that is not the heaviest costs many times what kicks cost.
         let points = self.arcs.points() as u64;
@@ -396,11 +402,15 @@ impl<'a, R: Relaxation> Root<'a, R> {
     }
 }
 
+/// In units of cost, rounded towards 0: the local search only ranks by them.
 fn unscaled(multipliers: &[i64], scale: i64) -> Vec<i64> {
     multipliers.iter().map(|multiplier| multiplier / scale).collect()
 }
 
 /// The same problem without the arcs that are out.
+///
+/// `None` where what is left contradicts itself. Choices keep their certificate numbers, as these do not count arcs
+/// ([`Choices::number`]). O(m + n).
 fn forget(choices: &Choices, made: &Made) -> Option<(Choices, Made)> {
     let kept: Vec<usize> = (0..choices.arcs.len()).filter(|id| made.state[*id] != OUT).collect();
     let mut few = Choices::new(choices.points, choices.directed, kept.iter().map(|id| choices.arcs[*id]).collect());

@@ -107,6 +107,11 @@ fn split(
 }
 
 /// Finds the heaviest path of `part`, as a heaviest path from its last point through the points that are left.
+///
+/// The smaller problem has the last point of the beginning as its point 0, or a place before all, and the points that
+/// are left behind it; barred points have no arc from 0. Every arc from 0 has one unit more than it costs, so that
+/// going on at no cost is preferred to staying; the unit is taken off the answer and off the bound again. O(n²) beside
+/// the search.
 fn solve(
     arcs: &Arcs,
     settings: &HeaviestSettings,

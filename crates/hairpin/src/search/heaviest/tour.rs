@@ -17,6 +17,9 @@ pub(super) struct Table {
 impl Table {
     /// The table with the dummy as point n: its arcs cost 0 where a path may begin or end, and a missing arc costs more
     /// than any two arcs bring in, so that no gain is bought with one.
+    ///
+    /// Of a symmetric table the dummy's arcs are symmetric too: an end that is fixed has the penalty added there, so
+    /// that it pays to keep it beside the dummy, whichever side it is on.
     pub(super) fn new(arcs: &Arcs, ends: Ends) -> Self {
         let n = arcs.points();
         // Worth more than any two arcs that a repair could lose.

@@ -28,6 +28,15 @@ impl Ascent {
     /// `step` holds the mean v̄, not a step; multipliers are always set out from the best ones, λ = best + t v̄.
     /// Barahona and Anbil, "The volume algorithm: producing primal solutions with a subgradient method", Mathematical
     /// Programming 87, 2000.
+    ///
+    /// ```text
+    /// v̄ ← α d + (1 − α) v̄,   α = clamp((v̄² − d·v̄)/|d − v̄|², share/10, share)
+    /// λ = λ_best + factor (L_best − target)/|v̄|² · v̄
+    /// ```
+    ///
+    /// d is the excess at λ. The factor grows by 1.1 where a better bound lies along the mean (d·v̄ ≥ 0), up to 2,
+    /// and shrinks to 0.66 of itself after ten looks in vain. Ends early where 1000 looks bring the gap down by less
+    /// than a twentieth.
     pub(super) fn mean<R: Relaxation>(
         &mut self,
         relaxation: &mut R,

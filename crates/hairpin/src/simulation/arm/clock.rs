@@ -98,6 +98,8 @@ impl Law {
     }
 
     /// `squared` is x = ṡ² at every knot.
+    ///
+    /// Times by Δt = 2h/(ṡ₀ + ṡ₁), areas by the integral of each interval's cubic. O(knots).
     fn new(knots: &Knots, squared: &[f64], window: f64) -> Self {
         let nodes = squared.len();
         let rates: Vec<f64> = squared.iter().map(|x| x.sqrt()).collect();
@@ -144,6 +146,14 @@ impl Law {
     }
 
     /// The same, where `t` is known to lie in the interval `i`, or before or behind all.
+    ///
+    /// Within an interval the push a = (ṡ₁ − ṡ₀)/Δt is constant:
+    ///
+    /// ```text
+    /// s = s₀ + ṡ₀ dt + ½ a dt²,   ∫ s = A₀ + s₀ dt + ½ ṡ₀ dt² + a dt³/6
+    /// ```
+    ///
+    /// Before 0 all are 0; behind the end s stays and its integral grows on, which is what the window needs.
     fn raw_in(&self, t: f64, i: usize) -> [f64; 4] {
         let last = self.times.len() - 1;
         if last == 0 || t <= 0.0 {
@@ -167,6 +177,8 @@ impl Law {
     }
 
     /// Progress where the law without the window is `now`, and `before` as long before as the window is wide.
+    ///
+    /// s is clipped to the section's length: differences of two areas may round beyond it.
     fn averaged(&self, now: [f64; 4], before: impl FnOnce() -> [f64; 4]) -> Progress {
         let [s, rate, acceleration, area] = now;
         if self.window == 0.0 {
@@ -210,6 +222,10 @@ impl Law {
     /// multiplied where there is one.
     ///
     /// At most 1: the law keeps every limit at every look. `slower` are factors of x, one a knot.
+    ///
+    /// A limit that is exceeded by a ratio multiplies the caps of all knots that the window holds at that look by
+    /// 0.97/ratio: a rate's square goes with x, and so does what an acceleration is made of. O(looks · joints), 20
+    /// looks a window.
     fn lower(&self, section: &Section, asked: &Asked, slower: &mut [f64]) -> f64 {
         let step = self.window / LOOKS;
         let (mut worst, mut span, mut head, mut tail) = (0.0f64, 0, 0, 0);
@@ -271,6 +287,10 @@ impl Asked {
     }
 
     /// The largest ratio of a joint's speed (squared) or acceleration to what it can, at a share of a span.
+    ///
+    /// ```text
+    /// max over joints of  (q′ ṡ/q̇_max)²  and  |q″ ṡ² + q′ s̈| / (0.97 q̈_max)
+    /// ```
     fn ratio(&self, section: &Section, span: usize, share: f64, now: &Progress) -> f64 {
         let jet = section.jet(span, share);
         let squared = square(now.rate);

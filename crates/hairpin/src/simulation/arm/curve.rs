@@ -91,6 +91,12 @@ impl ToolCurve {
 
     /// `base_from_tcp` where this move's share `u` and the next move's share `v` add up about their common corner: with
     /// u = 1 − f(1 − w)², v = g w² a parabola between two lines.
+    ///
+    /// ```text
+    /// p = p₁(u) + p₂(v) − C,   R = R₁(u) R_C⁻¹ R₂(v)
+    /// ```
+    ///
+    /// C and R_C are where the next move begins. At w = 0 it is this move's pose, at w = 1 the next one's.
     pub(super) fn blend(&self, u: f64, next: &Self, v: f64) -> Isometry3<f64> {
         let (a, b) = (self.at(u), next.at(v));
         let place = a.translation.vector + b.translation.vector - next.from.translation.vector;

@@ -66,6 +66,15 @@ impl Plan<'_> {
     /// The same where a controller of the caller's own gives the servos their set points, if one is given: it is told
     /// the plan in time, and the run lasts as long as the plan does. As reproducible as the controller is.
     ///
+    /// ```text
+    /// u(t)  set point of the plan at t − pauses − delays, rad (or the caller's)
+    /// q_k ← play_k(servo_k(u_k)),   pose = forward(q) · tool · offset
+    /// ```
+    ///
+    /// One set point every sample/n s, n = round(sample/interpolation), at least 1. Samples are at multiples of
+    /// `sample`, the first at 0 at rest. A caller's controller sees angles and rates (rad, rad/s, backward
+    /// differences) at the beginning of each period.
+    ///
     /// # Errors
     /// As [`Self::execute`]; a period out of bounds; [`SimulationError::Controller`].
     pub fn execute_by(
@@ -221,6 +230,8 @@ impl Cursor {
     }
 
     /// The move that is being executed, and whether the set points move.
+    ///
+    /// The section is the one that the set points are in; `end` is when the last law is over, s.
     fn place(&self, plan: &Plan, begins: &[f64], time: f64, end: f64) -> (usize, Status) {
         let law = &plan.timed[self.section].law;
         let since = time - begins[self.section];
@@ -282,6 +293,8 @@ impl Columns {
     }
 
     /// Speeds by differences of places without noise, m/s.
+    ///
+    /// The first sample has speed 0. Differences over one sample: a speed that changes within it is seen as its mean.
     fn track(self, sample: f64) -> Track {
         let still = std::iter::once(0.0);
         let speed = still.chain(self.places.windows(2).map(|pair| (pair[1] - pair[0]).norm() / sample)).collect();
@@ -296,6 +309,9 @@ impl Columns {
 }
 
 /// What an instrument says of `pose`.
+///
+/// p + σ_p n₁,  R · exp(σ_o n₂ as a rotation vector), with n₁, n₂ of three standard normals each: the turn is about
+/// axes of the tool. Draws six numbers where either is not 0, none else.
 fn measured(pose: &Isometry3<f64>, noise: &Noise, random: &mut Stream) -> Isometry3<f64> {
     if noise.position == 0.0 && noise.orientation == 0.0 {
         return *pose;

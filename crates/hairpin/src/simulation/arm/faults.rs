@@ -45,6 +45,7 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// Whether it is one that an arm can have.
     ///
     /// Widths to 1 rad, shares to 1, lags to 10 s, delays to 3600 s, offsets to 10 m.
     ///

@@ -81,6 +81,9 @@ pub(super) struct Follower<'a> {
 impl Follower<'_> {
     /// Joint angles for the flange in `branch`, on the turns nearest to `near`, within limits and away from
     /// singularities.
+    ///
+    /// Asked in this order: reach, margin, bounds; the first that fails is told. `near` is the sample before, rad,
+    /// whose turns are kept.
     pub(super) fn solve(&mut self, flange: &Isometry3<f64>, branch: Branch, near: &Joints) -> Result<Joints, Reason> {
         let found = self.arm.inverse_in(flange, branch, near).ok_or(Reason::OutOfReach)?;
         self.iterations += u64::from(found.iterations);
@@ -141,6 +144,8 @@ impl Follower<'_> {
     }
 
     /// Whether `joints` are in the configuration `wanted`; an angle on the border of two quadrants is in both.
+    ///
+    /// Quadrant k of an axis is k · 90° … (k + 1) · 90°; an angle within 10⁻⁶ rad of a border counts for both sides.
     pub(super) fn meets(&self, joints: &Joints, wanted: Configuration) -> Result<(), Reason> {
         const BORDER: f64 = 1e-6;
         let found = self.arm.configuration(joints);

@@ -66,6 +66,8 @@ impl Section {
     }
 
     /// A node `step` farther in s, and the span that leads to it.
+    ///
+    /// The span holds for the whole way from the last node; slopes are missing until [`Section::shape`].
     pub(super) fn push(&mut self, step: f64, joints: Joints, pose: Isometry3<f64>, span: Span) {
         self.s.push(self.length() + step);
         self.joints.push(joints);
@@ -135,6 +137,13 @@ impl Section {
     }
 
     /// The cubic of span `i` at the share `u` of it, with its derivatives.
+    ///
+    /// ```text
+    /// q′ = 6u(1 − u) chord + (1 − u)(1 − 3u) m₀ + u(3u − 2) m₁
+    /// q″ = [6(1 − 2u) chord + (6u − 4) m₀ + (6u − 2) m₁]/h
+    /// ```
+    ///
+    /// q′ is continuous across nodes, q″ jumps there: limits are asked from both sides.
     pub(super) fn jet(&self, i: usize, u: f64) -> Jet {
         let h = self.s[i + 1] - self.s[i];
         let chord: Joints = std::array::from_fn(|k| (self.joints[i + 1][k] - self.joints[i][k]) / h);
@@ -148,6 +157,10 @@ impl Section {
 }
 
 /// The slope at node `i` of `spans` equal spans, from their chords: exact for cubics inside and at the ends.
+///
+/// Weights by how far the node is from a piece's end, chords being (q_(i+1) − q_i)/h: (7, 7, −1, −1)/12 inside
+/// (fourth order), (11, −7, 2)/6 at the end and (2, 5, −1)/6 beside it (third order), (3, −1)/2 and the mean of
+/// pieces of two spans (second).
 fn slope_at(i: usize, spans: usize, chord: impl Fn(usize) -> f64) -> f64 {
     let from_end = |i: usize, chord: &dyn Fn(usize) -> f64| match i {
         0 => (11.0 * chord(0) - 7.0 * chord(1) + 2.0 * chord(2)) / 6.0,

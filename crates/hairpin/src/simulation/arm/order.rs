@@ -57,6 +57,9 @@ pub struct Order {
 }
 
 impl Order {
+    /// Positions, quaternions and angles are summed and the sum asked to be finite: one number that is none makes it
+    /// none. Quaternions are taken as they are.
+    ///
     /// # Errors
     /// Numbers that are not finite, speeds that are not above 0, a zone below 0.
     pub(super) fn check(&self) -> Result<(), SimulationError> {

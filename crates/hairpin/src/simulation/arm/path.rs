@@ -167,6 +167,8 @@ impl<'a> Builder<'a> {
 
     /// Move `order` from the joint angles `from`, where its tool is at `pose`.
     ///
+    /// The length in s is max(way, 0.01 m/1.5° · max(turn, largest joint turn)): m, whatever the move does.
+    ///
     /// # Errors
     /// A target out of reach or bounds, a configuration that is not there, points that give no arc: the program stops
     /// before this move.
@@ -289,6 +291,9 @@ impl<'a> Builder<'a> {
     }
 
     /// The share `from` … `to` of a leg.
+    ///
+    /// At least 8 spans, 512 at most: of a tool's way one every 10 mm and every 0.035 rad of its turn or its arc, of
+    /// a joint move every 0.035 rad of the joint that turns most.
     fn along(&mut self, leg: &Leg, from: f64, to: f64) -> Result<(), Stop> {
         let way = leg.length * (to - from);
         if way < NOTHING {
@@ -312,6 +317,10 @@ impl<'a> Builder<'a> {
     /// 2·`radius`.
     ///
     /// Two tool paths with one tool are added as poses; otherwise joint angles are added.
+    ///
+    /// The two shares run over u = 1 − f(1 − w)² and v = g w², f and g being the radius over either length; s grows
+    /// evenly with w. The first half of its spans belongs to the move before, and the node in the middle is where that
+    /// passes its target.
     fn blend(&mut self, leg: &Leg, next: &Leg, radius: f64, corner: &Joints) -> Result<(), Stop> {
         let (f, g) = (radius / leg.length, radius / next.length);
         let rates = [leg.rates[0].max(next.rates[0]), leg.rates[1].max(next.rates[1])];
@@ -408,6 +417,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Metres and radians of the tool per unit of s from the last node to `pose`, with room for the arc over the chord.
+    ///
+    /// Rates of joint moves by the chord between nodes, 0.05 % longer to cover the arc: a way per unit of s that is
+    /// too long only makes the arm slower.
     fn chord(&mut self, pose: &Isometry3<f64>, step: f64) -> [f64; 2] {
         const ROOM: f64 = 1.0005;
         let section = self.section();
@@ -426,6 +438,13 @@ fn stop(leg: &Leg, share: f64, reason: Reason) -> Stop {
 /// What the programmed speeds of both moves leave; accelerations follow with the plan's settings.
 ///
 /// Rates of s, m/s: the slower of both moves' speeds rules in a blend.
+///
+/// ```text
+/// ṡ ≤ min over both moves of  min(v_tcp/way, ω/turn)     or, of a move that is timed, min(length/duration, ω/turn)
+/// ```
+///
+/// A duration replaces the speed of the tool's point, not that of its turning. Whether joints can go as fast is the
+/// law's to see.
 fn span(order: usize, legs: [&Leg; 2], rates: [f64; 2]) -> Span {
     let [way, turn] = rates.map(|rate| rate.max(1e-12));
     let limit = legs.iter().map(|leg| {

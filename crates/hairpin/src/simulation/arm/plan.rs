@@ -112,6 +112,9 @@ impl<'a> Plan<'a> {
     }
 
     /// The work of each move that was passed, with a set point every `interpolation` s.
+    ///
+    /// Steps are ⌈(t_k − t_(k−1))/interpolation⌉, t_k being when move k passes its target; iterations are those that
+    /// laying its path took, looks ahead included. `interpolation` in s, above 0.
     pub fn load(&self, interpolation: f64) -> Vec<Load> {
         let mut before = 0.0;
         let steps = self.passed.iter().map(|time| {
@@ -132,6 +135,9 @@ impl<'a> Plan<'a> {
     ///
     /// `base_from_tcp` with its times, s, at every node and knot; the tool's, as the set points have it and not the
     /// lagging joints.
+    ///
+    /// Sections follow each other with the wait at fine points between, in which there is no pose: straight lines
+    /// between stamps stand still there. O(nodes · log).
     pub fn path(&self) -> PlannedPath {
         let mut moves = Vec::with_capacity(self.passed.len());
         let (mut times, mut poses): (Vec<f64>, Vec<Isometry3<f64>>) = (Vec::new(), Vec::new());

@@ -69,6 +69,15 @@ pub(super) struct Limits {
 
 impl Limits {
     /// Of joints that may use the share `used` of their accelerations.
+    ///
+    /// ```text
+    /// caps    x ≤ limit²,  x ≤ (q̇_max/q′)²,  x ≤ q̈_max/|q″|      at both ends of an interval, speeds in its middle
+    /// bounds  |q″ x_end + q′ (x₁ − x₀)/2h| ≤ q̈_max                of each joint at either end
+    ///         |x₁ − x₀|/2h ≤ min(a_tool/way, α_tool/turn)
+    /// ```
+    ///
+    /// Speeds go to 98.5 % and accelerations to the share `used`: that is the room for what lies between knots, an
+    /// estimate and no proof.
     pub(super) fn of(
         section: &Section,
         knots: &Knots,
@@ -132,6 +141,9 @@ impl Limits {
 }
 
 /// The largest y ≥ 0 with |a·y + b·other| ≤ most.
+///
+/// 0 where `other` alone is beyond, which the caps exclude but for rounding; infinite where y has no share in the
+/// bound.
 fn largest(a: f64, b: f64, other: f64, most: f64) -> f64 {
     if a == 0.0 { f64::INFINITY } else { ((most - a.signum() * b * other) / a.abs()).max(0.0) }
 }

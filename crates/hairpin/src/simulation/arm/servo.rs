@@ -25,6 +25,9 @@ impl Servo {
     /// One step, as the set point goes from `from` to `to` at a constant rate ρ. The error e = r − q obeys ė = ρ − e/τ,
     /// so e(h) = ρτ + (e(0) − ρτ) exp(−h/τ), exactly. A joint that would have to turn faster than it may turns as fast
     /// as it may.
+    ///
+    /// Exact for any step while the rate is not clipped; one that is clipped turns `speed` · step in it and goes on
+    /// from there. Angles in rad; NaN stays NaN.
     pub(super) fn follow(&mut self, from: f64, to: f64) -> f64 {
         let steady = (to - from) / self.step * self.lag;
         let error = steady + (from - self.angle - steady) * self.decay;

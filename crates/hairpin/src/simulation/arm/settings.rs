@@ -5,7 +5,7 @@ use crate::simulation::SimulationError;
 
 /// How speed rises and falls.
 ///
-/// s_f(t) = (1/T) ∫ s over (t − T, t): jerk along the path at most a/T.
+/// s_f(t) = (1/T) ∫ s over (t − T, t): jerk along the path at most 2a/T.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
     /// At constant acceleration where the limits do not change.

@@ -211,6 +211,8 @@ impl Check<'_> {
         }
     }
 
+    /// Comparisons are written so that NaN fails each. Infinity passes as the speed of the tool's point alone
+    /// (`vmax`).
     fn numbers(&self, found: &mut Vec<ProgramError>) {
         let mut hold = |good: bool, field, value, bound| {
             if !good {
@@ -255,6 +257,9 @@ impl Check<'_> {
         }
     }
 
+    /// Only the first that is wrong is told: 0.1 mm between any two points, 1° between via and end as seen from the
+    /// start, 240° of arc. Three points on a line with via behind the start count as 360°, with via beyond the end
+    /// as flat.
     fn arc(&self, found: &mut Vec<ProgramError>) {
         let Motion::Circular { via, to } = &self.m.motion else { return };
         let Some(previous) = self.index.checked_sub(1).and_then(|index| self.program.moves.get(index)) else {
@@ -284,6 +289,9 @@ impl Check<'_> {
     }
 
     /// Where the arc starts, in its own work object; `None` where that takes the arm's kinematics.
+    ///
+    /// object_from_tcp at the start = (base_from_object)⁻¹ · base_from_object′ · pose′, primes those of the move
+    /// before.
     fn start(&self, previous: &Move) -> Option<Isometry3<f64>> {
         let pose = previous.motion.end()?.pose;
         if previous.tool != self.m.tool {

@@ -80,6 +80,8 @@ impl WorkObject {
 }
 
 /// How far |q|² may be from 1 for controllers to take q. (ABB, Technical reference manual, RAPID, `NOrient`.)
+///
+/// Quaternions that were rounded where they were written are scaled; coarser ones are refused.
 const NORMALISED: f64 = 1e-5;
 /// Below it, in |q|² − 1, the components are kept as they are: they were rounded to nine decimals, and would not read
 /// back.

@@ -86,6 +86,8 @@ impl Zone {
     }
 
     /// The same numbers, whatever they are called.
+    ///
+    /// NaN is never the same, and whether it stops counts, too: `z0` with its lengths set to 0 is not `fine`.
     pub fn same_as(&self, other: &Self) -> bool {
         let unnamed = |zone: &Self| Self { name: None, ..zone.clone() };
         unnamed(self) == unnamed(other)

@@ -36,6 +36,9 @@ struct Seen {
 
 impl Arm<'_> {
     /// Upper arm and forearm are seen along axis 2, so that an offset sideways does not count.
+    ///
+    /// Joint k's line is (a point, its direction), carried by the joints before it; `signs` turn directions to those
+    /// that angles count by. `elbow` is no number where a link seen along axis 2 has no length.
     fn seen(&self, wrist: &Wrist, signs: &[f64; 6], q: &[f64; 6]) -> Seen {
         let carried = self.screws.carried(q);
         let line = |k: usize| carried.line(&self.screws, k);

@@ -110,6 +110,9 @@ impl Arm<'_> {
     }
 
     /// What a leg adds to the path's parameter, m: its way or its turns, whichever counts for more.
+    ///
+    /// max(way, 0.01 m/1.5° · turn): a move of the tool by its own way and turn, one in joints by eight chords of its
+    /// tool's way, their turns, or the largest turn of a joint.
     pub(super) fn length(&self, leg: &Leg) -> f64 {
         let (way, turn) = match &leg.course {
             Course::Tool(course) => (course.way(), course.turn()),

@@ -127,6 +127,12 @@ impl Arm<'_> {
 }
 
 /// All θ with a cos θ + b sin θ = c.
+///
+/// ```text
+/// θ = atan2(b, a) ± atan2(√(a² + b² − c²), c)
+/// ```
+///
+/// None where |c| is beyond hypot(a, b), two equal ones at the border; rounding may lose that one.
 fn solutions(a: f64, b: f64, c: f64) -> Vec<f64> {
     let square = a * a + b * b - c * c;
     if square.is_nan() || square < 0.0 {
@@ -137,6 +143,8 @@ fn solutions(a: f64, b: f64, c: f64) -> Vec<f64> {
 }
 
 /// The angle about `axis` (of length 1) from one direction to the other, rad in (−π, π].
+///
+/// Both directions are first cut to what is across the axis; 0 where one of them lies along it.
 fn angle_about(axis: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
     let across = |v: &Vector3<f64>| v - axis * axis.dot(v);
     let (from, to) = (across(from), across(to));

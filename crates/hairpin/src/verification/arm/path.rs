@@ -97,6 +97,9 @@ impl<'a> ArmPath<'a> {
     }
 
     /// The equations of this file's head.
+    ///
+    /// f = r/ℓ₁ and g = r/ℓ₂ are at most a half each. Angles are those of the sum of both moves in joints; where the
+    /// tool is led they begin Newton's iteration to the pose, and `None` is a pose that it does not come to.
     fn cut_at(&self, index: usize, w: f64) -> Option<([f64; 6], Isometry3<f64>)> {
         let [before, after] = [&self.legs[index], &self.legs[index + 1]];
         let [f, g] = [index, index + 1].map(|leg| self.cuts[index] / self.lengths[leg]);

@@ -65,6 +65,9 @@ impl Arm<'_> {
 const FEW: usize = 400;
 
 /// Whether `body`, seen at `points`, is nearer to a solid than it may be.
+///
+/// `points` are the body's, base frame, m; `hull` is a box around triangles. A solid in words has no distance: it is
+/// asked at the points and at places `around` them, the body's radius and clearance away.
 fn met(
     body: &ArmBodyClaim,
     points: &[Point3<f64>],

@@ -93,6 +93,9 @@ fn straight(program: &ArmProgramClaim, index: usize) -> bool {
 
 /// The first thing that does not hold on the way about a corner: links may come as near to the cell as they can without
 /// touching it.
+///
+/// Samples every 2 mm of the path's parameter over its length 2r, 16 at least. Singularities are asked for only where
+/// the tool is led about the corner.
 fn wrong_corner(path: &ArmPath, program: &ArmProgramClaim, index: usize, around: &[Vector3<f64>]) -> Option<String> {
     let singularity = if path.leads(index) { program.singularity } else { 0.0 };
     let asked = Asked { clearance: program.clear.then_some(0.0), around, singularity };
@@ -158,6 +161,9 @@ impl Arm<'_> {
 
     /// Joint angles at the end of a move in joints. Where neither the program nor the claim tells them, those that the
     /// way straight there leads to.
+    ///
+    /// The straight way is only a guess of the branch: of a chain without angles claimed there is nothing better to
+    /// hold the move to.
     fn arrival(
         &self,
         target: &ArmTarget,
@@ -177,6 +183,9 @@ impl Arm<'_> {
     }
 
     /// What is wrong with where a move ends.
+    ///
+    /// The pose within 10⁻⁶ m and rad, then the configuration where the program demands one; a move to told angles
+    /// ends at them by itself.
     fn wrong_end(&self, leg: &Leg, one: &ArmProgramMove) -> Option<Wrong> {
         let target = match &one.motion {
             ArmMotion::Posture(_) => return None,

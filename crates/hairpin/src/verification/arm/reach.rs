@@ -49,6 +49,9 @@ impl Arm<'_> {
     }
 
     /// At most 2⁸ parts.
+    ///
+    /// The first half is led before the second, each from where the half before it came to; `None` where the smallest
+    /// part cannot be.
     fn led(
         &self,
         course: &ToolCourse,
@@ -67,6 +70,9 @@ impl Arm<'_> {
 }
 
 /// From one pose to the other: the way (m) above the turn (rad), in the frame of both.
+///
+/// The rotation vector of R_to R_fromᵀ, of the shorter way round: (Δp, Δθ) as columns of the Jacobian have them, base
+/// frame.
 fn twist(from: &Isometry3<f64>, to: &Isometry3<f64>) -> Vector6<f64> {
     let shift = to.translation.vector - from.translation.vector;
     let turn = to.rotation * from.rotation.conjugate();

@@ -34,12 +34,15 @@ impl Samples {
     }
 }
 
+/// Both ends and what lies between evenly, `step` m apart or nearer.
 fn along(a: &Point3<f64>, b: &Point3<f64>, step: f64) -> impl Iterator<Item = Point3<f64>> {
     let (a, way) = (*a, b - a);
     let count = (way.norm() / step).ceil().max(1.0);
     (0..=count as usize).map(move |i| a + way * (i as f64 / count))
 }
 
+/// All corners, and of the lines between any two the first point that falls into each cube of 10 mm; O(corners²)
+/// lines. Inside and faces are not filled: a solid smaller than what lies between may be passed by.
 fn of_hull(corners: &[Point3<f64>], step: f64) -> Vec<Point3<f64>> {
     let mut taken = BTreeSet::new();
     let mut points = corners.to_vec();

@@ -46,6 +46,8 @@ impl Screws {
     }
 
     /// exp(ξ_k q) = (R, p − R p): the turn by q about line k.
+    ///
+    /// As a quaternion of half the angle; `direction` is of length 1.
     pub(super) fn turn(&self, k: usize, angle: f64) -> Isometry3<f64> {
         let (point, direction) = self.lines[k];
         let (sine, cosine) = libm::sincos(0.5 * angle);

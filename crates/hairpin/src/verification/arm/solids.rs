@@ -17,6 +17,9 @@ pub(super) fn box_around(form: &ArmSolidForm) -> Option<ArmSolidForm<'static>> {
 }
 
 /// Distance of a point from a solid, m; inside at most 0.
+///
+/// Exact up to rounding, but for words, which have 0 or infinity. A cylinder's axis must have a length; the normal
+/// of a half space need not be of length 1.
 pub(super) fn distance(form: &ArmSolidForm, p: &Point3<f64>) -> f64 {
     match form {
         ArmSolidForm::Ball(center, radius) => (p - center).norm() - radius,
@@ -94,6 +97,8 @@ pub(super) fn holds_around(form: &ArmSolidForm, p: &Point3<f64>, room: f64, arou
 }
 
 /// Directions to the corners, edges and faces of a cube, of length 1.
+///
+/// 26 of them: every place at `room` from a point is within about half of `room` of one that is asked.
 pub(super) fn to_all_sides() -> Vec<Vector3<f64>> {
     let side = |i: usize| i as f64 - 1.0;
     let cube = (0..27).map(|i| Vector3::new(side(i % 3), side(i / 3 % 3), side(i / 9)));

@@ -17,6 +17,9 @@ pub(super) struct Wrist {
 impl Wrist {
     /// Of an arm whose axes lie as subproblems ask: 2 and 3 side by side and square to 1, 4 and 6 square to 5, all
     /// three through one point.
+    ///
+    /// `None` where one of the conditions is off by 10⁻⁹ or more: then angles are those claimed, or those that a
+    /// straight way leads to.
     pub(super) fn of(screws: &Screws) -> Option<Self> {
         let direction = |k: usize| screws.lines[k].1;
         let square = |a: usize, b: usize| direction(a).dot(&direction(b)).abs() < SAME;

@@ -24,6 +24,8 @@ pub(super) struct Broken {
 }
 
 /// Least and largest value of something that is bounded.
+///
+/// Forces in N and N m; the speed as its square, whose root is taken for what is told.
 struct Limit {
     what: &'static str,
     unit: &'static str,
@@ -56,6 +58,14 @@ pub(super) fn broken(hull: &BoatHull, claim: &BoatClaim, leg: &BoatLeg) -> Vec<B
 }
 
 /// Looks at the limits `open` on `time`, and on its halves where that does not decide them.
+///
+/// ```text
+/// f(T) ∩ (f(m) + f′(T)(T − m)):   kept where all of it is within the limit, broken where f(m) is beyond for certain
+/// ```
+///
+/// Both forms are enclosures, so is what they have in common. Undecided after 26 halvings of a thirty-second of the
+/// leg counts as broken, as does an interval that is not finite: errs towards a finding. Limits that are decided are
+/// not looked at in the halves.
 fn search(
     demand: &impl Fn(Interval) -> Demand<Interval>,
     limits: &[Limit; 4],

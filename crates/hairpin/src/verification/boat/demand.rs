@@ -18,6 +18,9 @@ pub(super) struct Demand<N> {
 pub(super) type Taylor<N> = [[N; 4]; 3];
 
 /// Those of `leg` on all of `time`: shifted to its middle, where Horner's rule has little to overestimate.
+///
+/// The coefficients at every moment of `time` at once: Σ_i c_i C(i, k) (t − m)^(i−k) over the interval, after a shift
+/// to m. Intervals are rounded outwards.
 pub(super) fn taylor_over(leg: &BoatLeg, time: Interval) -> Taylor<Interval> {
     let m = Interval::point(time.middle());
     let around = time - m;
@@ -41,6 +44,14 @@ fn choose(n: usize, k: usize) -> f64 {
 }
 
 /// The demand of a motion with these derivatives in the claim's current.
+///
+/// ```text
+/// ν = (u, v, r):  (u, v) = Rot(ψ)ᵀ (ẋ − current),  r = ψ̇           relative to the water, body frame
+/// p = M ν,   X = ṗ_u − r p_v + D_X,   Y = ṗ_v + r p_u + D_Y,   N = ṗ_r + u p_v − v p_u + D_N
+/// ```
+///
+/// The current is even and steady. Values and first derivatives are told; the third coefficients of their series are
+/// unknown and left out.
 pub(super) fn demand<N: Angle>(hull: &BoatHull, claim: &BoatClaim, taylor: &Taylor<N>) -> Demand<N> {
     let scaled = |c: N, factor: f64| c * N::constant(factor);
     let rate = |axis: usize| {
@@ -68,6 +79,14 @@ fn momenta<N: Angle>(hull: &BoatHull, [u, v, r]: [Series<N>; 3]) -> [Series<N>; 
 }
 
 /// What the water takes, X, Y, N.
+///
+/// ```text
+/// D_X = −(X_u + X_|u|u |u| + X_uuu u²) u
+/// D_Y = −(Y_v + Y_|v|v |v| + Y_|r|v |r|) v − (Y_r + Y_|v|r |v| + Y_|r|r |r|) r
+/// ```
+///
+/// and D_N with N's as D_Y. Coefficients have their published signs, so that minus the sum is what the water takes.
+/// Values and first derivatives only: |·| has no second one.
 pub(super) fn damping<N: Angle>(hull: &BoatHull, [u, v, r]: [Series<N>; 3]) -> [Series<N>; 3] {
     let (ahead, drift, turn) = (u.abs(), v.abs(), r.abs());
     let part = |k: &[f64; 3], first: Series<N>, second: Series<N>| {

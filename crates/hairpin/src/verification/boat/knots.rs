@@ -74,6 +74,7 @@ fn derivative(leg: &BoatLeg, at_end: bool, order: usize) -> [Value; 3] {
     })
 }
 
+/// Of all pairs the difference that is largest beside what it may be. `turns`: differences by whole turns are none.
 fn worst(pairs: &[(Value, Value)], turns: bool, absolute: f64) -> (f64, f64) {
     let mut worst = (0.0, absolute);
     for (found, wanted) in pairs {

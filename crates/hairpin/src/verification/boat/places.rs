@@ -42,6 +42,14 @@ pub(super) fn near(hull: &BoatHull, claim: &BoatClaim, leg: &BoatLeg) -> Vec<Nea
 }
 
 /// Where it is not shown that the way stays `wanted` away, and how far it is there.
+///
+/// ```text
+/// kept    where distance(m) − spread ≥ wanted − 10⁻⁹           broken    where distance(m) + spread < wanted − 10⁻⁹
+/// ```
+///
+/// m is the middle of the box that holds the way in `time`, spread the half of its diagonal: distances are
+/// 1-Lipschitz. Undecided after 24 halvings counts as broken; the distance told is that of the middle. The distance
+/// itself is rounded to nearest, not outwards, hence the nanometre.
 fn too_near(
     leg: &BoatLeg,
     away: &impl Fn([f64; 2]) -> f64,

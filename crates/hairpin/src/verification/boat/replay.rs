@@ -61,12 +61,17 @@ impl Sailor<'_> {
     }
 
     /// M⁻¹ p.
+    ///
+    /// u = p_u/m11, and v, r from the two by two block (m22 m23; m23 m33), whose determinant `is_physical` keeps
+    /// above 0.
     fn nu(&self, state: &State) -> [f64; 3] {
         let [a, b, c, d] = self.hull.mass;
         let determinant = b * d - c * c;
         [state[3] / a, (d * state[4] - c * state[5]) / determinant, (b * state[5] - c * state[4]) / determinant]
     }
 
+    /// In the order of [`State`]: m/s, m/s, rad/s, N, N, N·m. Kirchhoff's equations of the room's head with the
+    /// water's damping.
     fn derivative(&self, state: &State, [x, y, n]: [f64; 3]) -> State {
         let [u, v, r] = self.nu(state);
         let [over_x, over_y, _] = self.velocity(state);
@@ -131,11 +136,15 @@ impl Sailor<'_> {
     }
 
     /// Sails all of `leg` from `start`, without correction. `None` where that leads nowhere.
+    ///
+    /// In steps of 0.1 s, not halved: an estimate of what becomes of small errors, which only the hull's own stability
+    /// bounds.
     pub(super) fn sail_on(&self, leg: &BoatLeg, start: &State) -> Option<State> {
         let steps = (leg.duration / TRIP_STEP).ceil().clamp(4.0, 1e6) as usize;
         self.sail(leg, [0.0, leg.duration], start, steps, |_, _| {}).filter(|end| end.iter().all(|x| x.is_finite()))
     }
 
+    /// Gauss collocation in equal steps under the forces demanded at its nodes; `None` where a step does not converge.
     fn sail(
         &self,
         leg: &BoatLeg,

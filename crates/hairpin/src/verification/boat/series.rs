@@ -10,6 +10,8 @@ pub(super) trait Angle: Real {
     /// (sin x, cos x).
     fn sine_and_cosine(self) -> (Self, Self);
     /// The slope of |x|: −1 to 1 where the sign is not known.
+    ///
+    /// Of 0 it is 1; an interval that holds 0 inside has no sign.
     fn sign(self) -> Self;
 }
 

@@ -7,6 +7,9 @@ const SCANNED: usize = 200;
 
 impl Local<'_> {
     /// Takes a point that is in the tour out of it, gain or not, and wakes its neighbours.
+    ///
+    /// gain = c(before, after) − c(before, point) − c(point, after), penalties of missing arcs included; O(n) for the
+    /// places behind it.
     pub(super) fn take_out(&mut self, point: u32) {
         let (before, after) = (self.tour.previous(point), self.tour.next(point));
         self.total += self.table.cost(before, after) - self.table.cost(before, point) - self.table.cost(point, after);
@@ -73,6 +76,13 @@ impl Local<'_> {
     }
 
     /// Keeps in `best` what `point` gains behind `before`, or in the place of the point that is there.
+    ///
+    /// ```text
+    /// beside       c(before, point) + c(point, next) − c(before, next)
+    /// in place     c(before, point) + c(point, after) − c(before, next) − c(next, after)      never of the dummy
+    /// ```
+    ///
+    /// `best` is (gain, before, whether in place); only a larger gain replaces it.
     fn try_beside(&self, before: u32, point: u32, best: &mut (i64, u32, bool)) {
         let cost = |x, y| self.table.cost(x, y);
         let next = self.tour.next(before);

@@ -179,6 +179,9 @@ impl Triples {
 
     /// What [`Self::best_on`] costs, where every arc that is missing costs −`fine` and makes the order one without a
     /// way.
+    ///
+    /// The better of both cuts at each point, by value, and of equals the arc; whether it is a way goes with the cut
+    /// that was taken. A missing triple is never fined, as its two arcs can stand for it. O(length).
     pub(super) fn worth(&self, arcs: &Arcs, order: &[usize], fine: i64) -> Worth {
         let (mut before, mut last) = (Worth { value: IMPOSSIBLE, way: false }, Worth { value: 0, way: true });
         for k in 1..order.len() {

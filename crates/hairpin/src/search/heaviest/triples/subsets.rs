@@ -27,6 +27,9 @@ pub(super) fn table_bytes(points: usize) -> u128 {
 
 impl<'a> Subsets<'a> {
     /// Fills the table; `None` if `stop` ended it.
+    ///
+    /// `after` holds b(S ∪ {via, to}, to) for all ordered pairs of points outside S, so that the inner loop of every
+    /// last point runs along one row of triples.
     pub(super) fn new(question: Question<'a>, stop: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let Question { arcs, triples, ends } = question;
         let n = question.points();
@@ -96,6 +99,11 @@ impl<'a> Subsets<'a> {
     }
 
     /// `before` and one point more; `None` where it leads nowhere.
+    ///
+    /// ```text
+    /// ended(p·j)   = max(ended(p) + c(last, j),  passing(p) + t(earlier, last, j))
+    /// passing(p·j) = ended(p)
+    /// ```
     fn beginning(&self, before: Option<&Beginning>, point: usize) -> Option<Beginning> {
         let Some(before) = before else {
             let bound = self.bound(1 << point, None, point, 0, IMPOSSIBLE);

@@ -57,6 +57,9 @@ impl<'a> Prices<'a> {
     /// Polyak's step: length · (bound − goal)/Σ (visits − 1)², down again to the best prices and half the length after
     /// [`PATIENCE`] steps in vain. Ends early where the bound meets `reached`, which is then proven, or where the walk
     /// visits every point once.
+    ///
+    /// Prices stay whole numbers of 0 and more. A price rises where the walk comes to its point more than once and
+    /// falls where it does not come.
     pub(super) fn step(&mut self, share: f64, reached: i64, stop: &(dyn Fn() -> bool + Sync)) {
         let goal = (reached.max(0) * self.scale) as f64;
         for _ in 0..((share * self.steps as f64).ceil() as usize) {
@@ -154,6 +157,9 @@ impl<'a> Walks<'a> {
     }
 
     /// f(m, ·) of f(m−1, ·) and f(m−2, ·).
+    ///
+    /// `best` and `came` are rows of n numbers, row m of walks of m points; rows m − 1 and m − 2 are known. Row m
+    /// begins as impossible.
     fn step(&self, m: usize, prices: &[i64], scale: i64, best: &mut [i64], came: &mut [(usize, usize)]) {
         let n = self.points;
         let (done, row) = best.split_at_mut(m * n);
