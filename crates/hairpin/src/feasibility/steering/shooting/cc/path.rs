@@ -166,8 +166,8 @@ fn straight_ahead(family: Family, from: &Anchor, to: &Anchor) -> Option<Plan> {
 /// from it, and those at zero curvature that a clothoid joins to it.
 ///
 /// At most three: the state, the one reached by a clothoid forward, the one by a clothoid in reverse. A clothoid of
-/// |κ|/rate metres turns the heading by κ|κ|/(2 rate), at a start with the sign of its gear, at an end against it.
-/// Curvatures beyond the circle's own are left by a clothoid only.
+/// |κ|/rate metres in the gear ±1 turns the heading by ±κ|κ|/(2 rate) as it is driven. Curvatures beyond the circle's
+/// own are left by a clothoid only.
 fn anchors(pose: Pose, curvature: f64, circle: &Circle, family: Family, along: f64) -> [Option<Anchor>; 3] {
     if curvature == 0.0 {
         return [Some(Anchor { pose, curvature, lead: None }), None, None];

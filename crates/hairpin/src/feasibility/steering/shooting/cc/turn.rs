@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! turning of one clothoid   β = κ²/(2κ′)                centre seen from the end   (x_c − sin β/κ, y_c + cos β/κ)
-//! (x_c, y_c) = the clothoid's end   deflection ≥ 2β: arc of (δ − 2β)/κ metres between; less: elementary path, or a loop
+//! (x_c, y_c) = the clothoid's end   deflection δ ≥ 2β: arc of (δ − 2β)/κ m between; less: elementary path
 //! ```
 //!
 //! Signs: heading changes by sense · gear · angle; in reverse a turn is the mirror image, about the y axis, of one
