@@ -77,9 +77,9 @@ pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Chain, iteratio
 
 /// Gradient and Gauss-Newton matrix of smoothness and penalty, by κ₁ … κ_{N−1} and L.
 ///
-/// `unit` is the largest curvature, 1/m. Terms: ½N·SMOOTH Σ (κᵢ₊₁ − κᵢ)²/κ_max², half PENALTY of the squares of what
-/// |κᵢ| and
-/// |κᵢ₊₁ − κᵢ|/hᵢ exceed their bounds by, relatively; damping of knots by the squared share of the way that they turn, and of L.
+/// `unit` is the largest curvature, 1/m. Terms: ½N·SMOOTH Σ (κᵢ₊₁ − κᵢ)²/κ_max²; half of PENALTY times the squares of
+/// what |κᵢ| and |κᵢ₊₁ − κᵢ|/hᵢ exceed their bounds by, relatively; a damping of knots by the squared share of the way
+/// that they turn, and one of L.
 fn objective(chain: &Chain, narrow: &Curvatures, unit: f64) -> (Bordered, [f64; PIECES]) {
     // Curvatures are weighed in units of the bound, so that the same numbers suit vehicles of any size.
     let per_unit = 1.0 / (unit * unit);
