@@ -143,6 +143,8 @@ impl Refusal {
     }
 
     /// Of two reasons against a point the one that came farther: reach, limits, then everything else.
+    ///
+    /// Two joint limits are compared by how far the angle is beyond, rad; of equals the first stays.
     pub(super) fn or_nearer(self, other: Self) -> Self {
         let rank = |refusal: &Self| match refusal {
             Self::OutOfReach { .. } => 0,
@@ -172,6 +174,8 @@ pub struct InWords<'r> {
 }
 
 /// Two angles with as many decimals as tell them apart, 1 to 9.
+///
+/// rad in.
 fn degrees(a: f64, b: f64) -> [String; 2] {
     let told = |decimals: usize| [a, b].map(|angle| format!("{:.decimals$}°", angle.to_degrees()));
     (1..9).map(told).find(|[a, b]| a != b).unwrap_or_else(|| told(9))

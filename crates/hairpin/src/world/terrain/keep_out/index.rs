@@ -72,6 +72,8 @@ impl Index {
 
     /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of
     /// equals.
+    ///
+    /// `distance` must be no less than the distance of `at` to the shape's box less `reach`. Without shapes `None`.
     pub(super) fn least(&self, at: [f64; 2], reach: f64, distance: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         // Equals are asked as well, for the first of them.
@@ -103,6 +105,8 @@ impl Index {
 }
 
 /// Distance of a point to a box, m; 0 inside.
+///
+/// In m.
 fn outside(at: [f64; 2], [low, high]: &[[f64; 2]; 2]) -> f64 {
     let beyond = |axis: usize| (low[axis] - at[axis]).max(at[axis] - high[axis]).max(0.0);
     libm::hypot(beyond(0), beyond(1))
