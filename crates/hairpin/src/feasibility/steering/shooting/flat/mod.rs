@@ -74,7 +74,7 @@ pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answe
 
 /// Hands over the drives of every way around that [`forward`] may take, where it solves `query`, shortest way first.
 ///
-/// At most six, one for `Control::Arc`; each as [`forward`] would answer it if it were the only way.
+/// At most six, one for `Control::Arc`; each as `forward` would answer it if it were the only way.
 pub fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(SegmentList)) {
     let right = mirror::leans_right(query);
     let asked = if right { mirror::query(query) } else { *query };
