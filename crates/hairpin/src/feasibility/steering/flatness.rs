@@ -132,7 +132,7 @@ impl Flatness {
     /// (|F|, τx, τy, τz) = M f     row i of Mᵀ = (1, yᵢ, −xᵢ, spinᵢ k_m/k_f)     w² = M⁻¹ (|F|, τ) / k_f
     /// ```
     ///
-    /// M is inverted as it is, without pivoting by hand: rotors in a line or of one spin make it singular.
+    /// Rotors in a line or of one spin make M singular.
     ///
     /// # Errors
     /// [`DependentRotors`].
@@ -168,8 +168,7 @@ impl Flatness {
     /// exact.
     ///
     /// Rows: D, Ḋ, D̈, each in the world frame. D = c₁v + c₂|v|v, Ḋ = c₁a + c₂(|v| a + |v|˙ v), D̈ = c₁j + c₂(|v| j +
-    /// 2|v|˙ a +
-    /// |v|¨ v). `speed` must be |v|, in the same kind of number: it is not computed again.
+    /// 2|v|˙ a + |v|¨ v). `speed` must be |v|, in the same kind of number: it is not computed again.
     #[inline(always)]
     fn drag<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], j: &[N; 3], speed: N) -> [[N; 3]; 3] {
         let linear = self.drag_linear;
@@ -222,8 +221,8 @@ impl Flatness {
     /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m
     /// g).
     ///
-    /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g) to all orders that count, for ω = 0 takes gyroscopic and
-    /// aerodynamic moments away and F̈z does not turn the body. Exact, without the quotients of [`Self::demand`].
+    /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g); ω = 0 takes gyroscopic and aerodynamic moments away, and F̈z does
+    /// not turn the body. Exact, without the quotients of [`Self::demand`].
     #[inline]
     pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();
