@@ -174,8 +174,6 @@ pub struct InWords<'r> {
 }
 
 /// Two angles with as many decimals as tell them apart, 1 to 9.
-///
-/// rad in.
 fn degrees(a: f64, b: f64) -> [String; 2] {
     let told = |decimals: usize| [a, b].map(|angle| format!("{:.decimals$}°", angle.to_degrees()));
     (1..9).map(told).find(|[a, b]| a != b).unwrap_or_else(|| told(9))

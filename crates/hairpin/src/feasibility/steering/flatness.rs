@@ -221,8 +221,8 @@ impl Flatness {
     /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m
     /// g).
     ///
-    /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g); ω = 0 takes gyroscopic and aerodynamic moments away, and F̈z does
-    /// not turn the body. Exact, without the quotients of [`Self::demand`].
+    /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g); ω = 0 takes gyroscopic and aerodynamic moments away, and
+    /// F̈z does not turn the body. Exact, without the quotients of [`Self::demand`].
     #[inline]
     pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();

@@ -167,8 +167,6 @@ impl<'a> Bodies<'a> {
     }
 
     /// The points of all bodies in the base, m.
-    ///
-    /// O(points).
     fn placed(&self, frames: &Frames) -> Vec<Point3<f64>> {
         let of_body = |body: &'_ Body| {
             let frame: Isometry3<f64> = frames[body.of.min(AXES)];

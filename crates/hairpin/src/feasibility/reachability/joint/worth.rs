@@ -19,8 +19,6 @@ impl Worth {
     /// Of `refusal` of the arm with the tool.
     ///
     /// A tool without a radius has no shape: beside a link that is estimated nothing is known of the two.
-    ///
-    /// What is not about bodies is certain.
     pub fn of(arm: &Arm, tool: &Tool, refusal: &Refusal) -> Self {
         let known = |body: usize| is_known(arm, tool, body);
         match *refusal {

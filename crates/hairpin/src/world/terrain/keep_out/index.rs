@@ -105,8 +105,6 @@ impl Index {
 }
 
 /// Distance of a point to a box, m; 0 inside.
-///
-/// In m.
 fn outside(at: [f64; 2], [low, high]: &[[f64; 2]; 2]) -> f64 {
     let beyond = |axis: usize| (low[axis] - at[axis]).max(at[axis] - high[axis]).max(0.0);
     libm::hypot(beyond(0), beyond(1))

@@ -155,7 +155,7 @@ fn square_to_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Twice the area of the triangle, positive if it is left-handed around.
 ///
-/// > 0 where a, b, c turn left; m².
+/// Positive where a, b, c turn left; m².
 fn side(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
