@@ -104,7 +104,7 @@ pub enum Status {
         limit: Limit,
         /// By how much, in its unit.
         ///
-        /// > 0; of `Yaw` and `EndCurvature` the difference from the goal's.
+        /// Positive; of `Yaw` and `EndCurvature` the difference from the goal's.
         excess: f64,
     },
     /// The goal was not met.

@@ -55,7 +55,7 @@ pub(super) fn bend_commands<T: Terrain>(
 /// much, enlarged.
 ///
 /// With factor f: solve for the goal at (x/f, y/f, ψ, f κ), then lengths times f and aᵢ over fⁱ⁺¹. Bounds hold in the
-/// small world, so that in the large one |κ| ≤ κ_max/f and |κ′| ≤ κ′_max/f²; f < 1 exceeds both.
+/// small world, so that in the large one |κ| ≤ κ_max/f and |κ′| ≤ κ′_max/f²; f < 1 may exceed both.
 fn gentle<T>(
     task: &Task<'_, '_, T>,
     factor: f64,

@@ -1,7 +1,7 @@
 //! A drive in pieces whose curvature can be changed where they meet.
 //!
-//! κ_i(s) += b_{i−1} + (b_i − b_{i−1}) s/h_i on piece i, b₀ = 0 at the start, then s is stretched by 1 + ε: aₖ ↦ aₖ/(1
-//! + ε)ᵏ, lengths by 1 + ε. So κ stays continuous where it was, and the start's curvature stays the wheels'.
+//! κ_i(s) += b_{i−1} + (b_i − b_{i−1}) s/h_i on piece i, b₀ = 0 at the start, then s is stretched by 1 + ε:
+//! aₖ ↦ aₖ/(1 + ε)ᵏ, lengths by 1 + ε. So κ stays continuous where it was, and the start's curvature stays the wheels'.
 
 use nalgebra::SVector;
 
