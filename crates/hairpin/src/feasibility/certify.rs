@@ -2,6 +2,9 @@
 //!
 //! Hull-feasible waypoints are a guess about dynamics; a certificate is the polynomial flight itself. "No" is only said
 //! of what no dynamics could do: distances, times, walls.
+//!
+//! The test is one-sided in both directions: `Yes` is a construction, `No` a violated necessary condition, and between
+//! the two lies what this one family of polynomials does not decide.
 
 use nalgebra::{Point3, Vector3};
 
@@ -73,11 +76,14 @@ pub enum Impossible {
 /// that is refused gets more time, and when it has all it may get, less velocity at its ends; the whole is then tried
 /// again, so that leg times and velocities settle together. A witness that takes too long as a whole is none.
 ///
-/// At most a hundred rounds, each judging legs until one fails; deterministic.
+/// At most a hundred rounds, each judging every leg; deterministic.
 ///
 /// Slowing down is by 1.12 a round, of a leg's time first and then of its ends' speeds, below a tenth of which they are
 /// at rest. Lists of fewer than two waypoints have no legs, and are certified empty where their point is in the free
 /// space.
+///
+/// `waypoints` in m, world frame; `timing` gives the range of leg times in s, its ladder is not used. A round costs a
+/// minimum-snap solve and a judgement for each leg.
 pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, longest_flight: f64) -> Certificate {
     let (shortest, longest) = timing.range();
     if let Some(impossible) = impossible(judge, waypoints, longest, longest_flight) {
@@ -108,6 +114,8 @@ pub fn certify(judge: &LegJudge, waypoints: &[Point3<f64>], timing: &LegTiming, 
 }
 
 /// A witness that ends in time.
+///
+/// Total time in s; a witness that is too slow is evidence of nothing, for a faster one was not looked for.
 fn within(profile: Profile, longest_flight: f64) -> Certificate {
     let margin = longest_flight - profile.duration();
     match profile.legs.last() {
@@ -120,6 +128,8 @@ fn within(profile: Profile, longest_flight: f64) -> Certificate {
 }
 
 /// Gives a leg more time, or its ends less velocity; whether anything changed.
+///
+/// Times first, in steps of 1.12 up to `longest` (s); speeds after, of both ends of the leg.
 fn slow_down(leg: usize, times: &mut [f64], share: &mut [f64], longest: f64) -> bool {
     if times[leg] < longest {
         times[leg] = (times[leg] * SLOWER).min(longest);
@@ -148,6 +158,8 @@ fn ends(judge: &LegJudge, waypoints: &[Point3<f64>], times: &[f64], share: &[f64
 }
 
 /// A time in which a leg of this length might be flown, s: a rest-to-rest leg peaks at 7.5 L/T², tried at half of g.
+///
+/// Half of the time that this peak would take: too short rather than too long, as times only grow from here.
 fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5)
 }
@@ -155,6 +167,9 @@ fn first_guess(judge: &LegJudge, length: f64) -> f64 {
 /// What no controller can do within the limits, whatever its inputs: a waypoint that the world does not allow, a leg
 /// longer than the fastest goes in its longest time, and a flight that takes longer than is allowed even if it gains
 /// speed at full acceleration all along.
+///
+/// Necessary conditions only, each true of every flight from rest. Drag and attitude are left out, which errs towards
+/// possible.
 fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest_flight: f64) -> Option<Impossible> {
     let max_speed = judge.limits().max_speed;
     let outside = waypoints
@@ -178,6 +193,9 @@ fn impossible(judge: &LegJudge, waypoints: &[Point3<f64>], longest: f64, longest
 
 /// The least time, s, in which a path of `length` (m) is flown from rest where the speed grows by `acceleration` (m/s²)
 /// at most, up to `max_speed` (m/s): √(2L/a) below that speed, L/v + v/2a beyond.
+///
+/// The end's rest is not asked for, so that it errs low. `acceleration` and `max_speed` > 0; an infinite speed leaves
+/// the first form.
 fn least_time(length: f64, acceleration: f64, max_speed: f64) -> f64 {
     if 2.0 * length * acceleration <= max_speed * max_speed {
         (2.0 * length / acceleration).sqrt()

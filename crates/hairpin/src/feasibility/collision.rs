@@ -3,6 +3,14 @@
 //! p(τ) = Σ b_i B_i(τ/T): the path is a convex combination of its control points, so it stays in their box; and it
 //! stays within max ‖b_i − chord_i‖ of its chord, which a segment's distance to a solid then decides. Both gaps fall
 //! with the square of a piece's length. At most 2¹² pieces.
+//!
+//! ```text
+//! p(τ) = Σ_{i=0}^{7} b_i B_i(τ/T),  B_i ≥ 0,  Σ B_i = 1
+//! ‖p(τ) − chord(τ/T)‖ ≤ max_i ‖b_i − (b₀ + i/7 (b₇ − b₀))‖
+//! ```
+//!
+//! The second line holds since a linear function has the control points i/7. Obstacles are grown by the clearance,
+//! which makes of the robot a ball; its attitude plays no part.
 
 use nalgebra::{Point3, Vector3};
 
@@ -38,9 +46,12 @@ const TOUCH: f64 = 1e-9;
 /// ```
 #[derive(Debug, Clone)]
 pub struct FreeSpace {
+    /// Corners of the allowed box, m.
     low: Point3<f64>,
     high: Point3<f64>,
+    /// From the centre to any obstacle, m, ≥ 0.
     clearance: f64,
+    /// With their boxes, which most questions end at.
     obstacles: Vec<(Bounds, Shape)>,
 }
 
@@ -69,6 +80,8 @@ impl Piece {
 
     /// Bound of the distance between the path and its chord: that of the control points from the chord's own, since
     /// both are sums over the same Bernstein polynomials, which sum to 1.
+    ///
+    /// m; 0 for a straight piece at even speed.
     fn bulge(&self) -> f64 {
         let (a, b) = (self.point(0), self.point(7));
         (1..7).map(|i| (self.point(i) - (a + (b - a) * (i as f64 / 7.0))).norm()).fold(0.0, f64::max)
@@ -119,6 +132,7 @@ impl FreeSpace {
         self.check(&Piece { points, from: 0.0, to: leg.duration }, DEPTH)
     }
 
+    /// Depth first, earlier half first. An undecided piece is told by the time and the margin at its beginning.
     fn check(&self, piece: &Piece, depth: u32) -> Result<(), Infeasible> {
         self.allows(&piece.point(0), piece.from)?;
         self.allows(&piece.point(7), piece.to)?;
@@ -160,6 +174,9 @@ impl FreeSpace {
     }
 
     /// The first limit that the control points do not show to hold.
+    ///
+    /// Limits in the order of the axes, then of the obstacles. Bounds err towards undecided: a box of control points is
+    /// larger than the path's.
     fn undecided(&self, piece: &Piece) -> Option<(Limit, usize)> {
         let bounds = piece.bounds();
         for axis in 0..3 {

@@ -8,6 +8,10 @@
 //!
 //! The second line is necessary for any flight that meets three waypoints at given times, whatever its shape: it is
 //! what says no. A leg that is refused says so of its own shape alone.
+//!
+//! Where the second line comes from: a flight that is at p₀, p₁, p₂ at t₀, t₁, t₂ has, on each axis, an instant at
+//! which half of its acceleration is the second divided difference of these; for the vector the bound is by the mean
+//! value along the difference's own direction. T₁ and T₂ are the legs' times, v₁ and v₂ their chords over those.
 
 use nalgebra::{Point3, Vector3};
 
@@ -41,6 +45,11 @@ const HALVINGS: u32 = 24;
 /// its waypoints are passed more slowly, at last at rest: bodies that are level there bend a leg between two
 /// directions, and the less the slower they are. So a leg without a demand is refused only if it is refused straight
 /// and from rest to rest.
+///
+/// `speeds` has one entry a leg, m/s > 0; at least two waypoints. Times demanded are checked against `longest` before
+/// anything is judged. Each round slows every waypoint beside a refused leg by 1.12 and judges again only what changed,
+/// so that the work is bounded by some twenty rounds a waypoint. What is answered is proven leg by leg; that it is the
+/// fastest is not claimed.
 ///
 /// # Errors
 /// The legs that are refused in the end, with their evidence.
@@ -106,6 +115,8 @@ impl Passed {
     }
 
     /// From a tenth on at rest.
+    ///
+    /// SLOWER⁻ⁿ of the velocity, and 0 after the first share at or below a tenth.
     fn slower(&mut self) {
         self.share = if self.share > 0.1 { self.share / SLOWER } else { 0.0 };
     }
@@ -120,6 +131,7 @@ impl Held<'_> {
         }
     }
 
+    /// A leg with a demand has one time, a free one those of the ladder.
     fn judged(&self, leg: usize) -> Result<ProfileLeg, Infeasible> {
         let [from, to] = [leg, leg + 1].map(|k| self.judge.end(self.waypoints[k], self.passed[k].now()));
         if let Some(time) = self.demanded[leg] {
@@ -155,6 +167,9 @@ impl Held<'_> {
 
 /// The leg between `ends` in the first time of the ladder from the guess (s) on in which it may be flown.
 ///
+/// 0.6 of the guess first, then by 1.2 each time, `longest` last. Times are not monotone in feasibility, so what is
+/// taken is the first that is proven.
+///
 /// # Errors
 /// The evidence against the longest.
 fn in_free_time(
@@ -173,6 +188,9 @@ fn in_free_time(
 }
 
 /// The time of a leg of `length` (m) that is held at `speed` (m/s), s; which of its ends are at rest.
+///
+/// From the mean speed of the leg: length over time is `speed` between waypoints that are passed, half of it from or to
+/// rest, 16/35 of it from rest to rest, whose peak is then `speed`.
 fn paced(length: f64, speed: f64, at_rest: [bool; 2]) -> f64 {
     let factor = match at_rest {
         [false, false] => 1.0,
@@ -183,12 +201,18 @@ fn paced(length: f64, speed: f64, at_rest: [bool; 2]) -> f64 {
 }
 
 /// A time in which a leg of this length might be flown, s.
+///
+/// The larger of 2L/v, half of the time in which the rest-to-rest leg peaks at 4.9 m/s² (7.5 L/T²), and 1 ms: too short
+/// rather than too long, as ladders only lengthen it.
 fn first_guess(judge: &LegJudge, length: f64) -> f64 {
     (2.0 * length / judge.top_speed()).max((7.5 * length / 4.9).sqrt() * 0.5).max(LEAST_TIME)
 }
 
 /// The velocities at the waypoints, m/s: along the minimum-snap curve for these times, with the least speed that is
 /// demanded beside them.
+///
+/// One for each waypoint; 0 at both ends of the flight. Without a demand the curve's own velocity, cut to the top
+/// speed; with one on either side its direction at the smaller of both speeds.
 fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>], times: &[f64]) -> Vec<Passed> {
     let curve = minimum_snap(waypoints, times).unwrap_or_default();
     let last = waypoints.len() - 1;
@@ -214,6 +238,9 @@ fn velocities(judge: &LegJudge, waypoints: &[Point3<f64>], speeds: &[Option<f64>
 ///
 /// Drag may help to turn: what it takes at the speed limit is added to what thrust does. Without a speed limit nothing
 /// is shown.
+///
+/// From 2 ‖v₂ − v₁‖/(T₁ + T₂) ≤ max ‖p̈‖ ≤ [`LegJudge::most_acceleration`] + ‖D(v_max)‖/m. A margin of 10⁻⁹ keeps
+/// rounding from saying no. Points that coincide show nothing.
 pub fn turns_too_hard(judge: &LegJudge, points: [&Point3<f64>; 3], speeds: [f64; 2]) -> Option<f64> {
     let cap = judge.limits().max_speed;
     let [way_in, way_out] = [points[1] - points[0], points[2] - points[1]];
@@ -228,6 +255,9 @@ pub fn turns_too_hard(judge: &LegJudge, points: [&Point3<f64>; 3], speeds: [f64;
 /// limit that a shorter one meets; none in `longest` (s).
 ///
 /// Bisected to 2⁻²⁴ of the bracket.
+///
+/// Bisection takes feasibility for monotone in the time; the time that is answered has been proven itself. The
+/// bracket's upper end grows by 1.5 from the guess.
 pub fn fastest(judge: &LegJudge, a: &Point3<f64>, b: &Point3<f64>, longest: f64) -> Option<(f64, Infeasible)> {
     let [from, to] = [a, b].map(|p| judge.end(*p, Vector3::zeros()));
     let refused = |time: f64| judge.judge(&from, &to, time).err();

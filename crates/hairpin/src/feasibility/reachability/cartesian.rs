@@ -1,5 +1,8 @@
 //! The graph of the tool's sphere alone: every pair of points against every part of the cell, proven or in plain
 //! floating point.
+//!
+//! Most pairs are far from most parts, so that the order of the loops is points, parts, points: the filter judges a
+//! whole row against one part in lanes, and only what it leaves open is asked alone.
 
 use nalgebra::Point3;
 
@@ -29,6 +32,8 @@ pub enum Level {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CartesianSettings {
     /// Radius of the tool's sphere plus what else it must stay away, m.
+    ///
+    /// ≥ 0; 0 makes the tool a point.
     pub radius: f64,
     /// How sure.
     pub level: Level,
@@ -45,6 +50,8 @@ pub struct CartesianSettings {
 ///
 /// A move a–b is free if the capsule {a + t(b − a)} ⊕ ball(radius) meets no part. The point's own place is part of
 /// every move from it, so that a point inside a part has none.
+///
+/// Memory: a reason (4 bytes) and a cost (8 bytes) for each ordered pair.
 ///
 /// ```
 /// use hairpin::feasibility::reachability::{CartesianSettings, Level, cartesian};
@@ -124,6 +131,8 @@ fn mirror(square: &mut [u32], n: usize) {
 }
 
 /// Length of the straight move in whole micrometres, rounded to nearest.
+///
+/// NaN becomes 0, as casts do; distances beyond 9·10¹² m saturate.
 pub fn micrometres(a: &Point3<f64>, b: &Point3<f64>) -> i64 {
     (1e6 * (b - a).norm()).round() as i64
 }

@@ -5,6 +5,9 @@
 //! region's sizes. With unit round-off u = 2⁻⁵³ every polynomial below has an error bound c·u·Mᵏ whose constant is
 //! derived in docs/arms.md and rounded up to a power of two. A comparison that holds with that bound holds in the real
 //! numbers.
+//!
+//! Each test is a sufficient condition with its error bound on the safe side, so that a lane says clear, met or
+//! neither. No lane branches.
 
 // NaN of 0/0 must become a bound here, not stay NaN.
 #![allow(clippy::manual_clamp)]
@@ -32,7 +35,9 @@ pub(super) const HIT: u64 = 2;
 
 /// The points relative to a region, one coordinate after the other.
 pub(super) struct Filter {
+    /// Lengths in m, in the region's own axes.
     kind: RegionKind,
+    /// x, y, z relative to the region's centre, m; of half-spaces lower bounds, upper bounds and zeros.
     coordinates: [Vec<f64>; 3],
     scale: Scale,
 }
@@ -41,8 +46,12 @@ pub(super) struct Filter {
 #[derive(Debug, Clone, Copy)]
 struct Scale {
     /// Largest coordinate or size.
+    ///
+    /// M, m.
     m: f64,
     /// Error of a coordinate.
+    ///
+    /// η, m: rounding of the difference from the centre, and of the turn where there is one.
     eta: f64,
 }
 
@@ -115,6 +124,8 @@ impl Filter {
     ///
     /// `out` has one entry for each point behind `i`: [`OPEN`], [`CLEAR`] or [`HIT`]. The same bits at every level of
     /// SIMD.
+    ///
+    /// Cost: some tens of operations a segment, in lanes.
     pub(super) fn row(&self, simd: Simd, i: usize, out: &mut [u64]) {
         let [xs, ys, zs] = &self.coordinates;
         let from = [xs[i], ys[i], zs[i]];
@@ -139,6 +150,8 @@ impl Filter {
 }
 
 /// Heights of all points over a half-space, in intervals: no more than that is needed.
+///
+/// A half-space is met if either end is: heights are linear, so that nothing between the ends counts.
 fn heights(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Filter> {
     let height = |p: &Point3<f64>| region.formula([p.x, p.y, p.z].map(Interval::point), radius);
     let all: Vec<Interval> = points.iter().map(height).collect::<Option<_>>()?;
@@ -147,6 +160,8 @@ fn heights(region: &Region, points: &[Point3<f64>], radius: f64) -> Option<Filte
 }
 
 /// A rotation that turns `axis` into z; along a coordinate axis without rounding.
+///
+/// Rows are the new axes in the old frame, orthonormal to rounding, which η counts.
 fn upright(axis: &Vector3<f64>) -> Matrix3<f64> {
     let longest = axis.iamax();
     let z = axis.normalize();
@@ -162,10 +177,14 @@ fn upright(axis: &Vector3<f64>) -> Matrix3<f64> {
 /// 4u M.
 impl Scale {
     /// Of a sum of three products of coordinates or differences: 36 M η + 64 u M² ≤ 64 M η.
+    ///
+    /// Degree 2; the unit is m².
     fn square(self) -> f64 {
         64.0 * self.m * self.eta + TINY
     }
     /// Of (|u|² − r²)|d|² − (u·d)²: 288 M³η + 1100 u M⁴ ≤ 1024 M³ η.
+    ///
+    /// Degree 4; m⁴.
     fn determinant(self) -> f64 {
         1024.0 * self.m * self.m * self.m * self.eta + TINY
     }
@@ -176,6 +195,9 @@ kernel! {
     /// the whole line outside, (a − r²)d − b² > 0, with a = |u|², b = u·(v − u), c = v·(v − u), d = |v − u|², each
     /// beyond its error bound. Bit 1, met: the segment's nearest point, computed however roughly, lies inside beyond
     /// the bound.
+    ///
+    /// `r` is the radius grown by the tool's. Clear of three ways in which a segment passes a ball: it moves away from
+    /// its first end on, comes nearer up to its last one, or has its nearest point between and outside.
     fn ball(from: [f64; 3], r: f64, scale: Scale, points: [&[f64]; 3], out: &mut [u64]) {
         let [xs, ys, zs] = points;
         let (e2, e4, rr) = (scale.square(), scale.determinant(), r * r);
@@ -269,6 +291,9 @@ kernel! {
     /// Bit 0: beyond a disc at both ends, past the shell in the plane as [`ball`] has it, or, between the discs,
     /// nowhere closer to the axis than the radius. Bit 1 by a witness in the middle of what discs and shell leave,
     /// inside of the shell grown by r below the disc's height, or of the shell itself below the height grown by r.
+    ///
+    /// `sizes` are the cylinder's radius, half length and the tool's radius. With r > 0 the grown rim is round, and
+    /// what lies only in the corner between shell and disc is left open.
     fn cylinder(from: [f64; 3], sizes: [f64; 3], scale: Scale, points: [&[f64]; 3], out: &mut [u64]) {
         let [xs, ys, zs] = points;
         let Scale { m, eta } = scale;

@@ -59,11 +59,15 @@ impl ReachabilityGraph {
     }
 
     /// Cost of a possible move in [`unit`](Self::unit), ≥ 0.
+    ///
+    /// `None` of a refused move.
     pub fn cost(&self, from: usize, to: usize) -> Option<i64> {
         self.is_free(from, to).then(|| self.costs[from * self.points + to])
     }
 
     /// All costs, row = from: what searches take.
+    ///
+    /// Row = from, n² entries; `None` of refused moves and on the diagonal.
     pub fn matrix(&self) -> Vec<Option<i64>> {
         let pairs = (0..self.points).flat_map(|from| (0..self.points).map(move |to| (from, to)));
         pairs.map(|(from, to)| self.cost(from, to)).collect()
@@ -83,6 +87,8 @@ impl ReachabilityGraph {
     }
 
     /// Share of the ordered pairs of different points that are possible; 0 with fewer than two points.
+    ///
+    /// O(n²).
     pub fn density(&self) -> f64 {
         let pairs = self.points * self.points.saturating_sub(1);
         let free =

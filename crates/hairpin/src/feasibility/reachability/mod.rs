@@ -6,6 +6,10 @@
 //!
 //! Data flow of a Cartesian pair: float filter with derived error bounds (`filter`) → separating direction in intervals
 //! (`segment`) → bisection in t (`segment`) → clear, hit, or undecided, which is refused. Derivations: docs/arms.md.
+//!
+//! What is claimed: `Certified` answers are true of the real numbers given; joint mode is proven between samples and up
+//! to rounding. What is refused may still be possible: within rounding of contact, in another configuration, or along
+//! another way than the one move asked about.
 
 mod cartesian;
 mod filter;

@@ -143,6 +143,8 @@ impl Refusal {
     }
 
     /// Of two reasons against a point the one that came farther: reach, limits, then everything else.
+    ///
+    /// Two joint limits are compared by how far the angle is beyond, rad; of equals the first stays.
     pub(super) fn or_nearer(self, other: Self) -> Self {
         let rank = |refusal: &Self| match refusal {
             Self::OutOfReach { .. } => 0,

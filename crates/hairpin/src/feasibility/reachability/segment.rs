@@ -1,4 +1,7 @@
 //! One segment against one region, proven: intervals in the segment's parameter alone, halved until they decide.
+//!
+//! Why halving in t alone decides: on a piece of width w the enclosure of the region's formula is too wide by O(w²) in
+//! centred form, so that only pieces near contact are halved far, and only contact itself does not end.
 
 use nalgebra::Point3;
 
@@ -16,6 +19,8 @@ pub struct Obstacle {
     /// The region.
     pub region: Region,
     /// Triangles, of hulls and meshes.
+    ///
+    /// `None` of regions with a formula or in words.
     surface: Option<Surface>,
 }
 
@@ -45,6 +50,8 @@ impl Obstacle {
     ///
     /// For parts of the cell without a surface the first of: nearest point proven inside, direction proven separating,
     /// intervals of t halved down to 2⁻³⁶.
+    ///
+    /// `Hit` comes with a parameter whose point is proven within the radius.
     pub fn certify(&self, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
         match (&self.surface, &self.region) {
             (Some(surface), _) => surface::certify(surface, a, b, radius),
@@ -67,6 +74,8 @@ impl Obstacle {
 /// Where the segment is nearest to a convex region, found in floating point, most is decided: the point there is proven
 /// within the radius, or the direction to it is proven to separate: n·p > h(n) + r|n| at both ends, with the region's
 /// support function h.
+///
+/// `None` leaves the question to halving: regions without a core, or a distance within rounding of the radius.
 fn at_nearest(region: &Region, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Option<Verdict> {
     let (t, n) = region.nearest(a, b)?;
     let i = Interval::point;
@@ -90,6 +99,8 @@ enum Piece {
 
 /// Halves [0, 1] until every piece is clear, one is hit, or one is as narrow as `least` and neither. `None` from `look`
 /// ends as undecided.
+///
+/// Depth first from t = 0. Effort is bounded by 4000 pieces.
 fn halve(least: f64, mut look: impl FnMut(Interval) -> Option<Piece>) -> Verdict {
     let mut open = vec![Interval { low: 0.0, high: 1.0 }];
     let mut undecided: Option<Verdict> = None;
@@ -115,6 +126,8 @@ fn halve(least: f64, mut look: impl FnMut(Interval) -> Option<Piece>) -> Verdict
 
 /// Words grown by the cube around a ball: what is clear is so for the ball; what only the cube's corners meet stays
 /// undecided.
+///
+/// A hit is one of 27 points of the ball around a piece's middle; `radius` 0 looks at the middle alone.
 fn of_words(words: &Words, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
     let ball = Interval { low: -radius, high: radius };
     // Pieces much shorter than the ball say nothing new.

@@ -6,6 +6,10 @@
 //! all triangles lies wholly inside or wholly outside; the winding number of one of its points, Σ 2 atan2(…)/4π over
 //! the triangles' solid angles (van Oosterom, Strackee 1983), is an integer that floating point cannot miss away from
 //! the surface.
+//!
+//! Cost: a box test for every triangle, the inequality for those near. The winding number asks all triangles and is
+//! needed where no triangle is near, so that a segment wholly inside is not taken for clear; at most five of its points
+//! are asked.
 
 use nalgebra::{Point3, Vector3};
 
@@ -21,6 +25,8 @@ const TOO_NEAR: f64 = 1e-6;
 /// See [`super::Obstacle::certify`].
 ///
 /// A segment that is clear of all triangles is clear if one of its points is outside, and a hit if inside.
+///
+/// Undecided in one word: `at` ½ and `width` 1, for it is not known where.
 pub(super) fn certify(surface: &Surface, a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Verdict {
     let undecided = Verdict::Undecided { at: 0.5, width: 1.0 };
     let Some(all) = Bounds::around(&surface.vertices) else { return undecided };
@@ -57,6 +63,8 @@ pub(super) fn certify(surface: &Surface, a: &Point3<f64>, b: &Point3<f64>, radiu
 }
 
 /// Whether a direction proves that the segment is farther than `radius` from the triangle.
+///
+/// Directions tried: the triangle's normal both ways, from each edge to the segment, and across both, both ways.
 fn separated(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3], radius: f64) -> bool {
     let gap = |n: &Vector3<f64>| {
         let ends = n.dot(&a.coords).min(n.dot(&b.coords));
@@ -84,6 +92,9 @@ fn separated(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3], radiu
 }
 
 /// A parameter at which the segment is proven to be within `radius` of the triangle, or to pass through it.
+///
+/// `None` is no proof of the contrary. Edges, then ends over the face: together these hold the nearest points of a
+/// segment that does not pass through.
 fn touched(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3], radius: f64) -> Option<f64> {
     if crossed(a, b, corners) {
         let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
@@ -140,6 +151,9 @@ fn crossed(a: &Point3<f64>, b: &Point3<f64>, corners: &[Point3<f64>; 3]) -> bool
 }
 
 /// Nearest points of two segments, by turns: each turn takes the point nearest to the other's.
+///
+/// Exact where both nearest points lie inside of their segments, else to one turn from three beginnings; m. A guess
+/// that others prove from.
 fn nearest(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>, d: &Point3<f64>) -> (Point3<f64>, Point3<f64>) {
     let (u, v, r) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(&v), v.norm_squared());

@@ -28,6 +28,8 @@ pub enum Verdict {
 }
 
 /// a + t(b − a).
+///
+/// t as an interval or a centred form gives an enclosure of that part of the segment.
 pub(super) fn point<N: Real>(a: &Point3<f64>, b: &Point3<f64>, t: N) -> [N; 3] {
     std::array::from_fn(|k| N::constant(a[k]) + t * (N::constant(b[k]) - N::constant(a[k])))
 }

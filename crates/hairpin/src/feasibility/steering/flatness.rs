@@ -12,6 +12,9 @@
 //! F = m (v̇ + g e₃) + c₁ v + c₂ |v| v      tan θ = Fx/Fz      sin φ = −Fy/|F|      ψ = 0
 //! (p, q, r) = (φ̇, θ̇ cos φ, −θ̇ sin φ)      τ = I ω̇ + ω × Iω + c_ω |ω| ω      w² = M⁻¹ (|F|, τ)
 //! ```
+//!
+//! Neglected: rotor lag, gyroscopic torque of the rotors, ground effect, wind, blade flapping. The inertia is diagonal
+//! in the body frame, drag acts at the centre of mass and does not depend on the attitude.
 
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -28,6 +31,9 @@ pub const LEAST_VERTICAL_THRUST: f64 = 0.02;
 /// Velocity, acceleration, jerk and snap of a path, SI, world frame.
 ///
 /// Order four is needed: rotor speeds depend on snap through ω̇.
+///
+/// A state that is flown needs all four to be of one path: nothing here checks that acceleration is the derivative of
+/// velocity. Position is no part of it, for forces do not depend on place.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatState<N> {
     /// m/s.
@@ -101,11 +107,17 @@ pub struct DependentRotors;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Flatness {
+    /// kg.
     mass: f64,
+    /// m/s², > 0, along −z of the world.
     gravity: f64,
+    /// About x, y, z of the body, kg·m².
     inertia: [f64; 3],
+    /// c₁, N·s/m.
     drag_linear: f64,
+    /// c₂, N·s²/m²; 0 takes a shorter way in [`Self::drag`], which has no direction of a velocity that vanishes.
     drag_quadratic: f64,
+    /// c_ω, N·m·s²: opposes body rates, squared.
     aerodynamic_moment: f64,
     /// Rotor speeds squared from (thrust, moments).
     unmix: [[f64; 4]; 4],
@@ -113,6 +125,14 @@ pub struct Flatness {
 
 impl Flatness {
     /// The map for `robot`.
+    ///
+    /// With f the thrusts of the four rotors (N), at (xᵢ, yᵢ) and of spin ±1,
+    ///
+    /// ```text
+    /// (|F|, τx, τy, τz) = M f     row i of Mᵀ = (1, yᵢ, −xᵢ, spinᵢ k_m/k_f)     w² = M⁻¹ (|F|, τ) / k_f
+    /// ```
+    ///
+    /// Rotors in a line or of one spin make M singular.
     ///
     /// # Errors
     /// [`DependentRotors`].
@@ -146,6 +166,9 @@ impl Flatness {
     /// not settle: |v|v is once differentiable at v = 0 and the second derivative jumps there. An enclosure takes n in
     /// [−1, 1]³ then, which holds both sides of the jump; a point takes the mean, which at a rest end (a = j = 0) is
     /// exact.
+    ///
+    /// Rows: D, Ḋ, D̈, each in the world frame. D = c₁v + c₂|v|v, Ḋ = c₁a + c₂(|v| a + |v|˙ v), D̈ = c₁j + c₂(|v| j +
+    /// 2|v|˙ a + |v|¨ v). `speed` must be |v|, in the same kind of number: it is not computed again.
     #[inline(always)]
     fn drag<N: Smooth>(&self, v: &[N; 3], a: &[N; 3], j: &[N; 3], speed: N) -> [[N; 3]; 3] {
         let linear = self.drag_linear;
@@ -170,6 +193,9 @@ impl Flatness {
     /// all three are 0.
     ///
     /// World frame.
+    ///
+    /// From F = m(a + g e₃) + D = m g e₃, and its first derivative. The second derivative is not made 0: that would
+    /// take the snap, which the leg's other end decides.
     pub fn level(&self, velocity: &Vector3<f64>) -> [Vector3<f64>; 3] {
         let v = [velocity.x, velocity.y, velocity.z];
         let (zero, speed) = ([0.0; 3], velocity.norm());
@@ -182,6 +208,8 @@ impl Flatness {
     }
 
     /// Squares of the rotor speeds for a thrust (N) and moments (N·m).
+    ///
+    /// Signed: below 0 where the rotor would have to pull downwards, which no speed does.
     #[inline(always)]
     fn rotors<N: Smooth>(&self, thrust: N, moments: &[N; 3]) -> [N; 4] {
         unrolled!([0, 1, 2, 3], |i| {
@@ -192,6 +220,9 @@ impl Flatness {
 
     /// Squares of the rotor speeds at a level end without rates, given F̈ (N/s², x and y) there: ω̇ = (−F̈y, F̈x, 0)/(m
     /// g).
+    ///
+    /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g); ω = 0 takes gyroscopic and aerodynamic moments away, and
+    /// F̈z does not turn the body. Exact, without the quotients of [`Self::demand`].
     #[inline]
     pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();
@@ -222,6 +253,17 @@ impl Flatness {
     /// analytic. Meaningless unless Fz > 0, which the caller checks.
     ///
     /// No branch on N, so that lanes never part. Rates in rad/s and moments in N·m in the body frame.
+    ///
+    /// With s² = Fx² + Fz²:
+    ///
+    /// ```text
+    /// θ̇ = (Ḟx Fz − Fx Ḟz)/s²                  θ̈ = ((F̈x Fz − Fx F̈z) − 2 θ̇ s ṡ)/s²
+    /// φ̇ = −(Ḟy s² − Fy s ṡ)/(s |F|²)          φ̈ by the logarithmic derivative of s |F|²
+    /// ṗ = φ̈    q̇ = θ̈ cos φ − φ̇ θ̇ sin φ    ṙ = −θ̈ sin φ − φ̇ θ̇ cos φ
+    /// ```
+    ///
+    /// Quotients go by reciprocals of s² and |F|², the only two that an enclosure must prove positive. Where it cannot,
+    /// `rest` of what is answered is infinite or NaN, and nothing that compares with a limit takes that for a proof.
     #[inline(always)]
     pub fn demand<N: Smooth>(&self, flat: &FlatState<N>) -> Demand<N> {
         let speed = Self::speed(&flat.velocity);
@@ -269,6 +311,8 @@ impl Flatness {
     /// Attitude, rates and rotor speeds `tau` seconds into a leg.
     ///
     /// Rotor speeds are not held to any limit.
+    ///
+    /// NaN where the force vanishes. For pictures, logs and references of controllers; limits are held by the judge.
     pub fn body_state(&self, leg: &ProfileLeg, tau: f64) -> BodyState {
         let demand = self.demand(&flat_state(leg, tau));
         let [fx, fy, fz] = demand.force;
@@ -290,6 +334,7 @@ pub fn flat_state(leg: &ProfileLeg, tau: f64) -> FlatState<f64> {
     FlatState { velocity: d(1), acceleration: d(2), jerk: d(3), snap: d(4) }
 }
 
+/// Σ aᵢ bᵢ, in this order of summation on every kind of number.
 #[inline(always)]
 fn dot<N: Smooth>(a: &[N; 3], b: &[N; 3]) -> N {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

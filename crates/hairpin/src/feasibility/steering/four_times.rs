@@ -10,6 +10,10 @@
 //! ```
 //!
 //! where V and A are numbers at a given u, so that an instant of four durations costs what the leg itself would.
+//!
+//! The limits asked are those of [`super::LegJudge::judge`] before its proof, with 10⁻⁷ of room instead of none, since
+//! the same quantities come out of other formulas here: a leg that is refused here is refused there, while one that
+//! passes here may still fail there. Walls and obstacles are not asked.
 
 use nalgebra::Vector3;
 use wide::f64x4;
@@ -31,6 +35,9 @@ at_every_level! {
     /// have to do at the ends or at four instants: bit i for duration number i.
     ///
     /// What is left need not be a leg; what is refused is none by [`super::LegJudge::judge`].
+    ///
+    /// `few` must not be empty; more than four are cut to four. Lanes that repeat the last duration repeat its bit,
+    /// which the caller does not read. A duration that gives NaN is not refused, and is left to the judge.
     pub(super) fn refused(body: (&Flatness, &BodyLimits, f64), from: &LegEnd, to: &LegEnd, few: &[f64]) -> u32 {
         const ALL: u32 = 0b1111;
         let (flatness, limits, mass) = body;
@@ -48,8 +55,11 @@ at_every_level! {
 
 /// An instant u, and V(u) and A(u).
 struct Instant {
+    /// Share of the duration, in (0, 1).
     u: f64,
+    /// V_j(u): T ṗ by the residue e_j.
     velocity: [f64; 4],
+    /// A_j(u): T² p̈ by the residue e_j.
     acceleration: [f64; 4],
 }
 
@@ -70,13 +80,17 @@ impl Instant {
 /// One axis: c₁, c₂, c₃ and e₀ … e₃.
 #[derive(Clone, Copy)]
 struct Axis {
+    /// Coefficients of u, u², u³, m: velocity T, half the acceleration T², a sixth of the jerk T³ at the start.
     c: [f64x4; 3],
+    /// What the cubic that leaves the start misses at the end, of value and first three derivatives by u, m.
     e: [f64x4; 4],
 }
 
 /// The legs from one state to another in four durations.
 struct FourTimes<'a> {
+    /// Durations, s.
     t: f64x4,
+    /// x, y, z of the world.
     axes: [Axis; 3],
     /// Second time derivatives of the drag at both ends, N/s².
     drag_second: [&'a Vector3<f64>; 2],
@@ -102,6 +116,8 @@ impl<'a> FourTimes<'a> {
 
     /// Rotor speeds at the ends: p⁗ T⁴ = 840 e₀ − 360 e₁ + 60 e₂ − 4 e₃ at the first, and −840 e₀ + 480 e₁ − 120 e₂ +
     /// 16 e₃ at the last.
+    ///
+    /// Snap is p⁗ = (…)/T⁴, so that F̈ = m p⁗ + D̈ (N/s²), of which x and y turn the body.
     #[inline(always)]
     fn at_ends(&self, flatness: &Flatness, body: &BodyLimits, mass: f64) -> u32 {
         let t2 = self.t * self.t;

@@ -1,4 +1,8 @@
 //! Proof on all of a leg by halving: intervals of time, four at a time, until each is decided.
+//!
+//! Shared by the proof of the body's limits and by other rooms of feasibility that look at a function of time: what is
+//! evaluated is the caller's. Depth first, the leg's last intervals before its first ones, so that memory is bounded by
+//! the depth and not by the number of intervals. Nothing is allocated.
 
 /// Intervals at most that wait for their turn: with at most 64 at first, and the last of them halved first, more than
 /// proofs of 1024 evaluations come to.
@@ -14,8 +18,12 @@ pub struct ProofSettings {
     /// Equal intervals that a leg is cut into first; 4 … 64.
     pub first: usize,
     /// An undecided interval shorter than this share of the leg ends the proof.
+    ///
+    /// A pure number in (0, 1): at 1/16384 a leg of 4 s is looked at down to a quarter of a millisecond.
     pub shortest: f64,
     /// Intervals evaluated per leg at most.
+    ///
+    /// Counted one for each interval, not for each batch; what is spent when it runs out is refused.
     pub budget: usize,
 }
 
@@ -30,6 +38,12 @@ impl Default for ProofSettings {
 ///
 /// `evaluate` takes the centres and half widths of four intervals, of which the last may repeat, and gives the bit
 /// masks of those that are proven and of those whose centre violates a limit.
+///
+/// `settings.first` must be 1 … 128. An interval is given up, and its centre returned as `Err`, when its half width is
+/// below half of `shortest` · `duration`, when the budget is spent, or when more than 128 would wait: refusing errs on
+/// the safe side. Violations of a batch are looked for before anything in it is halved. Intervals join without gaps but
+/// for the rounding of their centres, of which the room in the caller's comparisons takes care. `duration` NaN:
+/// whatever `evaluate` says of NaN, which should be neither.
 ///
 /// # Errors
 /// The centre of an interval that violates, or that the settings do not let it decide.

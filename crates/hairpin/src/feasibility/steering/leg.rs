@@ -1,4 +1,14 @@
 //! One leg between two waypoint states, level and without rates at both, judged cheapest test first.
+//!
+//! ```text
+//! p(τ) of degree 7 on each axis, 0 ≤ τ ≤ T, with p, ṗ, p̈, p⃛ given at both ends
+//! level at an end:  F = m g e₃, Ḟ = 0    ⇔    p̈ = −D(v)/m, p⃛ = −(∂D/∂v) p̈/m
+//! ```
+//!
+//! So a waypoint is a place and a velocity, and a leg is two of them and a time. Legs that meet at a waypoint join with
+//! continuous acceleration and jerk, whatever their times; their snap jumps there. No optimisation takes part: a leg is
+//! what its data make of it, and is refused where that breaks a limit, though another shape between the same ends might
+//! not.
 
 use nalgebra::{Point3, Vector3};
 use wide::f64x4;
@@ -22,12 +32,16 @@ use crate::world::World;
 /// level at both ends.
 #[derive(Debug, Clone)]
 pub struct LegJudge {
+    /// Demands of the body.
     flatness: Flatness,
     body: BodyLimits,
+    /// Where the centre may be.
     space: FreeSpace,
     limits: Limits,
     mass: f64,
+    /// m/s; may be infinite.
     top_speed: f64,
+    /// m/s².
     most_acceleration: f64,
 }
 
@@ -84,12 +98,16 @@ impl LegJudge {
     }
 
     /// The level state at `position` with `velocity`.
+    ///
+    /// World frame; m and m/s. A speed above the limits is not refused here: [`Self::judge`] does that.
     pub fn end(&self, position: Point3<f64>, velocity: Vector3<f64>) -> LegEnd {
         let [acceleration, jerk, drag_second] = self.flatness.level(&velocity);
         LegEnd { position, velocity, acceleration, jerk, drag_second }
     }
 
     /// The one 7th-order leg from `from` to `to` in `duration` (s, > 0), not judged.
+    ///
+    /// A duration that is 0, negative or not finite gives coefficients that are no numbers, without a panic.
     #[inline]
     pub fn connect(from: &LegEnd, to: &LegEnd, duration: f64) -> ProfileLeg {
         let data = |end: &LegEnd, axis: usize| {
@@ -106,6 +124,9 @@ impl LegJudge {
     ///
     /// A duration that is not finite and positive is [`Limit::Duration`]. Most infeasible legs end at the tests before
     /// the proof.
+    ///
+    /// Limits are asked cheapest first, so the one named is the first that fails in that order, not the one that is
+    /// missed by most. Nothing is allocated.
     ///
     /// # Errors
     /// The limit that fails, where, and by how much.
@@ -128,6 +149,9 @@ impl LegJudge {
     /// The number of the first of `durations` (s) in which the leg is one by [`Self::judge`].
     ///
     /// Most are refused four at a time, for what the body would have to do at the ends and at four instants.
+    ///
+    /// Same answer as judging them one after the other: the filter refuses only what the judge would. The order is that
+    /// of `durations`; `None` where none is a leg or there are none.
     pub fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
         durations.chunks(4).enumerate().find_map(|(k, few)| {
             let refused = self.refused(from, to, few);
@@ -145,6 +169,8 @@ impl LegJudge {
     ///
     /// Space first, then the body.
     ///
+    /// Proven between samples, up to rounding, as [`super::proof`] and `feasibility::collision` describe.
+    ///
     /// # Errors
     /// As [`Self::judge`].
     pub fn prove(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
@@ -153,6 +179,9 @@ impl LegJudge {
     }
 
     /// Rotor speeds at the ends, where F = m g e₃, Ḟ = 0 and F̈ = m p⁗ + D̈.
+    ///
+    /// Snap at the start is 24 c₄, at the end 24 c₄ + 120 c₅ T + 360 c₆ T² + 840 c₇ T³. Without tolerance: rounding at
+    /// a limit may refuse what is exactly on it.
     #[inline]
     fn ends_allowed(&self, from: &LegEnd, to: &LegEnd, leg: &ProfileLeg) -> Result<(), Infeasible> {
         let t = leg.duration;
@@ -171,6 +200,9 @@ impl LegJudge {
     }
 
     /// Walls, speed, thrust and tilt at a fifth, two fifths, … of the leg.
+    ///
+    /// A wall may be passed by 1 µm here, which the proof then decides; speed, thrust and tilt have no tolerance.
+    /// Obstacles are not asked: they cost more than the proof's first look.
     #[inline]
     fn instants_allowed(&self, leg: &ProfileLeg) -> Result<(), Infeasible> {
         const INSTANTS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
@@ -199,6 +231,8 @@ impl LegJudge {
 
 /// max |F e/m − g e₃| over thrusts F from none to all and directions e within the tilt limit, m/s². Its square,
 /// (F/m)² − 2 (F/m) g cos θ + g², is convex in F and grows with θ: the largest is at an end of both.
+///
+/// Drag left out. A `max_tilt` beyond a right angle counts as one. At least g: no thrust at all is always among them.
 fn most_acceleration(robot: &Quadrotor, max_tilt: f64) -> f64 {
     let (thrust, gravity) = (robot.max_thrust() / robot.mass, robot.gravity);
     let cos_tilt = libm::cos(max_tilt.clamp(0.0, std::f64::consts::FRAC_PI_2));
@@ -207,6 +241,8 @@ fn most_acceleration(robot: &Quadrotor, max_tilt: f64) -> f64 {
 }
 
 /// Position, velocity and acceleration of one axis at four times.
+///
+/// Horner's scheme with its derivatives; the second one comes out halved.
 #[inline(always)]
 fn low_derivatives(c: &[f64; 8], tau: f64x4) -> [f64x4; 3] {
     let (mut p, mut v, mut a) = (f64x4::ZERO, f64x4::ZERO, f64x4::ZERO);

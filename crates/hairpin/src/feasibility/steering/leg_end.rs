@@ -17,5 +17,7 @@ pub struct LegEnd {
     /// −(∂D/∂v) a/m, m/s³.
     pub jerk: Vector3<f64>,
     /// Second time derivative of the drag there, N/s².
+    ///
+    /// World frame; kept so that rotor speeds at the end need no second look at the drag.
     pub(super) drag_second: Vector3<f64>,
 }

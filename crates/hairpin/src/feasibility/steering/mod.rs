@@ -6,6 +6,11 @@
 //! | drives in the plane | [`shooting`] | a curve of κ(s) | pose and curvature |
 //! | drives on the ground | [`shooting::rough`] | the flat goal | predicted pose and curvature |
 //! | drives around places | [`clear`] | the same, and which way round | the same, clear all along |
+//!
+//! A leg of a flight is judged, not searched: value, velocity, acceleration and jerk at both ends fix the polynomial,
+//! and a time is all that is chosen ([`timing`]). A leg of a drive is searched: bounds on κ and κ′ leave a family of
+//! curves, and the boundary-value problem picks one. Nothing here knows of graphs or of more than one leg; what is
+//! answered is either a leg with its proof or the evidence against it.
 
 pub mod clear;
 pub mod flatness;

@@ -5,6 +5,16 @@
 //! is a proof on the whole interval, a violation at a centre is a refusal with evidence, anything else is halved. A
 //! violation of 1 ms between samples cannot be missed. Accepting is proven up to rounding, refusing may be conservative
 //! by the shortest interval.
+//!
+//! What is compared, each with a margin that is ≥ 0 where the limit holds:
+//!
+//! ```text
+//! speed    v_max − |v|            thrust   Fz − 0.02 m g          tilt   Fz − |F| cos(tilt_max)
+//! rotors   wᵢ² − w_min²           w_max² − wᵢ²                    i = 0 … 3
+//! ```
+//!
+//! Tilt is compared without an angle, since acos has no bounded slope at 0. A leg that touches a limit exactly is
+//! refused: its margin never clears the room for rounding.
 
 use wide::f64x4;
 
@@ -27,18 +37,27 @@ const ROUNDING: f64 = 1e-9;
 /// What is compared is free of roots and angles: squares of rotor speeds, cos of the tilt.
 #[derive(Debug, Clone)]
 pub(super) struct BodyLimits {
+    /// As the task has them, for what is told.
     limits: Limits,
+    /// N.
     least_vertical: f64,
+    /// m g, N.
     weight: f64,
+    /// Of the largest tilt, which is cut to a right angle.
     cos_tilt: f64,
+    /// Least and largest, rad/s.
     rotor_speed: (f64, f64),
+    /// Square of the least, rad²/s².
     rotor_low: f64,
+    /// Square of the largest, rad²/s².
     rotor_high: f64,
     settings: ProofSettings,
 }
 
 impl BodyLimits {
     /// Rotor speeds are compared by their squares.
+    ///
+    /// `settings.first` is brought into 4 … 64: fewer waste lanes, more might not fit beside their halves.
     pub(super) fn new(robot: &Quadrotor, limits: Limits, settings: ProofSettings) -> Self {
         let weight = robot.mass * robot.gravity;
         Self {
@@ -54,6 +73,9 @@ impl BodyLimits {
     }
 
     /// Signed margins of speed, vertical thrust and tilt, and what rounding may take from each.
+    ///
+    /// In m/s, N and N; `vertical` is Fz and `thrust` |F|. A speed limit that is infinite or huge counts as 1000 m/s
+    /// for rounding, so that the room stays finite.
     #[inline(always)]
     pub(super) fn force_margins<N: Smooth>(&self, speed: N, vertical: N, thrust: N) -> [(N, f64); 3] {
         [
@@ -64,6 +86,9 @@ impl BodyLimits {
     }
 
     /// The first of four squared rotor speeds that is out of its limits, with its margin in rad/s. NaN is.
+    ///
+    /// The margin is w_max − w or w − w_min, negative; NaN demands come back as −∞ below the least speed. `part` is the
+    /// rotor's index. No room for rounding: at a sample, being at the limit is allowed.
     #[inline]
     pub(super) fn rotor_violation(&self, squares: &[f64; 4]) -> Option<(Limit, usize, f64)> {
         let (low, high) = (self.rotor_low, self.rotor_high);
@@ -112,6 +137,8 @@ impl BodyLimits {
     }
 
     /// Limit − acos(F_z/|F|), rad.
+    ///
+    /// `vertical` and `thrust` in N; NaN where both vanish.
     fn tilt_margin(&self, vertical: f64, thrust: f64) -> f64 {
         self.limits.max_tilt - libm::acos((vertical / thrust).clamp(-1.0, 1.0))
     }
@@ -119,6 +146,10 @@ impl BodyLimits {
     /// The least margin at one instant, with its limit and part, in the limit's unit.
     ///
     /// Least as a share of the limit, so that limits of different units compare.
+    ///
+    /// Scales: 1 for thrust as a share of the weight and for tilt in rad, the limit itself for speed (1000 m/s at
+    /// most), the largest rotor speed for rotors. Below the least vertical thrust only that is told, for attitude and
+    /// rates mean nothing.
     pub(super) fn worst(&self, flatness: &Flatness, leg: &ProfileLeg, tau: f64) -> (Limit, usize, f64) {
         let demand: Demand<f64> = flatness.demand(&flat_state(leg, tau));
         let vertical = demand.force[2] / self.weight - LEAST_VERTICAL_THRUST;
@@ -147,6 +178,8 @@ impl BodyLimits {
     /// Four intervals at a time in lanes, each degree-1 Taylor models of all demands; halved in two where neither
     /// proven nor violated at its centre.
     ///
+    /// Accepting costs two batches for legs that keep well clear; the worst case is the budget of [`ProofSettings`].
+    ///
     /// # Errors
     /// A violation at an instant, or an interval that the settings do not let it decide.
     pub(super) fn prove(&self, flatness: &Flatness, leg: &ProfileLeg) -> Result<(), Infeasible> {
@@ -160,6 +193,9 @@ impl BodyLimits {
 
 at_every_level! {
     /// Bit masks of the intervals on which every limit is proven, and of those whose centre violates one.
+    ///
+    /// `batch` holds centre and half width, s. An interval may be in neither mask, and one whose centre violates is
+    /// never in the first, since its lower bound is no higher than its centre.
     fn evaluate(body: &BodyLimits, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
         let tau = f64x4::new(batch.map(|(center, _)| center));
         let half = f64x4::new(batch.map(|(_, half)| half));

@@ -6,6 +6,8 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LegTiming {
     /// Every leg takes this long.
+    ///
+    /// s, > 0.
     Step(f64),
     /// A geometric ladder from `shortest` to `longest`, both included, neighbours no more than `ratio` apart.
     /// Feasibility is not monotone in the time where ends have velocities, so every rung is tried, shortest first.
@@ -30,6 +32,8 @@ impl LegTiming {
     }
 
     /// Shortest and longest leg time, s.
+    ///
+    /// A ladder whose ends are the wrong way round is one rung, its `shortest`.
     pub fn range(&self) -> (f64, f64) {
         match *self {
             LegTiming::Step(step) => (step, step),
@@ -38,6 +42,10 @@ impl LegTiming {
     }
 
     /// The rungs in rising order, s.
+    ///
+    /// T_k = shortest · (longest/shortest)^(k/n), k = 0 … n, n the least whole number for which neighbours are no more
+    /// than `ratio` apart. At most 10 001 rungs; ratios below 1.001 count as that. Ends that are equal, reversed or no
+    /// numbers give the one rung `shortest`, whatever it is: durations are refused where legs are judged.
     pub fn rungs(&self) -> Vec<f64> {
         match *self {
             LegTiming::Step(step) => vec![step],

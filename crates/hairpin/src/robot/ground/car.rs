@@ -117,6 +117,8 @@ pub struct Car {
     /// Speed where none is given, m/s.
     pub default_speed: f64,
     /// How it follows its commands.
+    ///
+    /// Its axle is the wheelbase and its rate the steering's, so that κ = tan(δ)/L lags as δ does.
     pub response: Response,
     /// Names of the numbers that were derived here, not given, or estimated.
     pub estimated: Vec<&'static str>,
@@ -161,6 +163,8 @@ impl Car {
     ///
     /// dκ/ds = δ̇ (1 + tan²δ)/(L v) is least at δ = 0, so that the bound is kept at every angle. Speed is the default
     /// one: faster drives of the same path would steer faster, and have bounds of their own ([`Rover::limits_at`]).
+    ///
+    /// The body frame is at the middle of the rear axle: the outline reaches from −overhang to L + overhang along x.
     pub fn vehicle(&self) -> Rover {
         let limits = Limits {
             curvature: libm::tan(self.steering) / self.wheelbase,

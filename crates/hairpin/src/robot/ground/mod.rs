@@ -1,5 +1,8 @@
 //! Cars and differential drives on flat ground: their files, and the vehicle that the generator of drives and the plant
 //! take them for.
+//!
+//! In the plane, without slip: what a file gives becomes bounds on κ and κ′ at a speed and a response, in the numbers
+//! of a [`Rover`](crate::robot::rover::Rover) without a suspension, so that everything that drives rovers drives these.
 
 mod car;
 mod differential_drive;
@@ -51,6 +54,7 @@ struct Named<'a> {
 }
 
 impl Named<'_> {
+    /// No wheels, no weight, no slip; the outline is the underside's rectangle at height 0, by which keep-outs go.
     fn vehicle(&self, limits: Limits, response: Response, default_speed: f64) -> Rover {
         Rover {
             name: self.name.into(),

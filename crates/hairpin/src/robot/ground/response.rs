@@ -31,6 +31,11 @@ pub struct GroundResponse {
 
 impl GroundResponse {
     /// Of a vehicle whose wheels follow as `wheels` says but for what is given here.
+    ///
+    /// Times 0 … 60 s, scales 0.1 … 10.
+    ///
+    /// # Errors
+    /// The first key out of bounds.
     pub(super) fn build(given: Option<&Self>, wheels: Response) -> Result<Response, RoverError> {
         let given = given.copied().unwrap_or_default();
         let time = |key: &str, value: Option<f64>| within(key, value.unwrap_or(0.0), 0.0, 60.0);

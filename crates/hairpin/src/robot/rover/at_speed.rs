@@ -8,6 +8,9 @@ impl Rover {
     ///
     /// What depends on the speed are the curvatures of vehicles without a suspension: the outer rim of a differential
     /// drive keeps its limits ([`Rims`](super::Rims)), the steering of a car its rate, |κ′| ≤ δ̇/(L v).
+    ///
+    /// `speed` > 0. Tilt, joints, speed and acceleration are as they are; slower than the default speed nothing is
+    /// gained by a car.
     pub fn limits_at(&self, speed: f64, acceleration: f64) -> Limits {
         let mut limits = self.limits;
         if let Some(rims) = &self.rims {
@@ -21,6 +24,8 @@ impl Rover {
     }
 
     /// Whether its bound of κ′ is what its steering does at its default speed, as a car's is.
+    ///
+    /// To 10⁻⁹ of it, and only with a finite rate.
     fn steers_at_its_limit(&self) -> bool {
         let rate = self.response.steering_rate / (self.response.steered_axle * self.default_speed);
         (self.limits.curvature_rate - rate).abs() <= 1e-9 * rate && rate.is_finite()

@@ -53,6 +53,9 @@ pub struct BellyDescription {
 impl Body {
     /// Checked numbers, or estimates: the centre of mass over the middle of the wheels, the underside between the
     /// outermost wheels, both at the height of the body's origin, or of the wheels' centres if that is higher.
+    ///
+    /// A centre of mass must lie above the level ground below the wheels and strictly between them as seen from above;
+    /// the underside at or above that ground. Names of what was guessed are added to `estimated`.
     pub(super) fn build(
         suspension: &Suspension,
         centre_of_mass: Option<&[f64; 3]>,

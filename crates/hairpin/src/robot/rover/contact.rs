@@ -18,6 +18,12 @@ pub(super) struct Contact {
 }
 
 /// The gap of a wheel of `radius` (m) with its centre at `center` (world, m).
+///
+/// c_x = h_x + r (h_x h_xx + h_y h_xy)/√(1 + h_x² + h_y²), and c_y alike. The derivatives jump where the map's second
+/// ones do.
+///
+/// # Errors
+/// [`NoGround`] below the centre.
 pub(super) fn contact<T: Terrain>(terrain: &T, center: &Vector3<f64>, radius: f64) -> Result<Contact, NoGround> {
     let ground = terrain.patch(center.x, center.y)?;
     let [hx, hy] = ground.slope;

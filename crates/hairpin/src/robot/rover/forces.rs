@@ -30,6 +30,9 @@ impl Rover {
     ///
     /// with n wheels, all driven, of radius r, that share F evenly: no other shares of F do with less than the largest
     /// of these. What turning wheels on the spot and scrubbing take is left out.
+    ///
+    /// Infinite or NaN without wheels, which a weight excludes. `pull` is subtracted from the vertical in body axes, as
+    /// a tilted gravity would be.
     pub fn effort(
         &self,
         pose: &Settled,
@@ -50,6 +53,8 @@ impl Rover {
     }
 
     /// The force along the way that all wheels bring about with all their torque, N; infinite without a bound.
+    ///
+    /// n τ_max/r; friction with the ground may allow less, which is not asked.
     pub fn most_traction(&self) -> f64 {
         let (_, count, radius) = self.suspension.wheels(&[0.0; 3]);
         if self.wheels.torque.is_finite() { self.wheels.torque * count as f64 / radius } else { f64::INFINITY }

@@ -39,6 +39,12 @@ impl FourWheel {
     }
 
     /// The pose that minimises Σ F_i² over the four gaps, from `guess`.
+    ///
+    /// `at` = x, y, ψ in m, m, rad. Ends where a step is below 1 % of `coarse` (m and rad alike). The gradient is that
+    /// of the last linearisation: J drops second derivatives of the gaps, so that it is exact only where they vanish.
+    ///
+    /// # Errors
+    /// [`Unsettled`]: a wheel off the map, wheels that do not determine the pose, or no end within 50 steps.
     pub(super) fn settle<T: Terrain>(
         &self,
         terrain: &T,
@@ -79,6 +85,8 @@ impl FourWheel {
     }
 
     /// JᵀJ (z, φ, θ) with the right-hand sides −Jᵀ(F, F_x, F_y, F_ψ).
+    ///
+    /// Rows z, φ, θ; columns the three unknowns, then −JᵀF, −JᵀF_x, −JᵀF_y, −JᵀF_ψ.
     fn normal_equations<T: Terrain>(
         &self,
         terrain: &T,

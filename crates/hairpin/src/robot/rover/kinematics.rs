@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Slip {
     /// Share of the speed that is lost climbing 20°; gained going down.
+    ///
+    /// 0 … 0.95 in files. On a climb γ the share is s₂₀ sin γ/sin 20°, linear in the sine and without a bound of its
+    /// own.
     pub at_20_deg: f64,
     /// Drift downhill across a slope of 20°, as a share of the speed.
     pub side_at_20_deg: f64,

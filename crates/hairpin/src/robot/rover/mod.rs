@@ -27,6 +27,9 @@
 //!
 //! After T. Howard and A. Kelly, "Optimal rough terrain trajectory generation for wheeled mobile robots", IJRR 26(2),
 //! 2007.
+//!
+//! Assumed: wheels are rigid balls that stay on the ground, the body is in static rest at every place, slip depends on
+//! the slope alone. Neglected: dynamics of the suspension, sinkage, wheels that lift off or spin.
 
 mod at_speed;
 mod body;

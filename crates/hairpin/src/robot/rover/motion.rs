@@ -49,6 +49,7 @@ struct Commanded([f64; 3]);
 
 /// Sines and cosines of roll and pitch.
 struct Lean {
+    /// sin φ, cos φ, sin θ, cos θ, in this order.
     sf: f64,
     cf: f64,
     st: f64,
@@ -64,6 +65,9 @@ impl Lean {
     /// With slip: v (1 − s₂₀ sin(climb)/sin 20°), drift −s′₂₀ sin(side)/sin 20°; the wheels keep the path's curvature,
     /// so slip shortens the turn as well. A force that pulls by the share `pull` of the weight along the body's x and y
     /// axes is a slope by as much less.
+    ///
+    /// `direction` = (sin δ, cos δ). What is not slipped is `progress`, signed: vx = progress cos δ − drift sin δ, vy =
+    /// progress sin δ + drift cos δ, ωz = κ · progress, all per metre of commanded travel.
     fn commanded(&self, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip, pull: [f64; 2]) -> Commanded {
         // Rise per metre along the body's x and y axes.
         let (rise_x, rise_y) = (-self.st - pull[0], self.ct * self.sf - pull[1]);
@@ -78,6 +82,8 @@ impl Lean {
 
     /// ẋ = cosψ cosθ vx + (cosψ sinθ sinφ − sinψ cosφ) vy, ẏ = sinψ cosθ vx + (sinψ sinθ sinφ + cosψ cosφ) vy,
     /// ψ̇ = (cosφ / cosθ) ωz.
+    ///
+    /// θ of ±π/2 divides by 0; predictions end before it.
     fn source(&self, Commanded([vx, vy, turn]): Commanded) -> Rates {
         let Self { sf, cf, st, ct } = self;
         Rates { ahead: ct * vx + st * sf * vy, left: cf * vy, yaw: cf / ct * turn }
@@ -93,6 +99,9 @@ impl Lean {
     ///
     /// with the suspension's gradient along the heading (a), across it (l) and by ψ, and `beyond` = (ż₀, θ̇₀) what it
     /// leaves out.
+    ///
+    /// Unknowns are vz and ψ̇. With its determinant held at 0.05 or more the rates stay finite at the foot of a wall,
+    /// where they mean nothing any more.
     fn exact(&self, gradient: &Gradient, yaw: f64, commanded: Commanded, beyond: [f64; 2]) -> Rates {
         let Self { sf, cf, st, ct } = self;
         let Commanded([vx, vy, turn]) = commanded;
@@ -122,6 +131,8 @@ impl Lean {
 ///
 /// ẋ = cosψ cosθ vx + (cosψ sinθ sinφ − sinψ cosφ) vy, ẏ = sinψ cosθ vx + (sinψ sinθ sinφ + cosψ cosφ) vy,
 /// ψ̇ = (cosφ / cosθ) κ v (Howard & Kelly 2007; vz, ωx, ωy left out, which is exact on planes).
+///
+/// `curvature` in 1/m, left positive, as the wheels stand; ψ̇ has the sign of the gear.
 #[inline]
 pub fn rates(pose: &Settled, direction: (f64, f64), sign: f64, curvature: f64, slip: &Slip) -> Rates {
     let lean = Lean::of(pose);
@@ -203,6 +214,8 @@ impl Rover {
     }
 
     /// Rates per radian of a turn in place: ψ̇ = cosφ/cosθ, and with exact kinematics what the rising body moves aside.
+    ///
+    /// Slip does not count in place. m/rad and rad/rad.
     #[inline]
     pub fn turning(&self, (pose, gradient): (&Settled, &Gradient), yaw: f64) -> Rates {
         let (lean, commanded) = (Lean::of(pose), Commanded([0.0, 0.0, 1.0]));

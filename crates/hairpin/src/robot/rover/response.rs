@@ -14,6 +14,8 @@ pub struct Response {
     /// Time constant of the first-order lag of steering, s; 0: none.
     pub steering_time_constant: f64,
     /// Largest rate of the steering angle, rad/s.
+    ///
+    /// Infinite where it is not bounded.
     pub steering_rate: f64,
     /// Distance of the steered axle from the line through the turning centre, m: κ = tan(δ) / it.
     pub steered_axle: f64,
@@ -64,6 +66,8 @@ pub(in crate::robot) struct Unplanned {
 
 impl Unplanned {
     /// `response` with it.
+    ///
+    /// Time constants 0 … 60 s, scales 0.1 … 10.
     pub(in crate::robot) fn build(self, response: Response) -> Result<Response, RoverError> {
         let lag = self.speed_time_constant.unwrap_or(0.0);
         let scale = |key: &str, value: Option<f64>| within(key, value.unwrap_or(1.0), 0.1, 10.0);

@@ -37,6 +37,8 @@ pub struct Gradient {
 
 impl Gradient {
     /// Change of (z, φ, θ, rocker, bogies) to first order where the place moves by (x, y, ψ).
+    ///
+    /// `moved` in m, m, rad; out: m, then rad.
     pub fn over(&self, moved: [f64; 3]) -> [f64; 6] {
         self.by_place.map(|row| row[0] * moved[0] + row[1] * moved[1] + row[2] * moved[2])
     }
@@ -114,6 +116,8 @@ impl Attitude {
     }
 
     /// ∂F/∂(φ, θ, ψ) for `lever` = b × Rᵀ∇F: the derivative of R b by an angle is R (axis × b).
+    ///
+    /// Axes in the body: x for φ, (0, cos φ, −sin φ) for θ, the world's z for ψ.
     pub(super) fn by_angles(&self, lever: &Vector3<f64>) -> [f64; 3] {
         [lever.x, self.pitch_axis.dot(lever), self.yaw_axis.dot(lever)]
     }

@@ -20,12 +20,16 @@ impl Rims {
     pub const MOST_SHARE: f64 = 0.99;
 
     /// The largest |κ| that the outer wheel can go at `speed` (m/s), 1/m: 2 (v_w − v)/(b v); 0 beyond its own.
+    ///
+    /// `speed` > 0; at 0 it is infinite, for the vehicle may turn in place.
     pub fn curvature(&self, speed: f64) -> f64 {
         (2.0 * (self.speed - speed) / (self.track * speed)).max(0.0)
     }
 
     /// The largest |κ′| at `speed` (m/s) beside `acceleration` (m/s²) on `curvature` (1/m), 1/m²:
     /// 2 (a_w − v̇ (1 + κ b/2))/(b v²).
+    ///
+    /// 0 where the acceleration takes all that the outer rim has. Infinite at rest.
     pub fn curvature_rate(&self, speed: f64, acceleration: f64, curvature: f64) -> f64 {
         let left = self.acceleration - acceleration * self.outer(curvature);
         (2.0 * left / (self.track * square(speed))).max(0.0)

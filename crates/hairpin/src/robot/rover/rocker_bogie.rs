@@ -39,6 +39,7 @@ const LONGEST_STEP: f64 = 0.35;
 /// One side's wheels in the body frame and their derivatives by the rocker's and the bogie's angle.
 struct Side {
     at: [Vector3<f64>; 3],
+    /// m/rad.
     by_rocker: [Vector3<f64>; 3],
     by_bogie: [Vector3<f64>; 3],
 }
@@ -51,6 +52,8 @@ fn turn(v: &Vector3<f64>, cos: f64, sin: f64) -> (Vector3<f64>, Vector3<f64>) {
 
 impl RockerBogie {
     /// The wheels of the side `s` (+1 left, −1 right): the rocker's own, then the bogie's.
+    ///
+    /// x and z only move with the joints; y stays.
     fn side(&self, s: f64, rocker: f64, bogie: f64) -> Side {
         let mirror = |v: &Vector3<f64>| Vector3::new(v.x, s * v.y, v.z);
         let pivot = mirror(&self.pivot);
@@ -78,6 +81,12 @@ impl RockerBogie {
     }
 
     /// The pose in which all six wheels touch the ground, from `guess`.
+    ///
+    /// Steps longer than 0.35 (m or rad, any component) are scaled as a whole; a step after which the largest gap has
+    /// grown is halved back. Ends with the step from gaps of at most `coarse`, m.
+    ///
+    /// # Errors
+    /// [`Unsettled`]: a wheel off the map, a singular system, or no end within 30 looks.
     pub(super) fn settle<T: Terrain>(
         &self,
         terrain: &T,
@@ -110,6 +119,8 @@ impl RockerBogie {
         Err(Unsettled::NotConverged { gap: largest })
     }
 
+    /// Rows: left rocker wheel, left bogie, right rocker wheel, right bogie, the bogies' two wheels combined so that
+    /// their own angle drops out.
     fn linearise<T: Terrain>(&self, terrain: &T, at: [f64; 3], pose: &Settled) -> Result<System, Unsettled> {
         let attitude = Attitude::new(pose.roll, pose.pitch, at[2]);
         let origin = Vector3::new(at[0], at[1], pose.z);
@@ -158,6 +169,8 @@ struct System {
 
 impl System {
     /// The Newton step of (z, φ, θ, β, ρ_l, ρ_r), and dq/d(x, y, ψ).
+    ///
+    /// `None` where the system is singular, or where a bogie's angle moves neither of its wheels up or down.
     fn solve(mut self) -> Option<([f64; 6], Gradient)> {
         if !reduce(&mut self.rows) {
             return None;

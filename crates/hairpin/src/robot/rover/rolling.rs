@@ -23,6 +23,8 @@ pub struct Twist {
 
 impl Twist {
     /// A metre of travel with `sign` (±1) along the direction δ in the body, with curvature κ (1/m).
+    ///
+    /// `direction` in rad, δ > 0 to the left.
     pub fn along(direction: f64, curvature: f64, sign: f64) -> Self {
         let (sin, cos) = libm::sincos(direction);
         Self { ahead: sign * cos, left: sign * sin, turn: sign * curvature }
@@ -59,6 +61,8 @@ impl Rover {
     ///
     /// Left turn centre at 1/κ: a wheel at (x, y) stands at δ = atan2(κ x, 1 − κ y) and rolls √((1 − κ y)² + κ² x²)
     /// metres a metre, for travel straight ahead.
+    ///
+    /// Entries beyond the count are zeros. Radii play no part: `rolls` is of the wheel's centre in the body's plane.
     pub fn wheel_motions(
         &self,
         twist: &Twist,
@@ -88,6 +92,8 @@ impl Rover {
     }
 
     /// The steer angle, modulo half a turn, that is within the joint's limit and nearest to `before`.
+    ///
+    /// Within ±π. Standing still (below 10⁻¹²) the wheel keeps its angle.
     fn steered(&self, ahead: f64, left: f64, before: f64) -> WheelMotion {
         let size = libm::hypot(ahead, left);
         if size <= 1e-12 {
@@ -108,6 +114,7 @@ impl Rover {
         WheelMotion { steer, rolls, scrubs: 0.0 }
     }
 
+    /// By x of the nominal wheels, within a millimetre of the foremost or the rearmost.
     fn steers(&self, wheels: &[Vector3<f64>]) -> [bool; 6] {
         let front = wheels.iter().map(|w| w.x).fold(f64::MIN, f64::max) - AXLE;
         let rear = wheels.iter().map(|w| w.x).fold(f64::MAX, f64::min) + AXLE;
@@ -135,6 +142,8 @@ impl Rover {
     /// The largest |dδ/dκ| of a steered wheel for |κ| ≤ `most`, m: |x| / ((1 − κy)² + κ²x²); 0 where none steers.
     ///
     /// dδ/dκ of δ = atan(κ x/(1 − κ y)); times |κ̇| it bounds the steer joints' rates.
+    ///
+    /// `most` in 1/m, ≥ 0. Exact: the denominator is least at κ = y/(x² + y²), or at the end of the range.
     pub fn steering_gain(&self, most: f64) -> f64 {
         let (wheels, count, _) = self.suspension.wheels(&[0.0; 3]);
         let steers = self.steers(&wheels[..count]);

@@ -1,6 +1,8 @@
 //! How far a standing body is from tipping over, and from resting on its belly.
 //!
 //! Source: the force-angle measure of Papadopoulos & Rey (ICRA 1996) for gravity alone.
+//!
+//! Both are about a body at rest: what driving adds is given as a pull, what the ground gives way by is not known here.
 
 use nalgebra::Vector3;
 
@@ -70,6 +72,9 @@ impl Rover {
     ///
     /// At most 25 × 25 places of the underside, each one height of the map.
     ///
+    /// `at` = x, y, ψ. Along the vertical, not along the body's own axis: on a slope the true gap is smaller by its
+    /// cosine.
+    ///
     /// # Errors
     /// [`NoGround`] below the body.
     pub fn belly_clearance<T: Terrain>(&self, terrain: &T, at: [f64; 3], pose: &Settled) -> Result<f64, NoGround> {
@@ -96,6 +101,8 @@ impl Rover {
 
 /// The least angle between the direction `gravity` and the faces of the cone that `contacts`, seen from the centre of
 /// mass, span; negative outside, π/2 where they span none.
+///
+/// `contacts` in m, `gravity` a unit vector, both in one frame. Unsorted contacts are fine.
 fn margin(contacts: &[Vector3<f64>], gravity: &Vector3<f64>) -> f64 {
     let mut least = std::f64::consts::FRAC_PI_2;
     for (i, a) in contacts.iter().enumerate() {

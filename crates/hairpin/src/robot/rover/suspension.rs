@@ -159,6 +159,8 @@ impl Suspension {
 
     /// Radius of the circle about the body's origin that passes through the outermost wheel's centre, m; 0 without
     /// wheels.
+    ///
+    /// Joints at 0; the wheels' own radius is not added.
     pub fn outer_radius(&self) -> f64 {
         let (wheels, count, _) = self.wheels(&[0.0; 3]);
         wheels[..count].iter().map(|wheel| libm::hypot(wheel.x, wheel.y)).fold(0.0, f64::max)
@@ -172,6 +174,8 @@ impl Suspension {
     }
 
     /// Height of the body's origin over level ground, m.
+    ///
+    /// r less the mean height of the wheels' centres in the body frame, joints at 0.
     pub fn ride_height(&self) -> f64 {
         match self {
             Self::Level => 0.0,

@@ -80,6 +80,8 @@ impl Default for Wheels {
 
 impl Wheels {
     /// Checked numbers.
+    ///
+    /// Without wheels the effective track is 0 unless given.
     pub(super) fn build(
         steering: Steering,
         given: &WheelsDescription,

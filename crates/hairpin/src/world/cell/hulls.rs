@@ -1,5 +1,8 @@
 //! How far a convex hull of points is from a region: what links of arms are held against, where they are more than
 //! segments.
+//!
+//! By Gilbert, Johnson and Keerthi's algorithm on support functions (`math::convex`), each step of which gives a lower
+//! bound (a plane) and an upper one (two points); half-spaces and reach spheres have closed forms.
 
 use nalgebra::{Point3, Vector3};
 
@@ -46,6 +49,8 @@ impl Region {
 }
 
 /// The farthest point of a cylinder.
+///
+/// Along `n`, of any length; where `n` is along the axis any point of the disc is one, and its centre is taken.
 fn of_cylinder(a: &Point3<f64>, b: &Point3<f64>, radius: f64, n: &Vector3<f64>) -> Point3<f64> {
     let axis = b - a;
     let across = n - axis * (n.dot(&axis) / axis.norm_squared());
@@ -54,6 +59,9 @@ fn of_cylinder(a: &Point3<f64>, b: &Point3<f64>, radius: f64, n: &Vector3<f64>) 
 }
 
 /// The nearest of all triangles; a hull that meets none is inside the mesh as a whole, or outside.
+///
+/// Triangles whose boxes are farther than `clear`, or than the nearest one so far, count by their boxes, which errs
+/// low. A first point inside ends it. O(triangles).
 fn of_mesh(points: &[Point3<f64>], solid: &Solid, [met, clear]: [f64; 2]) -> Gap {
     let Some(around) = Bounds::around(points) else { return Gap { least: f64::INFINITY, most: f64::INFINITY } };
     if solid.signed_distance(&points[0]) <= 0.0 {
@@ -79,6 +87,8 @@ fn of_mesh(points: &[Point3<f64>], solid: &Solid, [met, clear]: [f64; 2]) -> Gap
 
 /// Bounds of the distance between two hulls of points, as [`Region::hull_gap`] has it; of two segments their own
 /// formula.
+///
+/// Both sets are never empty. m; 0 where they meet.
 pub fn hulls_gap(a: &[Point3<f64>], b: &[Point3<f64>], enough: [f64; 2]) -> Gap {
     match (a, b) {
         ([p, q], [r, s]) => {

@@ -4,6 +4,9 @@
 //! A region is asked three things: how near a segment comes ([`Region::segment_distance`], floating point), whether a
 //! formula over intervals decides ([`Region::formula`], for proofs), and what plane separates it ([`Region::nearest`],
 //! [`Region::support`]). Numbers here; the proof that a tool's segment is clear is put together from them on floor 5.
+//!
+//! Signs throughout: a distance or a formula is ≤ 0 inside and on the border, > 0 outside. Frames: the arm's base; a
+//! region that moves is no part of a cell.
 
 mod hulls;
 mod near;

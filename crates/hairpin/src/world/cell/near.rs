@@ -18,6 +18,9 @@ impl Region {
     /// Smallest signed distance of the segment a–b to the region, m; ≤ 0 where they meet, `None` for words.
     ///
     /// Exact to rounding for all but words; the segment's own points alone, no tool around them.
+    ///
+    /// Negative values are depths for balls, capsules, half-spaces and reach spheres; cylinders give 0 where they are
+    /// met.
     pub fn segment_distance(&self, a: &Point3<f64>, b: &Point3<f64>) -> Option<f64> {
         Some(match self {
             Self::Shape(shape) => shape.segment_distance(a, b),
@@ -68,6 +71,8 @@ impl Region {
 const SAMPLES: usize = 32;
 
 /// The centre and 26 points of a ball, to the corners, edges and faces of a cube in it.
+///
+/// m; one point, the centre, for a radius of 0. None is outside of the ball by rounding.
 pub fn directions(radius: f64) -> impl Iterator<Item = Vector3<f64>> {
     let step = |i: usize| i as f64 - 1.0;
     let all = (0..27).map(move |i| Vector3::new(step(i % 3), step(i / 3 % 3), step(i / 9)));
@@ -77,6 +82,8 @@ pub fn directions(radius: f64) -> impl Iterator<Item = Vector3<f64>> {
 }
 
 /// Whether the words are proven false within `room` of a–b: on the box around it, or around both halves.
+///
+/// Boxes are rounded outwards by one unit in the last place of each bound.
 fn room_around(words: &Words, a: &Point3<f64>, b: &Point3<f64>, room: f64, depth: usize) -> bool {
     let side = |k: usize| {
         let between = Interval::between(a[k], b[k]);
@@ -96,6 +103,8 @@ fn room_around(words: &Words, a: &Point3<f64>, b: &Point3<f64>, room: f64, depth
 impl Region {
     /// From the nearest point of the region's core to `p`, m: zero inside. The core of a ball is its centre, of a
     /// capsule its axis; of boxes and cylinders they themselves. `None` for everything else.
+    ///
+    /// Of balls and capsules the radius that grows the core is not taken off.
     fn excess(&self, p: &Point3<f64>) -> Option<Vector3<f64>> {
         Some(match self {
             Self::Shape(Shape::Sphere { center, .. }) => p - center,

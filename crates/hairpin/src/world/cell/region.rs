@@ -119,6 +119,9 @@ impl Region {
     /// `p` in m in the region's frame. With [`crate::math::outward::Interval`]s a value whose upper bound is < 0 proves
     /// that every point enclosed is inside, one whose lower bound is > 0 that none is; with
     /// [`crate::math::outward::Centred`] forms the bounds close quadratically as the segment is halved.
+    ///
+    /// In m² for balls, capsules, reach spheres and grown boxes and cylinders, in m (times ‖n‖ for half-spaces)
+    /// otherwise: only its sign means anything across regions.
     pub fn formula<N: Real>(&self, p: [N; 3], radius: f64) -> Option<N> {
         let c = N::constant;
         let zero = c(0.0);
@@ -171,6 +174,8 @@ impl Region {
     ///
     /// n·x(t) > h(n) + (R + r)‖n‖ at both ends of a segment proves it farther than r from the region, whatever `n` is
     /// and however it was found: the separating plane theorem needs no other premise.
+    ///
+    /// `n` of any length; the bound is in m times its length, outward rounded.
     pub fn support(&self, n: &Vector3<f64>) -> Option<(Interval, f64)> {
         let i = Interval::point;
         let dot = |p: &Point3<f64>| i(n.x) * i(p.x) + i(n.y) * i(p.y) + i(n.z) * i(p.z);
@@ -192,6 +197,8 @@ impl Region {
     }
 
     /// A box that holds the region; `None` if it has no end.
+    ///
+    /// Of cylinders the box of the capsule around it, which is larger.
     pub fn bounds(&self) -> Option<Bounds> {
         match self {
             Self::Shape(shape) => Some(shape.bounds()),

@@ -49,6 +49,8 @@ impl Words {
     }
 
     /// Whether the words are true at a point, m, in floating point.
+    ///
+    /// A chain of comparisons with a value that is no number is false; `not` of it is true.
     pub fn holds(&self, p: [f64; 3]) -> bool {
         self.condition.at(&p.map(|c| c * self.per_metre), &|less: f64, or_equal| {
             // A value that does not exist (0/0) makes nothing true.

@@ -8,6 +8,9 @@
 //! with other rocks keeps its craters. Turcotte, "A fractal interpretation of topography and geoid spectra on the
 //! Earth, Moon, Venus, and Mars", J. Geophys. Res. 92 (1987); Pike, "Size-dependence in the shape of fresh impact
 //! craters on the moon", in Impact and Explosion Cratering (1977).
+//!
+//! What is made is statistically like such ground, not a model of how it came about: craters do not erase what was
+//! there before, ejecta end at two radii, and nothing is eroded.
 
 use std::f64::consts::TAU;
 
@@ -65,6 +68,8 @@ const DEPTH: f64 = 0.2;
 const RIM: f64 = 0.04;
 
 /// The map of `recipe`, its south-west corner at the origin; the same bytes from the same recipe on any machine.
+///
+/// Cost: octaves times cells, then each bump's own cells. Heights are rounded to f32 at the end.
 ///
 /// ```
 /// use hairpin::world::terrain::{Terrain, generate::{Recipe, generate}};
@@ -129,6 +134,9 @@ struct Ground {
 impl Ground {
     /// Gradient noise in octaves, wavelengths λ halving from the longest down to two cells, each of an amplitude ∝ λ^H;
     /// together their standard deviation is the relief asked for, as far as that of gradient noise is ¼.
+    ///
+    /// An octave has the variance amplitude²/16, and the next one 4^(−H) of it, so that all together sum to the
+    /// relief's square; the series is cut off at two cells, where the relief comes out a little low.
     fn fractal(&mut self, recipe: &Recipe) {
         let mut wave = LONGEST_WAVE.min(recipe.size_m);
         // Gradient noise has a standard deviation of about a quarter; octaves of variance λ^(2H) add up to the
@@ -155,6 +163,8 @@ impl Ground {
         }
     }
 
+    /// D = D_least u^(−½) with u even in (0, 1). Places are even over the map, rims may lie beyond it; one adds to the
+    /// other.
     fn craters(&mut self, recipe: &Recipe) {
         if recipe.least_crater_m >= recipe.size_m {
             return;
@@ -182,6 +192,8 @@ impl Ground {
     }
 
     /// Adds `height` of the distance from `center`, m, to the cells within `reach`.
+    ///
+    /// Cells by their centres; the map's border cuts.
     fn bump(&mut self, center: [f64; 2], reach: f64, height: impl Fn(f64) -> f64) {
         let last = self.cells as f64 - 1.0;
         let span = |at: f64| {
@@ -203,6 +215,8 @@ impl Ground {
 }
 
 /// Profile of a crater by its diameter, at `r` radii from its centre: a bowl, a rim, and ejecta that end at two radii.
+///
+/// Over D: −0.2 at the centre, 0.04 at the rim, where the slope jumps, 0 with its slope and bend at two radii.
 fn crater(r: f64) -> f64 {
     if r < 1.0 {
         (DEPTH + RIM) * r * r - DEPTH
@@ -213,6 +227,8 @@ fn crater(r: f64) -> f64 {
 }
 
 /// Perlin's gradient noise with the quintic fade (Perlin 2002), within ± 0.71.
+///
+/// `at` in cells of the lattice; `gradient` gives unit vectors. C² across cells.
 fn gradient_noise(at: [f64; 2], gradient: impl Fn(i64, i64) -> [f64; 2]) -> f64 {
     let (i, j) = (at[0].floor(), at[1].floor());
     let (u, v) = (at[0] - i, at[1] - j);

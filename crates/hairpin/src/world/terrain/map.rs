@@ -100,9 +100,11 @@ pub enum MapError {
 #[derive(Debug, Clone)]
 pub struct ElevationMap {
     grid: Grid,
+    /// 1/m.
     per_cell: [f64; 2],
     /// Rows from the south, with one ring of extrapolated cells around them; holes are NaN.
     heights: Vec<f32>,
+    /// Columns with the ring.
     stride: usize,
     /// Cells whose height was filled in, rows from the south, without the ring; empty if there are none.
     filled: Vec<bool>,
@@ -197,6 +199,7 @@ impl ElevationMap {
         Self { heights, ..self.clone() }
     }
 
+    /// `None` outside the outermost cell centres, and of NaN.
     #[inline]
     fn locate(&self, x: f64, y: f64) -> Option<Located> {
         let u = (x - self.grid.first_center[0]) * self.per_cell[0];
@@ -227,6 +230,9 @@ struct Located {
 }
 
 /// Weights of four neighbouring samples for the value and its first two derivatives at `t` in [0, 1].
+///
+/// Rows: value, by t, by t twice; each has the sums 1, 0, 0, and lines are met exactly. Derivatives are by cells, not
+/// by metres.
 #[inline(always)]
 fn weights(t: f64) -> [[f64; 4]; 3] {
     let (t2, t3) = (t * t, t * t * t);
@@ -324,6 +330,8 @@ fn check(grid: &Grid, heights: usize) -> Result<(), MapError> {
 
 /// The cells of `lines`, rows from the south, with a ring around them, continued linearly: the slope at the border is
 /// that of the outermost cells.
+///
+/// Corners are continued along both axes in turn.
 fn pad<'a>(lines: impl Iterator<Item = &'a [f32]>, columns: usize, rows: usize) -> (Vec<f32>, usize) {
     let stride = columns + 2;
     let mut padded = vec![0.0; stride * (rows + 2)];

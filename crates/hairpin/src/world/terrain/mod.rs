@@ -77,6 +77,8 @@ pub enum NoGround {
 pub trait Terrain: Sync {
     /// Height and derivatives at (`x`, `y`).
     ///
+    /// m in the world frame. The same place must give the same answer: searches rely on it.
+    ///
     /// # Errors
     /// [`NoGround`] where nothing is known.
     fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround>;

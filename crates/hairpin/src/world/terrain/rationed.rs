@@ -25,6 +25,7 @@ impl<'a, T> Rationed<'a, T> {
         self.left.load(Ordering::Relaxed)
     }
 
+    /// What is spent is told as the edge of the map, so that callers end as they do there.
     fn take(&self, x: f64, y: f64) -> Result<(), NoGround> {
         let left = self.left().checked_sub(1).ok_or(NoGround::OffMap { x, y })?;
         self.left.store(left, Ordering::Relaxed);

@@ -44,6 +44,8 @@ impl Rocks {
     /// The rocks on the rectangle from `low` to `high` (x, y in m), their middles evenly spread; the same ones from the
     /// same seed.
     ///
+    /// The last rock may cover more than was left. Rocks may overlap and may reach over the rectangle's rim.
+    ///
     /// # Errors
     /// Numbers out of bounds, by name.
     pub fn scatter(&self, low: [f64; 2], high: [f64; 2]) -> Result<Vec<Rock>, MapError> {
@@ -100,6 +102,8 @@ impl Rock {
     ///
     /// h(s) = R w √(2 − w), w = 1 − (s/R)², R half the diameter: R on top, 0 at the rim with a finite slope, where the
     /// half ball R√w is a wall.
+    ///
+    /// m, in 0 … R.
     pub fn height(&self, distance: f64) -> f64 {
         let radius = 0.5 * self.diameter;
         let share = distance / radius;

@@ -10,6 +10,9 @@ const SWEEPS: usize = 60;
 ///
 /// Coarse to fine: holes are averaged into grids of half the size until none is left, and each level starts the
 /// Gauss-Seidel relaxation of the next finer one. At least one cell must be known.
+///
+/// h at a hole's cell is the mean of its four neighbours', of fewer at the map's border, where no flux crosses. Linear
+/// in the cells, and in sweeps times holes; in place. Not iterated until nothing changes.
 pub(super) fn fill(cells: &mut [f32], columns: usize, rows: usize) {
     let holes: Vec<usize> = (0..cells.len()).filter(|&i| cells[i].is_nan()).collect();
     if holes.is_empty() {

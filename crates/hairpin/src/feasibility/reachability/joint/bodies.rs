@@ -1,4 +1,12 @@
 //! Links and tool against the cell and against one another, at a configuration and within bounds around it.
+//!
+//! ```text
+//! clear of a region    gap(hull, region) > radius + clearance + displacement + 1 nm
+//! clear of a body      gap(hull a, hull b) > r_a + r_b + displacement of b seen from a + 1 nm
+//! met                  the same without displacement and room, at the middle
+//! ```
+//!
+//! Conservative by the displacement, which bounds each joint's part by its own lever: halving a piece halves it.
 
 use std::ops::Range;
 
@@ -39,6 +47,7 @@ struct Body {
     of: usize,
     /// Its points among those of all.
     points: Range<usize>,
+    /// m, ≥ 0.
     radius: f64,
 }
 
@@ -101,6 +110,10 @@ impl<'a> Bodies<'a> {
     ///
     /// Distances at `q` against radius + clearance + displacement, where a body's displacement is at most Σ_k turn_k ·
     /// (its distance from axis k).
+    ///
+    /// Cost: every body against every part whose boxes are near enough, then every pair of bodies; O(bodies · parts).
+    /// `Met` ends it at once, `Unknown` tells the first that could not be excluded. The clearance is kept to the cell,
+    /// not between links.
     pub(super) fn contact(&self, q: &Joints, turns: &Joints, at: f64, queries: &mut u64) -> Contact {
         let frames = self.arm.chain.frames(q);
         let axes = self.arm.chain.axes(&frames);
@@ -175,6 +188,8 @@ impl<'a> Bodies<'a> {
     /// Whether the triangle between three points of the tool's way is free of the cell, grown by the tool's own radius,
     /// the clearance and `deviation` (m): what the tool's point may pass through where a corner is rounded. The part
     /// that is not, otherwise.
+    ///
+    /// `corners` in the base, m. Words are asked as [`Region::is_clear`] asks them. The part is told by its index.
     pub fn corner(&self, corners: &[Vector3<f64>; 3], tool_radius: f64, deviation: f64) -> Option<usize> {
         let room = tool_radius + self.clearance + deviation;
         self.cell.parts.iter().position(|part| !triangle_clear(&part.region, corners, room, 0))
@@ -185,6 +200,8 @@ impl<'a> Bodies<'a> {
 const DEEPEST: usize = 16;
 
 /// Halved across its longest edge until each part lies so near to that edge that room around the edge proves it.
+///
+/// At most 2¹⁶ parts; what is not proven then counts as not clear.
 fn triangle_clear(region: &Region, corners: &[Vector3<f64>; 3], room: f64, depth: usize) -> bool {
     let [a, b, c] = corners;
     // Put the longest edge first.
@@ -227,6 +244,8 @@ enum Held {
 }
 
 /// Whether a hull of points (two of a capsule) is farther from a region than `room`, or as near as `least`.
+///
+/// `least` ≤ `room`, m; between the two nothing is said.
 fn held_against(region: &Region, points: &[Point3<f64>], least: f64, room: f64) -> Held {
     if let [a, b] = points {
         return match region.is_clear(a, b, room) {

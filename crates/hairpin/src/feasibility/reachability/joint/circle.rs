@@ -34,6 +34,8 @@ const LEAST_DISTANCE: f64 = 1e-4;
 impl Circle {
     /// The arc from `start` through `via` to `end`, m.
     ///
+    /// Distances that are no numbers are `TooNear`. Angles between chords are seen from the start only.
+    ///
     /// # Errors
     /// [`CircleError`]: what ABB's controllers refuse of MoveC.
     pub fn through(start: &Vector3<f64>, via: &Vector3<f64>, end: &Vector3<f64>) -> Result<Self, CircleError> {

@@ -66,6 +66,8 @@ impl Motion {
     }
 
     /// Length of the way of the tool's point, m, and angle, rad, both per unit of s; 0 of joint moves.
+    ///
+    /// Constant over the move, for both its translation and its rotation run evenly in s.
     pub fn sweep(&self, tcp: &Isometry3<f64>) -> Sweep {
         let (speed, turn) = match self {
             Self::Joint { .. } => (0.0, 0.0),
@@ -76,6 +78,7 @@ impl Motion {
     }
 }
 
+/// Rotation vector in the frame of `from`, of at most π.
 fn turn(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> Vector3<f64> {
     rotation_vector(&(from.inverse() * to))
 }

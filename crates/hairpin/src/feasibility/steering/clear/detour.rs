@@ -2,6 +2,11 @@
 //!
 //! A best-first search over poses: key = metres driven + straight rest to the goal, which no way around can beat. Poses
 //! are added as places turn out to be in the way, at most [`PLACES`] of them, each left and right and in both headings.
+//!
+//! The bound is admissible, for metres driven are never fewer than the straight way: a pose from which no detour can be
+//! shorter than the best one so far is not looked from. What is found is not the shortest of all detours. Curvature is
+//! 0 at every pose on the way. Everything is in the frame of the question's start, x along the first direction of
+//! travel, m and rad.
 
 use super::hazards::Hazards;
 use super::ways::{Way, every, shortest};
@@ -24,13 +29,18 @@ const RINGS: [(f64, f64); 2] = [(0.02, 0.0), (0.02, 0.6)];
 /// A state under way, and the drive to it.
 ///
 /// Goals are in the frame of the question's start; `driven` in m.
+///
+/// One for each pose at most, the shortest way there; a later and shorter one takes its place and is open again.
 #[derive(Debug, Clone, Copy)]
 struct Reached {
+    /// Pose and curvature in the frame of the start.
     at: Goal,
+    /// Clear all along, from the start to here.
     segments: SegmentList,
     driven: f64,
     /// Which pose it is, to come there once by the shortest way; the start is none.
     via: Option<usize>,
+    /// Whether what follows from it is still to be looked for.
     open: bool,
 }
 
@@ -38,6 +48,7 @@ struct Reached {
 ///
 /// Poses are (x, y, heading) in the frame of the start; each place gives poses once.
 struct Beside {
+    /// Indices into the list of places, in the order that they were met.
     places: Vec<usize>,
     poses: Vec<[f64; 3]>,
 }
@@ -49,6 +60,9 @@ struct Beside {
 ///
 /// `first` is an index into the list of places, that of the deepest intrusion so far. `stop` is asked before each
 /// leg.
+///
+/// Cost: at most 1500 legs, each by the shortest closed form and looked along from the very start; places whose own
+/// poses are all too near others add nothing. A detour of more segments than a list holds is passed over.
 pub(super) fn detour(
     query: &Query,
     bounds: &Curvatures,
@@ -123,6 +137,8 @@ pub(super) fn detour(
 }
 
 /// The question from one state to another.
+///
+/// Curvatures do not depend on the frame; the yaw is not wrapped.
 fn seen(from: &Goal, to: &Goal) -> Query {
     let (sin, cos) = libm::sincos(from.yaw);
     let (dx, dy) = (to.x - from.x, to.y - from.y);
@@ -140,6 +156,10 @@ fn joined(first: &SegmentList, second: &[Segment]) -> Option<SegmentList> {
 
 impl Beside {
     /// Adds the poses beside the place `index` that are clear themselves.
+    ///
+    /// Circles get eight tangent poses in both directions at each of two distances, polygons two beside every corner,
+    /// along the line between its neighbours. A corner that points inwards gets them as well: what is not clear is left
+    /// out by [`Hazards::room`].
     fn add(&mut self, index: usize, hazards: &Hazards<'_>, bounds: &Curvatures) {
         if self.places.contains(&index) || self.places.len() == PLACES {
             return;

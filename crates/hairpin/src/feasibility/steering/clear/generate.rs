@@ -1,4 +1,8 @@
 //! Controls of any family among places to keep out of.
+//!
+//! A family's curve is bent along a guide by starting its shooting there, not by constraints: places enter the search
+//! only by the depth at which finished drives are compared. So a family may fail among places where a longer search
+//! would not.
 
 use super::hazards::{Hazards, Intrusion};
 use super::solve::solve;
@@ -9,6 +13,8 @@ use crate::feasibility::steering::shooting::{Control, Generated, generate as sho
 use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 
 /// What is added to what guides keep from places, in turn, m: a family comes near its guide, not onto it.
+///
+/// Each is one way around for the plain solver, so that four guides cost four of its questions.
 const ASIDE: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 
 /// [`shoot`](crate::feasibility::steering::shooting::generate) and where its drive comes too near to one of `hazards`.
@@ -21,6 +27,10 @@ const ASIDE: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 ///
 /// The answer is judged by the same [`Hazards::intrusion`] whatever family it is of. `stop` ends it with what was
 /// found.
+///
+/// Bent drives are tried in the gear of `choices` first, in the other one where reversals are allowed and the first was
+/// not clear; `iterations` sums all of them. Where several solve the goal, the one that comes least deep is kept, and
+/// the first of equals.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -69,6 +79,8 @@ pub fn generate(
 /// Ways around in the gear of `choices`, as if they were driven forward.
 ///
 /// Paths only: their clothoids need not be of the family that is bent along them.
+///
+/// Each is clear of its places by its distance more than is asked for; distances at which nothing is clear give none.
 fn guides(
     problem: &Problem,
     bounds: &Curvatures,
@@ -100,6 +112,9 @@ fn guides(
 
 /// The path that a body on `segments` takes whose direction of travel turns by `swing` along them: it bends as much
 /// more.
+///
+/// κ_path(s) = κ(s) ± swing/L, L the whole length: exact, as the direction turns evenly with arc length. Turns in place
+/// and a length of 0 are left as they are. What is answered is only looked along, never driven.
 fn travelled(segments: &SegmentList, swing: f64) -> SegmentList {
     let length: f64 = segments.iter().map(Segment::length_m).sum();
     let mut path = *segments;

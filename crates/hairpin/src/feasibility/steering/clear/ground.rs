@@ -1,4 +1,8 @@
 //! Clear drives on real ground: the flat ones keep farther away until the predicted motion stays clear.
+//!
+//! The ground moves a drive aside by slip, lean and lag. Instead of obstacles in the prediction's own search, the flat
+//! drive keeps as much more as turns out to be needed, so that the plane's closed forms stay in use and the prediction
+//! decides.
 
 use super::generate::generate;
 use super::hazards::{Hazards, Intrusion, MotionCheck};
@@ -82,11 +86,16 @@ pub fn solve_on_ground<T: Terrain>(
 
 impl ClearedOnGround {
     /// First those that arrive and are clear, then those that arrive.
+    ///
+    /// Lexicographic, less is better: whether it fails to arrive, then how deep it comes into a place, m.
     fn rank(&self) -> (bool, f64) {
         (self.answer.status != Status::Ok, self.intrusion.map_or(0.0, |intrusion| intrusion.depth))
     }
 }
 
+/// One attempt that keeps `added` (m) more in the plane. With `added` 0 a flat drive that is too near is still taken,
+/// since the ground may move it clear and something must be told; with more it counts as none. Without an answer the
+/// intrusion told is that of the flat drive.
 #[expect(clippy::too_many_arguments, reason = "one question, and how it is answered")]
 fn attempt<T: Terrain>(
     course: &Course<'_, T>,
@@ -125,6 +134,8 @@ fn attempt<T: Terrain>(
 /// not.
 ///
 /// The wait before late commands act is looked along as well. `radius` in m.
+///
+/// Cost: one prediction and a query of the places for each of its steps. An empty list of places finds nothing.
 pub fn motion<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,

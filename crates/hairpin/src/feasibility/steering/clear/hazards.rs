@@ -1,4 +1,14 @@
 //! Whether a drive stays clear, along all of it: no step between two looks can hide a place to keep out of.
+//!
+//! ```text
+//! room(p) = distance(p) − radius        clear: room ≥ 0 all along
+//! look at p with room d > 0     ⇒  every curve of length ≤ d from p is clear
+//! chord from p to q, length ℓ   ⇒  the curve lies within ½ √(ℓ² − |q − p|²) of the chord
+//! ```
+//!
+//! Both rules hold for any curve of that length, whatever its curvature does in between: positions at looks are
+//! integrated to 10⁻¹⁰ m a step, and what lies between is bounded, not sampled. The bound errs towards too near, by
+//! less than 1 cm where looks are 2 cm apart.
 
 use crate::math::quadrature::Gauss;
 use crate::robot::rover::Rover;
@@ -48,6 +58,8 @@ const TURN: f64 = 0.5;
 /// max of ‖(|x| + r, y)‖ over wheels of radius r and of the underside's farthest corner.
 ///
 /// Level, joints at 0: leaning and joints only bring wheels nearer to the axis as seen from above.
+///
+/// Wheels count with their radius ahead and behind, and without their width.
 pub fn footprint(rover: &Rover) -> f64 {
     let (wheels, count, radius) = rover.suspension.wheels(&[0.0; 3]);
     let belly = &rover.body.belly;
@@ -61,6 +73,8 @@ impl Hazards<'_> {
     /// being too near, m.
     ///
     /// Signed: below 0 it is too near by so much.
+    ///
+    /// m; +∞ without places.
     pub fn room(&self, x: f64, y: f64) -> f64 {
         let [x, y] = self.in_map(x, y);
         self.keep_outs.distance(x, y) - self.radius
@@ -74,11 +88,17 @@ impl Hazards<'_> {
     /// Turns in place turn the circle about its own middle and need no look.
     ///
     /// Deepest of all; the first of equals. Cost falls with room: far from everything a look vouches for metres.
+    ///
+    /// `depth` includes what the chord's rule adds, so a drive that just touches may be told as too near by some
+    /// millimetres.
     pub fn intrusion(&self, segments: &[Segment]) -> Option<Intrusion> {
         self.worst(segments, f64::INFINITY)
     }
 
     /// The same, but content with any that is as deep as `enough`.
+    ///
+    /// `enough` in m: the walk ends as soon as something at least as deep is found, which is all that a comparison of
+    /// drives needs. ∞ walks to the end.
     pub(super) fn worst(&self, segments: &[Segment], enough: f64) -> Option<Intrusion> {
         if self.keep_outs.is_empty() {
             return None;
@@ -131,6 +151,8 @@ impl Hazards<'_> {
     }
 
     /// From the frame of the flat solver.
+    ///
+    /// (x, y) ↦ start + Rot(yaw + direction)(x, y), m.
     fn in_map(&self, x: f64, y: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(self.start.yaw + self.direction);
         [self.start.x + cos * x - sin * y, self.start.y + sin * x + cos * y]
@@ -163,6 +185,9 @@ impl<'a> MotionCheck<'a> {
     /// Looks along the way from where the vehicle was seen last; steps are arcs, which leave their chord c by c Δψ/8.
     ///
     /// Places must come in the order of the motion.
+    ///
+    /// `at.yaw` must not be wrapped between steps, else the bulge is too large. To first order in the turn: an arc's
+    /// true sagitta is c/2 · tan(Δψ/4), more by a share of Δψ²/48.
     pub fn see(&mut self, at: &Planar) {
         let here = [at.x, at.y];
         match self.last {
@@ -184,6 +209,7 @@ impl<'a> MotionCheck<'a> {
     }
 }
 
+/// Places, the distance to keep from them in m, and the deepest that was found.
 #[derive(Debug, Clone, Copy)]
 struct Check<'a> {
     keep_outs: &'a KeepOuts,
@@ -202,6 +228,9 @@ impl Check<'_> {
     }
 
     /// A curve of length `length` between two points.
+    ///
+    /// ½√(ℓ² − c²) is the half height of the ellipse with its foci at the ends and the string ℓ: no point of the curve
+    /// leaves it. Rounding that makes ℓ < c counts as straight.
     fn chord(&mut self, from: [f64; 2], to: [f64; 2], length: f64, after_m: f64) {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let bulge = 0.5 * (length * length - dx * dx - dy * dy).max(0.0).sqrt();
@@ -209,6 +238,8 @@ impl Check<'_> {
     }
 
     /// Everything within `bulge` (m) of a segment.
+    ///
+    /// One query of the tree of places; `after_m` is told as it is given.
     fn line(&mut self, from: [f64; 2], to: [f64; 2], bulge: f64, after_m: f64) {
         let Some(nearest) = self.keep_outs.nearest_to_segment(from, to) else { return };
         let depth = self.radius + bulge - nearest.distance;
@@ -219,6 +250,9 @@ impl Check<'_> {
 }
 
 /// From `s` on by `h`: displacement in the frame at `s` of a drive forward, and turn.
+///
+/// `curvature` holds a₀ … a₅ of κ(s) = Σ aᵢ sⁱ, 1/m^(i+1). Five Gauss-Legendre points for a step of 0.25 m and half a
+/// radian at most.
 fn advance(curvature: &[f64; 6], s: f64, h: f64) -> ([f64; 2], f64) {
     // θ(s + t) − θ(s) as the integral of a polynomial, at Gauss's points; exact for the turn, to 10⁻¹⁰ for the place.
     let turned = |to: f64| curvature.iter().enumerate().rev().fold(0.0, |sum, (i, a)| (sum + a / (i + 1) as f64) * to);

@@ -6,6 +6,11 @@
 //!
 //! Order of attempts: the plain answer, every other known way around, detours over poses beside what is in the way.
 //! What comes least near is the answer where none is clear, with the depth and the place.
+//!
+//! Neglected: the true outline of the vehicle. A circle that holds it whichever way it turns makes the question one of
+//! a point and a distance, exact for turns in place and cautious for everything long and narrow. What is refused for
+//! places may therefore still be drivable; what is called clear is so for the plane's motion, and on the ground for the
+//! predicted one. Heights play no part.
 
 mod detour;
 mod generate;

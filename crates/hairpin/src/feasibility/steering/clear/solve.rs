@@ -26,6 +26,10 @@ pub struct Cleared {
 /// between them.
 ///
 /// Complete in nothing: `intrusion` of the best is the evidence.
+///
+/// `iterations` of the answer counts steps of the plain answer, ways that were offered and legs of detours together. A
+/// start or a goal that is itself too near ends the search at once, as does a plain question without a solution.
+/// Deterministic unless `stop` depends on a clock.
 pub fn solve(
     query: &Query,
     bounds: &Curvatures,

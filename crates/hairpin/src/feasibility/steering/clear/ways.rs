@@ -1,4 +1,7 @@
 //! All the ways around that are known between two states, shortest first.
+//!
+//! What is known are Dubins' ways as smooth arcs, turn–drive–turn, and the words of Reeds and Shepp (or Dubins, in one
+//! gear) with clothoids: places are got around by taking another of them, not by bending one.
 
 use crate::feasibility::steering::shooting::cc::{self, Gears};
 use crate::feasibility::steering::shooting::query::{Curvatures, Query};
@@ -19,6 +22,8 @@ pub(super) struct Way {
 }
 
 /// Shares of the largest curvature that circles are tried with: gentler ones swing wider.
+///
+/// A share is left out where an end of the question bends more than it allows.
 const SHARES: [f64; 3] = [1.0, 0.6, 0.35];
 /// A smooth arc counts as this much shorter than it is.
 const SMOOTH: f64 = 0.8;
@@ -26,6 +31,8 @@ const SMOOTH: f64 = 0.8;
 /// Every way of every kind that `choices` allow.
 ///
 /// Three circle sizes, the gears that are allowed, arcs, words, turns in place; unjudged against places.
+///
+/// Allocates its list; sorted by metres driven, single arcs counted at 0.8 of theirs.
 pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Vec<Way> {
     let mut ways = Vec::new();
     if choices.arcs {
@@ -47,6 +54,9 @@ pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Ve
 }
 
 /// The shortest way in closed form.
+///
+/// Where turns in place are allowed, turn–drive–turn, which is straight and so the shortest whenever its ends are not
+/// bent.
 pub(super) fn shortest(query: &Query, bounds: &Curvatures, choices: &Choices) -> Option<Way> {
     if choices.turns {
         return Some(Way::new(turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn));

@@ -1,4 +1,8 @@
 //! The controls by name: what the curvature, or the angular velocity, is a function of, and with which parameters.
+//!
+//! Curves are functions of one share u, of the metres or of the seconds, and linear in their parameters but for the
+//! length. Which solver answers: `arc`, `cubic` and `quintic` the flat one where the direction of travel is constant,
+//! `turn-drive-turn` its closed form, everything else the families' one shooting.
 
 use super::flat;
 
@@ -71,6 +75,9 @@ impl Control {
     /// Numbers that a family's curves have, the length among them; of turn-drive-turn two angles and a length.
     ///
     /// One more than the degree of the curvature's function, and the length.
+    ///
+    /// Ends at rest add parameters of their own to velocity polynomials (one for each, against κ̇ = 0 there), which are
+    /// not counted here, nor are the conditions that they meet.
     pub fn parameters(self) -> usize {
         match self {
             Self::Arc => 2,
@@ -82,6 +89,9 @@ impl Control {
     }
 
     /// Conditions that they meet: the end's place, heading, and the curvature at both ends; of an arc the place alone.
+    ///
+    /// Of turn–drive–turn the place and the heading. A drive is generically there where parameters are no fewer than
+    /// conditions; whether it keeps the bounds is another question.
     pub fn conditions(self) -> usize {
         match self {
             Self::Arc => 2,

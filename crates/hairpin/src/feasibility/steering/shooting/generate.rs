@@ -15,6 +15,8 @@ pub struct Generated {
     /// The drive, and how it was found.
     pub solution: Solution,
     /// The parameters of controls other than chains, turns and single arcs.
+    ///
+    /// `None` as well of everything that the flat solver and the closed forms answer.
     pub parameters: Option<Parameters>,
     /// Largest difference between the family's curvature and that of the drive's segments, 1/m.
     pub fit_error: f64,
@@ -28,6 +30,10 @@ pub struct Generated {
 /// `observe` sees their steps.
 ///
 /// Deterministic unless `stop` depends on a clock. Nothing is allocated by the quintic.
+///
+/// A drive in reverse is solved as its mirror image about the y axis, (x, y, ψ) ↦ (−x, y, −ψ) with κ as it is and
+/// −swing for swing, and each segment's gear is set afterwards. Of two gears the solved drive wins, then the shorter,
+/// then the preferred one.
 pub fn generate(
     problem: &Problem,
     control: Control,
@@ -77,6 +83,8 @@ pub fn generate(
 
 /// [`generate`] in the gear of `choices` and in a family of its own, among what is in the way of its path; its guides
 /// are driven forward.
+///
+/// No second gear is tried. `depth` of `among` is asked about commands driven forward, before the gear is set.
 pub fn generate_among(
     problem: &Problem,
     control: Control,
@@ -96,6 +104,9 @@ pub fn generate_among(
 }
 
 /// What `solve` answers, which is told to stop as `stop` is and once and for all.
+///
+/// Once `stop` has said so it stays so, whatever it says later, and what was not solved by then is `Stopped`, not
+/// `NotConverged`.
 fn in_family(stop: &mut dyn FnMut() -> bool, solve: impl FnOnce(&mut dyn FnMut() -> bool) -> Answer) -> Generated {
     let mut stopped = false;
     let answer = solve(&mut || {
@@ -109,6 +120,7 @@ fn in_family(stop: &mut dyn FnMut() -> bool, solve: impl FnOnce(&mut dyn FnMut()
     }
 }
 
+/// `Infeasible` of a family becomes `NotConverged`; what it lacks stays in [`Solution::arc`].
 fn solution(
     status: flat::Status,
     segments: crate::trajectory::drive::SegmentList,
@@ -124,6 +136,8 @@ fn solution(
 }
 
 /// Solved before unsolved, then the shorter.
+///
+/// Lengths in metres driven; of equals the one that was there.
 fn better(found: &Solution, best: &Solution) -> bool {
     let length = |solution: &Solution| solution.segments.iter().map(Segment::length_m).sum::<f64>();
     match (found.outcome == Outcome::Solved, best.outcome == Outcome::Solved) {

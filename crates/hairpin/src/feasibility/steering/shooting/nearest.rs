@@ -1,4 +1,11 @@
 //! The nearest goal that can be reached, told where the one asked for cannot.
+//!
+//! ```text
+//! min ‖m‖   such that goal + (r m₁, r m₂, m₃, m₄/r) can be reached,   r = 1/κ_max
+//! ```
+//!
+//! with reachability as a black box that says yes or no: no derivative, so bisection and a pattern search. What is
+//! found is an upper bound of the least move; between two directions a nearer goal may stay unseen.
 
 use super::query::{Curvatures, Goal, Query};
 use super::solve::{Choices, least_length, single_arc};
@@ -10,6 +17,8 @@ use crate::trajectory::drive::{Segment, SegmentList};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
     /// The goal.
+    ///
+    /// Its yaw is not wrapped; moved from the one asked for, not from another turn of it.
     pub goal: Goal,
     /// √(δx² + δy² + (r δψ)² + (r² δκ)²), r the radius of the tightest circle: how far it is moved, m.
     pub moved: f64,
@@ -20,6 +29,8 @@ pub struct Nearest {
 /// Goals that are tried, at most.
 const MOST: u32 = 600;
 /// First and last steps along a direction, and the last of the search around the best, in radii.
+///
+/// Steps along a direction double from the first to below the last.
 const FIRST: f64 = 0.02;
 const FARTHEST: f64 = 6.0;
 const FINE: f64 = 2e-3;
@@ -31,6 +42,9 @@ const DIRECT: f64 = 1.5;
 /// The single arc of `choices` that keeps `bounds` and reaches the goal of `query` without a loop, if there is one.
 ///
 /// `None` also where only a chain or a reversal does.
+///
+/// Asked where a detour is no answer: at most one and a half times the longer of the straight way and the arc that the
+/// heading takes on the tightest circle.
 pub fn direct_arc(query: &Query, bounds: &Curvatures, choices: &Choices) -> Option<SegmentList> {
     let answer = single_arc(query, bounds, choices.gear, &choices.flat);
     let driven: f64 = answer.segments.iter().map(Segment::length_m).sum();
@@ -43,6 +57,11 @@ pub fn direct_arc(query: &Query, bounds: &Curvatures, choices: &Choices) -> Opti
 /// search, not a proof.
 ///
 /// At most 600 goals. `reachable` is asked about checked queries only; `stop` between them.
+///
+/// Directions come in a fixed order and each is followed only as far as the best so far, so that later ones cost less.
+/// The bracket of a bisection is the last doubling, cut to 2⁻⁸ of it; the pattern search ends at steps of 0.002 radii
+/// and takes only steps that shorten the move by a thousandth or more. Goals that are no questions ([`Query::new`])
+/// count as unreachable and as tried.
 pub fn nearest(
     query: &Query,
     bounds: &Curvatures,
@@ -103,6 +122,7 @@ pub fn nearest(
     Some(Nearest { goal: goal_at(&here), moved: size * radius, tried: tried.min(MOST) })
 }
 
+/// Of a move in radii.
 fn norm(of: &[f64; 4]) -> f64 {
     of.iter().map(|part| part * part).sum::<f64>().sqrt()
 }

@@ -1,4 +1,8 @@
 //! What is asked of the generator, checked where it is built.
+//!
+//! Refused here, so that no solver needs to ask again: numbers that are no numbers, lengths that are a mistake of unit,
+//! end curvatures that no curve within the bounds has. A question that passes may still have no answer of a given
+//! family.
 
 use thiserror::Error;
 
@@ -29,6 +33,8 @@ pub struct Query {
 /// What the path may bend: |κ| ≤ `most`, |κ′| ≤ `most_rate` along it.
 ///
 /// The vehicle's, or tighter. most_rate/most² says how fast it steers in units of its tightest circle.
+///
+/// Both > 0 and finite; [`Query::new`] does not check them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curvatures {
     /// Largest |κ|, 1/m.
@@ -57,6 +63,8 @@ impl Default for Precision {
 
 impl Precision {
     /// `share` of each error.
+    ///
+    /// `share` > 0: 10⁻³ of it is what descents aim at, so that what is answered can be judged by the whole.
     pub fn share(&self, share: f64) -> Self {
         Self { position: share * self.position, yaw: share * self.yaw, curvature: share * self.curvature }
     }

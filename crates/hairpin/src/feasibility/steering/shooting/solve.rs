@@ -1,4 +1,9 @@
 //! One question, one answer: the single arc where it does, and what does it where no arc can.
+//!
+//! Order of what is tried, by what it costs: a single arc that is short beside a lower bound (the way itself and the
+//! turning of the heading; then, in one gear without turns in place, Dubins' length), turn–drive–turn where it may be
+//! driven, the words of clothoids, and the arc after all where the words are no shorter by a quarter. So smoothness is
+//! bought with length up to a factor of 1.25 and no farther.
 
 use std::f64::consts::{PI, TAU};
 
@@ -77,6 +82,8 @@ pub struct Solution {
     /// How it was found.
     pub method: Method,
     /// Steps of all iterations.
+    ///
+    /// A count of work, not of quality; closed forms add nothing.
     pub iterations: u32,
     /// What the single arc lacks where another drive had to do; `None` where none was tried.
     pub arc: Option<flat::Status>,
@@ -92,6 +99,9 @@ const PATIENCE: f64 = 1.25;
 /// is asked between the stages; stopped before the first, the answer is the single arc's start value.
 ///
 /// Accepted is what the numbers handed out integrate to, not what the iteration believed.
+///
+/// Outcomes: `Solved`, of an arc where its own numbers meet the goal within `flat.precision` and both bounds;
+/// `NotConverged` where neither an arc nor a closed form does; `Stopped` with what there was. Nothing is allocated.
 ///
 /// ```
 /// use hairpin::feasibility::steering::shooting::solve::{Choices, Outcome, solve};
@@ -175,6 +185,9 @@ fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl
 
 /// Metres below which no path of these bounds solves the query, in any gears: the way itself, and the heading to be
 /// turned, where arriving backwards is no turn saved.
+///
+/// √(x² + y²) and |ψ|/κ_max, whichever is larger, ψ in (−π, π]; m. Valid in both gears and with cusps, since |ψ′| ≤
+/// κ_max in each; turns in place would undercut the second.
 pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
     libm::hypot(query.goal.x, query.goal.y).max(wrapped(query.goal.yaw).abs() / bounds.most)
 }
@@ -195,6 +208,8 @@ pub(super) fn single_arc(query: &Query, bounds: &Curvatures, gear: Gear, setting
 }
 
 /// Hands over the single arc along every way around for which there is one.
+///
+/// At most six, each solved for itself without the search's early end.
 pub(in crate::feasibility::steering) fn single_arcs(
     query: &Query,
     bounds: &Curvatures,
@@ -219,6 +234,10 @@ fn mirrored(query: &Query, gear: Gear) -> Query {
 
 /// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left
 /// out.
+///
+/// Clothoids at both ends take |κ|/κ′_max metres and turn by κ|κ|/(2κ′_max), so that the wheels stand straight where
+/// the vehicle turns in place. Always an answer: at most two clothoids, two turns and a straight, or a straight of 0 m
+/// where there is nothing to do. Turns by the smaller angle each.
 pub(in crate::feasibility::steering) fn turn_drive_turn(query: &Query, bounds: &Curvatures, gear: Gear) -> SegmentList {
     let sign = gear.sign();
     let rate = bounds.most_rate * (1.0 - 1e-12);

@@ -40,6 +40,8 @@ impl Condition {
     /// Kleene's logic of true, false and unknown.
     ///
     /// `less(left − right, or_equal)` decides a comparison; `None`: unknown.
+    ///
+    /// Both sides of `and` and `or` are always evaluated.
     pub(super) fn at<N: Real>(&self, p: &[N; 3], less: &impl Fn(N, bool) -> Option<bool>) -> Option<bool> {
         match self {
             Self::Less { left, right, or_equal } => less(left.at(p) - right.at(p), *or_equal),

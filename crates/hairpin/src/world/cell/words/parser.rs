@@ -324,6 +324,8 @@ impl Parser {
     }
 
     /// Recursion that ends.
+    ///
+    /// `not`, a sign, a parenthesis and a call each count as one level; at most 100.
     fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, WordsError>) -> Result<T, WordsError> {
         if self.depth == DEEPEST {
             return Err(self.expected("fewer parentheses within one another"));

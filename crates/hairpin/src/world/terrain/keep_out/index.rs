@@ -72,6 +72,8 @@ impl Index {
 
     /// The shape with the least `distance` from somewhere within `reach` of `at`, and that distance; the first of
     /// equals.
+    ///
+    /// `distance` must be no less than the distance of `at` to the shape's box less `reach`. Without shapes `None`.
     pub(super) fn least(&self, at: [f64; 2], reach: f64, distance: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         // Equals are asked as well, for the first of them.

@@ -97,6 +97,8 @@ impl KeepOuts {
     }
 
     /// The one nearest to the straight line from `from` to `to`.
+    ///
+    /// Its distance is that of [`KeepOuts::segment_distance`]: exact where nothing is met.
     pub fn nearest_to_segment(&self, from: [f64; 2], to: [f64; 2]) -> Option<Nearest<'_>> {
         let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
         let half = 0.5 * libm::hypot(to[0] - from[0], to[1] - from[1]);

@@ -52,6 +52,8 @@ impl KeepOutShape {
 
     /// Smallest signed distance along a straight line, m; where a polygon is met, an upper bound: the deeper end's, or
     /// 0.
+    ///
+    /// Of a circle it is exact even where the line meets it.
     pub fn segment_distance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         match self {
             Self::Circle { center_m, radius_m } => square_to_line(*center_m, from, to).sqrt() - radius_m,
@@ -152,6 +154,8 @@ fn square_to_line(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Twice the area of the triangle, positive if it is left-handed around.
+///
+/// Positive where a, b, c turn left; m².
 fn side(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

@@ -22,21 +22,26 @@ pub enum Gears {
 ///
 /// Cusps cost no length here and time elsewhere: the vehicle stands there.
 ///
-/// At most eleven segments: a lead, four turns of up to three, a straight between, a lead; all in the frame of the
+/// At most fifteen segments: a lead, four turns of up to three, a straight between, a lead; all in the frame of the
 /// start.
 #[derive(Debug, Clone, Copy)]
 pub struct Path {
+    /// Metres driven, leads included.
     length_m: f64,
     /// Curvature of its arcs, 1/m.
     most: f64,
+    /// From the start's curvature to 0.
     lead_in: Option<Lead>,
     core: Plan,
+    /// From 0 to the goal's curvature.
     lead_out: Option<Lead>,
     /// +1: as found; −1: found forward, to be driven in reverse, as its mirror image.
     gear: f64,
 }
 
 /// A clothoid to or from zero curvature before or after the words.
+///
+/// `from` and `to` are curvatures in 1/m, of which one is 0; `gear` is ±1, `length` = |from − to|/rate in m.
 #[derive(Debug, Clone, Copy)]
 struct Lead {
     length: f64,
@@ -46,6 +51,9 @@ struct Lead {
 }
 
 /// A state that words may begin or end in.
+///
+/// A start is left by its `lead`, a goal is come to by it; without one the state itself begins or ends the words, with
+/// its own curvature.
 #[derive(Debug, Clone, Copy)]
 struct Anchor {
     pose: Pose,
@@ -85,6 +93,8 @@ pub fn steer(query: &Query, bounds: &Curvatures, gears: Gears) -> Option<Path> {
 /// Hands over every path of these words that solves `query` within `bounds`, in no order.
 ///
 /// A few hundred at most.
+///
+/// For a caller who judges drives by more than their length.
 pub fn every(query: &Query, bounds: &Curvatures, gears: Gears, mut take: impl FnMut(Path)) {
     for_each_anchoring(query, bounds, gears, |circle, family, from, to, gear| {
         if let Some(straight) = straight_ahead(family, from, to) {
@@ -96,6 +106,9 @@ pub fn every(query: &Query, bounds: &Curvatures, gears: Gears, mut take: impl Fn
 }
 
 /// The states that words may lie between, with the circle that they are spelt with, and the gear of what is found.
+///
+/// Anchors of the start times anchors of the goal times two circles: at most 18 pairs. With one gear in reverse
+/// everything is mirrored about the y axis, driven forward and told with `gear` −1.
 fn for_each_anchoring(
     query: &Query,
     bounds: &Curvatures,
@@ -121,6 +134,7 @@ fn for_each_anchoring(
     }
 }
 
+/// The straight if that is all there is to do, else the shortest word of less than `below` metres.
 fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f64) -> Option<Plan> {
     if let Some(plan) = straight_ahead(family, from, to) {
         return (plan.length < below).then_some(plan);
@@ -129,6 +143,8 @@ fn between(circle: &Circle, family: Family, from: &Anchor, to: &Anchor, below: f
 }
 
 /// Straight on, where that is all there is to do.
+///
+/// Offsets below 10⁻¹⁰ m and rad are taken for none. Backwards only with cusps.
 fn straight_ahead(family: Family, from: &Anchor, to: &Anchor) -> Option<Plan> {
     if from.curvature != 0.0 || to.curvature != 0.0 {
         return None;
@@ -148,6 +164,10 @@ fn straight_ahead(family: Family, from: &Anchor, to: &Anchor) -> Option<Plan> {
 
 /// The states that stand for a start (`along` = 1) or an end (`along` = −1): itself, where the circle can be reached
 /// from it, and those at zero curvature that a clothoid joins to it.
+///
+/// At most three: the state, the one reached by a clothoid forward, the one by a clothoid in reverse. A clothoid of
+/// |κ|/rate metres in the gear ±1 turns the heading by ±κ|κ|/(2 rate) as it is driven. Curvatures beyond the circle's
+/// own are left by a clothoid only.
 fn anchors(pose: Pose, curvature: f64, circle: &Circle, family: Family, along: f64) -> [Option<Anchor>; 3] {
     if curvature == 0.0 {
         return [Some(Anchor { pose, curvature, lead: None }), None, None];

@@ -3,6 +3,14 @@
 //! A turn from zero curvature onto a circle and back deflects by κ²/κ′ at least; its centre lies at (R sin μ, R cos μ)
 //! of its start, with R and μ the circle's alone (Fraichard and Scheuer 2004), so that words of such turns are
 //! spelt like Dubins' with another radius.
+//!
+//! ```text
+//! turning of one clothoid   β = κ²/(2κ′)                centre seen from the end   (x_c − sin β/κ, y_c + cos β/κ)
+//! (x_c, y_c) = the clothoid's end   deflection δ ≥ 2β: arc of (δ − 2β)/κ m between; less: elementary path
+//! ```
+//!
+//! Signs: heading changes by sense · gear · angle; in reverse a turn is the mirror image, about the y axis, of one
+//! forward.
 
 use std::f64::consts::{PI, TAU};
 
@@ -46,6 +54,8 @@ pub(super) struct Lead {
     /// Curvature at the turn's end, 1/m.
     pub(super) curvature: f64,
     /// Centre of the circle in the frame of the turn's end, m.
+    ///
+    /// x forward, y left.
     pub(super) center: (f64, f64),
     /// Change of heading over the clothoid as it is driven, rad.
     pub(super) turning: f64,
@@ -60,6 +70,8 @@ pub(super) enum Body {
     Arc(f64),
     /// Two clothoids of this sharpness (1/m²) and length (m), for deflections that a circle's leads overshoot: the
     /// elementary path of Scheuer and Fraichard (1997), whose ends lie on the same circle at the same angle.
+    ///
+    /// Peak curvature sharpness · length, deflection sharpness · length².
     Elementary { sharpness: f64, length: f64 },
 }
 
@@ -68,8 +80,11 @@ pub(super) enum Body {
 /// Deflection = lead turning + sense · gear · arc + lead turning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn {
+    /// Constant over a turn.
     pub(super) way: Way,
+    /// In the order driven: onto the circle.
     pub(super) entry: Lead,
+    /// Off the circle.
     pub(super) exit: Lead,
     pub(super) body: Body,
 }
@@ -97,6 +112,8 @@ pub(super) struct Circle {
 impl Circle {
     /// The circle of `share` of the largest curvature. Where the rate is so small that a clothoid pair would turn by
     /// more than half a turn, the curvature is less.
+    ///
+    /// `share` in (0, 1]. Curvature is at most √(0.999 π κ′), so that 2β < π.
     pub(super) fn new(bounds: &Curvatures, share: f64) -> Self {
         let rate = bounds.most_rate * UNDER;
         let curvature = (bounds.most * share * UNDER).min((0.999 * PI * rate).sqrt());
@@ -138,6 +155,9 @@ impl Circle {
     }
 
     /// Onto the circle from `curvature`.
+    ///
+    /// `curvature` as the vehicle drives it, left positive in both gears; any within ± the circle's. Turning is gear ·
+    /// (κ + κ_full)/2 · length.
     pub(super) fn entry_from(&self, way: Way, curvature: f64) -> Lead {
         if curvature == 0.0 {
             return *self.entry(way);
@@ -162,12 +182,16 @@ impl Circle {
     }
 
     /// Length (m) of these ends without any arc between them, or of the shortest elementary path.
+    ///
+    /// A lower bound of the turn's length, cheaper than [`Self::at_least`]: no angle is needed.
     pub(super) fn leads(&self, entry: &Lead, exit: &Lead) -> f64 {
         if entry.curvature == 0.0 && exit.curvature == 0.0 { 2.0 * self.least } else { entry.length + exit.length }
     }
 
     /// Length (m) below which no turn between these ends changes the heading by `angle` (rad, modulo 2π): exact for
     /// arcs.
+    ///
+    /// For elementary paths a bound only: sharper ones than they are would be shorter. `angle` of any number of turns.
     pub(super) fn at_least(&self, way: Way, entry: &Lead, exit: &Lead, angle: f64) -> f64 {
         let towards = way.sense * way.gear;
         if entry.curvature == 0.0 && exit.curvature == 0.0 {
@@ -184,6 +208,9 @@ impl Circle {
     }
 
     /// The turn that changes the heading by `angle` (rad, modulo 2π), and its length in m.
+    ///
+    /// Below the least deflection the elementary path is taken where it keeps both bounds, else the arc of nearly a
+    /// full turn.
     pub(super) fn turn(&self, way: Way, entry: &Lead, exit: &Lead, angle: f64) -> (Turn, f64) {
         let (towards, entry, exit) = (way.sense * way.gear, *entry, *exit);
         if entry.curvature == 0.0 && exit.curvature == 0.0 {
@@ -201,6 +228,10 @@ impl Circle {
 
     /// Sharpness and half length of the elementary path of this deflection whose ends lie where this circle's turn of
     /// the same deflection has them: chord 2 R sin(δ/2 + μ) = 2 √(π/q) (cos(δ/2) C(√(δ/π)) + sin(δ/2) S(√(δ/π))).
+    ///
+    /// `None` where it would be sharper than the rate or bend more than the circle. δ in (0, 2β) rad; below 10⁻¹⁰ it is
+    /// the straight of both halves. The sharpness follows from the chord, q = π (unit/half chord)², and length =
+    /// √(δ/q), m.
     fn elementary(&self, deflection: f64) -> Option<(f64, f64)> {
         let (sin, cos) = libm::sincos(0.5 * deflection);
         let half_chord = self.aside * sin + self.ahead * cos;
@@ -217,6 +248,8 @@ impl Circle {
 
 impl Turn {
     /// Hands over its segments, on a circle of the curvature `most` (1/m).
+    ///
+    /// Segments of no length are handed over as well; who takes them leaves them out.
     pub(super) fn segments(&self, most: f64, push: &mut impl FnMut(Segment)) {
         let gear = gear_of(self.way.gear);
         let full = self.way.sense * most;
@@ -241,6 +274,8 @@ pub(super) fn gear_of(sign: f64) -> Gear {
 }
 
 /// `angle` in [0, 2π), rounding errors below a full turn being zero.
+///
+/// In one step of truncation for any `angle` within ±2⁶³ turns; NaN stays NaN.
 fn positive(angle: f64) -> f64 {
     // Truncation and a step: many times as fast as a call of `floor` where the processor has no instruction for it.
     let wrapped = angle - TAU * ((angle / TAU) as i64 as f64);

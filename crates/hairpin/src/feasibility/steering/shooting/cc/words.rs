@@ -8,6 +8,10 @@
 //! Reeds and Shepp, "Optimal paths for a car that goes both forwards and backwards" (Pacific J. Math. 145, 1990): C S
 //! C, C C C and, with cusps, C|C|C, C|CC, CC|C, CC|CC, C|CC|C, C|CSC, CSC|C, C|CSC|C. With clothoids none of these need
 //! be optimal.
+//!
+//! Cost: 4 × 4 pairs of first and last turn (2 × 2 forward only), a handful of words each, of which most end at a
+//! comparison of lengths before any angle is computed. A word that would be longer than the best, or that has a turn of
+//! no length at its beginning or end, is refused by `offer`.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -65,8 +69,11 @@ pub(super) struct Plan {
 
 /// Both ends' leads by the turn's way, and where their circles stand.
 struct Ends {
+    /// By the way's index: the lead onto its circle, and the circle's centre in the frame of the question, m.
     first: [(Lead, (f64, f64)); 4],
+    /// The lead off its circle, and that centre.
     last: [(Lead, (f64, f64)); 4],
+    /// Headings of both poses, rad, not wrapped.
     start: f64,
     end: f64,
 }
@@ -74,6 +81,7 @@ struct Ends {
 /// One word being spelt: its turns' ways and leads, without angles.
 #[derive(Clone, Copy)]
 struct Word<'f> {
+    /// Those beyond `count` repeat the first and mean nothing.
     ways: [Way; 4],
     entries: [&'f Lead; 4],
     exits: [&'f Lead; 4],
@@ -88,12 +96,15 @@ pub(super) struct Finder<'c> {
     circle: &'c Circle,
     ends: &'c Ends,
     best: Option<Plan>,
+    /// Metres that a plan must be shorter than; ∞ where all are wanted.
     shortest: f64,
     /// Where every plan goes, if not only the shortest is wanted.
     all: Option<&'c mut dyn FnMut(Plan)>,
 }
 
 /// The shortest path of `family` between two poses with these curvatures; `None` if all are longer than `below`.
+///
+/// `below` in m, leads of anchors not counted. O(1): no iteration anywhere.
 pub(super) fn shortest(
     circle: &Circle,
     family: Family,
@@ -173,6 +184,9 @@ impl<'c> Finder<'c> {
     }
 
     /// C S C, with a cusp wherever the gear changes.
+    ///
+    /// Rot(θ)·(step.x ± L, step.y) = span gives the heading θ of the straight and L in closed form; no solution where
+    /// the centres are nearer than the step's offset across.
     fn turn_straight_turn(&mut self, between: Span, first: Way, last: Way, gear: f64) {
         let Some(word) = self.word(&[first, last], &[false]) else { return };
         let step = word.step(0);
@@ -182,6 +196,9 @@ impl<'c> Finder<'c> {
     }
 
     /// C C C with the middle turn in `gear`.
+    ///
+    /// Two headings by the triangle of the two steps and the span, on both of its sides. The middle turn goes the other
+    /// way round in either gear; at a cusp the wheels may swing or be at zero.
     fn three_turns(&mut self, between: Span, first: Way, last: Way, gear: f64) {
         let middle = Way { sense: -first.sense, gear };
         let swings = |a: Way, b: Way| if a.gear == b.gear { &[false][..] } else { &[true, false] };
@@ -196,6 +213,9 @@ impl<'c> Finder<'c> {
     }
 
     /// C Cu | Cu C and C | Cu Cu | C, whose two middle turns are equal.
+    ///
+    /// With equal outer gears both middle turns are driven in the other one (C|CC|C); with different ones each pair
+    /// shares its gear (CC|CC).
     fn four_turns(&mut self, between: Span, first: Way, last: Way, swing: bool) {
         let second = Way { sense: -first.sense, gear: if first.gear == last.gear { -first.gear } else { first.gear } };
         let third = Way { sense: first.sense, gear: if first.gear == last.gear { second.gear } else { last.gear } };
@@ -264,6 +284,8 @@ impl<'c> Finder<'c> {
 
     /// Ways with their leads; `swings[i]`: full curvature between the turns i and i + 1. `None` if the leads alone are
     /// too long, before any triangle is solved.
+    ///
+    /// `ways` holds 2 to 4 turns, `swings` one entry fewer; false: the turns meet at zero curvature, clothoids between.
     fn word(&self, ways: &[Way], swings: &[bool]) -> Option<Word<'c>> {
         let last = ways.len() - 1;
         let (first_way, last_way) = (ways[0], ways[last]);
@@ -287,6 +309,9 @@ impl<'c> Finder<'c> {
     }
 
     /// Takes the path with these headings between the turns if it is the shortest so far.
+    ///
+    /// `headings` in rad at each meeting of two turns; a turn's angle is the difference of its neighbours, modulo 2π.
+    /// NaN in any length refuses. With `all`, every plan is handed over and none is kept.
     fn offer(&mut self, word: &Word, headings: &[f64], straight: Option<Straight>) {
         let angle = |i: usize| {
             let before = if i == 0 { self.ends.start } else { headings[i - 1] };
@@ -334,6 +359,7 @@ impl Word<'_> {
 /// From the first centre to the last: distance in m, direction in rad.
 #[derive(Debug, Clone, Copy)]
 struct Span {
+    /// ≥ 0.
     distance: f64,
     angle: f64,
 }
@@ -345,6 +371,8 @@ impl Span {
 }
 
 /// Heading and length L ≥ 0 of a straight in `gear` with Rot(heading)·(step.x + gear·L, step.y) = span.
+///
+/// `step` in the frame of the straight, m. Lengths down to −10⁻¹⁰ m are rounding and become 0.
 fn straight(span: Span, step: (f64, f64), gear: f64) -> Option<(f64, f64)> {
     let square = span.distance * span.distance - step.1 * step.1;
     if square < 0.0 {
@@ -357,6 +385,9 @@ fn straight(span: Span, step: (f64, f64), gear: f64) -> Option<(f64, f64)> {
 }
 
 /// Headings (a, b) with Rot(a)·first + Rot(b)·second = span, both ways round.
+///
+/// `None` where |p − q| ≤ d ≤ p + q fails by more than rounding, for sides p, q and d; the two answers are mirror
+/// images about the span and coincide where it is flat.
 fn triangle(span: Span, first: (f64, f64), second: (f64, f64)) -> Option<[[f64; 2]; 2]> {
     let (p, q, d) = (norm(first), norm(second), span.distance);
     // Most triangles do not close: no need of angles to see that.
@@ -384,6 +415,8 @@ fn norm((x, y): (f64, f64)) -> f64 {
 }
 
 /// Steps over cusps lie along y: nothing to compute for them.
+///
+/// rad.
 fn direction((x, y): (f64, f64)) -> f64 {
     if x == 0.0 { FRAC_PI_2.copysign(y) } else { libm::atan2(y, x) }
 }

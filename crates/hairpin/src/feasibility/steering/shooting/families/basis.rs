@@ -1,4 +1,8 @@
 //! What curvature is made of: κ(u) = Σ pᵢ Bᵢ(u), u ∈ [0, 1]. Every family is linear in its parameters.
+//!
+//! Legendre's polynomials rather than powers, so that the least-squares start and each step's system stay well
+//! conditioned at any order used here (7 at most). Parameters are curvatures of the task, dimensionless where its
+//! largest curvature is 1.
 
 use super::clock::Clock;
 
@@ -23,6 +27,10 @@ pub(super) enum Basis {
 
 impl Basis {
     /// The ratio for the speed of `clock`, whose zeros at the ends are left out.
+    ///
+    /// `speed` is (c₀, c₁, c₂) of v(u) = c₀ + c₁u + c₂u², of any scale. At an end at rest both v and ω vanish, and κ is
+    /// the limit of their quotient: the common factor u or 1 − u is divided out of v, and the family's polynomial is
+    /// what remains of ω.
     pub(super) fn ratio(order: usize, speed: [f64; 3]) -> Self {
         let [a, b, c] = speed;
         let rests = Clock::Polynomial(speed).rests();
@@ -49,6 +57,8 @@ impl Basis {
     /// Bᵢ(u) and dBᵢ/du.
     ///
     /// `u` in 0 … 1. A ratio has no value where its speed is 0 inside.
+    ///
+    /// Slopes by u, not by metres: a clock's pace makes them slopes along the way.
     pub(super) fn at(&self, u: f64) -> (Row, Row) {
         match self {
             Self::Polynomial(order) => legendre(*order, u),
@@ -78,6 +88,8 @@ impl Basis {
 /// `P_i(2u − 1)` and their derivatives by u.
 ///
 /// By Bonnet's recurrence (n + 1) P_{n+1} = (2n + 1) x P_n − n P_{n−1} with x = 2u − 1.
+///
+/// Derivatives by P′_k = P′_{k−2} + (2k − 1) P_{k−1}, doubled for du. Entries beyond `order` are 0; `order` ≤ 7.
 fn legendre(order: usize, u: f64) -> (Row, Row) {
     let x = 2.0 * u - 1.0;
     let (mut value, mut slope) = ([0.0; MOST], [0.0; MOST]);
@@ -132,6 +144,8 @@ const fn bends() -> [Row; MOST] {
 /// The cardinal splines and their derivatives.
 ///
 /// Between knots k and k + 1 by the cubic that has both values and both [`BENDS`].
+///
+/// `u` outside 0 … 1 continues the cubic of the outermost piece.
 fn splines(u: f64) -> (Row, Row) {
     let last = MOST - 1;
     let h = 1.0 / last as f64;

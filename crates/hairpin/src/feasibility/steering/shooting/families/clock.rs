@@ -1,4 +1,13 @@
 //! How far along a drive its controls are: by metres, by seconds under a speed profile, or by a polynomial of speed.
+//!
+//! ```text
+//! metres        σ = u
+//! seconds       σ(u) = s(u T)/L        s the place that the speed profile has come to
+//! polynomial    σ(u) = ∫₀ᵘ v / ∫₀¹ v,  v = c₀ + c₁u + c₂u²
+//! ```
+//!
+//! Only the shape of the speed matters to curvature: length and duration cancel, but for trapezoids, whose shape is
+//! another one for every length.
 
 use crate::trajectory::speed::Speeds;
 
@@ -13,7 +22,9 @@ pub(super) enum Clock {
     Seconds {
         /// Over the whole drive.
         speeds: Speeds,
+        /// m.
         length: f64,
+        /// s.
         duration: f64,
     },
     /// Share of the seconds, where the speed is c₀ + c₁u + c₂u² up to a factor.
@@ -29,6 +40,8 @@ impl Clock {
     }
 
     /// The quadratic speed from `start` to `end` with `middle` half the way between, in time.
+    ///
+    /// v(0) = start, v(½) = middle, v(1) = end.
     pub(super) fn through(start: f64, middle: f64, end: f64) -> Self {
         Self::Polynomial([start, 4.0 * middle - 3.0 * start - end, 2.0 * (start + end) - 4.0 * middle])
     }
@@ -58,6 +71,9 @@ impl Clock {
     /// u(σ), the inverse of [`Clock::share`].
     ///
     /// Of polynomials by Newton's steps within a bracket, to the last digits.
+    ///
+    /// `share` in 0 … 1. Monotone, so that the bracket holds throughout; where the pace is 0 (at rest) the step is a
+    /// bisection.
     pub(super) fn at_share(&self, share: f64) -> f64 {
         match self {
             Self::Metres => share,
@@ -91,6 +107,9 @@ impl Clock {
     }
 
     /// Where σ(u) is not smooth.
+    ///
+    /// Of a speed profile its changes of acceleration, as shares of the time; 0 where there is none, which callers
+    /// leave out.
     pub(super) fn kinks(&self) -> [f64; 2] {
         match self {
             Self::Seconds { speeds, duration, .. } => speeds.changes().map(|time| time / duration),
@@ -99,6 +118,8 @@ impl Clock {
     }
 
     /// Whether the vehicle stands at the drive's beginning and at its end, as far as the controls' argument knows.
+    ///
+    /// A pace below 10⁻⁹ of the mean counts as standing.
     pub(super) fn rests(&self) -> [bool; 2] {
         [self.pace(0.0) <= 1e-9, self.pace(1.0) <= 1e-9]
     }

@@ -9,6 +9,10 @@
 //! (Gauss-Newton for h, the exact J by variation of the path): Newton's method where there are as many unknowns as
 //! constraints, else the step of least cost. λ rises until the merit ρ‖c‖ + h falls (Nocedal & Wright, Numerical
 //! optimization, ch. 18).
+//!
+//! Rows of c, in order: x, y (least radii), turn (rad), κ at start and end, dκ/du at start and end; rows that a task
+//! does not ask for stay 0, with a multiplier that −μ keeps at 0. Columns of J: eight parameters, then L. Size of the
+//! system: 9 + 7 equations, solved densely.
 
 use super::basis::{MOST, Row};
 use super::grid::{Grid, Node};
@@ -107,8 +111,11 @@ const SOFT: f64 = 1e-10;
 ///
 /// Everything that a step needs, from one pass over the grid.
 struct Shot {
+    /// c: what is had less what is wanted.
     constraints: [f64; CONSTRAINTS],
+    /// ∂c/∂z.
     jacobian: [[f64; UNKNOWNS]; CONSTRAINTS],
+    /// h, with ∇h and its Gauss-Newton matrix in the next two.
     cost: f64,
     gradient: [f64; UNKNOWNS],
     hessian: [[f64; UNKNOWNS]; UNKNOWNS],
@@ -136,6 +143,8 @@ fn dot(a: &Row, b: &Row) -> f64 {
 /// wheels' direction), turn L p·I(1), end curvatures p·B, and end slopes p·B′ = 0 where a clock rests. The Jacobian is
 /// exact: ∂x/∂pᵢ = −L² Σ w sin θ Iᵢ, ∂x/∂L = Σ w cos θ − Σ w L p·I sin θ. Excesses over bounds are looked at at the
 /// same nodes and the two ends.
+///
+/// `from` is the length that a drive without a cost is held near, `strict` the weight of what exceeds the bounds.
 fn shoot(grid: &Grid, task: &Task, free: &Free, from: f64, strict: f64) -> Shot {
     let Free { parameters: p, length } = free;
     let (length, last) = (*length, UNKNOWNS - 1);
@@ -207,6 +216,8 @@ struct Squares {
 
 impl Squares {
     /// One node's share of the sums.
+    ///
+    /// With q = p·row: whole += w q², image += w q row, matrix += w row rowᵀ.
     fn add(&mut self, parameters: &Row, row: &Row, weight: f64) {
         let value = dot(parameters, row);
         self.whole += weight * value * value;
@@ -257,6 +268,9 @@ impl Shot {
     }
 
     /// Adds what exceeds the bounds at `node`.
+    ///
+    /// Half `weight` times the square of what |κ|/most and |κ′|/most_rate are over 0.997, κ′ = p·B_σ/L. Nodes weigh by
+    /// their share of the way, the two ends by 0.01.
     fn look(&mut self, task: &Task, free: &Free, node: &Node, strict: f64) {
         let last = UNKNOWNS - 1;
         let Curvatures { most, most_rate } = task.bounds;
@@ -292,6 +306,10 @@ impl Shot {
 ///
 /// At most three descents in a row, each with a hundredfold weight on what exceeds the bounds, from where the last one
 /// ended.
+///
+/// Merit of a step: price · ‖c‖ + h with price = 2‖y‖ + 0.1, which exceeds the multipliers y, so that the step goes
+/// down it; taken as soon as it falls. Ends after two steps in a row of hardly any gain, at the step limit, or where
+/// twelve tries do not lower it; then up to four whole Newton steps on the constraints alone.
 pub(super) fn descend(
     grid: &Grid,
     task: &Task,
@@ -382,6 +400,9 @@ enum Aim {
 }
 
 /// The step from `shot` and the size of the constraints' multipliers; `None` where the system is singular.
+///
+/// Cut to 0.6 of the curvature bound (the sum over all parameters) and to 0.3 of the length. μ = 10⁻¹⁰, plus the
+/// damping once that is above 10⁻⁴.
 fn step(grid: &Grid, task: &Task, shot: &Shot, free: &Free, damping: f64, aim: Aim) -> Option<([f64; UNKNOWNS], f64)> {
     // The equations, their right-hand sides in the last column.
     let mut rows = [[0.0; SYSTEM + 1]; SYSTEM];

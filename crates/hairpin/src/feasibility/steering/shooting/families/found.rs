@@ -43,6 +43,8 @@ pub(super) struct Found {
 impl Found {
     /// Whether it is worth more: good before not, then what stays clearer, then the cheaper or shorter; or what is
     /// nearer to goal and bounds.
+    ///
+    /// Lengths and grades in units of the least radius; both must be of one search.
     pub(super) fn better(&self, other: &Self, lowering: Cost) -> bool {
         match (self.status == Status::Ok, other.status == Status::Ok) {
             (true, true) if self.depth != other.depth => self.depth < other.depth,
@@ -55,6 +57,8 @@ impl Found {
 }
 
 /// ∫κ² ds or ∫κ′² ds of commands, in closed form: Σ aᵢ aⱼ Lⁱ⁺ʲ⁺¹/(i + j + 1); 0 where no cost is asked for.
+///
+/// 1/m or 1/m³; turns in place cost nothing.
 pub(super) fn cost(segments: &[Segment], asked: Cost) -> f64 {
     let of = |segment: &Segment| {
         let length = segment.length_m();
@@ -73,6 +77,9 @@ pub(super) fn cost(segments: &[Segment], asked: Cost) -> f64 {
 /// Judges by the numbers that are handed out, not by those that made them.
 ///
 /// End by quadrature of the commands, |κ| and |κ′| by their exact extremes. Of several failures the goal's comes first.
+///
+/// Bounds are kept up to 10⁻⁹ of themselves. `swing` is that of the whole drive; headings are compared with the task's
+/// turn, so that a drive that goes round once more than it should is not met.
 pub(super) fn judge(
     segments: &[Segment],
     task: &Task,

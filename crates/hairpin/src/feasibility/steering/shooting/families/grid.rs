@@ -1,4 +1,8 @@
 //! A family on a drive, tabulated where it is integrated and where its bounds are looked at.
+//!
+//! The heading at a node is L p·I with I the integral of the basis up to it, so that one pass of multiplications gives
+//! position and all derivatives without integrating again. Made once for a family, a clock and a length; parameters
+//! change, the table does not.
 
 use super::basis::{Basis, MOST, Row};
 use super::clock::Clock;
@@ -30,6 +34,7 @@ pub(super) struct Node {
 /// A fixed table on the stack: [`PANELS`] panels of 8 nodes.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
+    /// The first `len` of them are meant.
     nodes: [Node; POINTS * PANELS],
     len: usize,
     /// Beginning and end.
@@ -45,6 +50,9 @@ pub(super) struct Grid {
 impl Grid {
     /// Panels of Gauss-Legendre nodes between all places where family or clock have a kink, about [`EVEN`] panels over
     /// the whole, so that every panel's integrand is smooth.
+    ///
+    /// Weights sum to 1. More than 24 panels would be left out by [`Self::add_panel`]; knots and kinks together make
+    /// fewer.
     pub(super) fn new(basis: &Basis, clock: &Clock) -> Self {
         let empty = Node { weight: 0.0, share: 0.0, value: [0.0; MOST], slope: [0.0; MOST], integral: [0.0; MOST] };
         let rests = clock.rests();
@@ -82,6 +90,8 @@ impl Grid {
     /// Nodes of one panel: weight of dσ = pace du, value B, slope dB/dσ = B_u / pace and the integral of B dσ from the
     /// drive's start to the node, by the rule that integrates the panel's interpolating polynomial up to each node.
     /// `integral` becomes that at the panel's end.
+    ///
+    /// Gauss' eight points integrate polynomials of order 15 exactly, their partial integrals those of order 7.
     fn add_panel(&mut self, basis: &Basis, clock: &Clock, from: f64, width: f64, integral: &mut Row) {
         if self.len + POINTS > self.nodes.len() {
             return;

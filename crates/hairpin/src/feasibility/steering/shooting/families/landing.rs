@@ -14,6 +14,8 @@ const MOST_PANELS: f64 = 1024.0;
 ///
 /// x = ∫ cos(θ + δ) ds, y = ∫ sin(θ + δ) ds with δ = swing · s/L; m and rad. Eight Gauss points for each radian of
 /// turning; turns in place count for nothing.
+///
+/// The yaw is the body's, without the direction's turning; gears are not asked. At most 1024 panels a segment.
 pub(super) fn landing(segments: &[Segment], swing: f64) -> [f64; 3] {
     let total: f64 = segments.iter().map(Segment::length_m).sum();
     let rate = if total > 0.0 { swing / total } else { 0.0 };

@@ -1,4 +1,7 @@
 //! A family's own parameters, as its textbook has them.
+//!
+//! For logs, files and other solvers: what is driven are the segments, and these numbers say which member of the family
+//! they came from. Powers are of the plain argument (metres or seconds), not of its share.
 
 use super::basis::{Basis, MOST, Row};
 use super::clock::Clock;
@@ -45,6 +48,8 @@ pub enum Parameters {
 
 impl Parameters {
     /// Those of the mirrored drive.
+    ///
+    /// Curvatures and angular velocities change their signs; lengths, times and v do not.
     pub(super) fn mirrored(mut self) -> Self {
         let turned: &mut [f64] = match &mut self {
             Self::ArcLength { curvature, .. } => curvature,
@@ -59,6 +64,9 @@ impl Parameters {
 /// The parameters of `basis` on `clock`, for a drive of `length` metres and `duration` seconds.
 ///
 /// `row` in 1/m, of the family's own functions.
+///
+/// κ = ω/v, so that ω is the family's polynomial times the factors u and 1 − u that were divided out of v, times v's
+/// scale: its mean speed is length/duration. Powers of a share become powers of seconds by 1/durationᵏ.
 pub(super) fn named(basis: &Basis, clock: &Clock, row: &Row, length: f64, duration: f64) -> Parameters {
     match (basis, clock) {
         (Basis::Knots, _) => Parameters::Knots { curvature: *row, length },

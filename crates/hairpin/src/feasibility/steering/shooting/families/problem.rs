@@ -16,10 +16,14 @@ use crate::trajectory::drive::SegmentList;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Problem {
     /// Where to; driven forward. Its yaw is the change of the body's heading.
+    ///
+    /// x, y in m in the frame that looks along the first direction of travel; curvatures are the body's.
     pub query: Query,
     /// The speeds at both ends and between; it forms controls that are functions of time.
     pub speed: SpeedProfile,
     /// Change of the direction of travel in the body along the drive, rad, left positive.
+    ///
+    /// 0: constant. Spread evenly over the arc length.
     pub swing: f64,
     /// Whether the curvature at the end is as it comes. Only velocity polynomials ask for it.
     pub free_end: bool,
@@ -28,6 +32,9 @@ pub struct Problem {
 impl Problem {
     /// Parameters, the length among them, that a family has beyond the conditions of the problem: to go around places
     /// with, or to lower a cost by.
+    ///
+    /// 0 where a family has no more parameters than conditions: then there is one drive for each way around, and
+    /// nothing to bend.
     pub fn spare(&self, control: Control) -> u32 {
         let ends = [self.speed.start(), self.speed.end()];
         let conditions = match control {
@@ -43,6 +50,8 @@ impl Problem {
     /// bend.
     ///
     /// A start value's question, not a claim: curvatures are clipped to the bounds.
+    ///
+    /// κ_path = κ_body + swing/L, with the straight way (or half the least radius) for the unknown L.
     pub fn path(&self, bounds: &Curvatures) -> Query {
         let (Query { goal, start_curvature }, most) = (self.query, bounds.most);
         let bend = self.swing / libm::hypot(goal.x, goal.y).max(0.5 / most);

@@ -1,4 +1,8 @@
 //! The search: one descent after another, from the nearest start values, until one keeps goal and bounds.
+//!
+//! In units of the least radius, so that weights and tolerances are the same for a toy and a truck. Start values say
+//! which way around the goal is gone and how often the heading turns; a descent keeps that, for the turn is one of its
+//! constraints and not modulo 2π.
 
 use std::f64::consts::TAU;
 
@@ -44,6 +48,9 @@ const RADII: [f64; 4] = [1.0, 1.5, 2.5, 0.8];
 ///
 /// Up to `starts` descents of up to `iterations` steps; a step is one pass over the grid and one dense solve of 16
 /// equations.
+///
+/// Deterministic for a given `stop`. Status as of the flat solver: `Ok`, `Infeasible` by the limit that is exceeded by
+/// most, or `NotConverged` with the distance in m.
 pub fn solve(
     problem: &Problem,
     control: Control,
@@ -66,6 +73,9 @@ pub fn solve(
 /// begun with the guides, too.
 ///
 /// Not mirrored: what is in the way has no mirror image.
+///
+/// `among.depth` is asked about commands that meet the goal and the bounds only. The search does not end at a good
+/// drive that is not clear.
 pub fn solve_among(
     problem: &Problem,
     control: Control,
@@ -101,6 +111,8 @@ fn mirrored(mut answer: Answer) -> Answer {
 ///
 /// Scaled by 1/most: lengths in least radii, curvatures over the bound, so that tolerances and weights serve all
 /// vehicles.
+///
+/// `best` holds metres in its segments and radii in its fit.
 struct Search<'a> {
     problem: &'a Problem,
     control: Control,
@@ -195,6 +207,8 @@ fn curvature_along(segments: &[Segment], mut s: f64) -> f64 {
 
 impl Search<'_> {
     /// The functions of the family and what they are functions of, for a drive of about `length` metres.
+    ///
+    /// `length` in m; it decides only what trapezoids look like.
     fn family(&self, length: f64) -> (Basis, Clock) {
         let speed = &self.problem.speed;
         match self.control {
@@ -213,12 +227,16 @@ impl Search<'_> {
     }
 
     /// Whether a drive was found that is good and not a long way round.
+    ///
+    /// `shortest` in m: no longer than 1.25 times that.
     fn done(&self, shortest: f64) -> bool {
         let short = |found: &Found| found.fit.free.length <= SHORT * shortest * self.bounds.most;
         self.best.as_ref().is_some_and(|found| found.status == Status::Ok && found.depth == 0.0 && short(found))
     }
 
     /// Descends from a known path, turned by `swing` more along its way.
+    ///
+    /// `known` in m; a list without length is passed over.
     fn along(&mut self, known: &SegmentList, swing: f64, observe: &mut dyn FnMut(&Iteration)) {
         let length: f64 = known.iter().map(Segment::length_m).sum();
         if length > 0.0 {
@@ -228,6 +246,10 @@ impl Search<'_> {
     }
 
     /// Descends from a curve of the path of travel; its whole turn says how often the goal's heading is gone around.
+    ///
+    /// `curvature` of the share of the metres, 1/m; `turn` in rad is that of the whole path of travel. The length that
+    /// comes out is fed back as the length of the speeds until both agree to 10⁻⁹, in at most twelve rounds; where they
+    /// do not settle nothing is kept of this start.
     fn from(&mut self, curvature: &dyn Fn(f64) -> f64, length: f64, turn: f64, observe: &mut dyn FnMut(&Iteration)) {
         let Problem { query, swing, free_end, .. } = *self.problem;
         let most = self.bounds.most;
@@ -337,6 +359,8 @@ fn in_time(curvature: &[f64; 6], speed: f64) -> Row {
 
 /// The quadratic speed, m/s over the share of the time, that a profile stands for: with its ends, and of a trapezoid as
 /// much of its top as it comes to in the middle of its time.
+///
+/// Coefficients of u⁰, u¹, u²; exact for constant speeds and for ramps in time.
 fn speed_polynomial(speed: &SpeedProfile, length: f64) -> [f64; 3] {
     let (start, end) = (speed.start(), speed.end());
     let middle = match speed {

@@ -9,8 +9,12 @@ use crate::feasibility::steering::shooting::flat::Cost;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The errors within which the goal counts as met; the descents go on to a thousandth of it.
+    ///
+    /// Of a solve within `Choices` the single arc's takes its place.
     pub precision: Precision,
     /// Steps of each descent at most.
+    ///
+    /// The last few that make the goal exact come on top.
     pub iterations: u32,
     /// Start values at most.
     pub starts: u32,

@@ -8,6 +8,9 @@ use crate::math::linear::solve;
 /// as much.
 ///
 /// Normal equations with a ridge of 10⁻⁹; parameters beyond the family's count are 0.
+///
+/// `ends` are κ at the start and at the end, `None` where it is free. All 0 where the system cannot be solved. O(nodes
+/// · parameters²).
 pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option<f64>; 2]) -> Row {
     // The equations, their right-hand sides in the last column.
     let mut rows = [[0.0; MOST + 1]; MOST];
@@ -36,6 +39,8 @@ pub(super) fn nearest(grid: &Grid, curvature: &dyn Fn(f64) -> f64, ends: [Option
 /// Curvature that is constant on three pieces, `signs` over `pieces` metres, 1/m, and bends at most by `most`.
 ///
 /// `share` in 0 … 1 of the whole length; 1/m.
+///
+/// `signs` are +1, 0, −1; a share beyond 1 stays on the last piece.
 pub(super) fn word(signs: [f64; 3], pieces: [f64; 3], most: f64, share: f64) -> f64 {
     let mut left = share * pieces.iter().sum::<f64>();
     for (sign, piece) in signs.iter().zip(pieces) {

@@ -10,6 +10,9 @@ use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 ///
 /// Wheels are steered before it begins, so that neither the start's curvature nor κ′ counts. Straight behind the start
 /// there is none: `NotConverged`. A heading or an end curvature other than the arc's is `Infeasible`.
+///
+/// Of several failures the first of: position (only where no arc exists), curvature, heading, end curvature. A goal at
+/// the start is an empty drive. Angles up to ±2π: a goal behind is reached by the long arc.
 pub(super) fn arc(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     let bounds = tame(bounds);
     let Goal { x, y, .. } = query.goal;
@@ -41,6 +44,9 @@ pub(super) fn arc(query: &Query, bounds: &Curvatures, settings: &Settings) -> An
 }
 
 /// Turns in place towards the goal, drives straight there, turns in place to its heading, each by the smaller angle.
+///
+/// At most three segments, none of them of nothing; empty for the start's own pose. Curvatures play no part: the wheels
+/// stand as turning and driving ask.
 pub fn turn_drive_turn(goal: &Goal) -> SegmentList {
     let mut segments = SegmentList::EMPTY;
     let distance = libm::hypot(goal.x, goal.y);
@@ -58,6 +64,8 @@ pub fn turn_drive_turn(goal: &Goal) -> SegmentList {
 /// that direction.
 ///
 /// The path's heading is the body's plus the direction all along, so only the goal's position turns, by −direction.
+///
+/// `direction` in the body; heading and curvatures stay as they are, for both turn with the body.
 pub fn crab(query: &Query, direction: f64) -> Query {
     let (sin, cos) = (libm::sin(direction), libm::cos(direction));
     let goal = &query.goal;

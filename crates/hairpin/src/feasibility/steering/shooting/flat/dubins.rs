@@ -5,6 +5,9 @@
 //!
 //! LSL, RSR, LSR, RSL, LRL, RLR. A path with |κ| ≤ κ_max is never shorter than the shortest word of radius 1/κ_max, so
 //! that what a word's length refuses needs no solver.
+//!
+//! In units of the radius, angle and length of an arc are one number. Curvatures at the ends are ignored, as is what
+//! steering takes: start values add that.
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,6 +32,8 @@ impl Word {
     }
 
     /// Mean of the heading along it, rad.
+    ///
+    /// (1/L) ∫ θ ds with θ = 0 at the start, not wrapped: what a start value of an arc is fitted to.
     pub(super) fn mean_heading(&self) -> f64 {
         let (mut heading, mut sum) = (0.0, 0.0);
         for (sign, piece) in self.signs.iter().zip(&self.pieces) {
@@ -41,6 +46,8 @@ impl Word {
 
 /// The words that lead from the origin to (x, y, yaw), lengths in units of the radius, shortest first; those that do
 /// not are infinitely long.
+///
+/// `yaw` in rad, any number of turns. Angles within 10⁻⁹ below a full turn count as none.
 pub(super) fn words(x: f64, y: f64, yaw: f64) -> [Word; 6] {
     // Centres of the circles to the left and right of the goal as seen from those of the start.
     let (sin, cos) = (libm::sin(yaw), libm::cos(yaw));
@@ -57,6 +64,8 @@ pub(super) fn words(x: f64, y: f64, yaw: f64) -> [Word; 6] {
 }
 
 /// Turn, straight, turn to the same `side`; (dx, dy) from centre to centre.
+///
+/// Always exists: with (d, α) the polar form of the centres' difference, pieces side · α, d, side · (ψ − α), modulo 2π.
 fn same_side(side: f64, dx: f64, dy: f64, yaw: f64) -> Word {
     let along = libm::atan2(dy, dx);
     Word {
@@ -66,6 +75,8 @@ fn same_side(side: f64, dx: f64, dy: f64, yaw: f64) -> Word {
 }
 
 /// Turn, straight, turn to the other side.
+///
+/// The straight touches both circles from inside: length √(d² − 4), which exists for d ≥ 2.
 fn cross(side: f64, dx: f64, dy: f64, yaw: f64) -> Word {
     let squared = dx * dx + dy * dy - 4.0;
     let signs = [side, 0.0, -side];
@@ -78,6 +89,9 @@ fn cross(side: f64, dx: f64, dy: f64, yaw: f64) -> Word {
 }
 
 /// Turn, more than half a turn to the other side, turn.
+///
+/// For d ≤ 4. The middle turn is π + 2 acos(d/4), the longer of the two that fit; the shorter is never part of a
+/// shortest path.
 fn three_turns(side: f64, dx: f64, dy: f64, yaw: f64) -> Word {
     let signs = [side, -side, side];
     let quarter = libm::hypot(dx, dy) / 4.0;

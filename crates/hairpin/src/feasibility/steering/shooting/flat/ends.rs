@@ -21,6 +21,8 @@ pub(super) struct Ends {
 
 impl Ends {
     /// Of the headings equal modulo 2π, the one that is nearest to the turn of `word`.
+    ///
+    /// So that a curve that follows the word turns as it does, with loops where it has them.
     pub(super) fn along(query: &Query, word: &Word) -> Self {
         let goal = &query.goal;
         let whole = ((word.turn() - goal.yaw) / std::f64::consts::TAU).round();
@@ -35,6 +37,8 @@ impl Ends {
 }
 
 /// The largest bends of a curve, over what is allowed: at most 1 each where both bounds are kept.
+///
+/// ∞ where nothing is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bends {
     /// max |κ| / most.
@@ -61,6 +65,8 @@ impl Bends {
 /// Bounds between which numbers stay tame: no vehicle has others. What is no number becomes the least.
 ///
 /// Positive and finite; a path that breaks no such bound does not exist for any vehicle.
+///
+/// κ_max in 10⁻⁹ … 10⁶ 1/m, κ′_max in 10⁻¹² … 10¹² 1/m².
 pub(super) fn tame(bounds: &Curvatures) -> Curvatures {
     let between = |value: f64, least: f64, most: f64| if value > least { value.min(most) } else { least };
     Curvatures { most: between(bounds.most, 1e-9, 1e6), most_rate: between(bounds.most_rate, 1e-12, 1e12) }

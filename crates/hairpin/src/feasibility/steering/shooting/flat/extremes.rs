@@ -2,13 +2,20 @@
 //!
 //! A polynomial lies in the hull of its Bernstein coefficients and takes the first and the last of them at the ends;
 //! halving the interval narrows the hull quadratically.
+//!
+//! Sampling would miss a peak between samples, and roots of a derivative of degree 4 need care where they nearly
+//! coincide; Bernstein's coefficients bound from both sides and need neither.
 
 /// Halvings after which an interval is as good as a point.
+///
+/// What would need more is answered by its hull, which errs high.
 const DEPTH: usize = 40;
 /// Relative width of the enclosure of a maximum.
 const WIDTH: f64 = 1e-10;
 
 /// Whether |p(t)| ≤ `bound` for 0 ≤ t ≤ 1, p = Σ aₖ tᵏ; an excess below 10⁻¹⁰ of the bound may pass.
+///
+/// `bound` ≥ 0. Cheap where the first hull is within it, which most curves' is.
 pub(super) fn within(p: &[f64; 6], bound: f64) -> bool {
     let reached = bound * (1.0 - WIDTH);
     let enough = bound * (1.0 + WIDTH);
@@ -21,6 +28,8 @@ pub(in super::super) fn largest(p: &[f64; 6]) -> f64 {
 }
 
 /// The largest magnitude, from above, if it is more than `reached`; stops at any that is more than `enough`.
+///
+/// Branch and bound: pieces whose hull is no larger than the largest value seen (with its width) are left out.
 fn look(whole: &[f64; 6], reached: f64, enough: f64) -> f64 {
     let mut reached = reached.max(whole[0].abs()).max(whole[5].abs());
     let limit = |reached: f64| reached * (1.0 + WIDTH);
@@ -62,6 +71,9 @@ fn hull(coefficients: &[f64; 6]) -> f64 {
 }
 
 /// bᵢ = Σₖ aₖ C(i, k) / C(5, k).
+///
+/// Rising powers in, coefficients over the fifth-order Bernstein polynomials out; the first and the last are p(0) and
+/// p(1).
 fn bernstein(a: &[f64; 6]) -> [f64; 6] {
     let [a0, a1, a2, a3, a4, a5] = [a[0], a[1] / 5.0, a[2] / 10.0, a[3] / 10.0, a[4] / 5.0, a[5]];
     [

@@ -2,6 +2,9 @@
 //!
 //! Grades order curves: good ones by length, broken ones by how far over a bound, missed ones by distance. What ends
 //! the search is a good curve no longer than 1.25 times the next way around.
+//!
+//! Costs: an arc is given 8 steps where a chain may follow, for descents that converge do so by then; the chain has the
+//! whole limit. Where what is handed out ends is judged again, from its own coefficients.
 
 use super::arc::{self, Free};
 use super::chain::{self, Chain};
@@ -46,6 +49,7 @@ struct Search<'a> {
     query: &'a Query,
     settings: &'a Settings<'a>,
     task: Task,
+    /// By grade; the first of equals stays.
     best: Option<(Grade, Curve)>,
     iterations: u32,
 }
@@ -64,6 +68,8 @@ pub(super) fn search(query: &Query, bounds: &Curvatures, settings: &Settings) ->
 }
 
 /// The curve that is answered where it meets its goal within the bounds.
+///
+/// For tables: no costs are lowered and nothing is judged again.
 pub(super) fn best(query: &Query, bounds: &Curvatures, settings: &Settings) -> Option<Curve> {
     let mut search = Search::new(query, &tame(bounds), settings);
     search.ways();
@@ -73,6 +79,8 @@ pub(super) fn best(query: &Query, bounds: &Curvatures, settings: &Settings) -> O
 /// The answer along every way around by itself, shortest first.
 ///
 /// Arcs and chains alike; unlike [`search`] it does not stop at a short one.
+///
+/// Each way has the steps of a whole search.
 pub(super) fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(Answer)) {
     let bounds = tame(bounds);
     let goal = &query.goal;
@@ -95,6 +103,9 @@ impl<'a> Search<'a> {
     }
 
     /// Looks along the ways around, shortest first, until one is short enough; at first from the table's start value.
+    ///
+    /// Ends as well when `starts` ways were looked along or the steps are spent and there is something to answer. A
+    /// table's arc counts like any other, so that a bad start value costs 8 steps and no answer.
     fn ways(&mut self) {
         let Task { bounds, .. } = self.task;
         if let Some((ends, start)) = self.settings.table.and_then(|table| table.start(self.query, &bounds)) {
@@ -159,6 +170,7 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// A cost is lowered along good arcs only. `Infeasible` names the bound that is exceeded by the larger factor.
     fn answer(mut self) -> Answer {
         if let Some((Grade::Good(_), Curve::Arc(ends, free))) = &mut self.best
             && self.settings.cost != Cost::Any
@@ -192,6 +204,8 @@ impl<'a> Search<'a> {
 }
 
 /// `length` in m; `bends` is asked only where the goal is met.
+///
+/// `miss` in m (of chains rad as well), good below `tolerance`; NaN counts as infinitely far.
 fn grade(miss: f64, tolerance: f64, length: f64, bends: impl FnOnce() -> Bends) -> Grade {
     if miss.is_nan() || miss >= tolerance {
         return Grade::Missed(if miss.is_nan() { f64::INFINITY } else { miss });

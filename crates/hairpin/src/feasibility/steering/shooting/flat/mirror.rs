@@ -1,4 +1,7 @@
 //! Left and right are solved alike, to the bit: queries that lean to the right are solved in the mirror.
+//!
+//! Rounding is not symmetric under a change of sign in every formula used, but a search that only ever sees one of both
+//! cases cannot tell. Mirrored answers are then equal by construction, which tests and users rely on.
 
 use super::settings::Answer;
 use crate::feasibility::steering::shooting::query::{Goal, Query};

@@ -38,6 +38,9 @@ impl Miss {
 /// Integrates `segments` from the origin, driving forward.
 ///
 /// Eight Gauss points a panel; the error is below 10⁻¹⁰ m for drives of hundreds of metres.
+///
+/// Gears are taken as forward. An empty list ends at the origin with the start's curvature. Turns in place leave the
+/// curvature as it was. A place or heading that is no number is within no precision.
 pub(super) fn miss(simd: Simd, segments: &[Segment], query: &Query) -> Miss {
     let (mut x, mut y, mut heading, mut curvature) = (0.0, 0.0, 0.0, query.start_curvature);
     for segment in segments {
@@ -66,6 +69,8 @@ pub(super) fn miss(simd: Simd, segments: &[Segment], query: &Query) -> Miss {
 
 kernel! {
     /// Change of position in the frame of the beginning, and of heading, along one polynomial.
+    ///
+    /// θ(t) = Σ aᵢ Lⁱ⁺¹ tⁱ⁺¹/(i + 1), t = s/L; out: L ∫ cos θ dt, L ∫ sin θ dt, θ(1).
     fn drive(length: f64, polynomial: &[f64; 6], out: &mut [f64; 3]) {
         // θ over t = s/L.
         let mut heading = [0.0; 6];

@@ -36,6 +36,8 @@ use crate::trajectory::drive::SegmentList;
 
 /// Length of the shortest forward path to the goal of `query` whose curvature stays within ± `bounds.most` but may
 /// jump, m: no forward drive is shorter (Dubins 1957).
+///
+/// The bound on κ′ is left out, so that it errs low; 0 only for a goal that is the start itself.
 pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
     let Goal { x, y, yaw, .. } = query.goal;
     dubins::words(x * bounds.most, y * bounds.most, yaw)[0].length() / bounds.most
@@ -43,6 +45,8 @@ pub fn least_length(query: &Query, bounds: &Curvatures) -> f64 {
 
 /// The shortest ways around, by Dubins: signs of the curvature ± `bounds.most` on three pieces, and their metres; those
 /// that do not exist are infinitely long.
+///
+/// Sorted by length; those that do not exist come last.
 pub(super) fn ways(query: &Query, bounds: &Curvatures) -> [([f64; 3], [f64; 3]); 6] {
     let Goal { x, y, yaw, .. } = query.goal;
     dubins::words(x * bounds.most, y * bounds.most, yaw)
@@ -57,6 +61,10 @@ pub(super) fn ways(query: &Query, bounds: &Curvatures) -> [([f64; 3], [f64; 3]);
 /// from (0, 0, 0, κ₀) to (x, y, ψ modulo 2π, κ_f). Metres and radians. The answer holds one arc or the pieces of a
 /// chain, with continuous curvature; mirrored queries have mirrored answers, to the bit. It is `Ok` only if its own
 /// numbers meet the goal and keep both bounds (up to 10⁻⁹ of them).
+///
+/// Bounds that are no vehicle's are brought between 10⁻⁹ and 10⁶ 1/m and 10⁻¹² and 10¹² 1/m². Work: at most six ways
+/// around, of the quintic each of at most 8 steps of an arc and then `iterations` of a chain, cut by `most_steps` over
+/// all.
 pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     if mirror::leans_right(query) {
         return mirror::answer(solve(&mirror::query(query), bounds, settings));
@@ -65,6 +73,8 @@ pub fn forward(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answe
 }
 
 /// Hands over the drives of every way around that [`forward`] may take, where it solves `query`, shortest way first.
+///
+/// At most six, one for `Control::Arc`; each as `forward` would answer it if it were the only way.
 pub fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: impl FnMut(SegmentList)) {
     let right = mirror::leans_right(query);
     let asked = if right { mirror::query(query) } else { *query };
@@ -80,6 +90,7 @@ pub fn every(query: &Query, bounds: &Curvatures, settings: &Settings, mut take: 
     }
 }
 
+/// `query` leans to the left or straight on.
 fn solve(query: &Query, bounds: &Curvatures, settings: &Settings) -> Answer {
     match settings.control {
         Control::Arc => controls::arc(query, bounds, settings),

@@ -9,12 +9,18 @@ use crate::trajectory::start_table::StartTable;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings<'t> {
     /// The errors within which the goal counts as met.
+    ///
+    /// Descents aim at a thousandth of its position.
     pub precision: Precision,
     /// Steps of each descent at most.
     pub iterations: u32,
     /// Steps of all descents together at most: what bounds the time that a query takes.
+    ///
+    /// A first descent is begun even with 0, whose start is then judged.
     pub most_steps: u32,
     /// Share of each step that is taken, in (0, 1].
+    ///
+    /// Below 1 convergence near the goal is linear instead of quadratic.
     pub step_scale: f64,
     /// Ways around (Dubins' words, 6 at most) to start from, at most.
     pub starts: u32,
@@ -23,6 +29,8 @@ pub struct Settings<'t> {
     /// What to minimise once goal and bounds are met.
     pub cost: Cost,
     /// Where start values are looked up first.
+    ///
+    /// Made for one ratio of κ′_max to κ_max²; of other vehicles its arcs are start values as well, but worse ones.
     pub table: Option<&'t StartTable>,
     /// Version of the kernels; all give the same bits.
     pub simd: Simd,
@@ -95,6 +103,8 @@ pub enum Status {
         /// Which one is exceeded by the largest factor.
         limit: Limit,
         /// By how much, in its unit.
+        ///
+        /// Positive; of `Yaw` and `EndCurvature` the difference from the goal's.
         excess: f64,
     },
     /// The goal was not met.

@@ -18,6 +18,10 @@ pub fn steering(bounds: &Curvatures) -> f64 {
 impl StartTable {
     /// The start value for `query`, which leans to the left: between the eight arcs around its goal where they are of
     /// one kind, else the nearest; `None` beyond the grid and where there is no arc.
+    ///
+    /// Trilinear in x, y and heading, all in units of the least radius. An arc is of another kind where its length
+    /// differs by 1.5 radii or more or its turn by two steps of the heading, and its corner then counts as the nearest
+    /// arc itself. Bends at the ends, which the table does not have, are made up for in c₀; c₁ and c₂ are left.
     pub(super) fn start(&self, query: &Query, bounds: &Curvatures) -> Option<(Ends, Free)> {
         let Goal { x, y, yaw, .. } = query.goal;
         let place = [(x * bounds.most + BEHIND) / APART, y * bounds.most / APART];

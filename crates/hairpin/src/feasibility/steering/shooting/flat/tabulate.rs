@@ -11,6 +11,9 @@ use crate::trajectory::start_table::{
 impl StartTable {
     /// The arcs that the solver finds by itself within `bounds`, one for each node.
     ///
+    /// Lengths in units of the least radius; only the left half plane, the right one being its mirror image. Entries
+    /// are c₀, c₁, c₂, length and turn; nodes that only a chain reaches stay empty. One solve for each of 8976 nodes.
+    ///
     /// # Errors
     /// [`StartTableError::Steering`] where `bounds` are no vehicle's.
     pub fn generate(bounds: &Curvatures) -> Result<Self, StartTableError> {
@@ -30,6 +33,8 @@ impl StartTable {
 }
 
 /// The goal of a node, in radii.
+///
+/// Heading fastest, then y, then x.
 fn goal(index: usize) -> Goal {
     let (heading, place) = (index % NODES[2], index / NODES[2]);
     let (row, column) = (place % NODES[1], place / NODES[1]);

@@ -16,6 +16,8 @@ pub(super) const ENOUGH: f64 = 0.8;
 pub struct Settings {
     /// Predictions for flat goals, at most; commands that are bent on from there take more, up to 16 for each of five
     /// starts.
+    ///
+    /// Cheaper commands and finer confirmations come on top as well.
     pub iterations: u32,
     /// When a goal counts as met; the search aims at a fifth of it, so that a finer integration agrees.
     pub precision: Precision,
@@ -76,6 +78,8 @@ impl Answer {
         Self { status: Status::Unreachable, segments: SegmentList::EMPTY, prediction: None, iterations: 0 };
 
     /// Less is better.
+    ///
+    /// Arrived, then nearest in units of the precision, then blocked, then without any commands.
     pub(super) fn rank(&self) -> f64 {
         match self.status {
             Status::Ok => -1.0,

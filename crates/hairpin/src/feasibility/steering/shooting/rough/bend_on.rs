@@ -16,6 +16,9 @@ const ASIDE: [f64; 6] = [0.12, -0.12, 0.25, -0.25, 0.45, -0.45];
 
 /// Refines the best commands so far, then gentler ones, which leave room within the bounds, then some that pass to the
 /// side, until one meets the goal.
+///
+/// At most 1 + 6 + 6 refinements of 16 predictions each; the first that meets the goal ends it. `answer` is only ever
+/// made better: a start that comes no nearer than the best is dropped.
 pub(super) fn bend_commands<T: Terrain>(
     task: &Task<'_, '_, T>,
     steer: &mut dyn FnMut(&Query) -> Option<SegmentList>,
@@ -50,6 +53,9 @@ pub(super) fn bend_commands<T: Terrain>(
 
 /// Flat controls for the true goal that bend less than the bounds allow by `factor`: those of a world smaller by as
 /// much, enlarged.
+///
+/// With factor f: solve for the goal at (x/f, y/f, ψ, f κ), then lengths times f and aᵢ over fⁱ⁺¹. Bounds hold in the
+/// small world, so that in the large one |κ| ≤ κ_max/f and |κ′| ≤ κ′_max/f²; f < 1 may exceed both.
 fn gentle<T>(
     task: &Task<'_, '_, T>,
     factor: f64,

@@ -54,6 +54,9 @@ pub(super) struct Cheaper {
 
 /// The cheapest commands found from `segments`, which must meet the goal; `None` if none are cheaper or they cannot be
 /// bent. Also the predictions made.
+///
+/// `None` as well where the first prediction does not pass. Costs of commands: a prediction for each tangent and up to
+/// 16 for each step back to the goal; costs of the ground: 17 more for each gradient.
 pub(super) fn cheaper<T: Terrain>(
     task: &Task<'_, '_, T>,
     segments: &SegmentList,
@@ -82,7 +85,9 @@ struct Search<'a, 'b, 'c, T> {
     cost: GroundCost,
     /// The cheapest so far, and what it costs.
     here: SegmentList,
+    /// In the cost's own unit.
     value: f64,
+    /// m.
     longest: f64,
     found: Option<Cheaper>,
     predictions: u32,
@@ -98,6 +103,8 @@ impl<T: Terrain> Search<'_, '_, '_, T> {
     }
 
     /// Goes along `change`, brings the end back, and stays there if that costs less: by how much.
+    ///
+    /// `None` where nothing is gained: not back within 0.8 of the precision, too long, or no cheaper.
     fn gained_by(&mut self, change: &Change) -> Option<f64> {
         let mut tried = self.here;
         changed(&mut tried, change);
@@ -118,6 +125,9 @@ impl<T: Terrain> Search<'_, '_, '_, T> {
     }
 
     /// Newton's steps along the ends' conditions and the bounds, damped.
+    ///
+    /// Damping falls by 8 with every gain and rises by 8 with every failure; ends at a gain below a thousandth of the
+    /// cost.
     fn by_model(&mut self) {
         let mut damping = DAMPING;
         for _ in 0..MODEL_STEPS {
@@ -142,6 +152,9 @@ impl<T: Terrain> Search<'_, '_, '_, T> {
     }
 
     /// Steepest descent, by differences of predictions.
+    ///
+    /// Forward differences of 10⁻³ 1/m and of 10⁻³ of the length; along the projected gradient at most 0.2 (1/m, or of
+    /// the length) at once, shrunk by 0.4 until the cost falls.
     fn by_differences(&mut self) {
         let Some(metric) = smooth() else { return };
         let mut stride = STRIDE;
@@ -189,6 +202,8 @@ impl<T: Terrain> Search<'_, '_, '_, T> {
 }
 
 /// M of the metric; the stretch stands by itself.
+///
+/// `None` never in practice: I + c DᵀD is positive definite. Symmetric; order as in [`Change`].
 fn smooth() -> Option<SMatrix<f64, UNKNOWNS, UNKNOWNS>> {
     let mut metric = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::identity();
     // The start's bend stays, so the first difference is the first bend itself.

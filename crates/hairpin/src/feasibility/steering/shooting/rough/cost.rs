@@ -1,4 +1,12 @@
 //! What a motion on the ground costs, and what may be asked to become small along it.
+//!
+//! ```text
+//! rise of the body's axes   ρ = (−sin θ, cos θ sin φ)       along the way   climb = ±(ρ · d)    across   side = d × ρ
+//! slip lost  a = s₂₀ climb/sin 20°                          drift  s′₂₀ side/sin 20°
+//! ```
+//!
+//! Integrals are midpoint sums over the prediction's own steps, and per metre of commanded travel. Turns in place cost
+//! nothing.
 
 use super::course::Course;
 use super::outcome::Driven;
@@ -41,6 +49,8 @@ impl GroundCost {
     }
 
     /// ∫κ² ds or ∫κ′² ds of `commands`; 0 for costs that depend on the ground.
+    ///
+    /// Exact: six Gauss points a segment for squares of fifth order. Turns in place count nothing.
     pub fn of_commands(self, commands: &[Segment]) -> f64 {
         match self {
             Self::Curvature | Self::Rate => commands.iter().map(|piece| squares(piece, self)).sum(),
@@ -50,6 +60,8 @@ impl GroundCost {
 }
 
 /// What `commands` from `start` cost along their predicted motion; `None` where they do not pass.
+///
+/// Costs one prediction.
 pub fn cost_along<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,
@@ -76,9 +88,13 @@ const POINTS: usize = 6;
 /// A cost being added up along a prediction.
 pub(super) struct Along {
     cost: GroundCost,
+    /// Of the vehicle under its load.
     slip: Slip,
+    /// Sine and cosine of the direction of travel in the body, that at the start: swings are left out.
     direction: (f64, f64),
+    /// ±1, the gear of the first command.
     sign: f64,
+    /// Metres of commanded travel so far.
     done: f64,
     total: f64,
 }
@@ -91,6 +107,7 @@ impl Along {
         Self { cost, slip: course.rover.slip, direction: libm::sincos(course.direction.start), sign, done: 0.0, total }
     }
 
+    /// Each call must see the next step's middle; its length follows from where the middle lies.
     pub(super) fn add(&mut self, driven: &Driven) {
         // Steps are seen at their middles.
         let h = 2.0 * (driven.s - self.done);
@@ -125,6 +142,8 @@ impl Along {
 }
 
 /// ∫κ² or ∫κ′² along a piece.
+///
+/// Horner's scheme for κ and κ′ at once; 1/m or 1/m³.
 fn squares(piece: &Segment, cost: GroundCost) -> f64 {
     let Motion::Arc { length_m, curvature } = piece.motion else { return 0.0 };
     let rule = crate::math::quadrature::Gauss::<POINTS>::RULE;

@@ -27,6 +27,8 @@ impl Default for Steps {
 impl Steps {
     /// These for paths whose curvature changes by up to `most_rate` (1/m²): where that is more than 1, shorter in
     /// proportion, so that it changes by no more a step; a tenth at most, for vehicles whose wheels are turned at once.
+    ///
+    /// `most_rate` of the paths to be driven, not of the vehicle if that is larger.
     #[must_use]
     pub fn for_rate(self, most_rate: f64) -> Self {
         Self { length: self.length / most_rate.clamp(1.0, 10.0), ..self }
@@ -34,6 +36,8 @@ impl Steps {
 
     /// These for steering that takes `metres` of the way to follow a jump, its time constant times the speed: no more
     /// than a third of that, where it is any; a tenth at most.
+    ///
+    /// `metres` ≥ 0: time constant times top speed.
     #[must_use]
     pub fn for_lag(self, metres: f64) -> Self {
         let length = if metres > 0.0 { self.length.min((metres / 3.0).max(0.1 * self.length)) } else { self.length };

@@ -13,6 +13,9 @@ pub(super) struct Frame {
 
 impl Frame {
     /// `place` as the flat solver sees it; ψ is measured from the start's heading.
+    ///
+    /// (x, y, ψ, κ): m, m, rad (not wrapped), 1/m. ψ counts from the body's heading, x from the direction of travel, so
+    /// that a crabbing body keeps its own ψ.
     pub(super) fn seen(&self, place: &Planar) -> Vector4<f64> {
         let (sin, cos) = libm::sincos(self.origin.yaw + self.direction);
         let (dx, dy) = (place.x - self.origin.x, place.y - self.origin.y);
@@ -20,6 +23,8 @@ impl Frame {
     }
 
     /// An error of the ground's x and y in the axes of the frame.
+    ///
+    /// (m, m, rad, 1/m) in and out.
     pub(super) fn turned(&self, error: &Vector4<f64>) -> Vector4<f64> {
         let (sin, cos) = libm::sincos(self.origin.yaw + self.direction);
         Vector4::new(cos * error[0] + sin * error[1], cos * error[1] - sin * error[0], error[2], error[3])

@@ -1,4 +1,7 @@
 //! The flat goal whose controls reach the true one, learned from where predictions end.
+//!
+//! A quasi-Newton method in four unknowns whose every evaluation is a flat solve and a prediction. Broyden's good
+//! update, kept as an inverse, so that a step is a product.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -15,6 +18,9 @@ use crate::world::terrain::Terrain;
 const MOST_FAILURES: [u32; 2] = [1, 4];
 
 /// Looks for the flat goal whose controls reach the true one.
+///
+/// Goes from the best goal so far, in full steps, in parts after failures; where the flat solver or the ground refuses
+/// a goal, half way back. Ends with `answer` as the best that was found, `Ok` at a residual of `aim` or less.
 pub(super) fn learn_goal<T: Terrain>(
     task: &Task<'_, '_, T>,
     settings: &Settings,
@@ -75,6 +81,7 @@ pub(super) fn learn_goal<T: Terrain>(
     }
 }
 
+/// 1 where commands can be refined, which is then quicker, else 4.
 fn most_failures(segments: &SegmentList) -> u32 {
     MOST_FAILURES[usize::from(!refinable(segments))]
 }
@@ -87,6 +94,9 @@ struct Tried {
 }
 
 /// Broyden's update of the inverse Jacobian (Sherman-Morrison): moving the goal by `moved` moved the end by `effect`.
+///
+/// B ← B + (m − B e)(mᵀB)/(mᵀB e) with m = `moved` and e = `effect`. Left as it is where the denominator is below 10⁻³
+/// ‖m‖², where the update would blow up.
 fn learn(inverse: &mut Matrix4<f64>, moved: &Vector4<f64>, effect: &Vector4<f64>) {
     let predicted = *inverse * effect;
     let denominator = moved.dot(&predicted);

@@ -17,6 +17,8 @@ pub(super) struct Miss {
 }
 
 /// `end` held against `goal`.
+///
+/// x, y in the ground's own axes, m. The maximum passes over parts that are no numbers, as `f64::max` does.
 pub(super) fn miss(goal: &Planar, end: &Planar, precision: &Precision) -> Miss {
     let yaw = goal.yaw - end.yaw;
     let yaw = yaw - (yaw / TAU).round() * TAU;

@@ -11,6 +11,10 @@
 //! Two or three predictions a drive on smooth ground. Where S jumps between ways around, the best commands are bent on
 //! by themselves, with derivatives along the predicted way; where a body falls from one rest to another, finer steps
 //! are believed. Only what a replay of its own confirms counts as solved (`verification`).
+//!
+//! What is neglected is what the model of the vehicle neglects: dynamics beyond the steering's lag and the latency,
+//! sinkage, load transfer. Costs are counted in predictions, each of which integrates the drive once; everything else
+//! is small beside them.
 
 mod answer;
 mod bend_on;

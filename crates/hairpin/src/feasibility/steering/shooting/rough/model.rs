@@ -5,6 +5,9 @@
 //! ```text
 //! F(b, ε) = (1 + ε)ᵖ Q(b)     p = 1 for ∫κ², −1 for ∫κ′²
 //! ```
+//!
+//! Q's matrix does not depend on b, since κ is linear in the bends; the mixed derivative by b and ε is p ∇Q. Order of
+//! unknowns as in [`Change`]: 16 bends, then the stretch.
 
 use nalgebra::SMatrix;
 
@@ -29,6 +32,8 @@ pub(super) struct Model {
 
 impl Model {
     /// Of `cost`, one of the two, at `pieces` as they are.
+    ///
+    /// Exact to rounding: six Gauss points a piece for polynomials of order 10.
     pub(super) fn of(pieces: &[Segment], cost: GroundCost) -> Self {
         let mut model = Self { value: 0.0, gradient: Change::zeros(), matrix: SMatrix::zeros() };
         let rule = Gauss::<POINTS>::RULE;
@@ -61,6 +66,10 @@ impl Model {
 
     /// Matrix and right side of the least squares for a step d that lowers the cost's share and leaves the end,
     /// `tangent` d = 0, with `damping` of every unknown in its own units.
+    ///
+    /// Everything is over the value of the cost, so that weights against the end's conditions mean a share of it. The
+    /// conditions are a penalty of 100 on squared misses in units of the precision, not a constraint: refinement makes
+    /// them exact.
     pub(super) fn damped(
         &self,
         damping: f64,

@@ -30,6 +30,10 @@ const COARSE: f64 = 2e-3;
 ///
 /// Steps of 6 cm agree with steps of 2 mm within a millimetre (test). One settled pose a step, on the stack.
 ///
+/// `start` in the world: x, y in m, yaw in rad, κ of the wheels as they stand. Memory is constant whatever the drive's
+/// length; work is one settled pose a step, by default for each 6 cm (2 cm with exact kinematics) and at least 8 a
+/// segment. Deterministic.
+///
 /// ```
 /// use hairpin::feasibility::steering::shooting::rough::{Course, Steps, predict};
 /// use hairpin::robot::rover::RoverDescription;
@@ -112,8 +116,11 @@ pub fn predict_while<T: Terrain>(
 
 /// A prediction under way.
 struct Walk {
+    /// End of the last step.
     at: Planar,
+    /// Metres of commanded travel, both gears counted up.
     travelled: f64,
+    /// rad in place, whichever way.
     turned: f64,
     /// How the body stood at the last look, and how that changes with its place.
     settled: Settled,
@@ -220,6 +227,9 @@ impl Walk {
 
     /// Drives a step of `h` at the rates of its middle, the last look. What the body rose and pitched beyond what
     /// gradients foresaw since the step before is made good with exact kinematics.
+    ///
+    /// With exact kinematics the settled height and pitch of the middle are compared with what the step before foresaw
+    /// for there, and the difference moves the body as if it had risen and pitched on the spot.
     fn advance(&mut self, rover: &Rover, rates: &Rates, h: f64, yaw: f64) {
         let next = moved(&self.at, rates, h, self.at.yaw + 0.5 * h * rates.yaw);
         let over = self.gradient.over([next.x - self.at.x, next.y - self.at.y, next.yaw - self.at.yaw]);
@@ -232,6 +242,9 @@ impl Walk {
 
     /// The steering's curvature after the `h` metres of `segment` from its `s` on, `begun` metres after the drive's
     /// beginning.
+    ///
+    /// κ in 1/m at the end of the `h` metres. `begun` counts from the drive's beginning and tells the speed profile's
+    /// time.
     fn steered(&mut self, segment: &Segment, s: f64, begun: f64, h: f64) -> f64 {
         let time = self.timing.time_over(begun, h);
         // From rest a step takes long; at one speed all take the same.
@@ -255,6 +268,9 @@ impl Walk {
     }
 
     /// Settles the body at `middle`, starting from the last look carried on.
+    ///
+    /// Counts one look, and updates the largest tilt, joint angle and surprise. A surprise above 0.2 rad is looked
+    /// along again in 30 parts before it is believed; a pitch of 80° or more ends the prediction.
     fn look<T: Terrain>(&mut self, course: &Course<'_, T>, middle: &Planar) -> Result<(), Blocked> {
         let place = [middle.x, middle.y, middle.yaw];
         let blocked = |cause: Cause| Blocked { after_m: self.travelled, cause };
@@ -287,6 +303,8 @@ impl Walk {
 impl Walk {
     /// The rest at `there`, come to in small parts of the way from the last look: a step may lead over a gap in which
     /// there is none.
+    ///
+    /// Costs up to 30 settlings. Linear in place and yaw between the two looks.
     fn fall<T: Terrain>(&self, course: &Course<'_, T>, there: &Planar) -> Result<(Settled, Gradient), Unsettled> {
         let from = &self.looked_at;
         let part = [there.x - from.x, there.y - from.y, there.yaw - from.yaw].map(|way| way / f64::from(PARTS));
@@ -304,6 +322,8 @@ impl Walk {
 /// `from` driven on by `h` metres at constant rates; `heading` is the yaw at their middle.
 ///
 /// The chord of a turned step is shorter than its arc by sin(Δ/2)/(Δ/2), Δ the turn.
+///
+/// Second order in the turn: sin(Δ/2)/(Δ/2) ≈ 1 − Δ²/24.
 fn moved(from: &Planar, rates: &Rates, h: f64, heading: f64) -> Planar {
     let (sin, cos) = libm::sincos(heading);
     let turn = h * rates.yaw;
@@ -317,10 +337,13 @@ fn moved(from: &Planar, rates: &Rates, h: f64, heading: f64) -> Planar {
 }
 
 /// Angle of the body's z axis from the vertical, rad.
+///
+/// cos α = cos φ cos θ; in 0 … π.
 pub fn tilt(settled: &Settled) -> f64 {
     libm::acos((libm::cos(settled.roll) * libm::cos(settled.pitch)).clamp(-1.0, 1.0))
 }
 
+/// rad; 0 without joints.
 fn joint(settled: &Settled) -> f64 {
     settled.joints.iter().fold(0.0, |most, angle| most.max(angle.abs()))
 }

@@ -8,6 +8,10 @@
 //!
 //! S jumps: from an arc to a chain of clothoids, from a drive to one with a loop. A goal at a jump is met by no g;
 //! there the best commands so far are bent on by themselves, with the bounds.
+//!
+//! Order of attempts: the goal is learned (`learn_goal`); where that ends short of it, commands are bent on by
+//! themselves (`bend_on`); once it is met, they are made cheaper (`cheaper`) where a cost is asked for; where the
+//! body's rest jumped on the way, all of it is checked, and if need be done again, in finer steps.
 
 use super::answer::{Answer, ENOUGH, Settings, Status};
 use super::bend_on::bend_commands;
@@ -36,6 +40,10 @@ const SMOOTH: f64 = 0.03;
 ///
 /// `steer` answers questions in the frame of the start within `bounds`, and should do so far better than the precision
 /// asked for here. Until the first command acts, the vehicle does as [`Waiting`] says.
+///
+/// With a latency both ways of waiting are tried, the one first that the flat drive begins with, and the commands go on
+/// by as much at the end. `iterations` sums all predictions of both. Status `Unreachable`: no flat drive, or no room in
+/// the list for what is commanded last.
 pub fn solve<T: Terrain>(
     course: &Course<'_, T>,
     start: &Planar,
@@ -93,6 +101,9 @@ pub fn solve_until<T: Terrain>(
 /// Finds commands, and where the body's way was not as smooth as foreseen looks along them again in finer steps: where
 /// a body falls from one rest to another, coarse ones may find another rest than the vehicle. Then the finer ones are
 /// believed.
+///
+/// At most two rounds, at 0.3 and 0.1 of the steps; an answer that a finer look confirms within 0.8 of the precision is
+/// kept.
 fn search<T: Terrain>(
     task: &Task<'_, '_, T>,
     settings: &Settings,
@@ -118,6 +129,7 @@ fn search<T: Terrain>(
     answer
 }
 
+/// Fewest steps a segment stay as they are.
 fn finer_course<'c, T>(course: &Course<'c, T>, share: f64) -> Course<'c, T> {
     let Steps { length, angle, least } = course.steps;
     Course { steps: Steps { length: share * length, angle: share * angle, least }, ..*course }

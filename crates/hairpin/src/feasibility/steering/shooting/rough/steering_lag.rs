@@ -7,13 +7,17 @@ use crate::robot::rover::Response;
 /// The actual curvature of a vehicle whose steering lags.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SteeringLag {
+    /// δ of the steered axle, rad.
     angle: f64,
     response: Response,
+    /// No time constant and no bound of the rate: the command is the curvature, without a tangent of its arc tangent.
     follows_at_once: bool,
 }
 
 impl SteeringLag {
     /// Steering that stands at `curvature` (1/m).
+    ///
+    /// `curvature` is that of the wheels now; they stand at δ = atan(κ · axle).
     pub(super) fn new(response: &Response, curvature: f64) -> Self {
         let follows_at_once = response.steering_time_constant == 0.0 && response.steering_rate.is_infinite();
         let angle = if follows_at_once { 0.0 } else { libm::atan(curvature * response.steered_axle) };
@@ -35,6 +39,8 @@ impl SteeringLag {
     ///
     /// δ̇ = (δ_c − δ)/T within ± the largest rate, δ = atan(κ · axle); exact for a constant command, second order
     /// otherwise. Without a time constant it comes to the command, as far as the rate allows.
+    ///
+    /// δ moves by (δ_c − δ)(1 − e^(−t/T)), with the command at the middle of the step, cut to ± rate · t.
     pub(super) fn follow(&mut self, commanded: impl Fn(f64) -> f64, time: f64) -> f64 {
         if self.follows_at_once {
             return commanded(1.0);

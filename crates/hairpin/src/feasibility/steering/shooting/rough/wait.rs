@@ -1,4 +1,7 @@
 //! What a vehicle does until the first command acts.
+//!
+//! With a latency of t seconds commands act t later than they are given. A vehicle under way drives v t metres
+//! meanwhile, by the wheels it had; so the problem begins there, and what is commanded at last is held for as long.
 
 use super::course::Course;
 use super::outcome::Blocked;
@@ -27,6 +30,9 @@ impl Waiting {
 
     /// Where the first command finds the vehicle that is at `start` when it is given.
     ///
+    /// At the speed with which the profile begins, the steering and the direction of travel held as they are at the
+    /// start. Without latency or from rest, `start` itself.
+    ///
     /// # Errors
     /// [`Blocked`] on the way there.
     pub fn over<T: Terrain>(self, course: &Course<'_, T>, start: &Planar) -> Result<Planar, Blocked> {
@@ -43,6 +49,8 @@ impl Waiting {
     }
 
     /// Metres driven meanwhile at `speed`.
+    ///
+    /// latency · speed; 0 for a vehicle that stands.
     fn metres<T>(self, course: &Course<'_, T>, speed: f64) -> f64 {
         match self {
             Self::GoesOn => course.rover.response.latency * speed,
@@ -51,6 +59,8 @@ impl Waiting {
     }
 
     /// What of `segments`, a solver's own, acts before their time is over.
+    ///
+    /// Cut at the end by the metres that the latency takes at the final speed; turns in place before that are kept.
     pub fn acting<T>(self, course: &Course<'_, T>, segments: &SegmentList) -> SegmentList {
         let total: f64 = segments.iter().map(Segment::length_m).sum();
         let mut left = total - self.metres(course, course.speed.end());
@@ -70,6 +80,8 @@ impl Waiting {
     }
 
     /// Adds what is commanded while the last of `segments` still acts. Whether there was room for it.
+    ///
+    /// The last curvature is held, in the last gear. `false` where the list is full.
     pub(super) fn outlast<T>(self, course: &Course<'_, T>, segments: &mut SegmentList) -> bool {
         let metres = self.metres(course, course.speed.end());
         let Some(last) = segments.last().copied().filter(|_| metres > 0.0) else { return true };

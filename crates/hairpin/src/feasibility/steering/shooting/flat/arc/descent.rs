@@ -1,4 +1,8 @@
 //! Fits an arc to both ends under bounds: sequential quadratic programming in four unknowns.
+//!
+//! Why a penalty and not active bounds: a curve between its start value and its goal may have to pass beyond a bound,
+//! and which samples are active changes from step to step. At the end bounds are narrowed by a little and proven, so
+//! that softness does not matter.
 
 use super::super::ends::{Ends, KEPT};
 use super::super::task::Task;
@@ -37,6 +41,9 @@ const NEAR: f64 = 0.05;
 /// from `start` until the end is met within the tolerance and the bounds hold, or for `iterations` steps.
 ///
 /// The answer is where it stopped, good or not. `iterations` may be 0: then the start is judged.
+///
+/// Quadratic near the goal, where the gradient is left out; until then each step is Gauss-Newton for penalty and
+/// smoothness with the position linearised. `good` says that both bounds hold everywhere, by [`keeps`].
 pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Free, iterations: u32) -> Fit {
     let Task { bounds, freedoms, tolerance, step_scale, simd } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };
@@ -66,6 +73,9 @@ pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Free, iteration
 }
 
 /// Where the objective begins: the smoothness alone.
+///
+/// ½ SMOOTH Σ cⱼ²/(2j + 5), 1/(2j + 5) being ∫ φ_j″² dt, and a damping of the length's relative change, which has no
+/// gradient. Diagonal.
 fn smoothness(free: &Free) -> Objective {
     let mut objective = Objective::default();
     for (j, c) in free.shape.iter().enumerate() {

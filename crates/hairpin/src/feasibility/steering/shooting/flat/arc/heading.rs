@@ -8,6 +8,9 @@
 //! has θ(0) = 0, θ(1) = ψ, κ(0) = κ₀, κ(1) = κ_f. The φ_j and their first derivatives vanish at both ends, and their
 //! second derivatives, Legendre polynomials, are orthogonal to each other and to those of A, B and C. Of the end
 //! constraints only the position remains: two equations for (c, L).
+//!
+//! κ(s) = θ_t/L is a polynomial of order 5 with c₁ and c₂, of order 3 without them. ∫ φ_j″² dt = 1/(2(j + 2) + 1), so
+//! that the weights of the smoothness are those of its integral.
 
 use super::super::dubins::Word;
 use super::super::ends::Ends;
@@ -90,6 +93,8 @@ const fn at_nodes() -> [Table; BASIS] {
 }
 
 /// The basis' derivative of some order at t.
+///
+/// Orders 0, 1 and 2 only; derivatives by t, not by s.
 pub(super) const fn basis(t: f64, order: usize) -> [f64; BASIS] {
     let mut out = [0.0; BASIS];
     let mut b = 0;
@@ -112,14 +117,18 @@ pub(super) const fn basis(t: f64, order: usize) -> [f64; BASIS] {
 /// ∫cos θ, ∫sin θ over t, and the same weighted with each function of the basis.
 #[derive(Debug, Clone, Copy, Default)]
 struct Moments {
+    /// Position over L.
     cos: f64,
     sin: f64,
+    /// ∫ cos θ B_b dt for each function of the basis, and the same with sin.
     cos_basis: [f64; BASIS],
     sin_basis: [f64; BASIS],
 }
 
 impl Ends {
     /// Factors of the basis.
+    ///
+    /// Units: rad each, so that θ is their sum over the basis. ∂/∂L is (κ₀, 0, κ_f, 0, 0, 0).
     pub(super) fn factors(&self, free: &Free) -> [f64; BASIS] {
         let [c0, c1, c2] = free.shape;
         [free.length * self.start, self.turn, free.length * self.end, c0, c1, c2]
@@ -128,6 +137,9 @@ impl Ends {
     /// Position error (m) at the end of the curve, and its derivative by c₀, c₁, c₂, L.
     ///
     /// 32 Gauss points over the whole curve, the same bits at every level of SIMD.
+    ///
+    /// ∂x/∂c_j = −L ∫ sin θ φ_j dt, ∂y/∂c_j = L ∫ cos θ φ_j dt, ∂x/∂L = ∫ cos θ − L ∫ sin θ (κ₀ A + κ_f C) dt. Columns:
+    /// c₀, c₁, c₂, L. Accurate for curves that turn by some radians, not for those that wind up dozens of times.
     pub(super) fn miss(&self, simd: Simd, free: &Free) -> ([f64; 2], [[f64; SHAPES + 1]; 2]) {
         let mut m = Moments::default();
         moments(simd, &self.factors(free), &mut m);

@@ -36,6 +36,9 @@ const fn at_samples(order: usize) -> [Table; BASIS] {
 /// matrix. Returns the largest relative excess of a sample over its bound, 0 if there is none.
 ///
 /// 24 samples, ends included; what lies between is asked of [`keeps`].
+///
+/// Only the lower triangle of the matrix is added to. Second derivatives of the excess by L are left out, as Gauss and
+/// Newton do. The excess answered is ≥ 0, relative to `bounds`.
 pub(super) fn penalise(
     simd: Simd,
     ends: &Ends,
@@ -81,6 +84,8 @@ pub(super) fn penalise(
 
 kernel! {
     /// Adds Lκ and L²κ′ at the samples to zeros.
+    ///
+    /// 24 evenly spaced t, both ends among them.
     fn samples(factors: &[f64; BASIS], turning: &mut Table, bending: &mut Table) {
         for (b, factor) in factors.iter().enumerate() {
             for group in 0..GROUPS {
@@ -103,6 +108,8 @@ fn polynomials(ends: &Ends, free: &Free) -> ([f64; 6], [f64; 6]) {
 /// Whether the curve keeps both bounds everywhere.
 ///
 /// By bounds of the polynomials themselves, not by samples.
+///
+/// Up to 10⁻⁹ of each bound, and the 10⁻¹⁰ of [`within`].
 pub(super) fn keeps(ends: &Ends, free: &Free, bounds: &Curvatures) -> bool {
     let (turning, bending) = polynomials(ends, free);
     within(&turning, free.length * bounds.most * KEPT)

@@ -1,4 +1,8 @@
 //! One step towards the end and down an objective at once: a quadratic programme with two equations in four unknowns.
+//!
+//! The Schur complement J H⁻¹ Jᵀ is 2 × 2, so that a step is a Cholesky factorisation of 4 × 4, three solutions and a
+//! determinant. A ridge of 10⁻⁹ of its trace keeps it regular where the end moves in one direction only, as on a
+//! straight.
 
 use super::super::task::Freedoms;
 use super::heading::{Free, SHAPES};
@@ -18,6 +22,9 @@ pub(super) struct Objective {
 /// d of min gᵀd + ½dᵀHd such that Jd = −e: d = −H⁻¹(g + Jᵀλ), (JH⁻¹Jᵀ)λ = e − JH⁻¹g.
 ///
 /// With one freedom c₁ and c₂ stay as they are: the curve is a cubic.
+///
+/// `error` in m, J by (c₀, c₁, c₂, L). Where H is not definite the factorisation lifts the pivot and the step is
+/// bounded by [`Free::advance`] alone.
 pub(super) fn step(
     objective: &Objective,
     error: &[f64; 2],
@@ -57,6 +64,8 @@ const STRIDE: f64 = 1.0;
 
 impl Free {
     /// Moves by `step`, or by the part of it that is no longer than a stride.
+    ///
+    /// Keeps L > 0: no step takes more than half of it away.
     pub(super) fn advance(&mut self, step: &[f64; UNKNOWNS]) {
         // The largest values of |φ₀|, |φ₁|, |φ₂| are just below 1/32, 1/112 and 1/190.
         let turn = step[0].abs() / 32.0 + step[1].abs() / 112.0 + step[2].abs() / 190.0;

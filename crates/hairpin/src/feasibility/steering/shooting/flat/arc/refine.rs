@@ -1,4 +1,8 @@
 //! Minimises a cost along an arc without letting go of its ends or bounds.
+//!
+//! A step goes along the tangent of the end's conditions by the same quadratic programme as the descent's, then up to
+//! four least-norm steps lead back to the goal; damping rises until the cost falls with goal and bounds kept, as
+//! Levenberg and Marquardt do.
 
 use super::super::ends::Ends;
 use super::super::settings::Cost;
@@ -14,6 +18,8 @@ const SLOPES: [[f64; BASIS]; BASIS] = gram(1);
 const BENDS: [[f64; BASIS]; BASIS] = gram(2);
 
 /// Seven points: exact for products of sixth order and less.
+///
+/// Symmetric, in order A, B, C, φ₀, φ₁, φ₂; pure numbers.
 const fn gram(order: usize) -> [[f64; BASIS]; BASIS] {
     let rule = Gauss::<7>::RULE;
     let mut out = [[0.0; BASIS]; BASIS];
@@ -53,6 +59,9 @@ const LONGEST: f64 = 1.5;
 ///
 /// ∫κ² ds = fᵀ G₁ f/L and ∫κ′² ds = fᵀ G₂ f/L³ with f the factors of the basis: quadratic in c, so that Newton's matrix
 /// is exact. The length grows by at most one half.
+///
+/// Never worse than `start`: only steps that lower the cost and keep goal and bounds are taken. Ends at a gain below
+/// 10⁻⁶ of the cost, at a damping of 10⁶, or where the cost is 0 already.
 pub(in super::super) fn refine(task: &Task, ends: &Ends, start: Free, cost: Cost, iterations: u32) -> (Free, u32) {
     let Task { bounds, freedoms, simd, .. } = *task;
     let narrow = Curvatures { most: bounds.most * (1.0 - MARGIN), most_rate: bounds.most_rate * (1.0 - MARGIN) };
@@ -84,6 +93,8 @@ pub(in super::super) fn refine(task: &Task, ends: &Ends, start: Free, cost: Cost
 }
 
 /// Least-norm steps back to the goal; whether it is met.
+///
+/// At most four steps, each bounded in its stride, by the least change of c and of ln L in their natural weights.
 fn meet(task: &Task, ends: &Ends, free: &mut Free) -> bool {
     for _ in 0..RETURNS {
         let (error, jacobian) = ends.miss(task.simd, free);
@@ -107,6 +118,8 @@ fn damped(exact: &Objective, value: f64, free: &Free, damping: f64) -> Objective
 }
 
 /// L⁻ᵖ fᵀGf with its gradient and matrix by c and L; f the factors of the basis, p = 1 for ∫κ² and 3 for ∫κ′².
+///
+/// Gradient by (c₀, c₁, c₂, L), lower triangle of the exact second derivatives; in 1/m for ∫κ², 1/m³ for ∫κ′².
 fn objective(ends: &Ends, free: &Free, cost: Cost) -> (f64, Objective) {
     let (gram, power) = match cost {
         Cost::Any => return (0.0, Objective::default()),

@@ -1,4 +1,7 @@
 //! Fits a chain of clothoids to both ends under bounds: sequential quadratic programming on its knots and length.
+//!
+//! The heading is a third equation here, for knots do not meet it by construction. Bounds on κ are asked at knots and
+//! those on κ′ on pieces, where both are exact; nothing is sampled.
 
 use super::super::ends::{Bends, Ends};
 use super::super::task::Task;
@@ -73,6 +76,10 @@ pub(in super::super) fn descend(task: &Task, ends: &Ends, start: Chain, iteratio
 }
 
 /// Gradient and Gauss-Newton matrix of smoothness and penalty, by κ₁ … κ_{N−1} and L.
+///
+/// `unit` is the largest curvature, 1/m. Terms: ½N·SMOOTH Σ (κᵢ₊₁ − κᵢ)²/κ_max²; half of PENALTY times the squares of
+/// what |κᵢ| and |κᵢ₊₁ − κᵢ|/hᵢ exceed their bounds by, relatively; a damping of knots by the squared share of the way
+/// that they turn, and one of L.
 fn objective(chain: &Chain, narrow: &Curvatures, unit: f64) -> (Bordered, [f64; PIECES]) {
     // Curvatures are weighed in units of the bound, so that the same numbers suit vehicles of any size.
     let per_unit = 1.0 / (unit * unit);
@@ -129,6 +136,9 @@ fn objective(chain: &Chain, narrow: &Curvatures, unit: f64) -> (Bordered, [f64; 
 }
 
 /// d of min gᵀd + ½dᵀHd such that Jd = −e: d = −H⁻¹(g + Jᵀλ), (JH⁻¹Jᵀ)λ = e − JH⁻¹g.
+///
+/// `jacobian` holds a row for each unknown and a column for x, y (m) and heading (rad): the transpose of J. The 3 × 3
+/// system is eliminated without pivoting, being positive definite with a ridge of 10⁻¹⁰ of its trace.
 fn newton(
     matrix: &Bordered,
     gradient: &[f64; PIECES],
@@ -173,6 +183,9 @@ fn newton(
 }
 
 /// The share of `step` to take.
+///
+/// 1 or less: no step turns the curve anywhere by more than 1 rad at the present length, nor changes L by more than
+/// half.
 fn stride(chain: &Chain, step: &[f64; PIECES]) -> f64 {
     let (mut turn, mut worst, mut before) = (0.0, 0.0_f64, 0.0);
     for (i, change) in step.iter().enumerate() {

@@ -34,6 +34,9 @@ pub(super) struct Chain {
 
 impl Chain {
     /// A start value: the curvature of `word`, averaged over what it takes to steer, on a path longer by that.
+    ///
+    /// κ at a knot is the word's mean curvature over a window to both sides, half the steering's way or a piece of the
+    /// word long, scaled by swept/length so that the whole turn stays about the word's.
     pub(super) fn along(ends: &Ends, word: &Word, bounds: &Curvatures) -> Self {
         let ramp = bounds.most / bounds.most_rate;
         let radius = 1.0 / bounds.most;
@@ -78,6 +81,8 @@ impl Chain {
     }
 
     /// The largest bends.
+    ///
+    /// Exact, for κ is linear between knots.
     pub(super) fn bends(&self, bounds: &Curvatures) -> Bends {
         let mut bends = Bends { curvature: self.end.abs() / bounds.most, rate: 0.0 };
         for (length, from, to) in self.pieces() {
@@ -90,6 +95,9 @@ impl Chain {
 
 /// Equal pieces, but on long paths no longer than it takes to resolve a full circle at either end, with the rest
 /// between.
+///
+/// `length`, `radius` and `ramp` in m. Seven fine pieces at either end and two long ones in the middle where the path
+/// is long; 16 equal ones otherwise. They sum to 1.
 fn shares(length: f64, radius: f64, ramp: f64) -> [f64; PIECES] {
     let fine = (std::f64::consts::TAU * radius + ramp) / (PIECES / 2 - 1) as f64;
     let even = 1.0 / PIECES as f64;

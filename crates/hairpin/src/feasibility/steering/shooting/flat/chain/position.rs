@@ -14,11 +14,15 @@ pub(super) struct End {
     /// x, y (m) and θ (rad).
     pub(super) values: [f64; 3],
     /// By κ₁ … κ_{N−1} and, last, by L.
+    ///
+    /// Row m − 1 by κ_m, m, m and rad by 1/m; the last by L.
     pub(super) gradients: [[f64; 3]; PIECES],
 }
 
 /// θ within piece i at share τ: θᵢ + hᵢ (κᵢ τ + (κᵢ₊₁ − κᵢ) τ²/2); positions by Gauss–Legendre quadrature, one lane a
 /// piece.
+///
+/// Not wrapped in θ.
 pub(super) fn end(simd: Simd, chain: &Chain) -> End {
     let mut out = End { values: [0.0; 3], gradients: [[0.0; 3]; PIECES] };
     integrate(simd, chain, &mut out);

@@ -11,6 +11,11 @@
 //!
 //! so an iteration costs one prediction. What slopes, slip and lag make of it is learned by Broyden's update (Broyden
 //! 1965) of a matrix in front of them.
+//!
+//! Unknowns: 16 bends (1/m) at the pieces' ends and ε; equations: x, y (m), ψ (rad), κ (1/m) of the end, weighed by the
+//! precision. Of the changes that meet them nearly the smallest is taken: LAZY ‖d‖² stands beside the squared
+//! residuals. Bounds at samples that a solution exceeds enter as penalties and the system is solved again, a dozen
+//! times at most.
 
 mod pieces;
 mod sweep;
@@ -58,6 +63,8 @@ pub(super) struct Task<'a, 'c, T> {
     pub(super) precision: &'a Precision,
     pub(super) bounds: &'a Curvatures,
     /// Residual that is good enough, in units of the precision.
+    ///
+    /// 0.2 in the solver.
     pub(super) aim: f64,
     /// Whether the time is over.
     pub(super) over: &'a dyn Fn() -> bool,
@@ -74,6 +81,10 @@ pub(super) struct Refined {
 /// middle moved by about `aside` m to the left.
 ///
 /// `None` where none was found that keep the bounds, and for drives with reversals, turns in place or too many pieces.
+///
+/// What counts while it goes on is residual + 100 · excess, so that commands over a bound may be passed through but are
+/// never answered. A step that does not help is halved, three times at most. `aside` bends the start to pass what lies
+/// in the middle.
 pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList, aside: f64) -> (Option<Refined>, u32) {
     let mut found: Option<Refined> = None;
     let Some(begun) = divided(segments) else { return (None, 0) };
@@ -121,6 +132,8 @@ pub(super) fn refine<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList,
 
 /// How the end of the motion of `segments` moves with a change of them, suspension and slip included; `None` where they
 /// do not pass.
+///
+/// Rows x, y, ψ, κ; columns bends, then the stretch. One prediction.
 pub(super) fn tangent<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList) -> Option<Tangent> {
     let mut variation = Variation::new(task.course, segments);
     predict(task.course, task.from, segments, |driven| variation.add(driven)).ok()?;
@@ -129,6 +142,9 @@ pub(super) fn tangent<T: Terrain>(task: &Task<'_, '_, T>, segments: &SegmentList
 
 /// A change that moves the middle of a drive by about `aside` m: y = aside (1 − cos 2πs/L)/2 has y″ = ½ aside (2π/L)²
 /// cos 2πs/L.
+///
+/// To first order, for drives that are nearly straight; the offset is 0 with its slope at both ends. In 1/m; no
+/// stretch.
 fn swing(segments: &SegmentList, aside: f64) -> Change {
     let length: f64 = segments.iter().map(Segment::length_m).sum();
     let turns = TAU / length.max(f64::MIN_POSITIVE);
@@ -151,6 +167,8 @@ struct Stand {
 }
 
 /// Broyden's update of what the ground makes of the plane's effects: where the plane says `expected`, it was `effect`.
+///
+/// E ← E + (effect − E expected) expectedᵀ/‖expected‖²: the least change that explains what was seen.
 fn learn(learned: &mut Matrix4<f64>, expected: &Vector4<f64>, effect: &Vector4<f64>) {
     let size = expected.norm_squared();
     if size > 0.0 {
@@ -161,6 +179,8 @@ fn learn(learned: &mut Matrix4<f64>, expected: &Vector4<f64>, effect: &Vector4<f
 /// The least change that takes away `error` and keeps the bounds, as far as the plane tells.
 ///
 /// Least squares with a penalty on what exceeds a bound; what does so is found again with every solution.
+///
+/// Normal equations of min ‖W(E T d − error)‖² + 0.1 ‖d‖², W the reciprocal precisions.
 fn step<T>(task: &Task<'_, '_, T>, from: &Stand, learned: &Matrix4<f64>) -> Option<Change> {
     let weights = units(task.precision);
     let weighted = Matrix4::from_diagonal(&weights) * learned * from.tangent;
@@ -170,6 +190,9 @@ fn step<T>(task: &Task<'_, '_, T>, from: &Stand, learned: &Matrix4<f64>) -> Opti
 }
 
 /// The change d of `segments` with `normal` d = `right`, or nearest to it, that keeps the bounds.
+///
+/// Bounds at 0.996 of their size. Cut to 0.25 in its largest component at the end, which keeps the bounds if both the
+/// commands before and the whole step do. `None` where a system is not positive definite or the change is no number.
 pub(super) fn within_bounds<T>(
     task: &Task<'_, '_, T>,
     segments: &SegmentList,

@@ -1,4 +1,7 @@
 //! A drive in pieces whose curvature can be changed where they meet.
+//!
+//! κ_i(s) += b_{i−1} + (b_i − b_{i−1}) s/h_i on piece i, b₀ = 0 at the start, then s is stretched by 1 + ε:
+//! aₖ ↦ aₖ/(1 + ε)ᵏ, lengths by 1 + ε. So κ stays continuous where it was, and the start's curvature stays the wheels'.
 
 use nalgebra::SVector;
 
@@ -24,6 +27,8 @@ pub(in super::super) fn refinable(segments: &[Segment]) -> bool {
 }
 
 /// The same drive in [`PIECES`] pieces, the longest halved first.
+///
+/// `None` for drives that are not [`refinable`]. The path is the same to rounding.
 pub(in super::super) fn divided(segments: &SegmentList) -> Option<SegmentList> {
     if !refinable(segments) {
         return None;
@@ -55,6 +60,8 @@ fn halves(segment: &Segment) -> (Segment, Segment) {
 }
 
 /// Adds `change` to a drive.
+///
+/// ε > −1 is the caller's to see to.
 pub(in super::super) fn changed(segments: &mut SegmentList, change: &Change) {
     let stretch = 1.0 + change[PIECES];
     let mut before = 0.0;
@@ -73,6 +80,8 @@ pub(in super::super) fn changed(segments: &mut SegmentList, change: &Change) {
 }
 
 /// By what share a segment exceeds its bounds at most; 0 if it keeps them.
+///
+/// By the exact extremes of κ and κ′; the larger of both.
 pub(super) fn excess(segment: &Segment, bounds: &Curvatures) -> f64 {
     let Motion::Arc { length_m, curvature } = segment.motion else { return 0.0 };
     let mut power = 1.0;
@@ -98,6 +107,9 @@ pub(in super::super) fn bend(piece: usize, before: f64, after: f64) -> Change {
 }
 
 /// κ and κ′ at the start, the middle and the end of every piece: how they change, what they are, their bounds.
+///
+/// Each row is the derivative of the value by the change; of κ′ also by the stretch, to first order −κ′. Six limits a
+/// piece.
 pub(super) fn for_each_limit(segments: &[Segment], bounds: &Curvatures, mut limit: impl FnMut(&Change, f64, f64)) {
     for (piece, segment) in segments.iter().enumerate() {
         let Motion::Arc { length_m, curvature } = segment.motion else { continue };

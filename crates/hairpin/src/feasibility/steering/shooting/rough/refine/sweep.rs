@@ -1,4 +1,7 @@
 //! How the end of a motion moves with the commands, from one look along it.
+//!
+//! In the plane and along the predicted way; slopes, slip and lag change it by little, which is learned. Steering that
+//! lags is taken for one that follows `behind` metres late.
 
 use nalgebra::SMatrix;
 
@@ -10,6 +13,8 @@ use crate::trajectory::drive::{Planar, Segment};
 pub(in super::super) type Tangent = SMatrix<f64, 4, UNKNOWNS>;
 
 /// Where pieces end, m.
+///
+/// Entries beyond the last piece stay 0.
 pub(super) fn ends_of(segments: &[Segment]) -> [f64; PIECES] {
     let mut ends = [0.0; PIECES];
     let mut total = 0.0;
@@ -21,6 +26,8 @@ pub(super) fn ends_of(segments: &[Segment]) -> [f64; PIECES] {
 }
 
 /// δκ of the bends at `s` of pieces with these `ends`; the stretch has none.
+///
+/// Hat functions: at most two bends count at any place. `s` beyond the end continues the last piece.
 pub(super) fn bent_at(ends: &[f64; PIECES], s: f64) -> Change {
     let s = s.max(0.0);
     let piece = ends.iter().position(|&end| s <= end).unwrap_or(PIECES - 1);
@@ -35,6 +42,8 @@ pub(super) struct Sweep {
     /// Where the pieces end, m.
     ends: [f64; PIECES],
     /// Metres by which the steering is behind.
+    ///
+    /// Time constant times top speed.
     behind: f64,
     sign: f64,
     done: f64,
@@ -55,6 +64,8 @@ impl Sweep {
     }
 
     /// δκ of the unknowns at `s`, where the vehicle has the curvature `curvature`.
+    ///
+    /// Its last entry is the curvature itself: a stretch by ε adds κ ε per metre to the turn.
     fn effect(&self, s: f64, curvature: f64) -> Change {
         let mut effect = bent_at(&self.ends, s - self.behind);
         effect[PIECES] = curvature;
@@ -71,6 +82,8 @@ impl Sweep {
         self.moments[2] += (driven.at.y - self.from.y) * effect;
     }
 
+    /// δx = ∫ (y − y_end) δκ ds and δy = ∫ (x_end − x) δκ ds by the three moments; stretching moves the end along the
+    /// way from the start as well.
     pub(super) fn tangent(&self, end: &Planar) -> Tangent {
         let (x, y) = (end.x - self.from.x, end.y - self.from.y);
         let [turned, along, across] = self.moments;

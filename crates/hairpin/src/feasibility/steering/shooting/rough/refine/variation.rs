@@ -8,6 +8,9 @@
 //!
 //! integrated by the midpoint rule in the prediction's own steps. The rates are the source's, for exact kinematics as
 //! well: what those add to derivatives would be second derivatives of the pose.
+//!
+//! More exact than the sweep where the ground matters, and dearer: a product of matrices in every step. For costs,
+//! whose steps must leave the end.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -19,6 +22,8 @@ use crate::robot::rover::{Rates, rate_slopes, rates};
 use crate::trajectory::drive::Segment;
 
 /// How the place reached so far, (x, y, ψ), moves with a change.
+///
+/// Rows in m, m, rad, by 1/m of each bend and by the stretch.
 type Moved = SMatrix<f64, 3, UNKNOWNS>;
 
 /// The variation of a motion along a prediction.
@@ -65,6 +70,7 @@ impl<'a, 'c, T> Variation<'a, 'c, T> {
         self.moved += h * (by_place * halfway + forced);
     }
 
+    /// κ's row is the last bend's share, `behind` metres before the end.
     pub(super) fn tangent(&self) -> Tangent {
         let mut tangent = Tangent::zeros();
         tangent.fixed_rows_mut::<3>(0).copy_from(&self.moved);
