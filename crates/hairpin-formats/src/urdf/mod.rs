@@ -16,7 +16,7 @@
 //! | cylinder | a prism of 32 sides around it |
 //! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |
 //! | a link without, or whose mesh is not there | a stand-in, named in `estimates` |
-//! | `<inertial>` | masses, where all six links have them; products of inertia are left out |
+//! | `<inertial>` | masses, where all six links have them |
 //! | `<visual>`, `<transmission>`, `<gazebo>`, `<safety_controller>`, `<dynamics>`, `effort` | nothing |
 //! | whatever is on no list (`known`), or a second time where one is read | refused with its line |
 

@@ -189,13 +189,15 @@ fn check_rims(leg: &DriveLegClaim, turn_rate: f64, rims: Option<&WheelRims>, fou
 fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     let leg = &claim.legs[number];
     let [x, y] = claim.waypoints[number];
+    // What is no number is off by more than any.
+    let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
     let mut off = libm::hypot(leg.from[0] - x, leg.from[1] - y);
     let [x, y] = claim.waypoints[number + 1];
-    off = off.max(libm::hypot(leg.to[0] - x, leg.to[1] - y));
+    off = larger(off, libm::hypot(leg.to[0] - x, leg.to[1] - y));
     if number > 0 {
         let before = &claim.legs[number - 1].to;
-        off = (0..4).fold(off, |off, i| off.max((leg.from[i] - before[i]).abs()));
-        off = off.max((leg.direction[0] - claim.legs[number - 1].direction[1]).abs());
+        off = (0..4).fold(off, |off, i| larger(off, (leg.from[i] - before[i]).abs()));
+        off = larger(off, (leg.direction[0] - claim.legs[number - 1].direction[1]).abs());
     }
     let worst = &mut proof.knots[0];
     if off > worst.value {

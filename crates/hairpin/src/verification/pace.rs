@@ -54,6 +54,11 @@ pub(super) fn check_speeds(claim: &PaceClaim, found: &mut Collector) {
     if let Some(pair) = knots.windows(2).find(|pair| pair[1][0] < pair[0][0] - 1e-9) {
         return found.unless(false, "speed.metres", pair[1][0], pair[0][0], "m");
     }
+    let total: f64 = claim.pieces.iter().map(DrivePiece::length).sum();
+    let near = ROUNDING * (1.0 + total);
+    for (metres, bound, beyond) in [(first[0], 0.0, first[0] < -near), (last[0], total, last[0] > total + near)] {
+        found.unless(!beyond, "speed.metres", metres, bound, "m");
+    }
     if let Some((_, before)) = claim.before {
         let jump = (first[1] - before.last().map_or(f64::NAN, |knot| knot[1])).abs();
         found.above("speed_jump", jump, 1e-9, "m/s");
@@ -69,7 +74,6 @@ pub(super) fn check_speeds(claim: &PaceClaim, found: &mut Collector) {
             found.unless(!fast, "acceleration", acceleration, claim.most_acceleration, "m/s²");
         }
     }
-    let total: f64 = claim.pieces.iter().map(DrivePiece::length).sum();
     let taken = seconds(claim, total);
     let longer = (taken - claim.duration).abs().total_cmp(&(ROUNDING * (1.0 + claim.duration))).is_gt();
     found.unless(!longer, "duration", claim.duration, taken, "s");
@@ -106,8 +110,8 @@ fn check_stops(claim: &PaceClaim, first: f64, last: f64, found: &mut Collector) 
 
 /// The slowest of the speeds `s` metres after the leg's beginning, m/s, as far as rounding tells places apart.
 ///
-/// Two knots at one place, as at a stop, give the slower of both; between knots v² is interpolated; beyond the last
-/// the last speed. `s` within 10⁻⁹ (1 + s) m of a knot is that knot's.
+/// Two knots at one place, as at a stop, give the slower of both; between knots v² is interpolated; before the first
+/// and beyond the last their speeds. `s` within 10⁻⁹ (1 + s) m of a knot is that knot's.
 fn speed_at(knots: &[[f64; 2]], s: f64) -> f64 {
     let near = 1e-9 * (1.0 + s);
     let there = knots.iter().filter(|knot| (knot[0] - s).abs() <= near).map(|knot| knot[1]);
@@ -116,21 +120,26 @@ fn speed_at(knots: &[[f64; 2]], s: f64) -> f64 {
         (pair[0][1] * pair[0][1] * (1.0 - share) + pair[1][1] * pair[1][1] * share).sqrt()
     });
     let slowest = there.chain(between).fold(f64::INFINITY, f64::min);
-    if slowest.is_finite() { slowest } else { knots[knots.len() - 1][1] }
+    match slowest.is_finite() {
+        true => slowest,
+        false if s < knots[0][0] => knots[0][1],
+        false => knots[knots.len() - 1][1],
+    }
 }
 
 /// ∫ ds/v over `total` metres, and the turns' time.
 ///
-/// Σ 2Δs/(v₀ + v₁) + (what lies beyond the last knot)/v_last + Σ |turn|/turn rate.
+/// (what lies before the first knot)/v_first + Σ 2Δs/(v₀ + v₁) + (what lies beyond the last)/v_last + Σ |turn|/turn
+/// rate.
 fn seconds(claim: &PaceClaim, total: f64) -> f64 {
     let knots = claim.knots;
-    let end = knots[knots.len() - 1];
+    let (begin, end) = (knots[0], knots[knots.len() - 1]);
     let driving: f64 = (knots.windows(2))
         .filter(|pair| pair[1][0] > pair[0][0])
         .map(|pair| 2.0 * (pair[1][0] - pair[0][0]) / (pair[0][1] + pair[1][1]))
         .sum();
-    let beyond = total - end[0];
-    let rest = if beyond > 1e-9 * (1.0 + total) { beyond / end[1] } else { 0.0 };
+    let steady = |metres: f64, speed: f64| if metres > 1e-9 * (1.0 + total) { metres / speed } else { 0.0 };
+    let rest = steady(begin[0], begin[1]) + steady(total - end[0], end[1]);
     let turns = claim.pieces.iter().map(|piece| match piece {
         DrivePiece::Turn { angle_rad } => angle_rad.abs(),
         DrivePiece::Arc { .. } => 0.0,
@@ -169,6 +178,8 @@ mod tests {
         fields.collect::<Vec<_>>().join(" ")
     }
 
+    const STRAIGHT: [DrivePiece; 1] = [DrivePiece::Arc { length_m: 2.0, curvature: [0.0; 6], direction: 1.0 }];
+
     #[test]
     fn speeds_that_fit_are_fine_and_each_flaw_has_its_name() {
         assert_eq!(told(|_, _| {}), "");
@@ -178,6 +189,20 @@ mod tests {
         assert_eq!(told(|_, knots| knots[1][1] = f64::NAN), "speed");
         assert_eq!(told(|_, knots| knots.clear()), "speed");
         assert_eq!(told(|_, knots| knots[3][0] = 0.5), "speed.metres");
+        assert!(told(|_, knots| knots.insert(0, [-1.0, 0.0])).contains("speed.metres"));
+        assert!(told(|_, knots| knots.push([4.5, 0.0])).contains("speed.metres"));
+        // What lies before the first knot takes time as well.
+        let late = |claim: &mut PaceClaim, knots: &mut Vec<[f64; 2]>| {
+            (claim.pieces, claim.most_acceleration) = (&STRAIGHT, f64::INFINITY);
+            *knots = vec![[1.0, 1.0], [2.0, 1.0]];
+        };
+        let taken = |seconds: f64| {
+            move |claim: &mut PaceClaim, knots: &mut Vec<[f64; 2]>| {
+                late(claim, knots);
+                claim.duration = seconds;
+            }
+        };
+        assert_eq!([told(taken(2.0)), told(taken(1.0))], ["", "duration"]);
         // Through the change of gear at 0.1 m/s, and on at the end.
         assert!(told(|_, knots| knots[2][1] = 0.1).contains("stop"));
         assert!(told(|_, knots| knots[4][1] = 0.1).contains("stop"));

@@ -56,7 +56,7 @@ impl ArmSetup {
         same_programs(&last.name, &last.cases, &moves.cases)?;
         let band = Band { sigma: limit.band_sigma, ..Band::default() };
         let mut programs = Vec::with_capacity(moves.cases.len());
-        for (old, new) in last.cases.iter().zip(&moves.cases) {
+        for (old, new) in paired(&last.cases, &moves.cases) {
             let refuse = |cause| RegressionError::Moves { case: new.case, cause };
             let (before, now) = (old.measured(), new.measured());
             let (before, now) = (Release { name: &last.name, runs: &before }, Release { name, runs: &now });
@@ -147,7 +147,7 @@ fn same_programs(release: &str, old: &[CaseMoves], new: &[CaseMoves]) -> Result<
     if let Some(missing) = old.iter().find(|one| new.iter().all(|other| other.case != one.case)) {
         return refuse(missing.case, format!("of the baseline `{release}` was not run: there are {}", numbers(new)));
     }
-    for (before, now) in old.iter().zip(new) {
+    for (before, now) in paired(old, new) {
         if before.moves != now.moves {
             let most = before.moves.len().max(now.moves.len());
             let name = |moves: &[String], i: usize| moves.get(i).map_or("none".to_owned(), |name| format!("`{name}`"));
@@ -168,6 +168,11 @@ fn same_programs(release: &str, old: &[CaseMoves], new: &[CaseMoves]) -> Result<
         }
     }
     Ok(())
+}
+
+/// Cases of one number, whatever order a baseline has them in.
+fn paired<'a>(old: &'a [CaseMoves], new: &'a [CaseMoves]) -> impl Iterator<Item = (&'a CaseMoves, &'a CaseMoves)> {
+    new.iter().filter_map(|now| Some((old.iter().find(|before| before.case == now.case)?, now)))
 }
 
 fn numbers(cases: &[CaseMoves]) -> String {
@@ -200,6 +205,8 @@ mod tests {
         let old = [case(0, &["h→p1", "p1→p2"], 2), case(1, &["h→p3"], 2)];
         let told = |new: &[CaseMoves]| same_programs("7.14", &old, new).unwrap_err().to_string();
         assert!(same_programs("7.14", &old, &old.clone()).is_ok());
+        let turned = [old[1].clone(), old[0].clone()];
+        assert!(same_programs("7.14", &turned, &old).is_ok(), "a baseline may have its cases in another order");
         assert_eq!(told(&old[..1]), "case 0001 of the baseline `7.14` was not run: there are 0000");
         let more = [old[0].clone(), old[1].clone(), case(2, &["h→p3"], 2)];
         assert_eq!(told(&more), "case 0002 is not in the baseline `7.14`, which has 0000, 0001");

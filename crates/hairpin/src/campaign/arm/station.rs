@@ -93,22 +93,19 @@ impl Station {
         cell
     }
 
-    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the second joint at
-    /// rest, as far as all lengths after it add up to, and what the first joint carries it around.
+    /// A ball (centre and radius, m) that holds every place the tool's point can be at: around the foot of the second
+    /// joint on the first axis, as far as all lengths after it add up to, and what the first joint carries it around.
     ///
     /// ```text
-    /// centre = (0, 0, z_s),   radius = hypot(x_s, y_s) + Σ_{k=3…6} |origin_k| + |flange| + |tcp|
-    /// (x_s, y_s, z_s)  the second joint with the first at 0, base frame
+    /// radius = r₂ + Σ_{k=3…6} |origin_k| + |flange| + |tcp|,   r₂ how far the second joint is from the first axis
     /// ```
     ///
-    /// The centre lies on the base's z axis, about which the first joint is taken to turn. Lengths add up as if the
-    /// arm were straight: larger than what the arm reaches, and never smaller where the first joint turns about that
-    /// axis.
+    /// Lengths add up as if the arm were straight: larger than what the arm reaches, and never smaller.
     pub(super) fn reach(&self) -> (Vector3<f64>, f64) {
         let chain = &self.arm.chain;
-        let shoulder = (chain.joints[0].origin * chain.joints[1].origin).translation.vector;
+        let (centre, around) = chain.shoulder();
         let links: f64 = chain.joints[2..].iter().map(|joint| joint.origin.translation.vector.norm()).sum();
         let last = chain.flange.translation.vector.norm() + self.tool.tcp.translation.vector.norm();
-        (Vector3::new(0.0, 0.0, shoulder.z), libm::hypot(shoulder.x, shoulder.y) + links + last)
+        (centre.coords, around + links + last)
     }
 }

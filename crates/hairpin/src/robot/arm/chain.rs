@@ -86,6 +86,18 @@ impl Chain {
         jacobian
     }
 
+    /// Where the first joint carries the second around: the centre of that circle, base frame, and its radius, m.
+    ///
+    /// The foot of the perpendicular from the second joint to the first axis, which may stand aside of the base or lean.
+    pub fn shoulder(&self) -> (Point3<f64>, f64) {
+        let frames = self.frames(&[0.0; AXES]);
+        let [(foot, axis), ..] = self.axes(&frames);
+        let joint: Point3<f64> = (self.joints[0].origin * self.joints[1].origin).translation.vector.into();
+        let centre = foot + axis * (joint - foot).dot(&axis);
+        let out = joint - centre;
+        (centre, libm::hypot(libm::hypot(out.x, out.y), out.z))
+    }
+
     /// Upper bound of the distance from the base to the flange, m.
     ///
     /// Σ of the lengths of all offsets: no posture has the flange farther out. A scale, not the largest distance.
@@ -124,5 +136,33 @@ impl Chain {
             }
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+
+    #[test]
+    fn the_second_joint_goes_around_the_first_axis_wherever_that_stands() {
+        let at = |x: f64, y: f64, z: f64| Isometry3::translation(x, y, z);
+        let leaning = Isometry3::from_parts(
+            nalgebra::Translation3::new(0.3, -0.1, 0.2),
+            UnitQuaternion::from_euler_angles(0.4, 1.2, 0.0),
+        );
+        for (first, second) in [(at(0.0, 0.0, 0.1), at(0.2, 0.0, 0.3)), (leaning, at(-0.25, 0.1, 0.05))] {
+            let mut joints = [Joint { origin: at(0.0, 0.0, 0.2), axis: Vector3::z() }; AXES];
+            (joints[0].origin, joints[1].origin) = (first, second);
+            let chain = Chain { joints, flange: Isometry3::identity() };
+            let (centre, radius) = chain.shoulder();
+            for turn in 0..24 {
+                let mut q = [0.0; AXES];
+                q[0] = f64::from(turn) * 0.26;
+                let joint: Point3<f64> = chain.frames(&q)[2].translation.vector.into();
+                assert!(((joint - centre).norm() - radius).abs() < 1e-12, "{turn}");
+            }
+        }
     }
 }
