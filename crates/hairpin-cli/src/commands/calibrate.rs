@@ -78,7 +78,7 @@ fn tell(asked: &Calibrate, found: &Calibrated) {
     }
     console::say("[spec]");
     for one in given {
-        let ends = one.interval.unwrap_or_default().map(digits::signed_digits);
+        let ends = one.interval.unwrap_or_default().map(|end| digits::with_digits(end, one.digits()));
         console::say(&format!(
             "# {share} of {} random feasible cases break {}, which lies between {} and {} (95 %)",
             one.cases, one.field, ends[0], ends[1]

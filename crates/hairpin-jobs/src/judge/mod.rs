@@ -9,7 +9,8 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
-    self, Baseline, Case, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, Undone, vary,
+    self, Baseline, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, Undone,
+    vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
@@ -143,7 +144,11 @@ pub(crate) fn judge_cases(
     (replayed, budget): (&[Replayed], Option<&Budget>),
 ) -> Result<Judgement, Problem> {
     let (grid, told) = (Grid::of(&work.setup), work.told()?);
-    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget)));
+    // What a budget left undone is so until it was executed, whoever judges it anew.
+    let undone = |result: &CaseResult| result.is_undone(Undone::NotExecuted) || result.is_undone(Undone::NotJudged);
+    let cut: BTreeSet<CaseNumber> =
+        work.folder.read_results()?.iter().filter(|result| undone(result)).map(|result| result.case).collect();
+    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget, &cut)));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
     let from_rows = judged.iter().filter(|case| case.from_rows).count();
@@ -180,13 +185,14 @@ fn judge_case(
     (work, told): (&Work, &Setup),
     case: &Case,
     tally: &Tally,
-    (grid, budget): (&Grid, Option<&Budget>),
+    (grid, budget, cut): (&Grid, Option<&Budget>, &BTreeSet<CaseNumber>),
 ) -> Result<JudgedCase, Problem> {
     if budget.is_some_and(|budget| budget.end(Part::Judgement).passed()) {
         return Ok(JudgedCase::undone(case, Undone::NotJudged));
     }
     let ToJudge { runs, from_rows } = runs_to_judge(work, case)?;
-    if runs.is_empty() && budget.is_some_and(|budget| budget.end(Part::Search).passed()) {
+    let is_cut = || cut.contains(&case.number) || budget.is_some_and(|budget| budget.end(Part::Search).passed());
+    if runs.is_empty() && is_cut() {
         return Ok(JudgedCase::undone(case, Undone::NotExecuted));
     }
     if runs.is_empty() {
@@ -278,7 +284,7 @@ mod tests {
     use crate::execute::{ExecuteSettings, execute};
     use crate::generate::generate;
     use crate::report::report;
-    use crate::testing::{executed, small};
+    use crate::testing::{executed, generated, small};
     use crate::work::CampaignSettings;
 
     /// Of a robot that feels no air: its draws are told as none, and nothing is laid to them.
@@ -309,6 +315,25 @@ mod tests {
         assert!(sentence.contains("what `[vary]` draws is no draw of any run: the robot has no drag"), "{sentence}");
         assert!(!sentence.contains("no violation in") && unfelt.results[0].draws.is_none(), "{sentence}");
         assert!(unfelt.influences.is_empty(), "{:?}", unfelt.influences);
+    }
+
+    /// What a budget left undone is so for every judgement until it was executed; what nobody executed is refused.
+    #[test]
+    fn what_a_budget_left_undone_stays_undone() {
+        let (_place, folder) = generated();
+        let refused = judge(&folder, &[]).map(drop).unwrap_err().to_string();
+        assert!(refused.contains("has not been executed"), "{refused}");
+        let work = open_to_read(&folder).unwrap();
+        let cases = work.folder.read_cases().unwrap();
+        let undone = |case: &Case| CaseResult::undone(case.number, Undone::NotExecuted);
+        work.folder.write_results(&cases, &cases.iter().map(undone).collect::<Vec<_>>()).unwrap();
+        drop(work);
+        let judged = judge(&folder, &[]).unwrap().judgement;
+        let Verdict { sentence, exit_code, .. } = &judged.verdict;
+        assert!(*exit_code == 5 && sentence.contains("2 of 2 cases not executed"), "{sentence}");
+        let settings = ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() };
+        execute(&settings, &Unwatched).unwrap();
+        assert!(!judge(&folder, &[]).unwrap().judgement.verdict.sentence.contains("not executed"));
     }
 
     /// It went on without a word, and what the stress stood beside was gone.

@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value};
 
-use super::digits::signed_digits;
+use super::digits::{digits_within, with_digits};
 use super::judge::measures_of;
 use super::scenario::Asked;
 use super::{Case, Run, Setup};
@@ -169,7 +169,19 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
     keys(setup).iter().enumerate().map(propose).collect()
 }
 
-/// The scenario's `[spec]` with the proposed limits in it, to three digits: the value of each of its keys.
+impl Proposal {
+    /// Digits that the limit and its interval are told with: three, or as many as keep the limit within the interval.
+    ///
+    /// What many cases come to alike, at a ceiling of the robot's say, has an interval narrower than three digits, and
+    /// rounded to these most cases would break the limit, or none.
+    pub fn digits(&self) -> usize {
+        let ends = self.interval.map(|[a, b]| [a.min(b), a.max(b)]);
+        digits_within(self.value.unwrap_or_default(), ends.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]))
+    }
+}
+
+/// The scenario's `[spec]` with the proposed limits in it, to the digits of [`Proposal::digits`]: the value of each of
+/// its keys.
 ///
 /// Rounded to the nearest, so that the share that breaks a limit may differ by what lies within half a digit.
 pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
@@ -180,7 +192,10 @@ pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     for proposal in proposals {
         let Some(value) = proposal.value else { continue };
         let path: Vec<&str> = proposal.field.split('.').skip(1).collect();
-        let ([table, key], Ok(rounded)) = (path.as_slice(), signed_digits(value).parse::<f64>()) else { continue };
+        let ([table, key], Ok(rounded)) = (path.as_slice(), with_digits(value, proposal.digits()).parse::<f64>())
+        else {
+            continue;
+        };
         let table = spec.entry(*table).or_insert_with(|| Value::Object(Map::new()));
         if let (Value::Object(table), Some(number)) = (table, serde_json::Number::from_f64(rounded)) {
             table.insert((*key).to_owned(), Value::Number(number));
@@ -232,6 +247,21 @@ mod tests {
             json!(spec(&setup, &found)),
             json!({ "deviation": { "max_m": 1.89, "from": "path", "corner_m": 1.0 } })
         );
+    }
+
+    /// Accelerations at a robot's ceiling lie closer together than three digits tell.
+    #[test]
+    fn a_limit_is_told_within_its_interval() {
+        let setup = setup(json!({ "acceleration": { "max_m_s2": 5.0 } }));
+        let at_a_ceiling = |i: usize| Outcome {
+            worst: vec![Some(9.893_779 + 1e-9 * i as f64)],
+            ended_badly: false,
+            left_world: false,
+        };
+        let found = propose(&setup, &(0..200).map(at_a_ceiling).collect::<Vec<_>>(), 0.05);
+        let [low, high] = found[0].interval.unwrap();
+        let told = json!(spec(&setup, &found))["acceleration"]["max_m_s2"].as_f64().unwrap();
+        assert!((low..=high).contains(&told) && high - low < 1e-6, "{told} of {low} … {high}");
     }
 
     #[test]

@@ -73,6 +73,8 @@ impl Baseline {
     pub fn in_words(&self, setup: &Setup, alone: bool) -> String {
         let name = match self.stress {
             Stress::MaxDeviation if alone => String::new(),
+            // Of what has one the margin is measured, of which less is worse.
+            Stress::Tilt if self.less_is_worse => ": tip-over margin".into(),
             other => format!(": {}", other.word().replace('-', " ")),
         };
         let [mean, worst] = [self.mean, self.worst].map(|value| self.told(setup, value));
@@ -181,6 +183,26 @@ mod tests {
         let told = [true, false].map(|alone| random.in_words(&setup, alone));
         assert!(told[0].starts_with("random feasible ones 2"), "{}", told[0]);
         assert!(told[1].starts_with("random feasible ones: max deviation 2"), "{}", told[1]);
+    }
+
+    /// A margin that is called a tilt reads as if the vehicle leaned so far.
+    #[test]
+    fn margins_are_told_as_margins() {
+        let margins = results(&[Some(40.0), Some(30.0)], |margin| Measures {
+            min_tip_over_margin: Some(margin),
+            ..Measures::default()
+        });
+        let random = Baseline::of(Stress::Tilt, 1, &margins).unwrap();
+        let scenario = json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
+        });
+        let setup = Setup::new(serde_json::from_value::<Scenario>(scenario).unwrap()).unwrap();
+        let told = random.in_words(&setup, false);
+        assert!(
+            told.starts_with("random feasible ones: tip-over margin 35.0°") && told.contains("30.0° at worst"),
+            "{told}"
+        );
     }
 
     #[test]

@@ -22,16 +22,37 @@ pub fn limit(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.decimals$}", decimals = decimals_of(value, 2)))
 }
 
+/// Digits that numbers are told with where no more are needed, and that tell any.
+const FEW: usize = 3;
+const ALL: usize = 17;
+
 /// `value` ≥ 0 with its first three digits.
 pub fn three_digits(value: f64) -> String {
-    let decimals = if value > 0.0 { (2.0 - libm::log10(value).floor()).clamp(0.0, 12.0) as usize } else { 0 };
-    format!("{value:.decimals$}")
+    first_digits(value, FEW)
 }
 
 /// `value` with its sign and its first three digits.
 pub fn signed_digits(value: f64) -> String {
+    with_digits(value, FEW)
+}
+
+/// `value` with its sign and its first `digits` digits.
+pub fn with_digits(value: f64, digits: usize) -> String {
     let sign = if value < 0.0 { "-" } else { "" };
-    sign.to_owned() + &three_digits(value.abs())
+    sign.to_owned() + &first_digits(value.abs(), digits)
+}
+
+/// How many digits of `value`, three at least, tell a number that lies between `low` and `high` as it does.
+pub fn digits_within(value: f64, [low, high]: [f64; 2]) -> usize {
+    let lies_within =
+        |digits: &usize| with_digits(value, *digits).parse().is_ok_and(|told: f64| (low..=high).contains(&told));
+    (FEW..ALL).find(lies_within).unwrap_or(ALL)
+}
+
+fn first_digits(value: f64, digits: usize) -> String {
+    let first = if value > 0.0 { libm::log10(value).floor() } else { digits as f64 };
+    let decimals = (digits as f64 - 1.0 - first).clamp(0.0, 9.0 + digits as f64) as usize;
+    format!("{value:.decimals$}")
 }
 
 /// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
@@ -83,6 +104,13 @@ mod tests {
             ("4 000".into(), "999".into(), "1 000 000".into())
         );
         assert_eq!(percent(Some(0.31)), "31 %");
+        assert_eq!([0.0, 0.012345, 3.3333, -98765.4].map(signed_digits), ["0", "0.0123", "3.33", "-98765"]);
+        assert_eq!(with_digits(9.893_779_44, 8), "9.8937794");
+        assert_eq!(
+            (digits_within(1.89, [1.83, 1.96]), digits_within(9.893_779_44, [9.893_779_2, 9.893_779_6])),
+            (3, 8)
+        );
+        assert_eq!(digits_within(-9.893_779_44, [-9.893_779_6, -9.893_779_2]), 8);
         assert_eq!(percent(Some(0.015)), "1.5 %");
     }
 }

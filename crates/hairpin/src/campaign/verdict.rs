@@ -11,7 +11,7 @@ use super::digits::grouped;
 use super::gravity::Gravity;
 use super::scenario::{Asked, UNMEASURED};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
-use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst};
+use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst, nearest};
 
 /// The verdict on a campaign: on its results, beside the cases by chance that were run alike if there are any; or that
 /// nothing was feasible.
@@ -190,7 +190,8 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
 pub(super) struct Named {
     /// The case of the worst result.
     pub(super) case: CaseNumber,
-    /// Its gravest violation, or the deviation that came nearest to the limit; in the units that it is told in.
+    /// Its gravest violation; within spec the deviation, or where that is not limited what came nearest to its limit;
+    /// in the units that it is told in.
     pub(super) value: Violation,
     /// Share of rotor-time at a limit, 0 … 1, on that leg or run.
     saturation: Option<f64>,
@@ -200,8 +201,13 @@ pub(super) struct Named {
 ///
 /// By [`Gravity`]. `None` where nothing was measured, or nothing is limited and nothing violated.
 pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
+    let limits = setup.scenario.head().terms.limits;
+    let of_others = |measures: &Measures| if limits.deviation.is_none() { nearest(measures, &limits) } else { None };
     let mut worst: Option<(&CaseResult, &Measures)> = None;
-    let gravity = |result: &CaseResult, measures: &Measures| Gravity::of_result(&result.violations, Some(measures));
+    let gravity = |result: &CaseResult, measures: &Measures| {
+        let within = of_others(measures).map_or(measures.max_deviation, |one| one.relative_excess());
+        Gravity::of(&result.violations, measures.max_deviation, within)
+    };
     for result in results {
         let Some(measures) = &result.measures else { continue };
         if worst.is_none_or(|(so_far, old)| gravity(result, measures) > gravity(so_far, old)) {
@@ -209,8 +215,8 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
         }
     }
     let (result, measures) = worst?;
-    let nearest = || {
-        setup.scenario.deviation_limit().map(|limit| Violation {
+    let deviation = || {
+        limits.deviation.map(|limit| Violation {
             what: "deviation".into(),
             value: measures.max_deviation,
             limit,
@@ -224,7 +230,7 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
         Some(programs) => programs.in_their_units(violation),
         None => violation,
     };
-    let value = result.violations.first().cloned().or_else(|| nearest().map(told))?;
+    let value = result.violations.first().cloned().or_else(|| deviation().or_else(|| of_others(measures)).map(told))?;
     let saturation = measures.legs.get(value.leg).and_then(|leg| leg.saturation_share).or(measures.saturation_share);
     Some(Named { case: result.case, value, saturation })
 }

@@ -169,6 +169,31 @@ impl Violation {
 /// ```
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
+    let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
+    let breaks = |one: &Violation| if one.is_lower_limit() { one.value < one.limit } else { one.value > one.limit };
+    found.extend(held(measures, limits, (end, last)).into_iter().filter(breaks));
+    // Stable, so that equals keep their order.
+    found.sort_by(|a, b| {
+        let (a, b) = (a.gravity(), b.gravity());
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    found
+}
+
+/// Of what `measures` have a limit for, that which comes nearest to it, broken or not, as a share of the limit; the
+/// first of equals in the order of [`Limits`]. `None` where nothing that was measured is limited.
+///
+/// In the form of a violation; what takes long is told as at its end, on the last leg.
+pub fn nearest(measures: &Measures, limits: &Limits) -> Option<Violation> {
+    let end = (measures.total_time, measures.legs.len().saturating_sub(1));
+    let nearer = |a: Violation, b: Violation| if b.relative_excess() > a.relative_excess() { b } else { a };
+    held(measures, limits, end).into_iter().filter(|one| !one.value.is_nan()).reduce(nearer)
+}
+
+/// What is measured beside each limit that there is, in the order of [`Limits`]; what takes long ends at `end`, s, on
+/// leg `last`.
+fn held(measures: &Measures, limits: &Limits, (end, last): (f64, usize)) -> Vec<Violation> {
+    let mut found = Vec::new();
     let largest = |value: fn(&LegMeasures) -> f64| {
         let mut best = 0;
         for (leg, measure) in measures.legs.iter().enumerate() {
@@ -178,38 +203,25 @@ pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<
         }
         best
     };
-    let mut exceed = |what: &str, value: f64, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
-        if let Some(limit) = limit.filter(|limit| value > *limit) {
+    let mut hold = |what: &str, value: Option<f64>, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
+        if let (Some(value), Some(limit)) = (value, limit) {
             found.push(Violation { what: what.into(), value, limit, unit: unit.into(), at, leg });
         }
     };
-    exceed("deviation", measures.max_deviation, limits.deviation, "m", measures.t_worst, measures.leg_worst);
+    hold("deviation", Some(measures.max_deviation), limits.deviation, "m", measures.t_worst, measures.leg_worst);
     let leg = largest(|leg| leg.overshoot);
-    exceed("overshoot", measures.max_overshoot(), limits.overshoot, "m", measures.t_overshoot, leg);
+    hold("overshoot", Some(measures.max_overshoot()), limits.overshoot, "m", measures.t_overshoot, leg);
     let leg = largest(|leg| leg.max_acceleration);
-    exceed("acceleration", measures.max_acceleration, limits.acceleration, "m/s²", measures.t_acceleration, leg);
-    let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
-    exceed("total-time", measures.total_time, limits.total_time, "s", end, last);
+    hold("acceleration", Some(measures.max_acceleration), limits.acceleration, "m/s²", measures.t_acceleration, leg);
+    hold("total-time", Some(measures.total_time), limits.total_time, "s", end, last);
     if let Some(late) = &measures.latest {
-        exceed("late", late.by, limits.late, "s", late.at, late.leg);
+        hold("late", Some(late.by), limits.late, "s", late.at, late.leg);
     }
-    let mut fall_short = |what: &str, value: Option<f64>, limit: Option<f64>, unit: &str, at: f64, leg: usize| {
-        if let (Some(value), Some(limit)) = (value, limit)
-            && value < limit
-        {
-            found.push(Violation { what: what.into(), value, limit, unit: unit.into(), at, leg });
-        }
-    };
     let leg = largest(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
-    fall_short("clearance", measures.min_clearance, limits.clearance, "m", measures.t_clearance, leg);
+    hold("clearance", measures.min_clearance, limits.clearance, "m", measures.t_clearance, leg);
     let leg = largest(|leg| leg.min_tip_over_margin.map_or(f64::NEG_INFINITY, |margin| -margin));
     let (least, at) = (measures.min_tip_over_margin, measures.t_tip_over_margin);
-    fall_short("tip-over-margin", least, limits.tip_over_margin, "°", at, leg);
-    // Stable, so that equals keep their order.
-    found.sort_by(|a, b| {
-        let (a, b) = (a.gravity(), b.gravity());
-        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
-    });
+    hold("tip-over-margin", least, limits.tip_over_margin, "°", at, leg);
     found
 }
 

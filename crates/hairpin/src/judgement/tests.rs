@@ -403,3 +403,25 @@ fn violations_come_gravest_first() {
     let lenient = Limits { unfinished: false, ..Limits::default() };
     assert!(violations(&measures, &flight(Ended::Time, None), &lenient).is_empty());
 }
+
+/// A run within spec is told by what came nearest to a limit, whatever that limits.
+#[test]
+fn what_comes_nearest_to_its_limit_is_found() {
+    let legs = vec![LegMeasures { max_acceleration: 4.0, min_clearance: Some(0.6), ..LegMeasures::default() }];
+    let measures = Measures {
+        max_acceleration: 4.0,
+        min_clearance: Some(0.6),
+        t_clearance: 2.5,
+        total_time: 9.0,
+        legs,
+        ..Measures::default()
+    };
+    let told = |limits: Limits| nearest(&measures, &limits).map(|one| (one.what, one.value, one.limit, one.at));
+    assert_eq!(told(Limits::default()), None);
+    assert_eq!(told(Limits { tip_over_margin: Some(5.0), ..Limits::default() }), None, "it was not measured");
+    // 60 % of 15 s, and 80 % of 5 m/s²; a clearance a fifth above its limit.
+    let limits = Limits { acceleration: Some(5.0), total_time: Some(15.0), ..Limits::default() };
+    assert_eq!(told(limits), Some(("acceleration".into(), 4.0, 5.0, measures.t_acceleration)));
+    let limits = Limits { clearance: Some(0.55), ..limits };
+    assert_eq!(told(limits), Some(("clearance".into(), 0.6, 0.55, 2.5)));
+}
