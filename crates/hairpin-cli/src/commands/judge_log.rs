@@ -174,6 +174,7 @@ fn found_object(found: &Found) -> Value {
         "missed": found.missed.map(|missed| json!({
             "waypoint": missed.waypoint, "nearest_m": finite(missed.nearest_m), "accept_m": missed.accept_m,
         })),
+        "never_began": found.never_began,
         "cuts": found.cuts.iter().map(cut).collect::<Vec<_>>(),
         "measures": found.flown.as_ref().map(measures),
         "simulated_max_deviation_m": found.simulated_m,
@@ -196,6 +197,9 @@ fn measures(flown: &Flown) -> Value {
         "between_samples_m": finite(flown.most_between),
         "max_speed_bound_m_s": flown.swiftness.speed,
         "max_acceleration_bound_m_s2": flown.swiftness.acceleration,
+        "exceeded": flown.exceeded.map(|exceeded| json!({
+            "what": exceeded.what, "seen": exceeded.seen, "bound": exceeded.bound, "unit": exceeded.unit,
+        })),
         "max_overshoot_m": m.max_overshoot(),
         "max_acceleration_m_s2": m.acceleration(),
         "min_clearance_m": m.min_clearance,
@@ -212,6 +216,7 @@ fn measures(flown: &Flown) -> Value {
 fn doubt(doubt: &Doubt) -> Value {
     let why = match doubt.why {
         Why::Between { most, rate_hz } => json!({ "between_samples": finite(most), "needed_rate_hz": rate_hz }),
+        Why::Begin { before } => json!({ "begin_not_seen": true, "left_out_s": before }),
         Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
     };
     json!({ "value": finding(&doubt.value), "t_s": doubt.value.at, "leg": doubt.value.leg, "why": why })

@@ -159,6 +159,8 @@ pub enum EventKind {
     Landed,
     /// In the air.
     TookOff,
+    /// A mode that flies no mission: of logs that tell modes, none of which is a mission's.
+    OtherMode,
 }
 
 /// From a time to a time, s.

@@ -73,6 +73,10 @@ impl Ready {
 
     fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
         let before = open_to_read(folder)?;
+        if before.setup.has_programs() {
+            // Before a world's keys are put into an arm's scenario, which has none of them.
+            settings.of_an_arm()?;
+        }
         let origin = before.setup.scenario.origin();
         let world = settings.world.as_deref().map(|name| world(name, origin.as_ref())).transpose()?;
         let sets: Vec<Set> = world.iter().map(|world| world.set.clone()).chain(settings.sets.iter().cloned()).collect();

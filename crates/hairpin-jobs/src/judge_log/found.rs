@@ -92,6 +92,8 @@ pub struct Found {
     pub finished: bool,
     /// The first waypoint that was not; `None` where an autopilot itself tells which it flew to.
     pub missed: Option<Missed>,
+    /// The log's modes, where it tells them and none of them flies a mission: nothing of it is judged then.
+    pub never_began: Option<String>,
     /// What it was measured to be; `None` where nothing is left to measure.
     pub flown: Option<Flown>,
     /// The largest deviation of the same case in simulation, m, where that was judged.

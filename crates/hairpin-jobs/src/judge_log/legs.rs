@@ -43,6 +43,28 @@ pub(super) struct Mission {
     pub(super) ended: Option<String>,
     /// Whether the log itself says when it began.
     pub(super) is_told: bool,
+    /// The modes that it was in where the log tells these and none is a mission's.
+    pub(super) never_began: Option<String>,
+}
+
+/// So many modes are named, at most.
+const MODES_NAMED: usize = 4;
+
+/// The modes of a log that tells them, none of which flies a mission.
+fn never_began(logged: &Logged) -> Option<String> {
+    if logged.events.iter().any(|event| event.kind == EventKind::MissionBegins) {
+        return None;
+    }
+    let mut modes: Vec<&str> = Vec::new();
+    for event in logged.events.iter().filter(|event| event.kind == EventKind::OtherMode) {
+        if !modes.contains(&event.words.as_str()) {
+            modes.push(&event.words);
+        }
+    }
+    let more = modes.len().checked_sub(MODES_NAMED + 1).map(|more| format!("{} more", more + 1));
+    modes.truncate(MODES_NAMED);
+    let named: Vec<&str> = modes.into_iter().chain(more.as_deref()).collect();
+    (!named.is_empty()).then(|| named.join(", "))
 }
 
 /// From where on the autopilot flies the mission until it no longer does: return, hold, landing, a pilot, a failsafe, a
@@ -57,7 +79,7 @@ pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Miss
         EventKind::MissionEnds | EventKind::Failsafe | EventKind::Geofence => event.t_s > from,
         // Standing on the ground before it takes off is no landing.
         EventKind::Landed => event.t_s > from && (flew(event.t_s) || !takes_off(event.t_s)),
-        EventKind::MissionBegins | EventKind::TookOff => false,
+        EventKind::MissionBegins | EventKind::TookOff | EventKind::OtherMode => false,
     };
     let end = logged.events.iter().filter(ends).min_by(|a, b| a.t_s.total_cmp(&b.t_s));
     let end = end.filter(|end| to_s.is_none_or(|to| end.t_s <= to));
@@ -66,6 +88,7 @@ pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Miss
         to_s: end.map_or(to_s.unwrap_or(f64::INFINITY), |end| end.t_s),
         ended: end.map(|end| format!("{} at t = {:.1} s", end.words, end.t_s)),
         is_told: begins.is_some() || !logged.progress.is_empty(),
+        never_began: never_began(logged),
     }
 }
 

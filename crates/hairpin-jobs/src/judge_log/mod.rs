@@ -12,6 +12,7 @@ mod against;
 mod arm;
 mod aside;
 mod asks;
+mod begin;
 mod cut;
 mod found;
 mod frame;
@@ -68,7 +69,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
     }
     let against = against::Ready::of(settings)?;
     against.notes.iter().for_each(|note| watch.warn(note));
-    let programs = arm::Programs::of(&against, settings)?;
+    let programs = arm::Programs::of(&against)?;
     let judge = |file: &Path| match &programs {
         Some(programs) => programs.judge_file(file, &against, settings),
         None => one::judge_file(file, &against, settings),

@@ -10,6 +10,7 @@ use nalgebra::Isometry3;
 
 use super::against::Ready;
 use super::asks::Asks;
+use super::begin::Before;
 use super::cut::{Left, cut};
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
@@ -58,7 +59,7 @@ pub(super) fn judge(
     };
     let course = course(logged, &progress, &case.waypoints, against.accept);
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
-    let own = judged.own_part(samples)?;
+    let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };
     let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
     let (missed, finished) = judged.end(&own, &left);
     let name = against.name_of(case);
@@ -78,6 +79,7 @@ pub(super) fn judge(
         ended: span.ended.clone(),
         finished,
         missed,
+        never_began: span.never_began.clone(),
         flown: None,
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
         notes,
@@ -86,7 +88,12 @@ pub(super) fn judge(
     let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, &whole)?) } else { None };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
-        found.flown = Some(judge_flown(&against.setup, &whole, log).map_err(Problem::input)?);
+        let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
+        let told = mission(logged, [None; 2]);
+        let start = (case.waypoints[0], against.accept);
+        let before = Before { motion, told: &told, from_s: settings.from_s, start };
+        flown.doubts.extend(before.doubt(&flown, &own));
+        found.flown = Some(flown);
     }
     let judged = told::judged(file, found, &against.setup);
     match settings.page {

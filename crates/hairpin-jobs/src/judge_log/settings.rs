@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::frame::FrameSettings;
+use crate::Problem;
 use crate::sets::Set;
 
 /// What a log is judged against.
@@ -42,4 +43,21 @@ pub struct LogSettings {
     pub to_s: Option<f64>,
     /// Where a page goes with what was planned, simulated and flown.
     pub page: Option<PathBuf>,
+}
+
+impl LogSettings {
+    /// Nothing, where logs are an arm's.
+    ///
+    /// # Errors
+    /// What is asked of logs that say nothing of an arm's frame.
+    pub(super) fn of_an_arm(&self) -> Result<(), Problem> {
+        let named = self.frame.turn_deg != 0.0 || self.frame.offset_m != [0.0; 3];
+        let (world, frames) = (self.world.is_some(), "an arm's log is in its base's frame");
+        for (asked, what) in [(world, "--world: what an arm must not meet is its cell's"), (named, frames)] {
+            if asked {
+                return Err(Problem::input(format!("{what}; leave --world, --turn and --offset out")));
+            }
+        }
+        Ok(())
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{Doubt, Flown, Setup, Why};
+use hairpin::campaign::{Doubt, Exceeded, Flown, Setup, Why};
 use hairpin::judgement::{
     AccelerationSource, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated, within_spec,
 };
@@ -59,6 +59,10 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         more.iter().for_each(|part| sentence.push_str(&format!("; {part}")));
         sentence
     };
+    if let Some(modes) = &found.never_began {
+        let why = format!("the mission never began: modes {modes}; what else was done is not judged");
+        return (Outcome::Inconclusive, inconclusive(case, how, &why));
+    }
     let Some(flown) = &found.flown else {
         let nothing = "nothing is left to judge".to_owned();
         let why: Vec<String> = cuts.into_iter().chain(found.ended.clone()).collect();
@@ -166,7 +170,13 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
                 doubt.value.value <= doubt.value.limit
             };
             let may = if kept { format!(", so that it may be {more}") } else { String::new() };
-            format!("{value}, but the log's own {which} is {} m{may}; {other} or {limit} the limit", digits(sigma))
+            let own = format!("{value}, but the log's own {which} is {} m", digits(sigma));
+            // The world's edge is no limit that could be another.
+            match doubt.value.what.as_str() {
+                "edge" if kept => format!("{own}, so that it may have left the world; {other}"),
+                "edge" => format!("{own}; {other}"),
+                _ => format!("{own}{may}; {other} or {limit} the limit"),
+            }
         }
         Why::Between { most, rate_hz } if most.is_finite() => {
             let bounds = found.flown.as_ref().map_or(String::new(), bounds);
@@ -178,13 +188,34 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             )
         }
         Why::Between { .. } => {
+            let why = match found.flown.as_ref().and_then(|flown| flown.exceeded) {
+                Some(exceeded) => format!(
+                    ": its own log has {} where at most {} are bounds of it, which hold no more",
+                    in_numbers(&exceeded, exceeded.seen),
+                    in_numbers(&exceeded, exceeded.bound),
+                ),
+                None => ": of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does".into(),
+            };
+            let rate = found.source.rate_hz;
             format!(
-                "{value} in samples at {:.0} Hz, but nothing bounds how fast the robot moves between two of them: \
-                 of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does",
-                found.source.rate_hz
+                "{value} in samples at {rate:.0} Hz, but nothing bounds how fast the robot moves between two of them{why}"
             )
         }
+        Why::Begin { before } => {
+            let why = match before {
+                Some(s) => format!("--from leaves out {s:.1} s before it"),
+                None => "the log begins amid the motion away from waypoint 0".into(),
+            };
+            format!("{value} in what was judged, but when the mission began is not seen: {why}")
+        }
     }
+}
+
+fn in_numbers(exceeded: &Exceeded, value: f64) -> String {
+    let Exceeded { what, seen, bound, unit } = *exceeded;
+    // As many decimals as tell one from the other.
+    let decimals = (1..=6).find(|d| format!("{seen:.d$}", d = *d) != format!("{bound:.d$}", d = *d)).unwrap_or(6);
+    format!("{what} {value:.decimals$} {unit}")
 }
 
 fn bounds(flown: &Flown) -> String {

@@ -55,9 +55,14 @@ pub enum Why {
         /// Its standard deviation, m.
         sigma: f64,
     },
+    /// When the mission began is not seen: it took longer than the log shows.
+    Begin {
+        /// What was left out before the judged part, s; `None` where the log itself begins amid the motion.
+        before: Option<f64>,
+    },
 }
 
-/// A limit that is open.
+/// A limit that is open; of leaving the world the distance to its edge, `edge`, which must not fall below 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
     /// What the samples came to.
@@ -84,8 +89,23 @@ pub struct Flown {
     /// The largest deviation that may hide between samples, m; infinite where nothing bounds it.
     /// By speed and acceleration of [`Self::swiftness`], over each interval without a break.
     pub most_between: f64,
-    /// What bounds it.
+    /// What bounds it: without what the log shows to be none.
     pub swiftness: Swiftness,
+    /// What of the robot's bounds the log itself exceeds.
+    pub exceeded: Option<Exceeded>,
+}
+
+/// A bound of the robot's that a log of it exceeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exceeded {
+    /// `speed` or `acceleration`.
+    pub what: &'static str,
+    /// The largest that the log has, in `unit`.
+    pub seen: f64,
+    /// The robot's, in `unit`.
+    pub bound: f64,
+    /// `m/s` or `m/s²`.
+    pub unit: &'static str,
 }
 
 /// Why a log cannot be judged.
@@ -104,7 +124,8 @@ pub enum FlownError {
 /// A limit of distance is violated for certain where a sample exceeds it by more than the standard deviation that the
 /// log claims there, in the direction in which it is off: σ² = (e_h σ_h)² + (e_v σ_v)², e the unit vector from the
 /// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
-/// samples does ([`look_closely`]). Everything else is a doubt. Accelerations, durations and attitudes are judged by
+/// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit. Bounds that
+/// the log itself exceeds bound nothing. Accelerations, durations and attitudes are judged by
 /// the samples alone.
 ///
 /// # Errors
@@ -120,12 +141,13 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let settings = Settings { breaks: &log.breaks, ..settings(&terms, path.as_ref(), clearance.as_deref()) };
     let measures = measure(&log.flight.track, &case.waypoints, &settings)?;
     let enough = terms.limits.deviation.unwrap_or(f64::INFINITY);
-    let swiftness = refuted(setup.swiftness(), &log.flight);
+    let (swiftness, exceeded) = refuted(setup.swiftness(), log);
     let close = look_closely(&log.flight.track, &case.waypoints, &settings, &swiftness, enough)?;
     let mut flight = Cow::Borrowed(&log.flight);
     if let Some(left) = log.in_world.then(|| left_world(setup, log)).flatten() {
         flight.to_mut().left_world = Some(left);
     }
+    let left = flight.left_world.is_some();
     let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let looked = Looked { log, close: &close, waypoints: &case.waypoints, swiftness: &swiftness };
     let mut doubts = Vec::new();
@@ -139,10 +161,14 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
             doubts.push(doubt);
         }
     }
+    if log.in_world && !left {
+        doubts.extend(looked.edge(setup));
+    }
     let deviations: Vec<f64> = close.iter().filter_map(|close| Some(close.off?.norm())).collect();
     let most_between = close.iter().filter_map(|close| close.until_next).fold(measures.max_deviation, f64::max);
     let statistics = Statistics::of(&deviations);
-    Ok(Flown { measures, statistics, limits: terms.limits, violations: broken, doubts, most_between, swiftness })
+    let limits = terms.limits;
+    Ok(Flown { measures, statistics, limits, violations: broken, doubts, most_between, swiftness, exceeded })
 }
 
 /// The plan of `case`, where deviations are measured from that: of a log that tells no legs they are the plan's.
@@ -152,16 +178,49 @@ pub fn plan_followed(setup: &Setup, case: &Case) -> Option<Track> {
     (from == DeviationFrom::Path).then(|| reference(&around, case, None)).flatten()
 }
 
-/// What bounds the robot, without a speed that the log itself shows it to exceed.
+/// So many times its largest speed is what noise and wind explain.
+const FASTER: f64 = 1.1;
+/// So much (m/s) of a change of velocity is what the noise of an estimate explains.
+const ROOM_M_S: f64 = 0.5;
+
+/// What bounds the robot, without what the log itself shows not to, and what that is.
 ///
-/// A log that shows a larger speed than the model has says that the model does not bound this robot.
-fn refuted(swiftness: Swiftness, flight: &Flight) -> Swiftness {
-    let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| flight.track.channel(name));
-    let fastest = match columns {
-        [Some(x), Some(y), Some(z)] => (0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i]).norm()).fold(0.0, f64::max),
-        _ => 0.0,
+/// A larger speed than the model has says that its speed bounds nothing. The bound of accelerations counts drag at that
+/// speed, at most the square of it: as far as [`FASTER`] it grows so; beyond, and where velocities change faster than
+/// by a h + [`ROOM_M_S`], the model does not bound this robot at all. Of a log without velocities steps are told that
+/// are longer than the speed allows; each is without its bound already ([`Swiftness::bulge`]).
+fn refuted(swiftness: Swiftness, log: &Log) -> (Swiftness, Option<Exceeded>) {
+    let track = &log.flight.track;
+    let span = |i: usize| track.times()[i + 1] - track.times()[i];
+    let whole = || (0..track.len().saturating_sub(1)).filter(|i| log.breaks.binary_search(&(i + 1)).is_err());
+    let too_fast = |seen: f64| {
+        let bound = swiftness.speed.filter(|speed| *speed < seen)?;
+        Some(Exceeded { what: "speed", seen, bound, unit: "m/s" })
     };
-    Swiftness { speed: swiftness.speed.filter(|speed| *speed >= fastest), ..swiftness }
+    let [Some(x), Some(y), Some(z)] = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name)) else {
+        let steps = whole().map(|i| (track.position(i + 1) - track.position(i)).norm() / span(i));
+        return (swiftness, too_fast(steps.fold(0.0, f64::max)));
+    };
+    let v = |i: usize| Vector3::new(x[i], y[i], z[i]);
+    let mut left = swiftness;
+    let faster = too_fast((0..x.len()).map(|i| v(i).norm()).fold(0.0, f64::max));
+    if let Some(Exceeded { seen, bound, .. }) = faster {
+        let ratio = seen / bound;
+        left = Swiftness { speed: None, acceleration: left.acceleration.map(|a| a * ratio * ratio) };
+        if ratio > FASTER {
+            return (Swiftness::default(), faster);
+        }
+    }
+    let changes = whole().map(|i| ((v(i + 1) - v(i)).norm(), span(i)));
+    let sudden = left.acceleration.and_then(|bound| {
+        let beyond = changes.filter(|(change, span)| *change > bound * span + ROOM_M_S);
+        let seen = beyond.map(|(change, span)| change / span).max_by(f64::total_cmp)?;
+        Some(Exceeded { what: "acceleration", seen, bound, unit: "m/s²" })
+    });
+    if sudden.is_some() {
+        left.acceleration = None;
+    }
+    (left, sudden.or(faster))
 }
 
 /// When it was first outside its world for certain: with all that lies within its accuracy, s.
@@ -291,6 +350,65 @@ impl Looked<'_> {
         let leg = legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg);
         let value = violation("clearance", least, limit, measures.t_clearance, leg);
         self.of_distance(value, true, &|p, _| clearance(p))
+    }
+
+    /// Whether it may have left its world, which no sample shows for certain: within what the log knows of its place, or
+    /// between two samples. Places are off by one standard deviation along each axis, as [`left_world`] has them.
+    fn edge(&self, setup: &Setup) -> Option<Doubt> {
+        let track = &self.log.flight.track;
+        let know = |i: usize| self.log.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2]);
+        let ways = |[across, up]: [f64; 2]| {
+            let along = [Vector3::x() * across, Vector3::y() * across, Vector3::z() * up];
+            let off = along.into_iter().filter(|way| way.norm() > 0.0).flat_map(|way| [way, -way]);
+            std::iter::once(Vector3::zeros()).chain(off)
+        };
+        let value = |i: usize, edge: f64| violation("edge", edge, 0.0, track.times()[i], self.close[i].leg);
+        let near = |i: usize| {
+            let [across, up] = know(i);
+            let edge = setup.edge_distance(&track.position(i), across.max(up));
+            ways(know(i)).any(|way| setup.is_outside(&(track.position(i) + way))).then_some((i, edge))
+        };
+        if let Some((i, edge)) = (0..track.len()).filter_map(near).min_by(|a, b| a.1.total_cmp(&b.1)) {
+            // Which of the two it is: up and down alone keep it inside, or do not.
+            let [across, up] = know(i);
+            let by_across = ways([across, 0.0]).any(|way| setup.is_outside(&(track.position(i) + way)));
+            let (which, sigma) = if by_across { ("eph", across) } else { ("epv", up) };
+            return Some(Doubt { value: value(i, edge), why: Why::Accuracy { which, sigma } });
+        }
+        let (mut worst, mut rate) = (None::<(usize, f64, f64)>, Some(0.0_f64));
+        for i in 0..track.len() {
+            let Some((_, bulge)) = self.after(i) else { continue };
+            let ends = [track.position(i), track.position(i + 1)];
+            if bulge.is_infinite() {
+                let near = setup.edge_distance(&ends[0], 0.0);
+                if near.is_finite() {
+                    (worst, rate) = (Some((i, f64::INFINITY, near)), None);
+                    break;
+                }
+                continue;
+            }
+            let accuracy = [0, 1].map(|axis| know(i)[axis].max(know(i + 1)[axis]));
+            let reach = (ends[1] - ends[0]).norm() + bulge + accuracy[0].max(accuracy[1]);
+            let near = setup.edge_distance(&ends[0], reach);
+            if near >= reach {
+                continue;
+            }
+            let (mut most, mut at_ends) = (f64::NEG_INFINITY, -near);
+            for way in ways(accuracy) {
+                let beyond = |p: &Point3<f64>| -setup.edge_distance(&(p + way), reach);
+                let own = ends.map(|p| (p, beyond(&p)));
+                at_ends = at_ends.max(own[0].1).max(own[1].1);
+                most = most.max(most_between(&beyond, own, bulge, 0.0));
+            }
+            if most > 0.0 {
+                rate = rate.and_then(|rate| Some(rate.max(self.rate(-at_ends)?)));
+                if worst.is_none_or(|(_, before, _)| most > before) {
+                    worst = Some((i, most, near));
+                }
+            }
+        }
+        let (i, most, near) = worst?;
+        Some(Doubt { value: value(i, near), why: Why::Between { most: -most, rate_hz: rate } })
     }
 
     /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one

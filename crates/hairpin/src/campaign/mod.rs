@@ -96,7 +96,7 @@ pub use coverage::{Coverage, Grid};
 pub use curve::Curve;
 pub use execute::{execute, execute_again, execute_run};
 pub use executor::{Batch, Executor, OwnSimulator};
-pub use flown::{Doubt, Flown, FlownError, Log, Why, judge_flown, plan_followed};
+pub use flown::{Doubt, Exceeded, Flown, FlownError, Log, Why, judge_flown, plan_followed};
 pub use full_rate::FullRate;
 pub use generate::{Known, Optimum, generate, optima};
 pub use graph::{Losses, Lost, Stage};

@@ -288,6 +288,12 @@ impl Setup {
         self.kind.is_outside(place)
     }
 
+    /// Distance (m) of a place from the nearest one outside of its robot's world, below 0 outside; +∞ where that has no
+    /// end. Exact up to `within` m, and never less than that beyond.
+    pub fn edge_distance(&self, place: &Point3<f64>, within: f64) -> f64 {
+        self.kind.edge_distance(place, within)
+    }
+
     /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words.
     pub fn backwards(&self, case: &Case, track: &Track) -> Option<String> {
         self.kind.backwards(case, track)

@@ -91,7 +91,7 @@ pub struct Violation {
 impl Violation {
     /// Whether the limit is a lower one.
     pub fn is_lower_limit(&self) -> bool {
-        self.is_unfinished() || matches!(self.what.as_str(), "clearance" | "tip-over-margin")
+        self.is_unfinished() || matches!(self.what.as_str(), "clearance" | "tip-over-margin" | "edge")
     }
 
     /// Whether the run came to a bad end, of whatever kind.

@@ -291,6 +291,7 @@ pub fn finding(violation: &Violation) -> String {
         let name = match violation.what.as_str() {
             "deviation" => "",
             "tip-over-margin" => "tip-over margin ",
+            "edge" => "distance to the world's edge ",
             what => &format!("{what} "),
         };
         format!("{name}{value} {relation} {limit}")

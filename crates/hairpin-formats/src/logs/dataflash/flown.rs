@@ -134,7 +134,7 @@ impl Flown {
     /// Events in the order of time, and what is to be told of them.
     pub(super) fn into_events(mut self) -> (Vec<Event>, Vec<String>) {
         let mut notes = Vec::new();
-        let mut before: Option<&str> = None;
+        let (mut before, mut others): (Option<&str>, Vec<Event>) = (None, Vec::new());
         for (t_s, number) in std::mem::take(&mut self.numbers) {
             let known = self.modes.and_then(|modes| modes.iter().find(|(mode, _)| *mode == number));
             let name = known.map_or("other", |(_, name)| name);
@@ -145,12 +145,17 @@ impl Flown {
                 }
                 if FLOWN.contains(&name) {
                     self.tell(t_s, EventKind::MissionBegins, words);
+                } else if self.modes.is_some() {
+                    others.push(Event { t_s, kind: EventKind::OtherMode, words });
                 }
             }
             before = Some(name);
         }
         if before.is_some() && self.modes.is_none() {
             notes.push("modes are not read: no message says that this is a copter or a rover".into());
+        }
+        if self.events.iter().all(|event| event.kind != EventKind::MissionBegins) {
+            self.events.extend(others);
         }
         self.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
         (self.events, notes)

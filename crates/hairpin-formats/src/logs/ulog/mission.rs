@@ -102,6 +102,8 @@ pub(super) struct Flown {
     items: Vec<(f64, u32)>,
     targets: Vec<(f64, Geodetic)>,
     events: Vec<Event>,
+    /// Modes that are no mission's.
+    others: Vec<Event>,
 }
 
 impl Flown {
@@ -146,6 +148,8 @@ impl Flown {
                     }
                     if FLOWN.contains(&now) {
                         self.tell(t_s, EventKind::MissionBegins, words);
+                    } else if self.others.len() < MOST {
+                        self.others.push(Event { t_s, kind: EventKind::OtherMode, words });
                     }
                 }
                 *last = Some(now);
@@ -189,6 +193,9 @@ impl Flown {
     }
 
     pub(super) fn into_events(mut self) -> Vec<Event> {
+        if self.events.iter().all(|event| event.kind != EventKind::MissionBegins) {
+            self.events.append(&mut self.others);
+        }
         self.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
         self.events
     }

@@ -61,16 +61,9 @@ impl<'a> Programs<'a> {
     /// Those of `against`, if they are an arm's.
     ///
     /// # Errors
-    /// What is asked of logs that say nothing of an arm's frame; the folder's files are broken.
-    pub(super) fn of(against: &'a Ready, settings: &LogSettings) -> Result<Option<Self>, Problem> {
+    /// The folder's files are broken.
+    pub(super) fn of(against: &'a Ready) -> Result<Option<Self>, Problem> {
         let Some(arm) = arm_of(&against.setup) else { return Ok(None) };
-        let named = settings.frame.turn_deg != 0.0 || settings.frame.offset_m != [0.0; 3];
-        let (worlds, frames) = (settings.world.is_some(), "an arm's log is in its base's frame");
-        for (asked, what) in [(worlds, "--world: what an arm must not meet is its cell's"), (named, frames)] {
-            if asked {
-                return Err(Problem::input(format!("{what}; leave --world, --turn and --offset out")));
-            }
-        }
         let cases = against.cases.par_iter().map(|case| against.whole(case)).collect::<Result<Vec<Case>, Problem>>()?;
         Ok(Some(Self { arm, cases }))
     }

@@ -66,6 +66,11 @@ impl Say for BoatSetup {
         !(0..2).all(|axis| (0.0..=self.scenario.world.size_m[axis]).contains(&place[axis]))
     }
 
+    fn edge_distance(&self, place: &Point3<f64>, _: f64) -> f64 {
+        let beyond = |axis: usize| place[axis].min(self.scenario.world.size_m[axis] - place[axis]);
+        beyond(0).min(beyond(1))
+    }
+
     fn drawing(&self, _: &[Point3<f64>]) -> Drawing {
         drawing::waters(self)
     }

@@ -88,6 +88,10 @@ impl Say for DriveSetup {
         self.map.patch(place.x, place.y).is_err()
     }
 
+    fn edge_distance(&self, place: &Point3<f64>, within: f64) -> f64 {
+        self.map.edge_distance([place.x, place.y], within)
+    }
+
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing {
         drawing::ground(self, places)
     }

@@ -78,6 +78,10 @@ impl Say for FlightSetup {
         self.world.wall_distance(place) < 0.0
     }
 
+    fn edge_distance(&self, place: &Point3<f64>, _: f64) -> f64 {
+        self.world.wall_distance(place)
+    }
+
     fn drawing(&self, _: &[Point3<f64>]) -> Drawing {
         Drawing {
             low: Point3::origin(),

@@ -155,6 +155,15 @@ pub(in crate::campaign) trait Say {
     /// `place` in m, world frame; the origin of the robot, without its radius.
     fn is_outside(&self, place: &Point3<f64>) -> bool;
 
+    /// Distance (m) of `place` from the nearest one that is outside, for what may hide between the samples of a log;
+    /// +∞ where the world has no end.
+    ///
+    /// Signed: below 0 outside. Exact up to `within` m, and never less than that beyond. Changes by no more than the
+    /// way that the robot moves.
+    fn edge_distance(&self, _place: &Point3<f64>, _within: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// What stands around `places`; what only a case's environment has is last of its obstacles.
     fn drawing(&self, places: &[Point3<f64>]) -> Drawing;
 

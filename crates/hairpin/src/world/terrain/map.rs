@@ -165,6 +165,36 @@ impl ElevationMap {
         (low, [low[0] + (columns - 1) as f64 * cell[0], low[1] + (rows - 1) as f64 * cell[1]])
     }
 
+    /// Distance (m) of a place from the nearest one at which the ground is not known, below 0 there: beyond the extent
+    /// or around a hole. Exact up to `within` m, and never less than that beyond.
+    ///
+    /// A missing cell takes the height from all within two cells of it, in each axis: that box counts.
+    pub fn edge_distance(&self, place: [f64; 2], within: f64) -> f64 {
+        let (low, high) = self.extent();
+        let edge = |axis: usize| (place[axis] - low[axis]).min(high[axis] - place[axis]);
+        let least = edge(0).min(edge(1));
+        if self.holes == 0 || !self.filled.is_empty() {
+            return least;
+        }
+        let Grid { columns, rows, first_center, cell } = self.grid;
+        let near = |axis: usize, cells: usize| {
+            let (at, reach) = ((place[axis] - first_center[axis]) / cell[axis], within / cell[axis] + 2.0);
+            ((at - reach).floor().max(0.0) as usize)..=((at + reach).ceil().max(0.0) as usize).min(cells - 1)
+        };
+        let away = |axis: usize, index: usize| {
+            (place[axis] - first_center[axis] - index as f64 * cell[axis]).abs() - 2.0 * cell[axis]
+        };
+        // Holes farther than that are not looked for: what is told of them must not jump where they come near.
+        let mut least = least.min(within);
+        for row in near(1, rows) {
+            for column in near(0, columns).filter(|column| self.cell_height(row, *column).is_nan()) {
+                let (x, y) = (away(0, column), away(1, row));
+                least = least.min(libm::hypot(x.max(0.0), y.max(0.0)) + x.max(y).min(0.0));
+            }
+        }
+        least
+    }
+
     /// Height of the cell in `row` from the south and `column`, m; NaN in a hole.
     ///
     /// # Panics
