@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,109 @@ def test_what_closes_over_something_is_kept_as_its_name(cases, tmp_path):
     assert all(case.status in ("pass", "fail") for case in own)
     done = subprocess.run([BIN, "execute", tmp_path / "out", "--allow-commands"], capture_output=True, text=True)
     assert done.returncode != 0 and "go on from there" in done.stderr + done.stdout
+
+
+turning = lambda t_s, state, reference: {"v_m_s": [0.1 * factorial(3), 0.0, 0.0]}  # noqa: E731
+factorial = lambda n: 1 if n < 2 else n * factorial(n - 1)  # noqa: E731
+flat = lambda leg: 1.0  # noqa: E731
+NEVER, RANDOM = float("nan"), np.random.default_rng(1)
+draw = RANDOM.normal
+
+
+def even(n):
+    return n == 0 or odd(n - 1)
+
+
+def odd(n):
+    return n != 0 and even(n - 1)
+
+
+def mutual(t_s, state, reference):
+    return {"v_m_s": [0.5 if even(4) else 0.0, 0.0, 0.0]}
+
+
+renamed = mutual
+
+
+def by_another_name(t_s, state, reference):
+    return renamed(t_s, state, reference)
+
+
+class Maker:
+    def part(self):
+        return Part()
+
+
+@dataclass
+class Part(Maker):
+    speed: float = 0.5
+
+    def control(self, t_s, state, reference):
+        return {"v_m_s": [self.part().speed, 0.0, 0.0]}
+
+
+def control(t_s, state, reference):
+    return mutual(t_s, state, reference)
+
+
+def behind_control(t_s, state, reference):
+    return control(t_s, state, reference)
+
+
+def never(t_s, state, reference):
+    return {"v_m_s": [NEVER, 0.0, 0.0]}
+
+
+def drawn(t_s, state, reference):
+    return {"v_m_s": [draw(), 0.0, 0.0]}
+
+
+def counted(t_s, state, reference):
+    counted.turns += 1
+    return {"v_m_s": [counted.turns, 0.0, 0.0]}
+
+
+counted.turns = 0
+
+
+@hairpin.vectorised
+def score(legs):
+    return 2.0 * legs["turn_rad"]
+
+
+def run_alone(text):
+    space = {"__name__": "kept"}
+    exec(compile(text, "kept", "exec"), space)
+    return space
+
+
+def test_kept_files_answer_as_what_they_are_of():
+    for controller in (turning, mutual, by_another_name, Part, control):
+        ours = controller().control if isinstance(controller, type) else controller
+        kept = run_alone(source(controller))["control"]
+        assert kept(0.0, {}, {}) == ours(0.0, {}, {}), source(controller)
+    # One question, whose answer is another function of the same name in the file.
+    assert run_alone(source(score, "score"))["score"]({"turn_rad": 0.5}) == 1.0
+    assert run_alone(source(flat, "score"))["score"]({}) == 1.0
+
+
+def test_what_a_source_does_not_say_is_kept_as_a_name():
+    gain = 2.0
+
+    class Closed:
+        def control(self, t_s, state, reference):
+            return {"v_m_s": [gain, 0.0, 0.0]}
+
+    pair = (lambda t_s, state, reference: {"v_m_s": [0.0, 0.0, 0.0]}, lambda t_s, state, reference: {"v_m_s": [1.0, 0.0, 0.0]})
+    for controller in (never, drawn, counted, behind_control, Closed, pair[1]):
+        assert source(controller) is None, controller
+
+
+def test_lambdas_with_a_name_and_functions_that_use_each_other_are_flown(cases, tmp_path):
+    for number, controller in enumerate((turning, mutual)):
+        own = cases.execute(controller=controller, out=tmp_path / str(number)).judge()
+        assert all(case.status in ("pass", "fail", "inconclusive") for case in own), own.verdict
+    assert hairpin.generate("demo-quadrotor", score=flat, out=tmp_path / "score", values=SMALL).cases[0].score > 0.0
 
 
 def test_a_run_that_raises_is_its_own_failure(cases, tmp_path):
