@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+from hairpin._bridge import _answers  # noqa: E402
 from hairpin._callables import source  # noqa: E402
 
 BIN = os.environ["HAIRPIN_BIN"]
@@ -290,6 +291,48 @@ def test_executors_are_told_as_programs_are(cases, tmp_path):
     assert done.returncode == 4 and "lives in a Python process" in done.stdout + done.stderr + "".join(
         log.read_text() for log in (tmp_path / "out").glob("*.log")
     )
+
+
+def test_flights_may_be_told_in_the_words_of_the_protocol():
+    mission = {"type": "mission", "case": "0003", "run": 1, "waypoints_m": [[0, 0, 0], [1, 0, 0]]}
+    flown = {"t_s": [0.0, 1.0], "p_m": [[0, 0, 0], [1, 0, 0]]}
+
+    def answers(**given):
+        return list(_answers(mission, lambda asked: {**flown, **given}, "own"))
+
+    for given in ({"reason": "crash"}, {"ended": "crash"}, {"ended": "crash", "reason": "crash", "type": "end", "case": "0003", "run": 1}):
+        assert answers(**given)[-1] == {"type": "end", "reason": "crash"}
+    assert answers()[-1] == answers(reason=None)[-1] == {"type": "end", "reason": "done"}
+    for given, told in (
+        ({"reason": "stalled"}, "`reason` = 'stalled'"),
+        ({"reason": "crash", "ended": "done"}, "`reason` = 'crash'"),
+        ({"crashed": True}, "`key of the flight` = 'crashed'"),
+        ({"v_m_s2": [0, 0]}, "`key of the flight` = 'v_m_s2'"),
+        ({"case": "0004"}, "`case` = '0004': must be the mission's, '0003'"),
+        ({"type": "error", "message": "rotor lost"}, "rotor lost"),
+        ({"t_s": None}, "`t_s` = None"),
+    ):
+        assert [one["type"] for one in answers(**given)] == ["error"] and told in answers(**given)[0]["message"], given
+
+
+def test_columns_of_a_flight_that_have_names_go_by_them():
+    pandas = pytest.importorskip("pandas")
+    places = pandas.DataFrame([[1.0, 0.0, 2.0], [1.0, 5.0, 2.0]], columns=["y", "x", "z"])
+    mission = {"type": "mission", "case": "0000", "run": 0}
+
+    def first(p_m):
+        return next(iter(_answers(mission, lambda asked: {"t_s": [0.0, 1.0], "p_m": p_m}, "own")))
+
+    assert first(places)["p_m"] == [0.0, 1.0, 2.0] and first(places.to_numpy())["p_m"] == [1.0, 0.0, 2.0]
+    assert "p_m.columns" in first(places.rename(columns={"z": "down"}))["message"]
+
+
+def test_a_pose_with_keys_that_are_not_understood_is_refused():
+    mission = {"waypoints_m": [[0, 0, 0], [1, 0, 0]], "accept_m": 0.1, "time_limit_s": 9.0}
+    for pose, told in (({"p_m": [0, 0, 0], "v": [0, 0, 0]}, "'v'"), ({"q_wxyz": [1, 0, 0, 0]}, "q_wxyz")):
+        seen = hairpin.adversary(lambda s, a: s, reset=lambda m: 0, policy=lambda s, to: 0, pose=lambda s, pose=pose: pose, step_s=0.1)
+        with pytest.raises(hairpin.InputError, match=told):
+            seen(mission)
 
 
 def test_own_dynamics_meet_a_closed_form():
