@@ -3,12 +3,14 @@
 import os
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+from hairpin._bridge import _answers  # noqa: E402
 from hairpin._callables import source  # noqa: E402
 
 BIN = os.environ["HAIRPIN_BIN"]
@@ -91,6 +93,109 @@ def test_what_closes_over_something_is_kept_as_its_name(cases, tmp_path):
     assert all(case.status in ("pass", "fail") for case in own)
     done = subprocess.run([BIN, "execute", tmp_path / "out", "--allow-commands"], capture_output=True, text=True)
     assert done.returncode != 0 and "go on from there" in done.stderr + done.stdout
+
+
+turning = lambda t_s, state, reference: {"v_m_s": [0.1 * factorial(3), 0.0, 0.0]}  # noqa: E731
+factorial = lambda n: 1 if n < 2 else n * factorial(n - 1)  # noqa: E731
+flat = lambda leg: 1.0  # noqa: E731
+NEVER, RANDOM = float("nan"), np.random.default_rng(1)
+draw = RANDOM.normal
+
+
+def even(n):
+    return n == 0 or odd(n - 1)
+
+
+def odd(n):
+    return n != 0 and even(n - 1)
+
+
+def mutual(t_s, state, reference):
+    return {"v_m_s": [0.5 if even(4) else 0.0, 0.0, 0.0]}
+
+
+renamed = mutual
+
+
+def by_another_name(t_s, state, reference):
+    return renamed(t_s, state, reference)
+
+
+class Maker:
+    def part(self):
+        return Part()
+
+
+@dataclass
+class Part(Maker):
+    speed: float = 0.5
+
+    def control(self, t_s, state, reference):
+        return {"v_m_s": [self.part().speed, 0.0, 0.0]}
+
+
+def control(t_s, state, reference):
+    return mutual(t_s, state, reference)
+
+
+def behind_control(t_s, state, reference):
+    return control(t_s, state, reference)
+
+
+def never(t_s, state, reference):
+    return {"v_m_s": [NEVER, 0.0, 0.0]}
+
+
+def drawn(t_s, state, reference):
+    return {"v_m_s": [draw(), 0.0, 0.0]}
+
+
+def counted(t_s, state, reference):
+    counted.turns += 1
+    return {"v_m_s": [counted.turns, 0.0, 0.0]}
+
+
+counted.turns = 0
+
+
+@hairpin.vectorised
+def score(legs):
+    return 2.0 * legs["turn_rad"]
+
+
+def run_alone(text):
+    space = {"__name__": "kept"}
+    exec(compile(text, "kept", "exec"), space)
+    return space
+
+
+def test_kept_files_answer_as_what_they_are_of():
+    for controller in (turning, mutual, by_another_name, Part, control):
+        ours = controller().control if isinstance(controller, type) else controller
+        kept = run_alone(source(controller))["control"]
+        assert kept(0.0, {}, {}) == ours(0.0, {}, {}), source(controller)
+    # One question, whose answer is another function of the same name in the file.
+    assert run_alone(source(score, "score"))["score"]({"turn_rad": 0.5}) == 1.0
+    assert run_alone(source(flat, "score"))["score"]({}) == 1.0
+
+
+def test_what_a_source_does_not_say_is_kept_as_a_name():
+    gain = 2.0
+
+    class Closed:
+        def control(self, t_s, state, reference):
+            return {"v_m_s": [gain, 0.0, 0.0]}
+
+    pair = (lambda t_s, state, reference: {"v_m_s": [0.0, 0.0, 0.0]}, lambda t_s, state, reference: {"v_m_s": [1.0, 0.0, 0.0]})
+    for controller in (never, drawn, counted, behind_control, Closed, pair[1]):
+        assert source(controller) is None, controller
+
+
+def test_lambdas_with_a_name_and_functions_that_use_each_other_are_flown(cases, tmp_path):
+    for number, controller in enumerate((turning, mutual)):
+        own = cases.execute(controller=controller, out=tmp_path / str(number)).judge()
+        assert all(case.status in ("pass", "fail", "inconclusive") for case in own), own.verdict
+    assert hairpin.generate("demo-quadrotor", score=flat, out=tmp_path / "score", values=SMALL).cases[0].score > 0.0
 
 
 def test_a_run_that_raises_is_its_own_failure(cases, tmp_path):
@@ -186,6 +291,48 @@ def test_executors_are_told_as_programs_are(cases, tmp_path):
     assert done.returncode == 4 and "lives in a Python process" in done.stdout + done.stderr + "".join(
         log.read_text() for log in (tmp_path / "out").glob("*.log")
     )
+
+
+def test_flights_may_be_told_in_the_words_of_the_protocol():
+    mission = {"type": "mission", "case": "0003", "run": 1, "waypoints_m": [[0, 0, 0], [1, 0, 0]]}
+    flown = {"t_s": [0.0, 1.0], "p_m": [[0, 0, 0], [1, 0, 0]]}
+
+    def answers(**given):
+        return list(_answers(mission, lambda asked: {**flown, **given}, "own"))
+
+    for given in ({"reason": "crash"}, {"ended": "crash"}, {"ended": "crash", "reason": "crash", "type": "end", "case": "0003", "run": 1}):
+        assert answers(**given)[-1] == {"type": "end", "reason": "crash"}
+    assert answers()[-1] == answers(reason=None)[-1] == {"type": "end", "reason": "done"}
+    for given, told in (
+        ({"reason": "stalled"}, "`reason` = 'stalled'"),
+        ({"reason": "crash", "ended": "done"}, "`reason` = 'crash'"),
+        ({"crashed": True}, "`key of the flight` = 'crashed'"),
+        ({"v_m_s2": [0, 0]}, "`key of the flight` = 'v_m_s2'"),
+        ({"case": "0004"}, "`case` = '0004': must be the mission's, '0003'"),
+        ({"type": "error", "message": "rotor lost"}, "rotor lost"),
+        ({"t_s": None}, "`t_s` = None"),
+    ):
+        assert [one["type"] for one in answers(**given)] == ["error"] and told in answers(**given)[0]["message"], given
+
+
+def test_columns_of_a_flight_that_have_names_go_by_them():
+    pandas = pytest.importorskip("pandas")
+    places = pandas.DataFrame([[1.0, 0.0, 2.0], [1.0, 5.0, 2.0]], columns=["y", "x", "z"])
+    mission = {"type": "mission", "case": "0000", "run": 0}
+
+    def first(p_m):
+        return next(iter(_answers(mission, lambda asked: {"t_s": [0.0, 1.0], "p_m": p_m}, "own")))
+
+    assert first(places)["p_m"] == [0.0, 1.0, 2.0] and first(places.to_numpy())["p_m"] == [1.0, 0.0, 2.0]
+    assert "p_m.columns" in first(places.rename(columns={"z": "down"}))["message"]
+
+
+def test_a_pose_with_keys_that_are_not_understood_is_refused():
+    mission = {"waypoints_m": [[0, 0, 0], [1, 0, 0]], "accept_m": 0.1, "time_limit_s": 9.0}
+    for pose, told in (({"p_m": [0, 0, 0], "v": [0, 0, 0]}, "'v'"), ({"q_wxyz": [1, 0, 0, 0]}, "q_wxyz")):
+        seen = hairpin.adversary(lambda s, a: s, reset=lambda m: 0, policy=lambda s, to: 0, pose=lambda s, pose=pose: pose, step_s=0.1)
+        with pytest.raises(hairpin.InputError, match=told):
+            seen(mission)
 
 
 def test_own_dynamics_meet_a_closed_form():

@@ -1,5 +1,6 @@
 """`steer` and `max_load` of the package against the command, and against what they must be."""
 
+import collections
 import copy
 import csv
 import dataclasses
@@ -13,6 +14,8 @@ import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+from hairpin._clouds import cloud_file  # noqa: E402
+
 BIN = os.environ["HAIRPIN_BIN"]
 
 
@@ -179,3 +182,59 @@ def test_results_with_arrays_are_equal_by_their_fields():
     for one in (drive, drive.segments[0], case, run):
         with pytest.raises(TypeError, match=f"unhashable type: '{type(one).__name__}'"):
             hash(one)
+
+
+def test_drives_and_campaigns_are_equal_by_what_they_found(tmp_path):
+    one, two, other = (hairpin.steer("generic", queries=questions(3, seed)) for seed in (5, 5, 6))
+    assert one == two and one == pickle.loads(pickle.dumps(one)) and one != other and one != "drives" and one[0] == two[0]
+    with pytest.raises(TypeError, match="unhashable type: 'Drives'"):
+        hash(one)
+    assert hairpin.max_load([[0, 1], [1, 0]]) == hairpin.max_load([[0, 1], [1, 0]]) != hairpin.max_load([[0, 2], [1, 0]])
+    values = {"generate.search.cases": 1}
+    made = hairpin.generate("demo-quadrotor", out=tmp_path / "a", values=values)
+    again = pickle.loads(pickle.dumps(made))
+    assert made == again and hash(made) == hash(again) and {made: 1}[again] == 1
+    assert made != hairpin.generate("demo-quadrotor", out=tmp_path / "b", values=values)
+
+
+def test_queries_are_taken_by_the_names_of_their_columns():
+    asked = questions(6)
+    plain, names, order = hairpin.steer("generic", queries=asked), ["x", "y", "yaw", "k0", "kf"], [1, 0, 2, 4, 3]
+    swapped = [names[place] for place in order]
+    records = np.zeros(len(asked), dtype=[(name, float) for name in swapped])
+    for name, column in zip(names, asked.T, strict=True):
+        records[name] = column
+    Query = collections.namedtuple("Query", swapped)
+    given = [records, [Query(*row) for row in asked[:, order].tolist()]]
+    pandas, pyarrow = pytest.importorskip("pandas"), pytest.importorskip("pyarrow")
+    given += [pandas.DataFrame(asked[:, order], columns=swapped), pandas.DataFrame(asked), pandas.DataFrame(asked, columns=range(3, 8))]
+    given.append(pyarrow.table({name: records[name] for name in swapped}))
+    for queries in given:
+        assert hairpin.steer("generic", queries=queries) == plain, type(queries)
+    assert hairpin.steer("generic", queries=pandas.DataFrame(np.zeros((2, 8)) + 0.5)).ok.shape == (2,)
+    for columns in (["x", "y", "yaw", "k0", "k1"], ["x", "y", "yaw", "k0", "k0"], [1, 0, 2, 3, 4]):
+        with pytest.raises(hairpin.InputError, match="x, y, yaw, k0, kf") as found:
+            hairpin.steer("generic", queries=pandas.DataFrame(asked, columns=columns))
+        assert found.value.field == "queries.columns"
+
+
+def test_matrices_go_by_the_labels_of_their_rows():
+    pandas = pytest.importorskip("pandas")
+    costs = np.array([[0, 5, 1, 2], [9, 0, 3, 1], [2, 8, 0, 7], [4, 1, 6, 0.5]])
+    plain, rows, order = hairpin.max_load(costs), list("abcd"), [2, 0, 3, 1]
+    for index, columns in ((rows, [rows[place] for place in order]), (range(4), [str(place) for place in order]), (range(4), order)):
+        assert hairpin.max_load(pandas.DataFrame(costs[:, order], index=index, columns=columns)) == plain
+    for index, columns in ((rows, rows), (range(4), rows), (rows, range(4)), (range(1, 5), range(4))):
+        assert hairpin.max_load(pandas.DataFrame(costs, index=index, columns=columns)) == plain
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.max_load(pandas.DataFrame(costs, index=rows, columns=[*"abce"]))
+    assert (found.value.field, found.value.value) == ("matrix.columns", "'e'")
+
+
+def test_clouds_in_millimetres_are_not_taken_for_metres():
+    pandas = pytest.importorskip("pandas")
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.max_load(cloud=pandas.DataFrame([[300.0, 0.0, 300.0]], columns=["x_mm", "y_mm", "z_mm"]), cell="irb120")
+    assert found.value.field == "cloud.columns"
+    points = pandas.DataFrame([[0.0, 0.3, 0.4], [0.1, 0.35, 0.5]], columns=["y_m", "x_m", "z_m"])
+    assert cloud_file(points).read_text() == cloud_file([[0.3, 0.0, 0.4], [0.35, 0.1, 0.5]]).read_text()

@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from hairpin._asked import entry, finite, floats, function, unmasked, whole, word
+from hairpin._asked import entry, finite, floats, function, unmasked, whole, word, wrong
+from hairpin._labels import floats_by_name
 from hairpin._many import Together, takes_many
 from hairpin._scenario import texts
 
@@ -27,6 +28,16 @@ _OWNER = "HAIRPIN_PYTHON_EXECUTOR_OWNER"
 
 _executors: dict[str, Callable[..., Any]] = {}
 _lock = threading.Lock()
+
+_KEYS = ("t_s", "p_m", "q_wxyz", "v_m_s", "leg", "ended", "reason", "type", "case", "run")
+"""What is understood of a flight: arrays, how it ended, and what the protocol says beside them."""
+_ENDS = ("done", "time", "crash")
+_NAMES = {
+    "p_m": (("x", "y", "z"), ("x_m", "y_m", "z_m")),
+    "q_wxyz": (("w", "x", "y", "z"), ("qw", "qx", "qy", "qz"), ("q_w", "q_x", "q_y", "q_z")),
+    "v_m_s": (("x", "y", "z"), ("vx", "vy", "vz"), ("vx_m_s", "vy_m_s", "vz_m_s"), ("v_x", "v_y", "v_z")),
+}
+"""What columns may be called, where they have names."""
 
 
 @contextlib.contextmanager
@@ -92,15 +103,27 @@ def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -
         yield {"type": "ready", "protocol": 1, "name": name}
     elif message["type"] == "mission":
         try:
-            yield from _told(executor(message))
+            yield from _told(executor(message), message)
         except Exception as error:  # It is the user's code: what it raises is why there is no run.
             yield {"type": "error", "message": f"{type(error).__name__}: {error}"}
 
 
-def _told(flown: Any) -> Iterator[dict[str, Any]]:
+def _told(flown: Any, mission: dict[str, Any]) -> Iterator[dict[str, Any]]:
     if not isinstance(flown, Mapping):
         raise TypeError(f"{flown!r} is no dictionary, of the executor")
-    ended = word("ended", flown.get("ended", "done"), ("done", "time", "crash"))
+    if flown.get("type") == "error":
+        raise RuntimeError(str(flown.get("message", "it says no more")))
+    strange = next((key for key in flown if key not in _KEYS), None)
+    if strange is not None:
+        raise wrong("key of the flight", strange, f"one of {', '.join(_KEYS)}")
+    word("type", flown.get("type", "end"), ("end", "error"))
+    for key in ("case", "run"):
+        if key in flown and flown[key] != mission.get(key):
+            raise wrong(key, flown[key], f"the mission's, {mission.get(key)!r}")
+    missing = next((key for key in ("t_s", "p_m") if flown.get(key) is None), None)
+    if missing is not None:
+        raise wrong(missing, None, "an array of numbers")
+    ended = _end(flown)
     t_s, p_m = (_numbers(key, flown[key]) for key in ("t_s", "p_m"))
     if t_s.ndim != 1 or p_m.shape != (len(t_s), 3) or not len(t_s):
         raise ValueError(f"t_s of shape {t_s.shape} and p_m of shape {p_m.shape}: must be (n,) and (n, 3)")
@@ -117,9 +140,18 @@ def _told(flown: Any) -> Iterator[dict[str, Any]]:
     yield {"type": "end", "reason": ended}
 
 
+def _end(flown: Mapping[str, Any]) -> str:
+    """Why a flight is over, by our word or by the protocol's."""
+    told = [word(key, flown[key], _ENDS) for key in ("ended", "reason") if flown.get(key) is not None]
+    if len(set(told)) > 1:
+        raise wrong("reason", told[1], f"`ended`, which is {told[0]!r}, or left out")
+    return told[0] if told else "done"
+
+
 def _numbers(key: str, values: Any) -> Any:
     """An array of a flight; of what is masked or no number there is no flight."""
-    numbers = floats(key, values, "an array of numbers")
+    bound = "an array of numbers"
+    numbers = floats_by_name(key, values, bound, _NAMES[key]) if key in _NAMES else floats(key, values, bound)
     finite(key, numbers, "a finite number")
     return numbers
 

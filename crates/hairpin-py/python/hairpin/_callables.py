@@ -3,13 +3,8 @@ a campaign's folder, so that the command can go on with it where its source stan
 
 from __future__ import annotations
 
-import ast
-import builtins
 import copy
-import inspect
 import tempfile
-import textwrap
-import types
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol, Union
@@ -21,13 +16,13 @@ from hairpin._asked import floats, function, unmasked, wrong
 from hairpin._call import Brought
 from hairpin._many import takes_many
 from hairpin._scenario import texts, toml_value
+from hairpin._sources import source
 
 _NUMBERS = ("v_in_m_s", "v_out_m_s", "turn_rad", "length_m", "climb_m", "slope_in", "ground", "duration_s")
 _PLACES = ("from_m", "to_m", "start_m", "end_m")
 _LARGEST, _FINITE = 1e100, "a finite number, 1e100 at most in size"
 """Sums over a trajectory stay finite: as of files."""
 _OF_A_LEG = len(_NUMBERS) + 3 * len(_PLACES)
-_LITERALS = (bool, int, float, str, bytes, tuple, list, dict, type(None))
 
 
 class Controller(Protocol):
@@ -224,93 +219,3 @@ def _stub(given: Any, name: str, what: str) -> str:
         f"# Stands for {name}, a {what} that lives in a Python process: its source does not stand alone.\n"
         f"raise RuntimeError({f'this campaign was begun from Python with its own {what} {name}: go on from there, with the same {what}'!r})\n"
     )
-
-
-def source(given: Any, what: str = "controller") -> str | None:
-    """The text of a file that does what a callable does, if its source stands alone: imports, plain values and functions of its
-    module count, what it closes over does not; ``None`` where it does not.
-
-    >>> source(len) is None
-    True
-    """
-    whole = given if isinstance(given, types.FunctionType | type) else type(given)
-    if not isinstance(given, types.FunctionType | type):
-        # What an object holds is nowhere in its source.
-        return None
-    pieces: dict[str, str] = {}
-    if not _gather(whole, pieces):
-        return None
-    name = whole.__name__
-    lines = list(pieces.values())
-    if isinstance(whole, type):
-        lines.append(f"_own = {name}()\n")
-        lines.append(
-            f"def reset(mission):\n    global _own\n    _own = {name}()\n    if hasattr(_own, 'reset'):\n        _own.reset(mission)\n"
-        )
-        lines.append("def control(t_s, state, reference):\n    return _own.control(t_s, state, reference)\n")
-    elif what == "score" and takes_many(given):
-        # The command asks for one leg at a time.
-        lines.append(_ONE_BY_ONE.format(name=name))
-    else:
-        asked = "control" if what == "controller" else what
-        if name != asked:
-            lines.append(f"{asked} = {name}\n")
-        if takes_many(given):
-            lines.append(f"{asked}.hairpin_vectorised = True\n")
-    return "\n\n".join(lines)
-
-
-_ONE_BY_ONE = """import numpy as _np
-
-def _parts(leg):
-    parts = _np.asarray({name}({{key: _np.asarray([value], dtype=float) for key, value in leg.items()}}), dtype=float)
-    return parts if parts.ndim == 2 else _np.stack([parts, 0 * parts], axis=1)
-
-def score(leg):
-    return float(_parts(leg)[0, 0])
-
-def left(leg):
-    return float(_parts(leg)[0, 1])
-"""
-
-
-def _gather(thing: Any, pieces: dict[str, str]) -> bool:
-    """Adds the source of a function or class, after what it needs of its module; whether all of it is there."""
-    try:
-        text = textwrap.dedent(inspect.getsource(thing))
-        tree = ast.parse(text)
-    except (OSError, TypeError, SyntaxError):
-        return False
-    if isinstance(thing, types.FunctionType) and thing.__closure__:
-        return False
-    definition = tree.body[0]
-    if isinstance(definition, ast.FunctionDef | ast.ClassDef):
-        # Decorators of ours are none of the file's.
-        definition.decorator_list = [
-            d
-            for d in definition.decorator_list
-            if not (isinstance(d, ast.Name) and d.id == "vectorised")
-            and not (isinstance(d, ast.Attribute) and d.attr == "vectorised")
-        ]
-        text = ast.unparse(definition) + "\n"
-    if thing.__name__ in pieces:
-        return True
-    scope = thing.__globals__ if isinstance(thing, types.FunctionType) else vars(inspect.getmodule(thing) or builtins)
-    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - {thing.__name__}
-    for name in sorted(names & set(scope)):
-        value = scope[name]
-        if name in pieces or getattr(builtins, name, None) is value:
-            continue
-        if isinstance(value, types.ModuleType):
-            pieces[name] = f"import {value.__name__} as {name}\n"
-        elif isinstance(value, _LITERALS):
-            pieces[name] = f"{name} = {value!r}\n"
-        elif isinstance(value, types.FunctionType | type) and value.__module__ == getattr(thing, "__module__", None):
-            if not _gather(value, pieces):
-                return False
-        elif isinstance(value, types.FunctionType | types.BuiltinFunctionType | type):
-            pieces[name] = f"from {value.__module__} import {value.__qualname__} as {name}\n"
-        else:
-            return False
-    pieces[thing.__name__] = text
-    return True

@@ -19,6 +19,7 @@ from hairpin._errors import InputError
 from hairpin._many import takes_many
 from hairpin._picture import picture
 from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation, margin_of
+from hairpin._same import same
 from hairpin._scenario import sets_of
 from hairpin._tables import Table
 
@@ -102,6 +103,14 @@ class Campaign:
 
     def __repr__(self) -> str:
         return f"Campaign({str(self.folder)!r}: {self.verdict or f'{len(self)} cases'})"
+
+    def __eq__(self, other: object) -> bool:
+        if other.__class__ is not self.__class__ or not isinstance(other, Campaign):
+            return NotImplemented
+        return self.folder == other.folder and same(self._said, other._said) and same(self._facts, other._facts)
+
+    def __hash__(self) -> int:
+        return hash(self.folder)
 
     # Tables.
 

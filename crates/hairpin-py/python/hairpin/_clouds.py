@@ -12,10 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from hairpin._asked import finite, floats, shown, wrong
+from hairpin._asked import finite, shown, wrong
 from hairpin._errors import InputError
+from hairpin._labels import floats_by_name
 from hairpin._scenario import Robot, Scenario, sets_of, texts
 
+_PLACES = (("x", "y", "z"), ("x_m", "y_m", "z_m"))
+_NAMES = (*_PLACES, *((*place, *turn) for place in _PLACES for turn in (("q1", "q2", "q3", "q4"), ("qw", "qx", "qy", "qz"))))
+"""What columns may be called: millimetres are none of them."""
 _HEADS = {3: "x_mm,y_mm,z_mm", 7: "x_mm,y_mm,z_mm,q1,q2,q3,q4"}
 
 
@@ -28,7 +32,7 @@ def cloud_file(cloud: Any) -> Path:
     if isinstance(cloud, str | os.PathLike):
         return Path(cloud)
     bound = "an array (n, 3) or (n, 7) of finite numbers"
-    points = floats("cloud", cloud, bound)
+    points = floats_by_name("cloud", cloud, bound, _NAMES)
     if points.ndim != 2 or points.shape[1] not in _HEADS or not len(points):
         raise wrong("cloud", points, bound if points.size else f"{bound}, of one point or more")
     finite("cloud", points, "a finite number")

@@ -16,6 +16,7 @@ Floats = npt.NDArray[np.float64]
 Executor = Callable[[Any], Any]
 """Of a mission gives a flight; if it is marked by :func:`vectorised`, of a list of missions a list of flights."""
 _NUMBERS = "an array of numbers"
+_OF_A_POSE = ("p_m", "q_wxyz", "v_m_s")
 _MOST_STEPS = 10_000_000
 """Of a mission: few enough to be held in memory."""
 
@@ -164,6 +165,9 @@ def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, 
 
 def _posed(found: Any) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
+    strange = next((key for key in table if key not in _OF_A_POSE), None)
+    if strange is not None or "p_m" not in table:
+        raise wrong("pose", strange or list(table), f"a place, or a dictionary with p_m and of {', '.join(_OF_A_POSE[1:])} those that are known")
     # A copy: an environment may give the same array again and again.
     return {key: np.array(floats(key, value, _NUMBERS)) for key, value in table.items()}
 

@@ -17,6 +17,7 @@ from hairpin._call import Progress, replaces, waiting
 from hairpin._campaign import Campaign
 from hairpin._clouds import cell_of, cloud_file, of_the_cloud, sets_of_cell
 from hairpin._errors import InputError
+from hairpin._labels import square_by_label
 from hairpin._scenario import Robot, Scenario
 
 _EXACT = 2**53
@@ -51,7 +52,7 @@ class MaxLoad:
     feasible: bool | None
     paths: list[tuple[list[int], float]]
     method: str
-    time_s: float
+    time_s: float = field(compare=False)
     reason: str | None = None
     unit: str | None = None
     campaign: Campaign | None = None
@@ -84,7 +85,8 @@ def max_load(
     Args:
         matrix: costs, shape (n, n), row = from, column = to, ≥ 0; NaN: no arc. The diagonal has no meaning. Decimals become whole
             numbers exactly, all times the same power of ten; for the 17 digits of computed ones there is mostly no room: ``np.round``
-            them. Each is below 2⁵³, from where on numbers of floating point leave whole numbers out.
+            them. Each is below 2⁵³, from where on numbers of floating point leave whole numbers out. Where rows and columns have labels,
+            columns are taken in the order of the rows, and points are counted by rows.
         cloud: an arm's points in its base's frame, shape (n, 3), m, or (n, 7) with the tool's orientation as a unit quaternion w, x,
             y, z; or a file as `--cloud` takes it (CSV in mm, a RAPID module). Decimals become those of millimetres exactly.
         cell: with `cloud`: the arm, or the scenario around it.
@@ -142,6 +144,7 @@ def max_load(
         except InputError as error:
             raise of_the_cloud(error, cloud) from None
     _only_of("cloud", cell=cell, values=values, out=out, if_there=None if if_there == "refuse" else if_there)
+    matrix = square_by_label("matrix", matrix)
     table, points = _table(matrix, start=wanted.start, end=wanted.end)
     try:
         return _of_matrix(_native.max_load(table, points, wanted, who))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, overload
 
@@ -16,7 +16,8 @@ from hairpin import _native
 from hairpin._asked import Floats, flag, floats, place_or_none, real, vector, wrong
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
-from hairpin._same import Same
+from hairpin._labels import floats_by_name
+from hairpin._same import Same, same
 from hairpin._scenario import Robot, described
 
 STATUSES = ("ok", "infeasible", "not_converged", "time_limit", "invalid")
@@ -118,7 +119,7 @@ class Drive(Same):
     errors: Floats
     max_curvature_1_m: float
     iterations: int
-    time_us: float
+    time_us: float = field(compare=False)
 
     def __bool__(self) -> bool:
         return self.status == "ok"
@@ -165,6 +166,14 @@ class Drives:
     def ok(self) -> npt.NDArray[np.bool_]:
         """Which have a drive that keeps every limit, shape (n,)."""
         return self.status_code == 0
+
+    def __eq__(self, other: object) -> bool:
+        if other.__class__ is not self.__class__:
+            return NotImplemented
+        names = ("status_code", "iterations", "length_m", "errors", "max_curvature_1_m", "excess", "segments", "limit")
+        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __len__(self) -> int:
         return len(self.status_code)
@@ -274,7 +283,8 @@ def steer(
     Args:
         rover: a shipped vehicle's name (``generic``: |κ| ≤ 1 1/m, |κ′| ≤ 1 1/m²), a robot file, or a :class:`Robot`.
         queries: questions, shape (n, 5), columns x, y (m), yaw (rad), k0, kf (1/m), from the origin; or (n, 8), behind the start
-            on the map sx, sy (m), syaw (rad). A row that is no question has the status ``invalid``.
+            on the map sx, sy (m), syaw (rad). A row that is no question has the status ``invalid``. Columns that have names (of
+            pandas, Polars, Arrow, a structured array) are taken by these, in whatever order.
         x, y, yaw: the goal as the start sees it: ahead (m), to the left (m), turned left (rad). Of one question.
         k0, kf: curvature at start and goal, 1/m, left positive; 0 if not given. Of one question.
         start: x, y (m) and yaw (rad) of the start on the map.
@@ -321,19 +331,20 @@ def steer(
         missing = next((name for name, value in goal.items() if value is None), None)
         if missing is not None:
             raise wrong(missing, None, "given, or `queries`")
+        across = 0
         table = _question(start, {**goal, "k0": 0.0 if k0 is None else k0, "kf": 0.0 if kf is None else kf})
     else:
         given = next((name for name, value in one.items() if value is not None), None)
         if given is not None:
             raise wrong(given, one[given], "left out where `queries` asks")
-        table = _table(queries)
+        table, across = _table(queries)
     try:
         vehicle = _native.Vehicle(robot.path(), files, may, _limit_s(time_limit_ms))
     except InputError as error:
         if not error.field:
             error.field, error.value = "rover", robot.path()
         raise
-    on_map = start is not None or (queries is not None and np.shape(queries)[-1] == len(_ON_MAP))
+    on_map = start is not None or (queries is not None and across == len(_ON_MAP))
     drives = Drives(*vehicle.answer(np.ascontiguousarray(table).tobytes(), on_map, common, waiting(threads, progress)))
     if queries is not None:
         return drives
@@ -371,11 +382,12 @@ def _question(start: Any, asked: dict[str, Any]) -> Floats:
     return np.array([[*begin, *(real(name, value) for name, value in asked.items())]])
 
 
-def _table(queries: npt.ArrayLike) -> Floats:
+def _table(queries: npt.ArrayLike) -> tuple[Floats, int]:
+    """Questions behind their starts, and how many columns were given."""
     bound = "an array of numbers, (n, 5) with x, y, yaw, k0, kf, or (n, 8) with sx, sy, syaw before them"
-    table = floats("queries", queries, bound)
+    table = floats_by_name("queries", queries, bound, (_COLUMNS, _ON_MAP))
     if table.ndim != 2 or table.shape[1] not in (len(_COLUMNS), len(_ON_MAP)):
         raise wrong("queries", table, bound)
     if table.shape[1] == len(_ON_MAP):
-        return table
-    return np.concatenate([np.zeros((len(table), 3)), table], axis=1)
+        return table, len(_ON_MAP)
+    return np.concatenate([np.zeros((len(table), 3)), table], axis=1), len(_COLUMNS)
