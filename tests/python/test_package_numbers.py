@@ -14,7 +14,9 @@ import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
+from hairpin._campaign import _listed  # noqa: E402
 from hairpin._clouds import cloud_file  # noqa: E402
+from hairpin._labels import row_by_name  # noqa: E402
 
 BIN = os.environ["HAIRPIN_BIN"]
 
@@ -238,3 +240,20 @@ def test_clouds_in_millimetres_are_not_taken_for_metres():
     assert found.value.field == "cloud.columns"
     points = pandas.DataFrame([[0.0, 0.3, 0.4], [0.1, 0.35, 0.5]], columns=["y_m", "x_m", "z_m"])
     assert cloud_file(points).read_text() == cloud_file([[0.3, 0.0, 0.4], [0.35, 0.1, 0.5]]).read_text()
+
+
+def test_one_row_with_names_goes_by_them():
+    pandas = pytest.importorskip("pandas")
+    asked, terrain = {"x": 4.0, "y": 1.0, "yaw": 0.5}, (2.0, 3.0, 0.25)
+    plain = hairpin.steer("generic", **asked, start=terrain)
+    Start = collections.namedtuple("Start", ["yaw", "x", "y"])
+    for start in (pandas.Series({"yaw": 0.25, "x": 2.0, "y": 3.0}), Start(0.25, 2.0, 3.0), pandas.Series(terrain)):
+        assert row_by_name("start", start, (("x", "y", "yaw"),))[0] == 2.0
+        assert hairpin.steer("generic", **asked, start=start) == plain
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.steer("generic", **asked, start=pandas.Series({"lat": 2.0, "lon": 3.0, "yaw": 0.25}))
+    assert found.value.field == "start.index"
+    # Sorted answers are those of other runs.
+    with pytest.raises(hairpin.InputError, match="judge.index"):
+        _listed(pandas.Series([3.0, 1.0, 2.0]).sort_values())
+    assert _listed(pandas.Series([3.0, 1.0])) == [3.0, 1.0]

@@ -16,6 +16,7 @@ from hairpin import _native
 from hairpin._asked import function, place, place_or_none, seconds, whole, wrong
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
+from hairpin._labels import labels_of
 from hairpin._many import takes_many
 from hairpin._picture import picture
 from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation, margin_of
@@ -336,6 +337,10 @@ def _case(one: Mapping[str, Any]) -> Case:
 def _listed(answers: Any) -> list[Any]:
     if not isinstance(answers, Iterable):
         raise TypeError(f"{answers!r} is no list of answers, of the judge")
+    labels = labels_of(answers)
+    if labels is not None and not isinstance(answers, tuple):
+        # Sorted, say: whose answer is whose is told by labels of which the runs know nothing.
+        raise wrong("judge.index", labels, "numbers that rise, in the order of the runs")
     return list(answers)
 
 

@@ -167,7 +167,8 @@ def _posed(found: Any) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
     strange = next((key for key in table if key not in _OF_A_POSE), None)
     if strange is not None or "p_m" not in table:
-        raise wrong("pose", strange or list(table), f"a place, or a dictionary with p_m and of {', '.join(_OF_A_POSE[1:])} those that are known")
+        bound = "a place, or a dictionary with p_m and, if they are known, q_wxyz and v_m_s"
+        raise wrong("pose", strange or list(table), bound)
     # A copy: an environment may give the same array again and again.
     return {key: np.array(floats(key, value, _NUMBERS)) for key, value in table.items()}
 

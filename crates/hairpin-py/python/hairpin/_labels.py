@@ -47,6 +47,26 @@ def floats_by_name(name: str, value: Any, bound: str, known: Sequence[Sequence[s
     return np.stack([floats(f"{name}.{one}", value[one], bound) for one in wanted], axis=1)
 
 
+def row_by_name(name: str, value: Any, known: Sequence[Sequence[str]]) -> Any:
+    """The same for one row: a series or a named tuple."""
+    names = labels_of(value)
+    if names is None:
+        return value
+    wanted = next((one for one in known if sorted(one) == sorted(map(str, names))), None)
+    if wanted is None:
+        raise wrong(f"{name}.index", names, f"{' or '.join(', '.join(one) for one in known)}, in whatever order")
+    entries = list(value)
+    return [entries[names.index(one)] for one in wanted]
+
+
+def labels_of(value: Any) -> list[Any] | None:
+    """Labels of a series' or a named tuple's entries; ``None`` where there are none, or rising numbers alone."""
+    if isinstance(value, tuple):
+        return list(value._fields) if hasattr(value, "_fields") else None
+    labels = getattr(getattr(value, "index", None), "tolist", None)
+    return None if labels is None or hasattr(value, "columns") else _told(labels())
+
+
 def square_by_label(name: str, value: Any) -> Any:
     """A square table, whose columns stand in the order of its rows where both have labels."""
     rows = getattr(getattr(value, "index", None), "tolist", None)

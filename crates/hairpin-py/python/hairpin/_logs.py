@@ -13,7 +13,11 @@ from hairpin import _native
 from hairpin._asked import place, place_or_none, real, text, vector, whole
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
+from hairpin._labels import row_by_name
 from hairpin._scenario import sets_of
+
+
+_AXES = (("x", "y", "z"), ("x_m", "y_m", "z_m"))
 
 
 @dataclass(frozen=True)
@@ -111,7 +115,7 @@ def judge_log(
         case=case if case is None or isinstance(case, str) else f"{whole('case', case, 0):04}",
         source=None if source is None else text("source", source),
         turn_deg=real("turn_deg", turn_deg),
-        offset_m=vector("offset_m", offset_m, "three finite numbers", 3),
+        offset_m=vector("offset_m", row_by_name("offset_m", offset_m, _AXES), "three finite numbers", 3),
         amsl=altitude == "amsl",
         from_s=None if from_s is None else real("from_s", from_s),
         to_s=None if to_s is None else real("to_s", to_s),

@@ -16,7 +16,7 @@ from hairpin import _native
 from hairpin._asked import Floats, flag, floats, place_or_none, real, vector, wrong
 from hairpin._call import Progress, waiting
 from hairpin._errors import InputError
-from hairpin._labels import floats_by_name
+from hairpin._labels import floats_by_name, row_by_name
 from hairpin._same import Same, same
 from hairpin._scenario import Robot, described
 
@@ -378,7 +378,8 @@ def _limit_s(limit_ms: float | None) -> float | None:
 
 
 def _question(start: Any, asked: dict[str, Any]) -> Floats:
-    begin = [0.0, 0.0, 0.0] if start is None else vector("start", start, "x, y, yaw, three finite numbers", 3)
+    given = row_by_name("start", start, (_ON_MAP[3:6], _ON_MAP[:3]))
+    begin = [0.0, 0.0, 0.0] if start is None else vector("start", given, "x, y, yaw, three finite numbers", 3)
     return np.array([[*begin, *(real(name, value) for name, value in asked.items())]])
 
 
