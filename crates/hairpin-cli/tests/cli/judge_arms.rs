@@ -137,6 +137,8 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
         &["joint_", " rad, ", "its range is ", "another unit"],
     );
     refused(here, &["judge", "night.mcap", "--campaign", "out", "--turn", "90"], &["its base's frame"]);
+    let words = ["--world: what an arm must not meet is its cell's; leave --world"];
+    refused(here, &["judge", "night.mcap", "--campaign", "out", "--world", "cage-30m"], &words);
     fs::write(here.join("odom.mcap"), odometry(&ran, "map")).unwrap();
     refused(here, &["judge", "odom.mcap", "--campaign", "out"], &["without joints"]);
     assert_eq!(fs::read_to_string(here.join("out/scenario.toml")).unwrap(), scenario);

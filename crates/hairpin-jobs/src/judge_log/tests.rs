@@ -13,6 +13,7 @@ use tempfile::TempDir;
 use super::against::Ready;
 use super::*;
 
+mod open;
 mod unflown;
 
 const SPEED: f64 = 5.0;

@@ -188,18 +188,13 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             )
         }
         Why::Between { .. } => {
-            let why = match found.flown.as_ref().and_then(|flown| flown.exceeded) {
-                Some(exceeded) => format!(
-                    ": its own log has {} where at most {} are bounds of it, which hold no more",
-                    in_numbers(&exceeded, exceeded.seen),
-                    in_numbers(&exceeded, exceeded.bound),
-                ),
-                None => ": of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does".into(),
-            };
+            let why = found.flown.as_ref().and_then(|flown| flown.exceeded).map_or_else(
+                || ": of what is on wheels its file does with `limits.speed_m_s`, of a boat nothing does".to_owned(),
+                |exceeded| format!(": {}", in_numbers(&exceeded)),
+            );
             let rate = found.source.rate_hz;
-            format!(
-                "{value} in samples at {rate:.0} Hz, but nothing bounds how fast the robot moves between two of them{why}"
-            )
+            let nothing = "nothing bounds how fast the robot moves between two of them";
+            format!("{value} in samples at {rate:.0} Hz, but {nothing}{why}")
         }
         Why::Begin { before } => {
             let why = match before {
@@ -211,17 +206,19 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
     }
 }
 
-fn in_numbers(exceeded: &Exceeded, value: f64) -> String {
+/// `the log's own speed of 40.0 m/s is beyond the robot's 18.0 m/s`.
+fn in_numbers(exceeded: &Exceeded) -> String {
     let Exceeded { what, seen, bound, unit } = *exceeded;
     // As many decimals as tell one from the other.
     let decimals = (1..=6).find(|d| format!("{seen:.d$}", d = *d) != format!("{bound:.d$}", d = *d)).unwrap_or(6);
-    format!("{what} {value:.decimals$} {unit}")
+    format!("the log's own {what} of {seen:.decimals$} {unit} is beyond the robot's {bound:.decimals$} {unit}")
 }
 
 fn bounds(flown: &Flown) -> String {
     let speed = flown.swiftness.speed.map(|v| format!("speed ≤ {v:.1} m/s"));
     let acceleration = flown.swiftness.acceleration.map(|a| format!("acceleration ≤ {a:.1} m/s²"));
-    let parts: Vec<String> = speed.into_iter().chain(acceleration).collect();
+    let exceeded = flown.exceeded.as_ref().map(in_numbers);
+    let parts: Vec<String> = speed.into_iter().chain(acceleration).chain(exceeded).collect();
     if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
 }
 

@@ -80,6 +80,27 @@ fn a_flight_is_read_in_east_north_up() {
 }
 
 #[test]
+fn modes_of_a_log_without_a_mission_are_told() {
+    let modes = |modes: &[u8]| {
+        let mut log = Ulog::new();
+        log.message(b'F', POSITION.as_bytes());
+        log.message(b'F', b"vehicle_status:uint64_t timestamp;uint8_t nav_state;bool failsafe;");
+        log.subscribe(0, 0, "vehicle_local_position");
+        log.subscribe(0, 1, "vehicle_status");
+        for (i, mode) in modes.iter().enumerate() {
+            let t_us = i as u64 * 100_000;
+            log.data(0, &[&at(t_us, [0.0; 3]).bytes()]);
+            log.data(1, &[&t_us.to_le_bytes(), &[*mode, 0]]);
+        }
+        parsed(&log.0).events
+    };
+    let told =
+        [event(0.0, EventKind::OtherMode, "nav_state POSCTL"), event(0.2, EventKind::OtherMode, "nav_state MANUAL")];
+    assert_eq!(modes(&[2, 2, 0]), told);
+    assert_eq!(modes(&[2, 3]), [event(0.1, EventKind::MissionBegins, "nav_state AUTO_MISSION")]);
+}
+
+#[test]
 fn jumps_and_what_is_no_estimate_are_told() {
     let delta = [1.0, -2.0, 0.5, 0.3];
     let log = positions(&[

@@ -76,6 +76,16 @@ fn holes_are_refused_kept_out_or_filled_as_asked() {
     let kept = ElevationMap::new(grid, &heights, HoleRule::KeepOut).expect("a map");
     assert!(matches!(kept.patch(1.5, 2.5), Err(NoGround::Hole { .. })));
     assert!(kept.patch(0.5, 0.5).is_ok());
+    // Unknown from two cells before the first hole to two behind the last: x 0.8 … 2.1 m, y 1.8 … 3.1 m.
+    for (place, wanted) in [([0.5, 2.5], 0.3), ([0.5, 0.4], 0.4), ([0.4, 3.0], 0.4), ([0.1, 2.0], 0.1)] {
+        let found = kept.edge_distance(place, 10.0);
+        assert!((found - wanted).abs() < 1e-9, "{found} at {place:?}");
+    }
+    let corner = kept.edge_distance([2.4, 1.4], 10.0);
+    assert!((corner - 0.5).abs() < 1e-9, "{corner}");
+    assert!(kept.edge_distance([1.5, 2.5], 1.0) < 0.0 && kept.edge_distance([-0.2, 1.0], 1.0) < 0.0);
+    // Farther holes are not looked for, and what is told then is no more than asked.
+    assert!((kept.edge_distance([0.5, 2.5], 0.2) - 0.2).abs() < 1e-9);
     let filled = ElevationMap::new(grid, &heights, HoleRule::Fill).expect("a map");
     // The membrane over a hole in a plane is the plane.
     let patch = filled.patch(1.5, 2.45).expect("ground");
