@@ -128,6 +128,8 @@ fn program_object(found: &FoundProgram) -> Value {
             "leg_worst": m.leg_worst,
             "latest": m.latest.map(|late| json!({ "late_s": late.by, "t_s": late.at, "leg": late.leg })),
             "late_s": m.legs.iter().map(|leg| leg.lateness).collect::<Vec<_>>(),
+            "late_between_s": found.late_between,
+            "not_excluded_m": found.not_excluded_m,
             "total_time_s": m.total_time,
             "violations": found.result.violations.iter().map(violation).collect::<Vec<_>>(),
         })),
