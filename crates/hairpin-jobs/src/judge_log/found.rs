@@ -107,6 +107,8 @@ pub struct JudgedLogs {
     pub logs: Vec<JudgedLog>,
     /// The line with counts, of a folder.
     pub count: Option<Verdict>,
+    /// Files of a folder that by their names are no recordings but what was planned.
+    pub left_out: Vec<PathBuf>,
 }
 
 impl JudgedLogs {
