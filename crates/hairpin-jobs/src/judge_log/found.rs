@@ -94,7 +94,8 @@ pub struct Found {
     pub missed: Option<Missed>,
     /// What it was measured to be; `None` where nothing is left to measure.
     pub flown: Option<Flown>,
-    /// The largest deviation of the same case in simulation, m, where that was judged.
+    /// The largest deviation of the same case in simulation, m, where that was judged; of a log whose legs are assigned
+    /// with its legs assigned as well, where its motion is to be had.
     pub simulated_m: Option<f64>,
     /// What else its reader should know.
     pub notes: Vec<String>,

@@ -447,6 +447,16 @@ fn a_folder_with_a_broken_log_judges_the_others() {
 }
 
 #[test]
+fn a_limit_between_told_legs_and_assigned_ones_is_told() {
+    let told = |pair: [Option<f64>; 2], limit: f64| super::told::told_otherwise(pair, Some(limit));
+    let words = told([Some(0.8), Some(1.67)], 1.0).unwrap();
+    assert!(words.contains("0.80 m off") && words.contains("told 1.67 m") && words.contains("1.00 m lies between"));
+    assert_eq!(told([Some(0.8), Some(1.67)], 0.7), None);
+    assert_eq!(told([Some(0.8), Some(1.67)], 2.0), None);
+    assert_eq!(told([None, Some(1.67)], 1.0), None);
+}
+
+#[test]
 fn a_gap_of_nothing_has_no_sign_of_less() {
     let told = |gap: f64| format!("{:+.2}", super::told::hundredths(gap));
     assert_eq!([-0.004, 0.004, -0.006, 1.234].map(told), ["+0.00", "+0.00", "-0.01", "+1.23"]);

@@ -286,6 +286,18 @@ impl Found {
     }
 }
 
+/// What is said of a limit that the case keeps in simulation by legs that are assigned, and not by those that it was
+/// told to fly: with the least distance in view, assigned ones are the kinder.
+pub(super) fn told_otherwise([assigned, told]: [Option<f64>; 2], limit: Option<f64>) -> Option<String> {
+    let (assigned, told, limit) = (assigned?, told?, limit?);
+    (assigned <= limit && limit < told).then(|| {
+        format!(
+            "the log tells no legs: by assigned ones the case in simulation is {assigned:.2} m off, by those that its executor told {told:.2} m, \
+             and the limit of {limit:.2} m lies between"
+        )
+    })
+}
+
 /// `value` to its second decimal, nothing without a sign of less.
 pub(super) fn hundredths(value: f64) -> f64 {
     (100.0 * value).round() / 100.0 + 0.0
