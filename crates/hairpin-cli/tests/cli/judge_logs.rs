@@ -66,7 +66,7 @@ fn an_exported_flight_is_judged_as_the_campaign_judged_it() {
         let assigned = of(&log["measures"]["max_deviation_m"]);
         assert!(assigned <= flown + 1e-3 && assigned > 0.5 * flown, "{assigned} {flown}");
         // The same motion has no gap to itself: the simulation's legs are assigned as the log's are.
-        assert!(of(&log["gap_m"]).abs() < 2e-4, "{log}");
+        assert!(of(&log["gap_m"]).abs() < 1e-3, "{log}");
         assert_eq!(log["aligned"], false);
     }
 }
