@@ -93,6 +93,7 @@ pub fn object(judged: &JudgedLogs) -> Value {
             "inconclusive": count("inconclusive"), "invalid": count("invalid"), "unjudged": count("unjudged"),
         },
         "logs": judged.logs.iter().map(log).collect::<Vec<_>>(),
+        "left_out": judged.left_out,
     })
 }
 
@@ -128,6 +129,8 @@ fn program_object(found: &FoundProgram) -> Value {
             "leg_worst": m.leg_worst,
             "latest": m.latest.map(|late| json!({ "late_s": late.by, "t_s": late.at, "leg": late.leg })),
             "late_s": m.legs.iter().map(|leg| leg.lateness).collect::<Vec<_>>(),
+            "late_between_s": found.late_between,
+            "not_excluded_m": found.not_excluded_m,
             "total_time_s": m.total_time,
             "violations": found.result.violations.iter().map(violation).collect::<Vec<_>>(),
         })),

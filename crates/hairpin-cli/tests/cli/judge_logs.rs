@@ -65,6 +65,8 @@ fn an_exported_flight_is_judged_as_the_campaign_judged_it() {
         assert_eq!((&log["case"], log["legs_by"].as_str()), (&case.into(), Some("assigned")), "{log}");
         let assigned = of(&log["measures"]["max_deviation_m"]);
         assert!(assigned <= flown + 1e-3 && assigned > 0.5 * flown, "{assigned} {flown}");
+        // The same motion has no gap to itself: the simulation's legs are assigned as the log's are.
+        assert!(of(&log["gap_m"]).abs() < 1e-3, "{log}");
         assert_eq!(log["aligned"], false);
     }
 }

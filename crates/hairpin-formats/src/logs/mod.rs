@@ -20,6 +20,8 @@ use std::path::Path;
 pub use error::{LogError, MOST_SAMPLES, Place};
 pub use log::{Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span};
 
+pub use text::is_planned;
+
 use crate::bounds;
 use detect::Format;
 use error::Fault;

@@ -96,7 +96,8 @@ pub struct Found {
     pub never_began: Option<String>,
     /// What it was measured to be; `None` where nothing is left to measure.
     pub flown: Option<Flown>,
-    /// The largest deviation of the same case in simulation, m, where that was judged.
+    /// The largest deviation of the same case in simulation, m, where that was judged; of a log whose legs are assigned
+    /// with its legs assigned as well, where its motion is to be had.
     pub simulated_m: Option<f64>,
     /// What else its reader should know.
     pub notes: Vec<String>,
@@ -109,6 +110,8 @@ pub struct JudgedLogs {
     pub logs: Vec<JudgedLog>,
     /// The line with counts, of a folder.
     pub count: Option<Verdict>,
+    /// Files of a folder that by their names are no recordings but what was planned.
+    pub left_out: Vec<PathBuf>,
 }
 
 impl JudgedLogs {

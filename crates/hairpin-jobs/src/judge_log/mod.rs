@@ -33,6 +33,8 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
+use hairpin_formats::logs::is_planned;
+
 use crate::{Problem, Watch};
 
 pub use arm::{FoundProgram, JointsTold};
@@ -77,7 +79,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
     let judged = if settings.path.is_dir() {
         judge_folder(&settings.path, &judge, watch)?
     } else {
-        JudgedLogs { logs: vec![judge(&settings.path)?], count: None }
+        JudgedLogs { logs: vec![judge(&settings.path)?], count: None, left_out: Vec::new() }
     };
     if let Some(file) = &settings.page {
         page::write(file, &judged, &against)?;
@@ -91,7 +93,8 @@ fn judge_folder(
     watch: &dyn Watch,
 ) -> Result<JudgedLogs, Problem> {
     let mut logs = Vec::new();
-    for file in files_in(folder)? {
+    let (files, left_out) = files_in(folder)?;
+    for file in files {
         if watch.stopped() {
             return Err(Problem::Interrupted(format!("stopped after {} logs", logs.len())));
         }
@@ -100,16 +103,17 @@ fn judge_folder(
             Err(problem) => told::unreadable(&file, &problem),
         });
     }
-    let count = told::count(folder, &logs);
-    Ok(JudgedLogs { logs, count: Some(count) })
+    let count = told::count(folder, &logs, &left_out);
+    Ok(JudgedLogs { logs, count: Some(count), left_out })
 }
 
 /// Endings of what lies beside logs and is none.
 const NO_LOGS: &[&str] =
     &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
 
-/// The files of a folder, but for hidden ones and what is no log by its ending.
-fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Problem> {
+/// The files of a folder, but for hidden ones and what is no log by its ending; and those that by their names were
+/// planned and did not move.
+fn files_in(folder: &Path) -> Result<(Vec<PathBuf>, Vec<PathBuf>), Problem> {
     let refuse = |cause| Problem::of_file(folder, cause);
     let entries = std::fs::read_dir(folder).map_err(refuse)?;
     let paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
@@ -118,10 +122,13 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Problem> {
         let (name, ending) = (part(path.file_name()), part(path.extension()));
         path.is_file() && !name.starts_with('.') && !NO_LOGS.contains(&ending.as_str())
     };
-    let mut logs: Vec<PathBuf> = paths.into_iter().filter(is_log).collect();
-    logs.sort();
+    let mut files: Vec<PathBuf> = paths.into_iter().filter(is_log).collect();
+    files.sort();
+    let (planned, logs): (Vec<PathBuf>, Vec<PathBuf>) =
+        files.into_iter().partition(|file| is_planned(&told::file_name(file)));
     if logs.is_empty() {
-        return Err(Problem::of_file(folder, "no log in it"));
+        let words = told::left_out(&planned).map_or(String::new(), |planned| format!("; {planned}"));
+        return Err(Problem::of_file(folder, format!("no log in it{words}")));
     }
-    Ok(logs)
+    Ok((logs, planned))
 }

@@ -8,7 +8,7 @@ use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
 
-use super::against::Ready;
+use super::against::{Of, Ready};
 use super::asks::Asks;
 use super::begin::Before;
 use super::cut::{Left, cut};
@@ -19,6 +19,7 @@ use super::reached::{Missed, missed};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
 use crate::Problem;
+use crate::execute::run_with_motion;
 
 /// Judges the log in `file`.
 ///
@@ -94,6 +95,12 @@ pub(super) fn judge(
         let before = Before { motion, told: &told, from_s: settings.from_s, start };
         flown.doubts.extend(before.doubt(&flown, &own));
         found.flown = Some(flown);
+    }
+    if let (None, Some(simulated)) = (&course, simulated) {
+        let told_m = found.simulated_m;
+        found.simulated_m = judged.simulated_alike(&whole, simulated.run);
+        let limit = against.setup.scenario.deviation_limit();
+        found.notes.extend(told::told_otherwise([found.simulated_m, told_m], limit));
     }
     let judged = told::judged(file, found, &against.setup);
     match settings.page {
@@ -185,6 +192,32 @@ impl Judging<'_> {
         ))
     }
 
+    /// The legs of a track that tells none.
+    fn assigned(&self, track: &Track, whole: &Case, breaks: &[usize]) -> Result<Channel, Problem> {
+        let plan = plan_followed(&self.against.setup, whole);
+        let reference = plan.as_ref().map_or(Reference::Leg, Reference::Path);
+        let settings = Settings { reference, breaks, ..Settings::default() };
+        let legs = legs_of_samples(track, &self.case.waypoints, &settings).map_err(Problem::input)?;
+        Ok(Channel { name: "leg".into(), values: legs.into_iter().map(|leg| leg as f64).collect() })
+    }
+
+    /// The largest deviation (m) of a run of the campaign as if it were a log of poses alone: its own legs, which its
+    /// executor told, are others than those that cost least, and a log of the same motion would differ from it.
+    ///
+    /// `None` where its motion is not to be had.
+    fn simulated_alike(&self, whole: &Case, run: usize) -> Option<f64> {
+        let Of::Campaign(work) = &self.against.of else { return None };
+        let flight = run_with_motion(work, whole, run).ok()??.outcome.ok()?;
+        let (times, poses) = (flight.track.times().to_vec(), flight.track.poses().to_vec());
+        let with = |channels: Vec<Channel>| Track::new(times.clone(), poses.clone(), channels).ok();
+        let mut channels: Vec<Channel> = flight.track.channels().to_vec();
+        channels.retain(|channel| channel.name != "leg");
+        channels.push(self.assigned(&with(channels.clone())?, whole, &[]).ok()?);
+        let flight = Flight { track: with(channels)?, ..flight };
+        let log = Log { flight, breaks: Vec::new(), accuracy: Vec::new(), in_world: false };
+        Some(judge_flown(&self.against.setup, whole, &log).ok()?.measures.max_deviation)
+    }
+
     /// What is left as a log to be judged, of the case with its plan.
     fn to_judge(&self, left: &Left, whole: &Case) -> Result<Log, Problem> {
         let samples = &left.samples;
@@ -210,11 +243,7 @@ impl Judging<'_> {
         let of = |channels| Track::new(times.clone(), samples.iter().map(pose).collect(), channels).map_err(refuse);
         let mut track = of(channels.clone())?;
         if self.course.is_none() {
-            let plan = plan_followed(&self.against.setup, whole);
-            let reference = plan.as_ref().map_or(Reference::Leg, Reference::Path);
-            let settings = Settings { reference, breaks: &left.breaks, ..Settings::default() };
-            let legs = legs_of_samples(&track, &self.case.waypoints, &settings).map_err(Problem::input)?;
-            channels.push(Channel { name: "leg".into(), values: legs.into_iter().map(|leg| leg as f64).collect() });
+            channels.push(self.assigned(&track, whole, &left.breaks)?);
             track = of(channels)?;
         }
         let accuracy = if samples.iter().any(|sample| sample.accuracy_m.is_some()) {

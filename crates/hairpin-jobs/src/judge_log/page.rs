@@ -11,6 +11,7 @@ use nalgebra::{Point3, Vector3};
 use super::against::{Of, Ready};
 use super::arm::FoundProgram;
 use super::found::{Found, JudgedLog, JudgedLogs};
+use super::legs::LegsBy;
 use super::sheet::Sheet;
 use super::told::file_name;
 use crate::Problem;
@@ -138,15 +139,21 @@ fn cards(judged: &JudgedLogs, length: &Length) -> Vec<[String; 3]> {
     };
     let flown = only.sheet.as_ref().and_then(|sheet| sheet.shown.result.measures.as_ref());
     let simulated = only.sheet.as_ref().and_then(|sheet| sheet.simulated.as_ref()?.measures.as_ref());
+    let simulated = simulated.map(|simulated| simulated.max_deviation);
+    // Told legs and assigned ones are not to be compared.
+    let simulated = match &only.found {
+        Some(found) if found.legs_by == LegsBy::Assigned => found.simulated_m,
+        _ => simulated,
+    };
     let (Some(flown), Some(simulated)) = (flown, simulated) else { return Vec::new() };
-    let gap = flown.max_deviation - simulated.max_deviation;
+    let gap = flown.max_deviation - simulated;
     // The numbers of a file's last digit are none: a flight judged against itself has no gap.
     let gap = if gap.abs() < 5e-6 { 0.0 } else { gap };
     let gap = format!("{}{}", if gap > 0.0 { "+" } else { "" }, length.told(gap));
     vec![
         card(
             "largest deviation, simulated",
-            length.told(simulated.max_deviation),
+            length.told(simulated),
             format!("flown {}", length.told(flown.max_deviation)),
         ),
         card("gap", gap, "flown less simulated, at worst".into()),

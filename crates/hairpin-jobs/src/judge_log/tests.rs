@@ -417,6 +417,9 @@ fn a_folder_with_a_broken_log_judges_the_others() {
     fs::write(logs.join("a.tum"), rows.concat()).unwrap();
     fs::write(logs.join("b.tum"), "0 1 2 three 0 0 0 1\n").unwrap();
     fs::write(logs.join("notes.md"), "no log").unwrap();
+    for name in ["0000.planned.csv", "0000.ref.tum"] {
+        fs::write(logs.join(name), rows.concat()).unwrap();
+    }
     let mut settings = LogSettings { path: logs, ..settings(here.path(), HALF) };
     let judged = judge_log(&settings, &crate::Unwatched).unwrap();
     assert_eq!(judged.logs.iter().map(|log| log.outcome).collect::<Vec<_>>(), [Outcome::Pass, Outcome::Invalid]);
@@ -426,12 +429,32 @@ fn a_folder_with_a_broken_log_judges_the_others() {
         "{}",
         count.sentence
     );
+    let planned = "; left out, by their names planned: 0000.planned.csv, 0000.ref.tum";
+    assert!(count.sentence.ends_with(planned) && judged.left_out.len() == 2, "{}", count.sentence);
     assert_eq!(judged.exit_code(), 5);
     let broken = &judged.logs[1].verdict.sentence;
     assert!(broken.contains("b.tum") && broken.contains("line 1"), "{broken}");
-    // Alone it is wrong input.
+    // Alone it is wrong input, and a plan is judged where it is named, and then called one.
+    let alone = |name: &str, source: Option<&str>| {
+        let (path, source) = (settings.path.join(name), source.map(str::to_owned));
+        judge_log(&LogSettings { path, source, ..settings.clone() }, &crate::Unwatched)
+    };
+    let refused = alone("0000.ref.tum", None).unwrap_err().to_string();
+    assert!(refused.contains("nothing in it is known to have moved: 0000.ref.tum"), "{refused}");
+    let named = alone("0000.ref.tum", Some("0000.ref.tum")).unwrap().logs.remove(0).verdict.sentence;
+    assert!(named.contains("by its name a plan"), "{named}");
     settings.path.push("b.tum");
     assert!(matches!(judge_log(&settings, &crate::Unwatched), Err(Problem::Input(_))));
+}
+
+#[test]
+fn a_limit_between_told_legs_and_assigned_ones_is_told() {
+    let told = |pair: [Option<f64>; 2], limit: f64| super::told::told_otherwise(pair, Some(limit));
+    let words = told([Some(0.8), Some(1.67)], 1.0).unwrap();
+    assert!(words.contains("0.80 m off") && words.contains("told 1.67 m") && words.contains("1.00 m lies between"));
+    assert_eq!(told([Some(0.8), Some(1.67)], 0.7), None);
+    assert_eq!(told([Some(0.8), Some(1.67)], 2.0), None);
+    assert_eq!(told([None, Some(1.67)], 1.0), None);
 }
 
 #[test]

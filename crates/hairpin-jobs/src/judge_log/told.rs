@@ -1,6 +1,6 @@
 //! What a log came to, as one sentence.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
 use hairpin::campaign::{Doubt, Exceeded, Flown, Setup, Why};
@@ -32,7 +32,7 @@ pub(super) fn unreadable(file: &Path, problem: &Problem) -> JudgedLog {
 }
 
 /// The line with counts.
-pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
+pub(super) fn count(folder: &Path, logs: &[JudgedLog], planned: &[PathBuf]) -> Verdict {
     let of = |outcome: Outcome| logs.iter().filter(|log| log.outcome == outcome).count();
     let [pass, fail, open, invalid, unjudged] =
         [Outcome::Pass, Outcome::Fail, Outcome::Inconclusive, Outcome::Invalid, Outcome::Unjudged].map(of);
@@ -42,7 +42,7 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
     let counts = [(pass, "within spec"), (fail, "in violation"), (open, "inconclusive"), (invalid, "invalid")];
     let mut words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
     words.extend((unjudged > 0).then(|| format!("{unjudged} unjudged: spec = \"none\"")));
-    let words = words.join(", ");
+    let words = [Some(words.join(", ")), left_out(planned)].into_iter().flatten().collect::<Vec<_>>().join("; ");
     let (start, code) = match (fail, open + invalid) {
         (1.., _) => (format!("FAIL {fail}/{all}"), 1),
         (0, 1..) => (format!("INCONCLUSIVE 0/{all}"), 5),
@@ -50,6 +50,17 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog]) -> Verdict {
         (0, 0) => (format!("PASS {pass}/{all}"), 0),
     };
     Verdict::of(&format!("{start} {how}: {words}"), code)
+}
+
+/// Names that are told of files that were left out.
+const NAMED: usize = 3;
+
+/// `left out, by their names planned: 0000.planned.csv, 0000.ref.tum`; `None` where nothing was.
+pub(super) fn left_out(planned: &[PathBuf]) -> Option<String> {
+    let names: Vec<String> = planned.iter().take(NAMED).map(|file| file_name(file)).collect();
+    let more = planned.len() - names.len();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    (!planned.is_empty()).then(|| format!("left out, by their names planned: {}{more}", names.join(", ")))
 }
 
 fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
@@ -301,6 +312,18 @@ impl Found {
         self.notes.iter().for_each(|note| line("note", note.clone()));
         lines
     }
+}
+
+/// What is said of a limit that the case keeps in simulation by legs that are assigned, and not by those that it was
+/// told to fly: with the least distance in view, assigned ones are the kinder.
+pub(super) fn told_otherwise([assigned, told]: [Option<f64>; 2], limit: Option<f64>) -> Option<String> {
+    let (assigned, told, limit) = (assigned?, told?, limit?);
+    (assigned <= limit && limit < told).then(|| {
+        format!(
+            "the log tells no legs: by assigned ones the case in simulation is {assigned:.2} m off, by those that its executor told {told:.2} m, \
+             and the limit of {limit:.2} m lies between"
+        )
+    })
 }
 
 /// `value` to its second decimal, nothing without a sign of less.

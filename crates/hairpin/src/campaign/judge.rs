@@ -192,8 +192,8 @@ fn judge_run(
         measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
         let unseen = moves.as_ref().and_then(|moves| moves.unseen.as_ref());
-        if unseen.is_some_and(|unseen| unseen.late_unproven) {
-            violations.retain(|violation| violation.what != "late");
+        if let (Some(unseen), Some(moves)) = (unseen, &moves) {
+            proven(&mut violations, unseen.late_proven, moves);
         }
         let hidden = || hidden(&own, &measures, terms.limits.deviation);
         let unmeasured = || terms.limits.open(&measures);
@@ -265,6 +265,22 @@ pub(super) fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedP
         Some(programs) => programs.reference(case, programmed),
         None => setup.kind().followed(case).ok(),
     }
+}
+
+/// Of violations by a recording: a late arrival stands only where the samples about it prove that, as the latest of
+/// those.
+fn proven(violations: &mut Vec<Violation>, late: Option<usize>, measured: &Measured) {
+    let late = late.and_then(|leg| Some((leg, measured.moves.get(leg)?)));
+    violations.retain_mut(|violation| match (violation.what.as_str(), late) {
+        ("late", None) => false,
+        ("late", Some((leg, one))) => {
+            violation.leg = leg;
+            violation.value = one.late().unwrap_or(violation.value);
+            violation.at = one.arrived.unwrap_or(violation.at);
+            true
+        }
+        _ => true,
+    });
 }
 
 /// The latest of all arrivals at points; `None` where it arrived nowhere.

@@ -4,10 +4,11 @@ use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Point3, Vector3};
 
 use super::super::error::Fault;
-use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample, Source};
+use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample};
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude};
 use super::columns::{Column, Columns};
+use super::planned::source;
 use crate::delimited::{Cut, Row, Table};
 use crate::quote;
 
@@ -162,7 +163,7 @@ impl Reading {
     fn logged(self, name: &str) -> Logged {
         let motion = LoggedMotion {
             name: name.into(),
-            source: Source::Untold,
+            source: source(name),
             samples: self.samples,
             resets: Vec::new(),
             invalid: Vec::new(),

@@ -3,9 +3,10 @@
 use nalgebra::Point3;
 
 use super::super::error::Fault;
-use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
+use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample};
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude};
+use super::planned::source;
 use crate::quote;
 
 const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];
@@ -25,7 +26,7 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
     let motion =
-        LoggedMotion { name: name.into(), source: Source::Untold, samples, resets: Vec::new(), invalid: Vec::new() };
+        LoggedMotion { name: name.into(), source: source(name), samples, resets: Vec::new(), invalid: Vec::new() };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

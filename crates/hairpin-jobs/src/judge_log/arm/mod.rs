@@ -19,6 +19,7 @@ use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{Case, Run, Setup, judge_runs};
+use hairpin::judgement::moves::MoveMeasures;
 use hairpin::trajectory::Track;
 use rayon::prelude::*;
 
@@ -96,6 +97,8 @@ impl<'a> Programs<'a> {
             begins_s: read.begins_s,
             short,
             result,
+            late_between: measured.iter().flat_map(|run| &run.moves).map(MoveMeasures::late_between).collect(),
+            not_excluded_m: measured.as_ref().and_then(|run| run.unseen.as_ref()?.estimate),
             offset: measured.as_ref().and_then(|measured| Some((measured.offset?, measured.sample))),
             simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
             notes: read.notes,

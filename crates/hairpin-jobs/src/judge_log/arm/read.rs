@@ -42,8 +42,11 @@ pub(super) fn recording(
     let refuse = |why: String| Problem::of_file(file, why);
     let station = &arm.station;
     let (log, name, format, clock, joints, notes) = if logs::is_text(file).map_err(Problem::input)? {
-        let log = controller_log::read(file, Some((&station.arm, &station.tool.tcp))).map_err(Problem::input)?;
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if logs::is_planned(&name) && source != Some(name.as_str()) {
+            return Err(refuse(format!("by its name what was planned, and not what moved; {}", asks.topic)));
+        }
+        let log = controller_log::read(file, Some((&station.arm, &station.tool.tcp))).map_err(Problem::input)?;
         (log, name, "CSV", Clock::File, None, Vec::new())
     } else {
         let logged = logs::read(file).map_err(Problem::input)?;
@@ -68,8 +71,12 @@ pub(super) fn recording(
     spans.sort_unstable_by(f64::total_cmp);
     let source = SourceTold {
         format,
-        topic: name,
-        words: if log.from_joints { "joint encoders" } else { "the controller's poses" },
+        topic: name.clone(),
+        words: match (clock, log.from_joints) {
+            (Clock::File, _) if logs::is_planned(&name) => "by its name planned",
+            (_, true) => "joint encoders",
+            (_, false) => "the controller's poses",
+        },
         has_accuracy: true,
         others: Vec::new(),
         clock: clock_words(clock),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::{Setup, Status};
-use hairpin::judgement::moves::offset_told;
+use hairpin::judgement::moves::{estimate_told, offset_told};
 use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
 
 use super::super::found::{JudgedLog, Outcome};
@@ -38,7 +38,10 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
         );
         return (Outcome::Inconclusive, inconclusive(case, how, &with(sentence)));
     }
-    let worst = result.measures.as_ref().map(|measures| worst(measures, setup));
+    let hidden = found.not_excluded_m.map(estimate_told);
+    let with_hidden =
+        |worst: String| [Some(worst), hidden.clone()].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let worst = result.measures.as_ref().map(|measures| with_hidden(worst(measures, setup)));
     let why = || result.message.as_deref().map_or("it cannot be measured", |why| why.trim_start_matches("run 0: "));
     match (result.status, worst) {
         (Status::Pass, Some(worst)) => (Outcome::Pass, within_spec(case, how, &with(worst))),
@@ -123,7 +126,11 @@ impl FoundProgram {
             let [most, mean] = [measures.max_deviation, measures.mean_deviation].map(|m| 1e3 * m);
             line("deviation", format!("max {most:.3} mm, mean {mean:.3} mm"));
             if let Some(late) = &measures.latest {
-                line("latest", format!("{:+.1} ms, leg {}→{}", 1e3 * late.by, late.leg, late.leg + 1));
+                let between = self.late_between.get(late.leg).copied().flatten();
+                let between = between.map_or(String::new(), |[least, most]| {
+                    format!(", between {:+.1} and {:+.1} ms by the samples about it", 1e3 * least, 1e3 * most)
+                });
+                line("latest", format!("{:+.1} ms, leg {}→{}{between}", 1e3 * late.by, late.leg, late.leg + 1));
             }
             if let Some(simulated) = self.simulated_m {
                 let simulated = 1e3 * simulated;

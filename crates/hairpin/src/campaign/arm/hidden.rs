@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Point3};
 
 use super::ArmSetup;
 use crate::campaign::scenario::PathFrom;
-use crate::judgement::moves::{Between, Clock, Hidden, MeasureSettings, Measured, Unseen, unseen};
+use crate::judgement::moves::{Between, Hidden, MeasureSettings, Measured, Unseen, unseen};
 use crate::math::segment::point_distance;
 use crate::robot::arm::{AXES, Arm, Joints};
 use crate::trajectory::{ATTITUDE_UNKNOWN, PlannedPath, Track};
@@ -20,8 +20,8 @@ const ACCELERATIONS: &str = "joints.acceleration_deg_s2";
 impl ArmSetup {
     /// What the log of a run does not show.
     ///
-    /// `None` where the oracle cannot tell, as for a recording of one sample. With `Clock::OffsetRemoved` the offset
-    /// that was taken off is added to the lateness that the spec allows.
+    /// `None` where the oracle cannot tell, as for a recording of one sample. `measured` is by the same `settings`:
+    /// where an offset was taken off, arrivals are those of the plan's clock.
     pub(super) fn unseen(
         &self,
         programmed: &PlannedPath,
@@ -32,23 +32,18 @@ impl ArmSetup {
     ) -> Option<Unseen> {
         let (arm, spec) = (&self.station.arm, &self.scenario.spec);
         let between = Log::of(arm, &self.station.tool.tcp, &self.station.home, recording);
-        // Times that are taken off are those of the plan's clock, later.
-        let shift = match settings.clock {
-            Clock::AsRecorded => 0.0,
-            Clock::OffsetRemoved => measured.offset.map_or(0.0, |offset| offset.seconds),
-        };
         let corner = match (spec.path.map(|limit| limit.from), reference) {
             (Some(PathFrom::Sharp), Some(reference)) => farthest(programmed.track(), reference),
             _ => 0.0,
         };
         let hidden = Hidden {
             path: spec.path.map(|limit| limit.max_mm * 1e-3),
-            late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3 + shift),
+            late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
             corner,
             between: &between,
             estimated: arm.estimated.iter().any(|key| key == ACCELERATIONS),
         };
-        unseen(programmed, recording, settings, &hidden).ok()
+        unseen(programmed, recording, settings, &hidden, measured).ok()
     }
 }
 

@@ -47,6 +47,8 @@ impl CaseMoves {
                     deviation: *deviation,
                     deviation_at: 0.0,
                     arrived: None,
+                    after: None,
+                    by: None,
                     planned: 0.0,
                     duration: *duration,
                     planned_duration: 0.0,

@@ -6,7 +6,9 @@ use super::ArmSetup;
 use crate::campaign::baseline::{CaseMoves, Moves, RunUnseen};
 use crate::campaign::{Case, CaseNumber, RunDeviation};
 use crate::judgement::Verdict;
-use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, Release, compare, offset_told, trend};
+use crate::judgement::moves::{
+    Band, MovesError, ProgramComparison, Regression, Release, compare, estimate_told, offset_told, trend,
+};
 
 /// Why a campaign cannot be held against its baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -99,10 +101,7 @@ impl ArmSetup {
         }
         let estimates = unseen.iter().filter_map(|unseen| unseen.estimated_m);
         if let Some(most) = estimates.reduce(f64::max) {
-            verdict.sentence += &format!(
-                ", {:.0} mm beside the path not excluded between samples by estimated accelerations",
-                1e3 * most
-            );
+            verdict.sentence += &format!(", {}", estimate_told(most));
         }
         verdict
     }

@@ -28,8 +28,9 @@ pub struct Unseen {
     pub seen: [usize; 2],
     /// Why the recording decides nothing where it violates nothing; `None` where it does decide.
     pub open: Option<String>,
-    /// Whether a violation of the time of arrival is not proven, since the arrival lies in a gap.
-    pub late_unproven: bool,
+    /// The move whose arrival is the latest of those that are late wherever between two samples they were; `None`
+    /// where none is proven to be late.
+    pub late_proven: Option<usize>,
     /// Largest distance from the path that an estimate does not exclude between samples, where it is over the limit and
     /// decides nothing, m.
     pub estimate: Option<f64>,

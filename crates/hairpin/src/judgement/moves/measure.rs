@@ -49,8 +49,12 @@ pub struct MoveMeasures {
     pub deviation: Option<f64>,
     /// When that was, s, by the recording's clock.
     pub deviation_at: f64,
-    /// When it arrived, s, by the judged clock; `None`: it did not.
+    /// When it arrived, s, by the judged clock; `None`: it did not. Between two samples an estimate.
     pub arrived: Option<f64>,
+    /// Not before this, s: the last sample at which it was not there yet. `None` where the recording begins behind it.
+    pub after: Option<f64>,
+    /// Not after this, s: the first sample at which it had arrived.
+    pub by: Option<f64>,
     /// When it was to arrive, s.
     pub planned: f64,
     /// Since the arrival before, s; of the first move since the start of the clock, or since it set out where the
@@ -62,8 +66,20 @@ pub struct MoveMeasures {
 
 impl MoveMeasures {
     /// How late it arrived, s; negative is early.
+    ///
+    /// `None` too where the recording only begins behind it, too late to say that it was on time: when it was there
+    /// nobody saw.
     pub fn late(&self) -> Option<f64> {
-        Some(self.arrived? - self.planned)
+        let late = self.arrived? - self.planned;
+        (self.after.is_some() || late <= 0.0).then_some(late)
+    }
+
+    /// How late it arrived at least and at most, s, whatever it did between two samples.
+    ///
+    /// A straight line between samples arrives later than who brakes, and earlier than who sets out.
+    pub fn late_between(&self) -> Option<[f64; 2]> {
+        let by = self.by? - self.planned;
+        Some([self.after.map_or(f64::NEG_INFINITY, |after| after - self.planned), by])
     }
 }
 
@@ -126,8 +142,19 @@ pub fn measure_moves(
     let targets: Vec<f64> = targets(&way.ends, settings.arrival);
     let planned = arrivals(path.track().times(), &way.planned, &targets);
     let as_recorded = arrivals(recording.times(), &progress, &targets);
-    let offset = offset(&as_recorded, &planned, settings.clock);
-    let shift = offset.filter(|offset| offset.removed).map_or(0.0, |offset| offset.seconds);
+    let around: Vec<Around> = targets.iter().map(|target| Around::of(recording.times(), &progress, *target)).collect();
+    // What was passed before the recording begins says nothing of its clock.
+    let is_seen = |index: usize| around[index].after.is_some() || targets[index] <= 0.0;
+    let lateness = |times: &dyn Fn(usize) -> Option<f64>| -> Vec<f64> {
+        let seen = (0..targets.len()).filter(|index| is_seen(*index));
+        seen.filter_map(|index| Some(times(index)? - planned[index]?)).collect()
+    };
+    let offset = offset(&lateness(&|index| as_recorded[index]), settings.clock);
+    let removed = offset.filter(|offset| offset.removed);
+    let shift = removed.map_or(0.0, |offset| offset.seconds);
+    // The median of what each may have been at least, and at most: the offset is no better known than arrivals are.
+    let bound = |of: &dyn Fn(usize) -> Option<f64>| removed.map_or(0.0, |_| median(lateness(of)));
+    let shifts = [bound(&|index| around[index].after.or(around[index].by)), bound(&|index| around[index].by)];
     let arrived: Vec<Option<f64>> = as_recorded.iter().map(|time| time.map(|time| time - shift)).collect();
     let deviations: Vec<f64> = nearest.iter().zip(recording.poses()).map(|(j, pose)| way.deviation(*j, pose)).collect();
     // Without a common clock the first move begins when the arm sets out.
@@ -151,6 +178,8 @@ pub fn measure_moves(
             deviation: None,
             deviation_at: 0.0,
             arrived: arrived[index],
+            after: around[index].after.map(|time| time - shifts[1]),
+            by: around[index].by.map(|time| time - shifts[0]),
             planned: planned[index].unwrap_or_else(|| path.passes(index)),
             duration: since(arrived[index], before[0]),
             planned_duration: since(planned[index], before[1]).unwrap_or(0.0),
@@ -195,12 +224,25 @@ fn arrivals(times: &[f64], progress: &[f64], targets: &[f64]) -> Vec<Option<f64>
     targets.iter().map(reach).collect()
 }
 
-fn offset(arrived: &[Option<f64>], planned: &[Option<f64>], clock: Clock) -> Option<Offset> {
-    let late: Vec<f64> = arrived.iter().zip(planned).filter_map(|(a, p)| Some((*a)? - (*p)?)).collect();
+/// The samples between which a target was arrived at, s.
+struct Around {
+    after: Option<f64>,
+    by: Option<f64>,
+}
+
+impl Around {
+    fn of(times: &[f64], progress: &[f64], target: f64) -> Self {
+        let i = progress.partition_point(|progress| *progress < target);
+        Self { after: i.checked_sub(1).map(|before| times[before]), by: times.get(i).copied() }
+    }
+}
+
+/// `late`: of every arrival, s.
+fn offset(late: &[f64], clock: Clock) -> Option<Offset> {
     if late.is_empty() {
         return None;
     }
-    let seconds = median(late.clone());
+    let seconds = median(late.to_vec());
     let spread = 1.4826 * median(late.iter().map(|late| (late - seconds).abs()).collect());
     Some(Offset { seconds, spread, removed: clock == Clock::OffsetRemoved })
 }

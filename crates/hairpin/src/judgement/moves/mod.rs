@@ -37,7 +37,7 @@ pub use regression::{ProgramComparison, Regression};
 pub use spec::{MoveLimits, move_violations, worst_of};
 pub use trend::{Trend, trend};
 pub use unseen::{Between, Hidden, unseen};
-pub use verdict::{JudgedMoves, moves_verdict, offset_told};
+pub use verdict::{JudgedMoves, estimate_told, moves_verdict, offset_told};
 
 /// Why recordings cannot be judged.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -351,7 +351,7 @@ fn thinned(recording: &Track, keep: impl Fn(usize, f64) -> bool) -> Track {
 fn not_shown(path: &PlannedPath, recording: &Track, most: f64, estimated: bool, limits: [Option<f64>; 2]) -> Unseen {
     let between = Accelerated { recording, most };
     let hidden = Hidden { path: limits[0], late: limits[1], corner: 0.0, between: &between, estimated };
-    unseen(path, recording, &MeasureSettings::default(), &hidden).unwrap()
+    unseen(path, recording, &MeasureSettings::default(), &hidden, &measure(path, recording)).unwrap()
 }
 
 /// a h²/8 beside the chord: what it leaves within the limit is decided, what it does not is open.
@@ -458,5 +458,57 @@ fn arrivals_in_gaps_are_late_only_where_the_gap_says_so() {
     let slow = record(&path, 5.2, |t| t - 0.5, still);
     let slow = thinned(&slow, |_, t| !(3.55..3.9).contains(&t));
     let proven = late(&slow, 0.2);
-    assert!(!proven.late_unproven, "{proven:?}");
+    assert!(proven.late_proven.is_some(), "{proven:?}");
+}
+
+/// Who comes to rest between two samples is late by a straight line between them, and need not be.
+#[test]
+fn an_arrival_is_known_to_the_interval_of_its_samples() {
+    let path = revisiting();
+    // Samples 100 ms apart, and each move ends in the middle between two.
+    let sparse = |late: f64| thinned(&record(&path, 5.0, |t| t - late, still), |i, _| i % 10 == 5);
+    let on_time = sparse(0.0);
+    for one in &measure(&path, &on_time).moves {
+        let [least, most] = one.late_between().unwrap();
+        assert!(least < -0.04 && most > 0.04 && (most - least - 0.1).abs() < 1e-9, "{one:?}");
+        assert!(one.late().unwrap() > 0.04, "the estimate is late: {one:?}");
+    }
+    let late = |recording: &Track, limit: f64| not_shown(&path, recording, 1.0, true, [None, Some(limit)]);
+    let open = late(&on_time, 0.02);
+    let told = open.open.unwrap();
+    assert!(told.starts_with("p0→p1 arrived between -46.") && told.contains(" and 53."), "{told}");
+    assert!(told.contains("samples are 0.100 s apart there, the limit is 20.0 ms"), "{told}");
+    assert_eq!(open.late_proven, None);
+    let within = late(&on_time, 0.06);
+    assert_eq!((within.open, within.late_proven), (None, None));
+    // 200 ms late: seen 150 ms late on its way, and there 250 ms late.
+    let slow = sparse(0.2);
+    assert!(late(&slow, 0.1).late_proven.is_some());
+    let either = late(&slow, 0.18);
+    assert!(either.open.is_some() && either.late_proven.is_none(), "{either:?}");
+    let within = late(&slow, 0.26);
+    assert_eq!((within.open, within.late_proven), (None, None));
+    // An offset that is taken off is known no better than the arrivals that it is estimated from.
+    let settings = MeasureSettings { clock: Clock::OffsetRemoved, ..MeasureSettings::default() };
+    let removed = measure_moves(&path, &record(&path, 4.7, |t| t - 0.05, still), &settings).unwrap();
+    for one in &removed.moves {
+        let [least, most] = one.late_between().unwrap();
+        assert!((-0.021..0.0).contains(&least) && (0.0..0.021).contains(&most), "{one:?}");
+    }
+}
+
+#[test]
+fn what_was_passed_before_the_recording_begins_is_not_late() {
+    let path = plan(&[([0.0; 3], 0.0), ([0.3, 0.0, 0.0], 0.0), ([0.3, 0.3, 0.0], 0.0), ([0.6, 0.3, 0.0], 0.0)]);
+    let begun = thinned(&record(&path, 3.5, |t| t, still), |_, t| t > 1.3);
+    let measured = measure(&path, &begun);
+    assert_eq!(measured.moves[0].late(), None);
+    assert!(measured.moves[0].late_between().unwrap()[0] == f64::NEG_INFINITY);
+    assert!(measured.moves[1].late().unwrap().abs() < 1e-3 && measured.offset.unwrap().seconds.abs() < 1e-3);
+    assert_eq!(move_violations(&measured, &LIMITS), vec![]);
+    let unseen = not_shown(&path, &begun, 1.0, true, [None, Some(0.08)]);
+    let told = unseen.open.unwrap();
+    assert!(told.starts_with("the log begins at t = 1.310 s, behind p0→p1: it arrived at most 31"), "{told}");
+    assert_eq!(unseen.late_proven, None);
+    assert_eq!(not_shown(&path, &begun, 1.0, true, [None, Some(0.4)]).open, None);
 }

@@ -4,12 +4,14 @@
 //! have been, though no sample says so. Where what was measured is within its limit and what may be hidden is not,
 //! nothing is known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the
 //! median interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no
-//! sample.
+//! sample. When it arrived is known to the interval of two samples, whatever bounds the motion: a limit within that is
+//! open.
 //!
 //! Data flow: plan and recording are aligned (`align`) → gaps, ends, moves without samples, what was left out → each
 //! is held against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict
 //! open.
 
+mod late;
 mod left_out;
 
 use nalgebra::Point3;
@@ -17,7 +19,7 @@ use nalgebra::Point3;
 use super::MovesError;
 use super::align::Way;
 use super::gap::{Gap, Unseen};
-use super::measure::{MeasureSettings, median, targets};
+use super::measure::{MeasureSettings, Measured, median, targets};
 use crate::trajectory::{PlannedPath, Track};
 
 /// What may have been between sample `i` and the one after it.
@@ -64,7 +66,7 @@ const LEAST_SHARE: f64 = 0.1;
 const POINTS: usize = 32;
 const MILLI: f64 = 1e3;
 
-/// What `recording` does not show of `path`.
+/// What `recording` does not show of `path`, along which it was `measured` by the same settings.
 ///
 /// # Errors
 /// As [`super::measure_moves`].
@@ -78,6 +80,7 @@ pub fn unseen(
     recording: &Track,
     settings: &MeasureSettings,
     hidden: &Hidden<'_>,
+    measured: &Measured,
 ) -> Result<Unseen, MovesError> {
     if path.moves().is_empty() {
         return Err(MovesError::NoMoves);
@@ -91,7 +94,7 @@ pub fn unseen(
     let usual = median(times.windows(2).map(|pair| pair[1] - pair[0]).collect());
     let targets = targets(&way.ends, settings.arrival);
     let look = Look { path, recording, hidden, way: &way, progress: &progress, nearest: &nearest, usual, targets };
-    Ok(look.all())
+    Ok(look.all(measured))
 }
 
 /// `progress` and `nearest` have one entry a sample, rising.
@@ -109,7 +112,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn all(&self) -> Unseen {
+    fn all(&self, measured: &Measured) -> Unseen {
         let intervals = 0..self.recording.len() - 1;
         let longest = intervals.clone().max_by(|a, b| self.seconds(*a).total_cmp(&self.seconds(*b))).unwrap_or(0);
         let longest = self.gap(longest);
@@ -132,13 +135,13 @@ impl Look<'_> {
             }
             estimate = gravest(&mut over.iter()).map(|(_, most)| most);
         }
-        let (unproven, proven) = self.late();
-        let open = open.or_else(|| unproven.as_ref().map(|(why, _)| why.clone())).or_else(|| self.left_out());
+        let (late_open, late_proven) = self.late(&measured.moves);
+        let open = open.or(late_open).or_else(|| self.left_out());
         let moves = self.path.moves().len();
         Unseen {
             longest,
             seen: [moves - unseen.len(), moves],
-            late_unproven: unproven.is_some_and(|(_, over)| over) && !proven,
+            late_proven,
             estimate: estimate.filter(|_| open.is_none()),
             open,
         }
@@ -282,40 +285,5 @@ impl Look<'_> {
                 names(index)
             )
         })
-    }
-
-    /// The arrival in a gap of which it is not known whether it is late, and whether its estimate is; and whether
-    /// another one is late for certain.
-    ///
-    /// For each target in an outlying gap: late for certain if even the sample before it is, on time if the one after
-    /// it is; open in between.
-    fn late(&self) -> (Option<(String, bool)>, bool) {
-        let Some(limit) = self.hidden.late else { return (None, false) };
-        let (times, mut unproven, mut proven) = (self.recording.times(), None, false);
-        for (index, target) in self.targets.iter().enumerate() {
-            let i = self.progress.partition_point(|progress| progress < target);
-            let planned = self.planned(*target);
-            if i == 0 || i == times.len() {
-                continue;
-            }
-            let outlying = self.seconds(i - 1) > OUTLYING * self.usual;
-            let [early, late] = [times[i - 1] - planned, times[i] - planned];
-            let share = (target - self.progress[i - 1]) / (self.progress[i] - self.progress[i - 1]);
-            let estimate = early + share * (late - early);
-            if !outlying || early > limit {
-                proven |= estimate > limit;
-            } else if late > limit && unproven.is_none() {
-                let name = &self.path.moves()[index].name;
-                let why = format!(
-                    "{}: {name} arrived between {:.0} and {:.0} ms late, the limit is {:.0} ms",
-                    self.gap(i - 1),
-                    MILLI * early,
-                    MILLI * late,
-                    MILLI * limit
-                );
-                unproven = Some((why, estimate > limit));
-            }
-        }
-        (unproven, proven)
     }
 }
