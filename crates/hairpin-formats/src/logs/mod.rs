@@ -12,6 +12,7 @@ mod error;
 mod log;
 mod samples;
 mod text;
+mod twice;
 mod ulog;
 
 use std::io::Read;

@@ -3,11 +3,15 @@
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LoggedMotion, Sample, Source};
 use super::super::samples::Budget;
+use super::super::twice::{apart, places_apart, told, two, two_places};
 use super::cdr::{Cdr, NoMessage};
 use super::messages::{Kind, Pose, joints, odometry, path, pose};
+use crate::quote::shortened;
 
 /// Sets of joints that one topic may tell of, by turns.
 const MOST_SETS: usize = 16;
+/// Stamps are told in milliseconds or finer, s; twice that, for what moves may go faster in between.
+const COARSE_S: f64 = 2e-3;
 
 /// One topic.
 #[derive(Debug)]
@@ -189,9 +193,13 @@ impl Topic {
             if clock == Clock::Receive {
                 rows.iter_mut().zip(received).for_each(|((t_s, sample), at)| (*t_s, sample.t_s) = (at, at));
             }
-            let samples: Vec<Sample> = rising(rows, &name, &mut notes).into_iter().map(|(_, sample)| sample).collect();
+            let far = |one: &Sample, other: &Sample| places_apart(&one.p_m, &other.p_m).unwrap_or_default();
+            let (rows, twice) = rising(rows, &far);
+            let unfit =
+                twice.tell(clock, &name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
+            let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
-            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid });
+            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid, unfit });
         } else {
             frame = None;
         }
@@ -199,9 +207,15 @@ impl Topic {
         for (index, set) in sets.into_iter().enumerate() {
             let times = if clock == Clock::Receive { set.received } else { set.times };
             let name = if many { format!("{name}[{index}]") } else { name.clone() };
-            let rows = rising(times.into_iter().zip(set.rows).collect(), &name, &mut notes);
+            let far = |one: &Vec<f64>, other: &Vec<f64>| farthest(one, other).map_or(0.0, |(_, far)| far);
+            let (rows, twice) = rising(times.into_iter().zip(set.rows).collect(), &far);
+            let unfit = twice.tell(clock, &name, &mut notes, |(t_s, one), other| {
+                let joint = farthest(one, other).map_or(0, |(joint, _)| joint);
+                let [one, other] = [one, other].map(|row| format!("{} rad", told(row[joint])));
+                two(*t_s, &format!("positions of the joint {}", shortened(&set.names[joint])), &one, &other)
+            });
             let (times_s, positions_rad) = rows.into_iter().unzip();
-            all.push(Joints { name, joints: set.names, times_s, positions_rad });
+            all.push(Joints { name, source, joints: set.names, times_s, positions_rad, unfit });
         }
         (frame.map(|frame| (name, frame)), notes)
     }
@@ -218,13 +232,63 @@ fn is_asked(name: &str) -> bool {
         || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point"))
 }
 
-/// Rows in the order of their times, one each.
-fn rising<T>(mut rows: Vec<(f64, T)>, name: &str, notes: &mut Vec<String>) -> Vec<(f64, T)> {
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let before = rows.len();
-    rows.dedup_by(|later, first| later.0 <= first.0);
-    if rows.len() < before {
-        notes.push(format!("{name}: {} messages with a stamp that was there before", before - rows.len()));
+/// The joint that is farthest from itself in two rows of the same joints, and how far, rad.
+fn farthest(one: &[f64], other: &[f64]) -> Option<(usize, f64)> {
+    let joints = one.iter().zip(other).enumerate();
+    let far = joints.filter_map(|(joint, (one, other))| Some((joint, apart(*one, *other)?)));
+    far.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Rows whose stamp was there before.
+struct Twice<T> {
+    /// How many.
+    count: usize,
+    /// The first that says something else than the row before it: both.
+    other: Option<((f64, T), T)>,
+}
+
+impl<T> Twice<T> {
+    /// Tells of them, and gives what is wrong with them. By the recorder's clock nothing is, but when messages came.
+    fn tell(
+        self,
+        clock: Clock,
+        name: &str,
+        notes: &mut Vec<String>,
+        words: impl Fn(&(f64, T), &T) -> String,
+    ) -> Option<String> {
+        if self.count > 0 {
+            notes.push(format!("{name}: {} messages with a stamp that was there before", self.count));
+        }
+        // A stamp of zero is none.
+        let other = self.other.filter(|((t_s, _), _)| clock == Clock::Header && *t_s != 0.0);
+        let why = other.map(|(one, other)| words(&one, &other));
+        notes.extend(why.iter().map(|why| format!("{name}: {why}")));
+        why
     }
-    rows
+}
+
+/// Rows in the order of their times, one each, and those that were left out for it; `far` says how far two are apart.
+///
+/// Of one stamp are also messages that follow each other faster than stamps are told. So those that are no farther
+/// apart than what moves moves around that time within [`COARSE_S`] say nothing else.
+fn rising<T: Clone>(mut rows: Vec<(f64, T)>, far: &dyn Fn(&T, &T) -> f64) -> (Vec<(f64, T)>, Twice<T>) {
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept: Vec<(f64, T)> = Vec::with_capacity(rows.len());
+    let mut again: Vec<(usize, T)> = Vec::new();
+    for (t_s, row) in rows {
+        match kept.last() {
+            Some((last, _)) if t_s <= *last => again.push((kept.len() - 1, row)),
+            _ => kept.push((t_s, row)),
+        }
+    }
+    let speed = |from: usize| {
+        let (Some(one), Some(other)) = (kept.get(from), kept.get(from + 1)) else { return 0.0 };
+        far(&one.1, &other.1) / (other.0 - one.0)
+    };
+    let is_other = |(place, row): &&(usize, T)| {
+        let speed = place.checked_sub(1).map_or(0.0, speed).max(speed(*place));
+        far(&kept[*place].1, row) > speed * COARSE_S
+    };
+    let other = again.iter().find(is_other).map(|(place, row)| (kept[*place].clone(), row.clone()));
+    (kept, Twice { count: again.len(), other })
 }

@@ -14,9 +14,10 @@ use super::axes::{enu_attitude, enu_vector};
 use super::error::Fault;
 use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
 use super::samples::Budget;
+use super::twice::two;
 use crate::frames::Geodetic;
 use flown::Flown;
-use place::{geodetic, is_place, local, plane};
+use place::{between, geodetic, is_place, local, plane};
 use stream::{Message, each};
 
 pub(super) use stream::MAGIC;
@@ -24,6 +25,8 @@ pub(super) use stream::MAGIC;
 /// Which of two kinds of origin an ORGN is.
 const EKF: f64 = 0.0;
 const HOME: f64 = 1.0;
+/// Places that are no farther apart are the same one, told by degrees of 10⁻⁷, m.
+const SAME_M: f64 = 0.02;
 
 pub(super) fn read_dataflash(bytes: &[u8]) -> Result<Logged, Fault> {
     let mut log = Log::default();
@@ -37,6 +40,18 @@ struct Series {
     source: Source,
     samples: Vec<(f64, Geodetic, Option<Vector3<f64>>)>,
     attitudes: Attitudes,
+    unfit: Option<String>,
+}
+
+impl Series {
+    /// What is wrong where it is elsewhere than at `place` with the same stamp.
+    fn contradiction(&self, t_s: f64, place: &Geodetic) -> Option<String> {
+        let before = self.samples.binary_search_by(|(at, ..)| at.total_cmp(&t_s)).ok()?;
+        let before = self.samples[before].1;
+        let words = |p: &Geodetic| format!("{:.7}°, {:.7}°, {:.2} m", p.lat_deg, p.lon_deg, p.alt_amsl_m);
+        let is_other = between(&before, place).norm() > SAME_M;
+        is_other.then(|| two(t_s, "places", &words(&before), &words(place)))
+    }
 }
 
 #[derive(Debug, Default)]
@@ -122,14 +137,19 @@ impl Log {
         v: Option<Vector3<f64>>,
     ) -> Result<(), Fault> {
         let key = (rank, name.to_owned());
-        let series =
-            self.series.entry(key).or_insert(Series { source, samples: Vec::new(), attitudes: Attitudes::default() });
+        let (samples, attitudes, unfit) = Default::default();
+        let series = self.series.entry(key).or_insert(Series { source, samples, attitudes, unfit });
         match place {
             Some(place) if series.samples.last().is_none_or(|(last, ..)| *last < t_s) => {
                 self.budget.take()?;
                 series.samples.push((t_s, place, v));
             }
-            _ => self.skipped += 1,
+            place => {
+                self.skipped += 1;
+                if let Some(place) = place.filter(|_| series.unfit.is_none()) {
+                    series.unfit = series.contradiction(t_s, &place);
+                }
+            }
         }
         Ok(())
     }
@@ -169,7 +189,9 @@ impl Log {
             };
             let samples = series.samples.iter().zip(turns).map(one).collect();
             let resets = if series.source == Source::Estimate { flown.resets() } else { Vec::new() };
-            motions.push(LoggedMotion { name, source: series.source, samples, resets, invalid: Vec::new() });
+            let (source, unfit) = (series.source, series.unfit);
+            notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+            motions.push(LoggedMotion { name, source, samples, resets, invalid: Vec::new(), unfit });
         }
         motions.sort_by_key(|motion| motion.source);
         let progress = flown.progress(|place| plane.as_ref().map(|plane| plane.from_geodetic(place)));

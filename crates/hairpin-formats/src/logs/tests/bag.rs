@@ -79,6 +79,40 @@ fn times_are_when_they_were_recorded_where_headers_have_none() {
     }
 }
 
+/// Messages at 50 Hz of what moves at 1 unit a second, and one more with the header's stamp of the one at 0.2 s.
+fn one_more(kind: &'static str, body: impl Fn(u32, f64) -> Vec<u8>, at: f64) -> Logged {
+    let message = |step: u32, at: f64, behind: u64| {
+        ("/a", kind, 1_000_000_000 + u64::from(step) * 20_000_000 + behind, body(step * 20_000_000, at))
+    };
+    let mut messages: Vec<_> = (0..20).map(|step| message(step, 0.02 * f64::from(step), 0)).collect();
+    messages.push(message(10, at, 1_000));
+    parse(&bag(&messages, None), "a.mcap").unwrap()
+}
+
+#[test]
+fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
+    let pose =
+        |ns: u32, x: f64| Cdr::new(true).header(7, ns, "map").numbers(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).bytes();
+    let joints = |ns: u32, q: f64| {
+        let head = Cdr::new(true).header(7, ns, "").u32(2).text("q_a").text("q_b");
+        head.u32(2).numbers(&[5.0, q]).u32(0).u32(0).bytes()
+    };
+    // Again the same, and again within the milliseconds that stamps are told in.
+    for at in [0.2, 0.2 + 1e-9, 0.201] {
+        let read = one_more("geometry_msgs/msg/PoseStamped", pose, at);
+        assert_eq!((read.motions[0].samples.len(), &read.motions[0].unfit), (20, &None), "{at}");
+        assert_eq!(read.notes, ["/a: 1 messages with a stamp that was there before"]);
+        assert_eq!(one_more("sensor_msgs/msg/JointState", joints, at).joints[0].unfit, None, "{at}");
+    }
+    let read = one_more("geometry_msgs/msg/PoseStamped", pose, 3.2);
+    let why = "two places with the stamp 7.2 s, (0.2, 0, 0) m and (3.2, 0, 0) m: nobody knows which is true";
+    assert_eq!(read.motions[0].unfit.as_deref(), Some(why));
+    assert!(read.notes.contains(&format!("/a: {why}")), "{:?}", read.notes);
+    let read = one_more("sensor_msgs/msg/JointState", joints, 0.3);
+    let why = "two positions of the joint q_b with the stamp 7.2 s, 0.2 rad and 0.3 rad: nobody knows which is true";
+    assert_eq!(read.joints[0].unfit.as_deref(), Some(why));
+}
+
 #[test]
 fn a_path_without_times_is_a_plan() {
     let path = |stamps: [u32; 2]| {

@@ -70,6 +70,28 @@ fn what_is_cut_or_spoiled_is_told_by_its_byte() {
     );
 }
 
+/// A log of `POS` at latitudes, degrees by 10⁻⁷ behind the point, and stamps.
+fn positions(rows: &[(u64, i32)]) -> Logged {
+    let mut log = Bin::new();
+    log.describe(3, 23, "POS", "QLLf", "TimeUS,Lat,Lng,Alt");
+    for (t, lat) in rows {
+        let place = [473_977_000 + lat, 85_456_000].map(i32::to_le_bytes).concat();
+        log.message(3, &[&t.to_le_bytes(), &place, &488_f32.to_le_bytes()]);
+    }
+    parsed(&log.0)
+}
+
+#[test]
+fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
+    let again = positions(&[(100_000, 0), (200_000, 50), (200_000, 51), (100_000, 0), (300_000, 100)]);
+    assert_eq!((again.motions[0].samples.len(), &again.motions[0].unfit), (3, &None));
+    let other = positions(&[(100_000, 0), (200_000, 50), (300_000, 100), (200_000, 350)]);
+    let why = "two places with the stamp 0.2 s, 47.3977050°, 8.5456000°, 488.00 m and 47.3977350°, 8.5456000°, 488.00 m: \
+               nobody knows which is true";
+    assert_eq!(other.motions[0].unfit.as_deref(), Some(why));
+    assert!(other.notes.contains(&format!("POS: {why}")), "{:?}", other.notes);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 

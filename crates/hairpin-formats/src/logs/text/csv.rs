@@ -166,9 +166,17 @@ impl Reading {
             samples: self.samples,
             resets: Vec::new(),
             invalid: Vec::new(),
+            unfit: None,
         };
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();
-        let joints = Joints { name: name.into(), joints: names, times_s: self.times, positions_rad: self.joints };
+        let joints = Joints {
+            name: name.into(),
+            source: Source::Untold,
+            joints: names,
+            times_s: self.times,
+            positions_rad: self.joints,
+            unfit: None,
+        };
         Logged {
             format: "CSV",
             clock: Clock::File,

@@ -7,6 +7,7 @@ use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source};
 use super::super::samples::Budget;
 use super::formats::Slot;
+use super::position::contradiction;
 use super::topic::{Finder, seconds};
 
 /// No robot is further from where it began, m.
@@ -42,6 +43,7 @@ pub(super) struct Odometry {
     unknown: usize,
     skipped: usize,
     frd: bool,
+    unfit: Option<String>,
 }
 
 impl Odometry {
@@ -63,6 +65,7 @@ impl Odometry {
             unknown: 0,
             skipped: 0,
             frd: false,
+            unfit: None,
         })
     }
 
@@ -86,8 +89,12 @@ impl Odometry {
         }
         let ned = self.p.map(read);
         let rises = self.samples.last().is_none_or(|last| last.t_s < t_s);
-        if !rises || !ned.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M) {
+        let is_number = ned.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M);
+        if !rises || !is_number {
             self.skipped += 1;
+            if is_number && self.unfit.is_none() {
+                self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
+            }
             return Ok(());
         }
         budget.take()?;
@@ -131,8 +138,9 @@ impl Odometry {
         if self.frd {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
-        let Self { samples, resets, .. } = self;
-        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new() };
+        let Self { samples, resets, unfit, .. } = self;
+        notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new(), unfit };
         ((!motion.samples.is_empty()).then_some(motion), notes)
     }
 }

@@ -6,6 +6,7 @@ use super::super::axes::{enu_point, enu_vector};
 use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
 use super::super::samples::Budget;
+use super::super::twice::{places_apart, two_places};
 use super::formats::Slot;
 use super::projection::{place, tangent};
 use super::topic::{Finder, seconds};
@@ -53,6 +54,7 @@ pub(super) struct Positions {
     turned: Vec<String>,
     turns: usize,
     skipped: usize,
+    unfit: Option<String>,
 }
 
 impl Positions {
@@ -75,8 +77,8 @@ impl Positions {
             accuracy: finder.slots(["eph", "epv"]),
         };
         let (samples, resets, invalid, references, turned) = Default::default();
-        let (since, counters, turns, skipped) = Default::default();
-        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped })
+        let (since, counters, turns, skipped, unfit) = Default::default();
+        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped, unfit })
     }
 
     pub(super) fn push(&mut self, stamp: f64, data: &[u8], budget: &mut Budget) -> Result<(), Fault> {
@@ -92,6 +94,9 @@ impl Positions {
         let lost = !valid || !is_number || is(slots.dead_reckoning) == Some(true);
         if !is_number || !rises {
             self.skipped += usize::from(valid);
+            if !lost && self.unfit.is_none() {
+                self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
+            }
             self.settle(t_s, lost);
             return Ok(());
         }
@@ -214,8 +219,9 @@ impl Positions {
         if self.references.len() > 1 {
             notes.push(format!("{name}: its reference on Earth moved {} times", self.references.len() - 1));
         }
-        let Self { samples, resets, invalid, .. } = self;
-        (LoggedMotion { name: name.into(), source, samples, resets, invalid }, notes)
+        let Self { samples, resets, invalid, unfit, .. } = self;
+        notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+        (LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit }, notes)
     }
 
     /// Turns PX4's plane about the reference of each time into east, north, up about `origin`.
@@ -234,6 +240,14 @@ impl Positions {
     pub(super) fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
+}
+
+/// What is wrong where a sample at another place than `p` has the stamp `t_s` already. Loggers write samples again, and
+/// go back where they lost some: the same place once more is none.
+pub(super) fn contradiction(samples: &[Sample], t_s: f64, p: &Point3<f64>) -> Option<String> {
+    let before = samples.binary_search_by(|sample| sample.t_s.total_cmp(&t_s)).ok()?;
+    let before = samples[before].p_m;
+    places_apart(&before, p).map(|_| two_places(t_s, &before, p))
 }
 
 /// A target of a mission about `origin`.

@@ -104,6 +104,9 @@ fn chosen<'a>(
         }
     }
     match (fitting.len(), fitting.pop()) {
+        (1, Some((joints, ..))) if joints.unfit.is_some() => {
+            Err(format!("{}: {}", shortened(&joints.name), joints.unfit.as_deref().unwrap_or_default()))
+        }
         (1, Some(only)) => Ok(only),
         (0, _) => Err(why),
         _ => Err(format!("several topics have this arm's joints: {}; {}", names(), asks.topic)),

@@ -122,6 +122,19 @@ fn what_may_be_a_plan_is_judged_only_where_it_is_named() {
 }
 
 #[test]
+fn what_is_at_two_places_at_one_moment_is_not_judged() {
+    let mut two = bag(&[("/a/odom", Source::Untold), ("/b/pose", Source::Asked)]);
+    two.motions[0].unfit = Some("two places with the stamp 7 s, here and there".into());
+    let told = judged_as(&two, |_, _| {}).unwrap_err();
+    assert!(told.contains("/a/odom: two places with the stamp 7 s, here and there"), "{told}");
+    // Nor where it is named; another that is named is.
+    let by_name = |topic: &str| judged_as(&two, |settings, _| settings.source = Some(topic.into()));
+    assert!(by_name("/a/odom").unwrap_err().contains("two places with the stamp 7 s"));
+    assert_eq!(by_name("/b/pose").unwrap().verdict.exit_code, 0);
+    assert!(best(&two, &Asks::FIT).unwrap_err().contains("two places"));
+}
+
+#[test]
 fn a_limit_that_a_log_does_not_measure_is_open() {
     let both = [("spec.deviation.max_m".to_owned(), "0.5".to_owned()), ("spec.clearance.min_m".into(), "0.1".into())];
     // Without --world no obstacle is known.
