@@ -1,5 +1,6 @@
 //! What was recorded of one topic.
 
+use super::super::accuracy::half;
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LoggedMotion, Sample, Source};
 use super::super::samples::Budget;
@@ -32,6 +33,8 @@ pub(super) struct Topic {
     first_broken: usize,
     /// Samples in another frame than the first.
     elsewhere: usize,
+    /// Samples whose accuracy is told across or up alone.
+    halves: usize,
 }
 
 #[derive(Debug)]
@@ -45,8 +48,22 @@ struct Set {
 impl Topic {
     pub(super) fn of(name: String, kind: Kind) -> Self {
         let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
-        let (broken, first_broken, elsewhere) = Default::default();
-        Self { name, kind, frame, samples, sets, received, paths, stamped, seen, broken, first_broken, elsewhere }
+        let (broken, first_broken, elsewhere, halves) = Default::default();
+        Self {
+            name,
+            kind,
+            frame,
+            samples,
+            sets,
+            received,
+            paths,
+            stamped,
+            seen,
+            broken,
+            first_broken,
+            elsewhere,
+            halves,
+        }
     }
 
     pub(super) fn push(
@@ -107,6 +124,7 @@ impl Topic {
         }
         self.stamped |= pose.header.stamp_ns != 0;
         self.received.push(received_s);
+        self.halves += usize::from(pose.is_half && pose.accuracy_m.is_some());
         self.samples.push(Sample {
             t_s: pose.header.stamp_ns as f64 / 1e9,
             p_m: pose.p_m,
@@ -179,6 +197,7 @@ impl Topic {
         if self.elsewhere > 0 {
             notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));
         }
+        notes.extend(half(&name, self.halves));
         if self.kind == Kind::Path && self.seen {
             let which = match (samples.is_empty(), clock) {
                 (true, _) => "none has poses with stamps that rise: a plan, not a motion",
@@ -222,14 +241,40 @@ impl Topic {
 }
 
 /// Words in names of topics that are no motions but what motions are to be.
-const ASKED: &str = "cmd command commanded commands desired goal goals nominal plan planned planner plans ref reference \
-                     setpoint setpoints target targets wanted waypoint waypoints";
+const ASKED: &str = "cmd command commanded commands demand demanded des desired goal goals nominal plan planned planner \
+                     plans ref reference requested setpoint setpoints target targets wanted waypoint waypoints";
+/// What is written together with them: `goalpose`, `jointcmd`.
+const BODIES: [&str; 8] = ["pose", "position", "odometry", "odom", "path", "states", "state", "joint"];
 
-/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/set_point`.
+/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/targetPose2`,
+/// `/set_point`.
 fn is_asked(name: &str) -> bool {
-    let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase).collect();
-    words.iter().any(|word| ASKED.split(' ').any(|asked| asked == word))
+    let words = words(name);
+    let is = |word: &str| ASKED.split(' ').any(|asked| asked == word);
+    let is_beside =
+        |word: &str, body: &str| word.strip_suffix(body).is_some_and(is) || word.strip_prefix(body).is_some_and(is);
+    words.iter().any(|word| is(word) || BODIES.iter().any(|body| is_beside(word, body)))
         || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point"))
+}
+
+/// The words of a name, in small letters: between other signs, between letters and digits, and where a large letter
+/// begins one (`goalPose`, `CMDPose`).
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let characters: Vec<char> = name.chars().collect();
+    for (i, c) in characters.iter().enumerate() {
+        let before = i.checked_sub(1).map_or('/', |before| characters[before]);
+        let then_small = characters.get(i + 1).is_some_and(|next| next.is_lowercase());
+        let begins = c.is_numeric() != before.is_numeric()
+            || c.is_uppercase() && (before.is_lowercase() || before.is_uppercase() && then_small);
+        if begins || !c.is_alphanumeric() {
+            words.push(String::new());
+        }
+        if let Some(word) = words.last_mut().filter(|_| c.is_alphanumeric()) {
+            word.extend(c.to_lowercase());
+        }
+    }
+    words
 }
 
 /// The joint that is farthest from itself in two rows of the same joints, and how far, rad.

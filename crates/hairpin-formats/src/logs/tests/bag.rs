@@ -150,6 +150,64 @@ fn what_was_asked_for_comes_behind_what_moved() {
 }
 
 #[test]
+fn names_of_what_was_asked_for_are_read_by_their_words() {
+    let source = |name: &'static str, kind: &'static str, body: &dyn Fn(u32) -> Vec<u8>| {
+        let messages: Vec<_> = [1, 2].map(|t| (name, kind, u64::from(t), body(t))).into();
+        let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+        read.motions.first().map_or_else(|| read.joints[0].source, |motion| motion.source)
+    };
+    let of_pose = |name| source(name, "geometry_msgs/msg/PoseStamped", &|t| pose(t, "map", 1.0));
+    let joints = |t: u32| Cdr::new(true).header(t, 0, "").u32(1).text("a").u32(1).numbers(&[0.5]).u32(0).u32(0).bytes();
+    let of_joints = |name| source(name, "sensor_msgs/msg/JointState", &joints);
+    for name in [
+        "/goalPose",
+        "/targetPose",
+        "/setpointPose",
+        "/desiredPose",
+        "/cmdPose",
+        "/CMDPose",
+        "/target1/pose",
+        "/goal2",
+        "/Goal_Pose",
+        "/setPoint",
+        "/goalpose",
+        "/uav1/poseCmd",
+        "/desired/odom",
+    ] {
+        assert_eq!(of_pose(name), Source::Asked, "{name}");
+    }
+    for name in ["/robot1/odom", "/commander/pose", "/vrpn/Platform2/pose", "/preferencePose", "/run_0/pose"] {
+        assert_eq!(of_pose(name), Source::Untold, "{name}");
+    }
+    for name in ["/joint_command", "/desired/joint_states", "/jointCommands", "/jointcmd"] {
+        assert_eq!(of_joints(name), Source::Asked, "{name}");
+    }
+    assert_eq!(of_joints("/joint_states"), Source::Untold);
+}
+
+#[test]
+fn an_accuracy_that_is_told_of_one_counts_for_both() {
+    let odometry = |t: u32, variances: [f64; 3]| {
+        let mut covariance = [0.0; 36];
+        [covariance[0], covariance[7], covariance[14]] = variances;
+        let place = Cdr::new(true).header(t, 0, "odom").text("base").numbers(&[f64::from(t), 0.0, 0.0]);
+        let place = place.numbers(&[0.0, 0.0, 0.0, 1.0]).numbers(&covariance);
+        place.numbers(&[0.0; 6]).numbers(&[0.0; 36]).bytes()
+    };
+    let told = |variances: [f64; 3]| {
+        let messages = [1, 2].map(|t| ("/odom", "nav_msgs/msg/Odometry", u64::from(t), odometry(t, variances)));
+        let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+        (read.motions[0].samples[0].accuracy_m, read.notes)
+    };
+    let note = "/odom: 2 samples tell their accuracy across or up alone, which counts for both";
+    assert_eq!(told([4.0, 25.0, -1.0]), (Some([5.0; 2]), vec![note.to_owned()]));
+    assert_eq!(told([f64::NAN, f64::NAN, 0.25]), (Some([0.5; 2]), vec![note.to_owned()]));
+    assert_eq!(told([0.0; 3]), (None, Vec::new()));
+    assert_eq!(told([-1.0; 3]), (None, Vec::new()));
+    assert_eq!(told([f64::INFINITY, 1.0, 0.25]), (Some([1e7, 0.5]), Vec::new()));
+}
+
+#[test]
 fn what_is_cut_or_spoiled_is_told_by_its_byte() {
     let whole = drive(true, Some(Compression::Zstd));
     let cut = parse(&whole[..whole.len() / 2], "a.mcap").unwrap();

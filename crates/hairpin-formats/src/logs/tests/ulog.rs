@@ -170,6 +170,20 @@ fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
 }
 
 #[test]
+fn an_accuracy_that_is_told_of_one_counts_for_both() {
+    let of = |accuracy: [f32; 2]| {
+        let read = parsed(&positions(&[Position { accuracy, ..at(100_000, [0.0; 3]) }]).0);
+        let is_told = read.notes.iter().any(|note| note.contains("1 samples tell their accuracy across or up alone"));
+        (read.motions[0].samples[0].accuracy_m, is_told)
+    };
+    assert_eq!(of([5.0, f32::NAN]), (Some([5.0; 2]), true));
+    assert_eq!(of([f32::NAN, 0.5]), (Some([0.5; 2]), true));
+    assert_eq!(of([5.0, 0.5]), (Some([5.0, 0.5]), false));
+    assert_eq!(of([f32::INFINITY, 0.5]), (Some([1e7, 0.5]), false));
+    assert_eq!(of([f32::NAN, -1.0]), (None, false));
+}
+
+#[test]
 fn a_log_that_is_cut_is_read_as_far_as_it_goes() {
     let whole = flight();
     let cut = parsed(&whole[..whole.len() - 30]);

@@ -2,6 +2,7 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_attitude, enu_point, enu_vector};
 use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source};
@@ -43,6 +44,7 @@ pub(super) struct Odometry {
     unknown: usize,
     skipped: usize,
     frd: bool,
+    halves: usize,
     unfit: Option<String>,
 }
 
@@ -65,6 +67,7 @@ impl Odometry {
             unknown: 0,
             skipped: 0,
             frd: false,
+            halves: 0,
             unfit: None,
         })
     }
@@ -106,9 +109,11 @@ impl Odometry {
             Axes::Unknown => None,
             axes => (axes == frame).then(|| enu_vector(v)),
         });
+        // Of x and y the one that is told, where only one is.
         let variance = self.variance.map(|variance| variance.map(read));
-        let variance = variance.filter(|of| of.iter().all(|of| of.is_finite() && *of >= 0.0));
-        let accuracy_m = variance.map(|[x, y, z]| [x.max(y).sqrt(), z.sqrt()]);
+        let deviations = variance.map(|[x, y, z]| [x.max(y), z].map(|of| known(of.sqrt())));
+        let (accuracy_m, is_half) = both(deviations.unwrap_or_default());
+        self.halves += usize::from(is_half);
         let count = self.counter.map(read);
         if self.count.is_some() && self.count != count {
             self.resets.push(Reset { t_s, by_m: None });
@@ -138,7 +143,8 @@ impl Odometry {
         if self.frd {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
-        let Self { samples, resets, unfit, .. } = self;
+        let Self { samples, resets, halves, unfit, .. } = self;
+        notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
         let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new(), unfit };
         ((!motion.samples.is_empty()).then_some(motion), notes)

@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_point, enu_vector};
 use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
@@ -36,7 +37,7 @@ struct Slots {
     /// xy, z.
     global: [Option<Slot>; 2],
     reference: Option<[Slot; 3]>,
-    accuracy: Option<[Slot; 2]>,
+    accuracy: [Option<Slot>; 2],
 }
 
 /// What was read of one instance.
@@ -54,6 +55,8 @@ pub(super) struct Positions {
     turned: Vec<String>,
     turns: usize,
     skipped: usize,
+    /// Samples of whose accuracy only one of both is told.
+    halves: usize,
     unfit: Option<String>,
 }
 
@@ -74,11 +77,11 @@ impl Positions {
             ],
             global: ["xy_global", "z_global"].map(|name| finder.slot(name)),
             reference: finder.slots(["ref_lat", "ref_lon", "ref_alt"]),
-            accuracy: finder.slots(["eph", "epv"]),
+            accuracy: ["eph", "epv"].map(|name| finder.slot(name)),
         };
         let (samples, resets, invalid, references, turned) = Default::default();
-        let (since, counters, turns, skipped, unfit) = Default::default();
-        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped, unfit })
+        let (since, counters, turns, skipped, halves, unfit) = Default::default();
+        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped, halves, unfit })
     }
 
     pub(super) fn push(&mut self, stamp: f64, data: &[u8], budget: &mut Budget) -> Result<(), Fault> {
@@ -103,14 +106,9 @@ impl Positions {
         budget.take()?;
         let v = slots.v.map(three).filter(|v| v.iter().all(|v| v.is_finite()));
         let v = v.filter(|_| is(slots.valid[2]) != Some(false) && is(slots.valid[3]) != Some(false));
-        let accuracy = slots.accuracy.map(|slots| slots.map(|slot| slot.read(data).unwrap_or(f64::NAN)));
-        let sample = Sample {
-            t_s,
-            p_m: enu_point(ned),
-            attitude: None,
-            v_m_s: v.map(enu_vector),
-            accuracy_m: accuracy.filter(|deviations| deviations.iter().all(|d| d.is_finite() && *d >= 0.0)),
-        };
+        let (accuracy_m, is_half) = both(slots.accuracy.map(|slot| read(slot).and_then(known)));
+        let sample = Sample { t_s, p_m: enu_point(ned), attitude: None, v_m_s: v.map(enu_vector), accuracy_m };
+        self.halves += usize::from(is_half);
         self.take_resets(t_s, data);
         self.take_reference(t_s, data);
         self.samples.push(sample);
@@ -219,7 +217,8 @@ impl Positions {
         if self.references.len() > 1 {
             notes.push(format!("{name}: its reference on Earth moved {} times", self.references.len() - 1));
         }
-        let Self { samples, resets, invalid, unfit, .. } = self;
+        let Self { samples, resets, invalid, halves, unfit, .. } = self;
+        notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
         (LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit }, notes)
     }
