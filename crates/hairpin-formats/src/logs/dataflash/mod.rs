@@ -1,5 +1,6 @@
 //! ArduPilot's DataFlash logs (`.bin`): where the vehicle says that it was, on Earth, and what it flew.
 
+mod cores;
 mod flown;
 mod place;
 mod stream;
@@ -16,6 +17,7 @@ use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
 use super::samples::Budget;
 use super::twice::two;
 use crate::frames::Geodetic;
+use cores::Cores;
 use flown::Flown;
 use place::{between, geodetic, is_place, local, plane};
 use stream::{Message, each};
@@ -61,6 +63,7 @@ struct Log {
     origin: Option<Geodetic>,
     home: Option<Geodetic>,
     flown: Flown,
+    cores: Cores,
     budget: Budget,
     skipped: usize,
     before_origin: usize,
@@ -97,8 +100,16 @@ impl Log {
                     return Ok(());
                 };
                 let place = ned.map(|ned| local(&origin, ned)).filter(is_place);
+                self.cores.seen(&name, &message.format.name, core);
                 self.push(rank, &name, Source::Estimate, t_s, place, v.map(enu_vector))?;
                 self.turn((rank, &name), t_s, turn());
+            }
+            kind @ ("XKF4" | "NKF4") => {
+                let Some(core) = message.number("PI") else { return Ok(()) };
+                // Positions are in the same filter's first message.
+                if self.cores.name(&kind.replace('4', "1"), t_s, core) {
+                    self.budget.take()?;
+                }
             }
             "AHR2" => {
                 self.push(3, "AHR2", Source::Estimate, t_s, place(), None)?;
@@ -161,7 +172,7 @@ impl Log {
     }
 
     fn logged(self, breaks: Vec<String>) -> Logged {
-        let Self { series, attitudes, origin, flown, skipped, before_origin, .. } = self;
+        let Self { series, attitudes, origin, flown, cores, skipped, before_origin, .. } = self;
         let mut notes = breaks;
         if skipped > 0 {
             notes.push(format!("{skipped} messages without a place or with a stamp that does not rise"));
@@ -193,6 +204,7 @@ impl Log {
             notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
             motions.push(LoggedMotion { name, source, samples, resets, invalid: Vec::new(), unfit });
         }
+        cores.settle(&mut motions, &mut notes);
         motions.sort_by_key(|motion| motion.source);
         let progress = flown.progress(|place| plane.as_ref().map(|plane| plane.from_geodetic(place)));
         let (events, told) = flown.into_events();
