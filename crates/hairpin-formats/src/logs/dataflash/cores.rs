@@ -44,11 +44,8 @@ impl Cores {
         if motions.iter().any(|motion| motion.name == "POS" && motion.samples.len() > 1) {
             return;
         }
-        let own: Vec<(usize, &Core)> = motions
-            .iter()
-            .enumerate()
-            .filter_map(|(place, motion)| Some((place, self.seen.get(&motion.name)?)))
-            .collect();
+        let core = |(place, motion): (usize, &LoggedMotion)| Some((place, self.seen.get(&motion.name)?));
+        let own: Vec<(usize, &Core)> = motions.iter().enumerate().filter_map(core).collect();
         let Some((first, (message, core))) = own.first().copied() else { return };
         let is_one_filter = own.iter().all(|(_, (other, _))| other == message);
         match self.primary.get(message).map(Vec::as_slice).filter(|_| is_one_filter) {
