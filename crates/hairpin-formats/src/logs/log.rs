@@ -82,6 +82,8 @@ pub struct LoggedMotion {
     pub resets: Vec<Reset>,
     /// Spans in which the source says that it is not valid, or is dead reckoning.
     pub invalid: Vec<Span>,
+    /// Why nothing is to be judged by it, where that is so: it is at two places at one moment.
+    pub unfit: Option<String>,
 }
 
 /// A body at a time.
@@ -104,12 +106,16 @@ pub struct Sample {
 pub struct Joints {
     /// The topic or file.
     pub name: String,
+    /// Who says so: [`Source::Asked`] of what by its name is a command.
+    pub source: Source,
     /// Names of the joints, in the order of values.
     pub joints: Vec<String>,
     /// Strictly rising, s.
     pub times_s: Vec<f64>,
     /// One row a time, rad.
     pub positions_rad: Vec<Vec<f64>>,
+    /// Why nothing is to be judged by it, where that is so: two positions of a joint at one moment.
+    pub unfit: Option<String>,
 }
 
 /// From `t_s` on the mission flies to its item `item` (numbered from 0 in the mission as uploaded, take-off and speed

@@ -3,6 +3,7 @@
 //! Readers convert axes at this door and nowhere else, and align nothing: what a log's frame is, whose stamps it has
 //! and who estimated its poses is told beside them.
 
+mod accuracy;
 mod attitude;
 mod axes;
 mod bag;
@@ -12,6 +13,7 @@ mod error;
 mod log;
 mod samples;
 mod text;
+mod twice;
 mod ulog;
 
 use std::io::Read;

@@ -61,7 +61,8 @@ impl ReadLog {
     /// Whether something is found that a judgement would cut out or end at.
     pub fn has_findings(&self) -> bool {
         let ends = |kind| matches!(kind, EventKind::Failsafe | EventKind::Geofence);
-        self.motions.first().is_some_and(|judged| !judged.cuts.is_empty())
+        let unfit = |name: &str| self.logged.motions.iter().any(|own| own.name == name && own.unfit.is_some());
+        self.motions.first().is_some_and(|judged| !judged.cuts.is_empty() || unfit(&judged.source.topic))
             || self.logged.events.iter().any(|event| ends(event.kind))
     }
 }

@@ -156,6 +156,26 @@ pub(crate) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3
     Some(Course { by: LegsBy::Count, steps, done_s: behind.first().map(|(t, _)| *t) })
 }
 
+/// Refuses a table's column `leg` that numbers other legs than those between `waypoints`, of 0 to the last; behind the
+/// last waypoint it may go on by one, which says that all are reached.
+pub(super) fn check_column(logged: &Logged, waypoints: usize) -> Result<(), String> {
+    let steps = || logged.progress.iter().filter(|_| logged.format == "CSV");
+    // Leg 4 flies to item 5.
+    let leg = |step: &Progress| step.item.saturating_sub(1) as usize;
+    let legs = waypoints.saturating_sub(1);
+    let wrong = |step: &Progress, why: &str| {
+        let last = legs.saturating_sub(1);
+        Err(format!("column `leg` is {} at t = {} s, must be 0 … {last}{why}", leg(step), step.t_s))
+    };
+    if let Some(step) = steps().find(|step| leg(step) > legs) {
+        return wrong(step, "");
+    }
+    match steps().find(|step| leg(step) == legs) {
+        Some(step) if steps().all(|step| leg(step) > 0) => wrong(step, ": it seems to number legs from 1"),
+        _ => Ok(()),
+    }
+}
+
 /// Each target is the next waypoint, or a later one, that lies within `accept` of it; targets before the first and
 /// behind the last are take-off and landing. Waypoints may be passed over only where the mission never says that it
 /// flies there: then it is no mission over these.

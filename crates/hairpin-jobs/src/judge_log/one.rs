@@ -14,7 +14,7 @@ use super::begin::Before;
 use super::cut::{Left, cut};
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
-use super::legs::{Course, LegsBy, Mission, course, first_near, mission};
+use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
 use super::reached::{Missed, missed};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
@@ -58,6 +58,7 @@ pub(super) fn judge(
             (found.0, Some(found.1))
         }
     };
+    check_column(logged, case.waypoints.len()).map_err(Problem::input)?;
     let course = course(logged, &progress, &case.waypoints, against.accept);
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
     let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };

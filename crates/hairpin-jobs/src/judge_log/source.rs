@@ -29,13 +29,16 @@ pub struct SourceTold {
 /// The motion that is judged: the one of the topic asked for, else the only one of the best rank ([`best`]).
 ///
 /// # Errors
-/// There is none, none of that name, or none that is known to be what moved.
+/// There is none, none of that name, none that is known to be what moved, or that one is at two places at one moment.
 pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a LoggedMotion, SourceTold), Problem> {
     let motion = match asked {
-        Some(topic) => logged.motions.iter().find(|motion| motion.name == topic).ok_or_else(|| {
-            let names = names(&logged.motions);
-            Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {names}"))
-        })?,
+        Some(topic) => {
+            let named = logged.motions.iter().find(|motion| motion.name == topic).ok_or_else(|| {
+                let names = names(&logged.motions);
+                Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {names}"))
+            })?;
+            fit(named).map_err(Problem::input)?
+        }
         None => best(logged, &Asks::JUDGE).map_err(Problem::input)?,
     };
     Ok((motion, SourceTold::of(logged, motion)))
@@ -46,7 +49,7 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
 ///
 /// # Errors
 /// In a sentence: no motion of two samples; several of which none is known to be what moved, or none that by its type
-/// and name did.
+/// and name did; one that is at two places at one moment.
 pub(crate) fn best<'a>(logged: &'a Logged, asks: &Asks) -> Result<&'a LoggedMotion, String> {
     let usable = || logged.motions.iter().filter(|motion| motion.samples.len() >= 2);
     let first = usable().min_by_key(|motion| motion.source).ok_or_else(|| {
@@ -64,7 +67,12 @@ pub(crate) fn best<'a>(logged: &'a Logged, asks: &Asks) -> Result<&'a LoggedMoti
         let names = names(usable().filter(|motion| motion.source == first.source));
         return Err(format!("several topics may be what moved: {names}; {}", asks.topic));
     }
-    Ok(first)
+    fit(first)
+}
+
+/// Refuses a motion that nothing is to be judged by.
+fn fit(motion: &LoggedMotion) -> Result<&LoggedMotion, String> {
+    motion.unfit.as_ref().map_or(Ok(motion), |why| Err(format!("{}: {why}", motion.name)))
 }
 
 fn names<'a>(motions: impl IntoIterator<Item = &'a LoggedMotion>) -> String {

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
+use super::super::accuracy::{both, known};
 use super::cdr::{Cdr, NoMessage};
 
 /// No robot is further from where it began, m.
@@ -49,6 +50,8 @@ pub(super) struct Pose<'a> {
     pub(super) attitude: Option<UnitQuaternion<f64>>,
     pub(super) v_m_s: Option<Vector3<f64>>,
     pub(super) accuracy_m: Option<[f64; 2]>,
+    /// Whether it is told across or up alone.
+    pub(super) is_half: bool,
 }
 
 fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, NoMessage> {
@@ -71,7 +74,7 @@ fn place(cdr: &mut Cdr) -> Result<(Point3<f64>, Option<UnitQuaternion<f64>>), No
 pub(super) fn pose<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
     let header = header(cdr)?;
     let (p_m, attitude) = place(cdr)?;
-    Ok(Pose { header, p_m, attitude, v_m_s: None, accuracy_m: None })
+    Ok(Pose { header, p_m, attitude, v_m_s: None, accuracy_m: None, is_half: false })
 }
 
 /// The twist of an odometry is in the child's frame, the body.
@@ -84,8 +87,9 @@ pub(super) fn odometry<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
     let v_m_s = attitude.filter(|_| linear.iter().all(|v| v.is_finite())).map(|turn| turn * linear);
     // All zeros is how publishers say that they do not know.
     let variances = [covariance[0].max(covariance[7]), covariance[14]];
-    let known = variances.iter().all(|of| of.is_finite() && *of >= 0.0) && variances != [0.0; 2];
-    Ok(Pose { header, p_m, attitude, v_m_s, accuracy_m: known.then(|| variances.map(f64::sqrt)) })
+    let (accuracy_m, is_half) = both(variances.map(|of| known(of.sqrt())));
+    let accuracy_m = accuracy_m.filter(|deviations| *deviations != [0.0; 2]);
+    Ok(Pose { header, p_m, attitude, v_m_s, accuracy_m, is_half })
 }
 
 /// The poses of a path, with its own frame where a pose has none.

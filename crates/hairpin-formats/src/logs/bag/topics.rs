@@ -1,13 +1,18 @@
 //! What was recorded of one topic.
 
+use super::super::accuracy::half;
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LoggedMotion, Sample, Source};
 use super::super::samples::Budget;
+use super::super::twice::{apart, places_apart, told, two, two_places};
 use super::cdr::{Cdr, NoMessage};
 use super::messages::{Kind, Pose, joints, odometry, path, pose};
+use crate::quote::shortened;
 
 /// Sets of joints that one topic may tell of, by turns.
 const MOST_SETS: usize = 16;
+/// Stamps are told in milliseconds or finer, s; twice that, for what moves may go faster in between.
+const COARSE_S: f64 = 2e-3;
 
 /// One topic.
 #[derive(Debug)]
@@ -28,6 +33,8 @@ pub(super) struct Topic {
     first_broken: usize,
     /// Samples in another frame than the first.
     elsewhere: usize,
+    /// Samples whose accuracy is told across or up alone.
+    halves: usize,
 }
 
 #[derive(Debug)]
@@ -41,8 +48,22 @@ struct Set {
 impl Topic {
     pub(super) fn of(name: String, kind: Kind) -> Self {
         let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
-        let (broken, first_broken, elsewhere) = Default::default();
-        Self { name, kind, frame, samples, sets, received, paths, stamped, seen, broken, first_broken, elsewhere }
+        let (broken, first_broken, elsewhere, halves) = Default::default();
+        Self {
+            name,
+            kind,
+            frame,
+            samples,
+            sets,
+            received,
+            paths,
+            stamped,
+            seen,
+            broken,
+            first_broken,
+            elsewhere,
+            halves,
+        }
     }
 
     pub(super) fn push(
@@ -103,6 +124,7 @@ impl Topic {
         }
         self.stamped |= pose.header.stamp_ns != 0;
         self.received.push(received_s);
+        self.halves += usize::from(pose.is_half && pose.accuracy_m.is_some());
         self.samples.push(Sample {
             t_s: pose.header.stamp_ns as f64 / 1e9,
             p_m: pose.p_m,
@@ -175,6 +197,7 @@ impl Topic {
         if self.elsewhere > 0 {
             notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));
         }
+        notes.extend(half(&name, self.halves));
         if self.kind == Kind::Path && self.seen {
             let which = match (samples.is_empty(), clock) {
                 (true, _) => "none has poses with stamps that rise: a plan, not a motion",
@@ -189,9 +212,13 @@ impl Topic {
             if clock == Clock::Receive {
                 rows.iter_mut().zip(received).for_each(|((t_s, sample), at)| (*t_s, sample.t_s) = (at, at));
             }
-            let samples: Vec<Sample> = rising(rows, &name, &mut notes).into_iter().map(|(_, sample)| sample).collect();
+            let far = |one: &Sample, other: &Sample| places_apart(&one.p_m, &other.p_m).unwrap_or_default();
+            let (rows, twice) = rising(rows, &far);
+            let unfit =
+                twice.tell(clock, &name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
+            let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
-            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid });
+            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid, unfit });
         } else {
             frame = None;
         }
@@ -199,32 +226,114 @@ impl Topic {
         for (index, set) in sets.into_iter().enumerate() {
             let times = if clock == Clock::Receive { set.received } else { set.times };
             let name = if many { format!("{name}[{index}]") } else { name.clone() };
-            let rows = rising(times.into_iter().zip(set.rows).collect(), &name, &mut notes);
+            let far = |one: &Vec<f64>, other: &Vec<f64>| farthest(one, other).map_or(0.0, |(_, far)| far);
+            let (rows, twice) = rising(times.into_iter().zip(set.rows).collect(), &far);
+            let unfit = twice.tell(clock, &name, &mut notes, |(t_s, one), other| {
+                let joint = farthest(one, other).map_or(0, |(joint, _)| joint);
+                let [one, other] = [one, other].map(|row| format!("{} rad", told(row[joint])));
+                two(*t_s, &format!("positions of the joint {}", shortened(&set.names[joint])), &one, &other)
+            });
             let (times_s, positions_rad) = rows.into_iter().unzip();
-            all.push(Joints { name, joints: set.names, times_s, positions_rad });
+            all.push(Joints { name, source, joints: set.names, times_s, positions_rad, unfit });
         }
         (frame.map(|frame| (name, frame)), notes)
     }
 }
 
 /// Words in names of topics that are no motions but what motions are to be.
-const ASKED: &str = "cmd command commanded commands desired goal goals nominal plan planned planner plans ref reference \
-                     setpoint setpoints target targets wanted waypoint waypoints";
+const ASKED: &str = "cmd command commanded commands demand demanded des desired goal goals nominal plan planned planner \
+                     plans ref reference requested setpoint setpoints target targets wanted waypoint waypoints";
+/// What is written together with them: `goalpose`, `jointcmd`.
+const BODIES: [&str; 8] = ["pose", "position", "odometry", "odom", "path", "states", "state", "joint"];
 
-/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/set_point`.
+/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/targetPose2`,
+/// `/set_point`.
 fn is_asked(name: &str) -> bool {
-    let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase).collect();
-    words.iter().any(|word| ASKED.split(' ').any(|asked| asked == word))
+    let words = words(name);
+    let is = |word: &str| ASKED.split(' ').any(|asked| asked == word);
+    let is_beside =
+        |word: &str, body: &str| word.strip_suffix(body).is_some_and(is) || word.strip_prefix(body).is_some_and(is);
+    words.iter().any(|word| is(word) || BODIES.iter().any(|body| is_beside(word, body)))
         || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point"))
 }
 
-/// Rows in the order of their times, one each.
-fn rising<T>(mut rows: Vec<(f64, T)>, name: &str, notes: &mut Vec<String>) -> Vec<(f64, T)> {
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let before = rows.len();
-    rows.dedup_by(|later, first| later.0 <= first.0);
-    if rows.len() < before {
-        notes.push(format!("{name}: {} messages with a stamp that was there before", before - rows.len()));
+/// The words of a name, in small letters: between other signs, between letters and digits, and where a large letter
+/// begins one (`goalPose`, `CMDPose`).
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let characters: Vec<char> = name.chars().collect();
+    for (i, c) in characters.iter().enumerate() {
+        let before = i.checked_sub(1).map_or('/', |before| characters[before]);
+        let then_small = characters.get(i + 1).is_some_and(|next| next.is_lowercase());
+        let begins = c.is_numeric() != before.is_numeric()
+            || c.is_uppercase() && (before.is_lowercase() || before.is_uppercase() && then_small);
+        if begins || !c.is_alphanumeric() {
+            words.push(String::new());
+        }
+        if let Some(word) = words.last_mut().filter(|_| c.is_alphanumeric()) {
+            word.extend(c.to_lowercase());
+        }
     }
-    rows
+    words
+}
+
+/// The joint that is farthest from itself in two rows of the same joints, and how far, rad.
+fn farthest(one: &[f64], other: &[f64]) -> Option<(usize, f64)> {
+    let joints = one.iter().zip(other).enumerate();
+    let far = joints.filter_map(|(joint, (one, other))| Some((joint, apart(*one, *other)?)));
+    far.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Rows whose stamp was there before.
+struct Twice<T> {
+    /// How many.
+    count: usize,
+    /// The first that says something else than the row before it: both.
+    other: Option<((f64, T), T)>,
+}
+
+impl<T> Twice<T> {
+    /// Tells of them, and gives what is wrong with them. By the recorder's clock nothing is, but when messages came.
+    fn tell(
+        self,
+        clock: Clock,
+        name: &str,
+        notes: &mut Vec<String>,
+        words: impl Fn(&(f64, T), &T) -> String,
+    ) -> Option<String> {
+        if self.count > 0 {
+            notes.push(format!("{name}: {} messages with a stamp that was there before", self.count));
+        }
+        // A stamp of zero is none.
+        let other = self.other.filter(|((t_s, _), _)| clock == Clock::Header && *t_s != 0.0);
+        let why = other.map(|(one, other)| words(&one, &other));
+        notes.extend(why.iter().map(|why| format!("{name}: {why}")));
+        why
+    }
+}
+
+/// Rows in the order of their times, one each, and those that were left out for it; `far` says how far two are apart.
+///
+/// Of one stamp are also messages that follow each other faster than stamps are told. So those that are no farther
+/// apart than what moves moves around that time within [`COARSE_S`] say nothing else.
+fn rising<T: Clone>(mut rows: Vec<(f64, T)>, far: &dyn Fn(&T, &T) -> f64) -> (Vec<(f64, T)>, Twice<T>) {
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept: Vec<(f64, T)> = Vec::with_capacity(rows.len());
+    let mut again: Vec<(usize, T)> = Vec::new();
+    for (t_s, row) in rows {
+        match kept.last() {
+            Some((last, _)) if t_s <= *last => again.push((kept.len() - 1, row)),
+            _ => kept.push((t_s, row)),
+        }
+    }
+    let speed = |from: usize| {
+        let (Some(one), Some(other)) = (kept.get(from), kept.get(from + 1)) else { return 0.0 };
+        far(&one.1, &other.1) / (other.0 - one.0)
+    };
+    let is_other = |(place, row): &&(usize, T)| {
+        let speed = place.checked_sub(1).map_or(0.0, speed).max(speed(*place));
+        far(&kept[*place].1, row) > speed * COARSE_S
+    };
+    let other = again.iter().find(is_other).map(|(place, row)| (kept[*place].clone(), row.clone()));
+    (kept, Twice { count: again.len(), other })
 }

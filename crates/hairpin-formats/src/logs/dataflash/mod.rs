@@ -1,5 +1,6 @@
 //! ArduPilot's DataFlash logs (`.bin`): where the vehicle says that it was, on Earth, and what it flew.
 
+mod cores;
 mod flown;
 mod place;
 mod stream;
@@ -14,9 +15,11 @@ use super::axes::{enu_attitude, enu_vector};
 use super::error::Fault;
 use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
 use super::samples::Budget;
+use super::twice::two;
 use crate::frames::Geodetic;
+use cores::Cores;
 use flown::Flown;
-use place::{geodetic, is_place, local, plane};
+use place::{between, geodetic, is_place, local, plane};
 use stream::{Message, each};
 
 pub(super) use stream::MAGIC;
@@ -24,6 +27,8 @@ pub(super) use stream::MAGIC;
 /// Which of two kinds of origin an ORGN is.
 const EKF: f64 = 0.0;
 const HOME: f64 = 1.0;
+/// Places that are no farther apart are the same one, told by degrees of 10⁻⁷, m.
+const SAME_M: f64 = 0.02;
 
 pub(super) fn read_dataflash(bytes: &[u8]) -> Result<Logged, Fault> {
     let mut log = Log::default();
@@ -37,6 +42,18 @@ struct Series {
     source: Source,
     samples: Vec<(f64, Geodetic, Option<Vector3<f64>>)>,
     attitudes: Attitudes,
+    unfit: Option<String>,
+}
+
+impl Series {
+    /// What is wrong where it is elsewhere than at `place` with the same stamp.
+    fn contradiction(&self, t_s: f64, place: &Geodetic) -> Option<String> {
+        let before = self.samples.binary_search_by(|(at, ..)| at.total_cmp(&t_s)).ok()?;
+        let before = self.samples[before].1;
+        let words = |p: &Geodetic| format!("{:.7}°, {:.7}°, {:.2} m", p.lat_deg, p.lon_deg, p.alt_amsl_m);
+        let is_other = between(&before, place).norm() > SAME_M;
+        is_other.then(|| two(t_s, "places", &words(&before), &words(place)))
+    }
 }
 
 #[derive(Debug, Default)]
@@ -46,6 +63,7 @@ struct Log {
     origin: Option<Geodetic>,
     home: Option<Geodetic>,
     flown: Flown,
+    cores: Cores,
     budget: Budget,
     skipped: usize,
     before_origin: usize,
@@ -82,8 +100,16 @@ impl Log {
                     return Ok(());
                 };
                 let place = ned.map(|ned| local(&origin, ned)).filter(is_place);
+                self.cores.seen(&name, &message.format.name, core);
                 self.push(rank, &name, Source::Estimate, t_s, place, v.map(enu_vector))?;
                 self.turn((rank, &name), t_s, turn());
+            }
+            kind @ ("XKF4" | "NKF4") => {
+                let Some(core) = message.number("PI") else { return Ok(()) };
+                // Positions are in the same filter's first message.
+                if self.cores.name(&kind.replace('4', "1"), t_s, core) {
+                    self.budget.take()?;
+                }
             }
             "AHR2" => {
                 self.push(3, "AHR2", Source::Estimate, t_s, place(), None)?;
@@ -122,14 +148,19 @@ impl Log {
         v: Option<Vector3<f64>>,
     ) -> Result<(), Fault> {
         let key = (rank, name.to_owned());
-        let series =
-            self.series.entry(key).or_insert(Series { source, samples: Vec::new(), attitudes: Attitudes::default() });
+        let (samples, attitudes, unfit) = Default::default();
+        let series = self.series.entry(key).or_insert(Series { source, samples, attitudes, unfit });
         match place {
             Some(place) if series.samples.last().is_none_or(|(last, ..)| *last < t_s) => {
                 self.budget.take()?;
                 series.samples.push((t_s, place, v));
             }
-            _ => self.skipped += 1,
+            place => {
+                self.skipped += 1;
+                if let Some(place) = place.filter(|_| series.unfit.is_none()) {
+                    series.unfit = series.contradiction(t_s, &place);
+                }
+            }
         }
         Ok(())
     }
@@ -141,7 +172,7 @@ impl Log {
     }
 
     fn logged(self, breaks: Vec<String>) -> Logged {
-        let Self { series, attitudes, origin, flown, skipped, before_origin, .. } = self;
+        let Self { series, attitudes, origin, flown, cores, skipped, before_origin, .. } = self;
         let mut notes = breaks;
         if skipped > 0 {
             notes.push(format!("{skipped} messages without a place or with a stamp that does not rise"));
@@ -169,8 +200,11 @@ impl Log {
             };
             let samples = series.samples.iter().zip(turns).map(one).collect();
             let resets = if series.source == Source::Estimate { flown.resets() } else { Vec::new() };
-            motions.push(LoggedMotion { name, source: series.source, samples, resets, invalid: Vec::new() });
+            let (source, unfit) = (series.source, series.unfit);
+            notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+            motions.push(LoggedMotion { name, source, samples, resets, invalid: Vec::new(), unfit });
         }
+        cores.settle(&mut motions, &mut notes);
         motions.sort_by_key(|motion| motion.source);
         let progress = flown.progress(|place| plane.as_ref().map(|plane| plane.from_geodetic(place)));
         let (events, told) = flown.into_events();

@@ -79,6 +79,40 @@ fn times_are_when_they_were_recorded_where_headers_have_none() {
     }
 }
 
+/// Messages at 50 Hz of what moves at 1 unit a second, and one more with the header's stamp of the one at 0.2 s.
+fn one_more(kind: &'static str, body: impl Fn(u32, f64) -> Vec<u8>, at: f64) -> Logged {
+    let message = |step: u32, at: f64, behind: u64| {
+        ("/a", kind, 1_000_000_000 + u64::from(step) * 20_000_000 + behind, body(step * 20_000_000, at))
+    };
+    let mut messages: Vec<_> = (0..20).map(|step| message(step, 0.02 * f64::from(step), 0)).collect();
+    messages.push(message(10, at, 1_000));
+    parse(&bag(&messages, None), "a.mcap").unwrap()
+}
+
+#[test]
+fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
+    let pose =
+        |ns: u32, x: f64| Cdr::new(true).header(7, ns, "map").numbers(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).bytes();
+    let joints = |ns: u32, q: f64| {
+        let head = Cdr::new(true).header(7, ns, "").u32(2).text("q_a").text("q_b");
+        head.u32(2).numbers(&[5.0, q]).u32(0).u32(0).bytes()
+    };
+    // Again the same, and again within the milliseconds that stamps are told in.
+    for at in [0.2, 0.2 + 1e-9, 0.201] {
+        let read = one_more("geometry_msgs/msg/PoseStamped", pose, at);
+        assert_eq!((read.motions[0].samples.len(), &read.motions[0].unfit), (20, &None), "{at}");
+        assert_eq!(read.notes, ["/a: 1 messages with a stamp that was there before"]);
+        assert_eq!(one_more("sensor_msgs/msg/JointState", joints, at).joints[0].unfit, None, "{at}");
+    }
+    let read = one_more("geometry_msgs/msg/PoseStamped", pose, 3.2);
+    let why = "two places with the stamp 7.2 s, (0.2, 0, 0) m and (3.2, 0, 0) m: nobody knows which is true";
+    assert_eq!(read.motions[0].unfit.as_deref(), Some(why));
+    assert!(read.notes.contains(&format!("/a: {why}")), "{:?}", read.notes);
+    let read = one_more("sensor_msgs/msg/JointState", joints, 0.3);
+    let why = "two positions of the joint q_b with the stamp 7.2 s, 0.2 rad and 0.3 rad: nobody knows which is true";
+    assert_eq!(read.joints[0].unfit.as_deref(), Some(why));
+}
+
 #[test]
 fn a_path_without_times_is_a_plan() {
     let path = |stamps: [u32; 2]| {
@@ -113,6 +147,64 @@ fn what_was_asked_for_comes_behind_what_moved() {
     assert!(found.len() == 7 && found[2..].iter().all(|(_, source)| *source == Source::Asked), "{found:?}");
     // The frame that is told is the first one's.
     assert_eq!(read.frame, LogFrame::Named("/commander/pose".into()));
+}
+
+#[test]
+fn names_of_what_was_asked_for_are_read_by_their_words() {
+    let source = |name: &'static str, kind: &'static str, body: &dyn Fn(u32) -> Vec<u8>| {
+        let messages: Vec<_> = [1, 2].map(|t| (name, kind, u64::from(t), body(t))).into();
+        let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+        read.motions.first().map_or_else(|| read.joints[0].source, |motion| motion.source)
+    };
+    let of_pose = |name| source(name, "geometry_msgs/msg/PoseStamped", &|t| pose(t, "map", 1.0));
+    let joints = |t: u32| Cdr::new(true).header(t, 0, "").u32(1).text("a").u32(1).numbers(&[0.5]).u32(0).u32(0).bytes();
+    let of_joints = |name| source(name, "sensor_msgs/msg/JointState", &joints);
+    for name in [
+        "/goalPose",
+        "/targetPose",
+        "/setpointPose",
+        "/desiredPose",
+        "/cmdPose",
+        "/CMDPose",
+        "/target1/pose",
+        "/goal2",
+        "/Goal_Pose",
+        "/setPoint",
+        "/goalpose",
+        "/uav1/poseCmd",
+        "/desired/odom",
+    ] {
+        assert_eq!(of_pose(name), Source::Asked, "{name}");
+    }
+    for name in ["/robot1/odom", "/commander/pose", "/vrpn/Platform2/pose", "/preferencePose", "/run_0/pose"] {
+        assert_eq!(of_pose(name), Source::Untold, "{name}");
+    }
+    for name in ["/joint_command", "/desired/joint_states", "/jointCommands", "/jointcmd"] {
+        assert_eq!(of_joints(name), Source::Asked, "{name}");
+    }
+    assert_eq!(of_joints("/joint_states"), Source::Untold);
+}
+
+#[test]
+fn an_accuracy_that_is_told_of_one_counts_for_both() {
+    let odometry = |t: u32, variances: [f64; 3]| {
+        let mut covariance = [0.0; 36];
+        [covariance[0], covariance[7], covariance[14]] = variances;
+        let place = Cdr::new(true).header(t, 0, "odom").text("base").numbers(&[f64::from(t), 0.0, 0.0]);
+        let place = place.numbers(&[0.0, 0.0, 0.0, 1.0]).numbers(&covariance);
+        place.numbers(&[0.0; 6]).numbers(&[0.0; 36]).bytes()
+    };
+    let told = |variances: [f64; 3]| {
+        let messages = [1, 2].map(|t| ("/odom", "nav_msgs/msg/Odometry", u64::from(t), odometry(t, variances)));
+        let read = parse(&bag(&messages, None), "a.mcap").unwrap();
+        (read.motions[0].samples[0].accuracy_m, read.notes)
+    };
+    let note = "/odom: 2 samples tell their accuracy across or up alone, which counts for both";
+    assert_eq!(told([4.0, 25.0, -1.0]), (Some([5.0; 2]), vec![note.to_owned()]));
+    assert_eq!(told([f64::NAN, f64::NAN, 0.25]), (Some([0.5; 2]), vec![note.to_owned()]));
+    assert_eq!(told([0.0; 3]), (None, Vec::new()));
+    assert_eq!(told([-1.0; 3]), (None, Vec::new()));
+    assert_eq!(told([f64::INFINITY, 1.0, 0.25]), (Some([1e7, 0.5]), Vec::new()));
 }
 
 #[test]

@@ -70,6 +70,74 @@ fn what_is_cut_or_spoiled_is_told_by_its_byte() {
     );
 }
 
+/// A log of `POS` at latitudes, degrees by 10⁻⁷ behind the point, and stamps.
+fn positions(rows: &[(u64, i32)]) -> Logged {
+    let mut log = Bin::new();
+    log.describe(3, 23, "POS", "QLLf", "TimeUS,Lat,Lng,Alt");
+    for (t, lat) in rows {
+        let place = [473_977_000 + lat, 85_456_000].map(i32::to_le_bytes).concat();
+        log.message(3, &[&t.to_le_bytes(), &place, &488_f32.to_le_bytes()]);
+    }
+    parsed(&log.0)
+}
+
+#[test]
+fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
+    let again = positions(&[(100_000, 0), (200_000, 50), (200_000, 51), (100_000, 0), (300_000, 100)]);
+    assert_eq!((again.motions[0].samples.len(), &again.motions[0].unfit), (3, &None));
+    let other = positions(&[(100_000, 0), (200_000, 50), (300_000, 100), (200_000, 350)]);
+    let why = "two places with the stamp 0.2 s, 47.3977050°, 8.5456000°, 488.00 m and 47.3977350°, 8.5456000°, 488.00 m: \
+               nobody knows which is true";
+    assert_eq!(other.motions[0].unfit.as_deref(), Some(why));
+    assert!(other.notes.contains(&format!("POS: {why}")), "{:?}", other.notes);
+}
+
+/// Ten positions of each of `cores`, a metre east of each other a core, and from when on (steps) which is the primary.
+fn filters(cores: &[u8], primary: &[(u64, u8)]) -> Logged {
+    let mut log = Bin::new();
+    log.describe(2, 24, "ORGN", "QBLLf", "TimeUS,Type,Lat,Lng,Alt");
+    log.describe(5, 24, "XKF1", "QBfff", "TimeUS,C,PN,PE,PD");
+    log.describe(6, 13, "XKF4", "QBB", "TimeUS,C,PI");
+    let place = [473_977_000, 85_456_000].map(i32::to_le_bytes).concat();
+    log.message(2, &[&1_u64.to_le_bytes(), &[0], &place, &488_f32.to_le_bytes()]);
+    for step in 0..10_u64 {
+        let t = (100_000 * (step + 1)).to_le_bytes();
+        for core in cores {
+            let ned = [0.0, f32::from(*core), -1.0].map(f32::to_le_bytes).concat();
+            log.message(5, &[&t, &[*core], &ned]);
+            if let Some((_, primary)) = primary.iter().rfind(|(from, _)| *from <= step) {
+                log.message(6, &[&t, &[*core], &[*primary]]);
+            }
+        }
+    }
+    parsed(&log.0)
+}
+
+#[test]
+fn what_the_vehicle_flew_by_stands_before_other_cores() {
+    let names = |log: &Logged| log.motions.iter().map(|motion| motion.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&filters(&[0, 1], &[(0, 0)])), ["XKF1[0]", "XKF1[1]"]);
+    let second = filters(&[0, 1], &[(0, 1)]);
+    assert_eq!(names(&second), ["XKF1[1]", "XKF1[0]"]);
+    assert_eq!(second.notes, ["XKF1[1] is what the vehicle flew by (XKF4.PI)"]);
+    // By turns: from the fifth position on the other one.
+    let turns = filters(&[0, 1], &[(0, 1), (4, 0)]);
+    assert_eq!(names(&turns), ["XKF1[primary]", "XKF1[0]", "XKF1[1]"]);
+    let flown = &turns.motions[0];
+    let east: Vec<f64> = flown.samples.iter().map(|sample| sample.p_m.x.round()).collect();
+    assert_eq!(east, [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(flown.resets, [Reset { t_s: 0.5, by_m: None }]);
+    // One whose positions are not there, and no word at all.
+    let gone = filters(&[0], &[(0, 1)]);
+    let why = "the vehicle flew by core 1, whose positions are not in the log";
+    assert_eq!(gone.motions[0].unfit.as_deref(), Some(why));
+    let untold = filters(&[0, 1], &[]);
+    assert!(untold.motions.iter().all(|motion| motion.source == Source::Untold), "{:?}", untold.notes);
+    // The only one there is needs none.
+    let only = filters(&[0], &[]);
+    assert_eq!((only.motions[0].source, &only.motions[0].unfit), (Source::Estimate, &None));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 

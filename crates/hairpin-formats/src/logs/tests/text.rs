@@ -81,6 +81,15 @@ fn headers_of_others_are_read_by_their_units() {
 }
 
 #[test]
+fn an_accuracy_that_is_told_of_one_counts_for_both() {
+    let read = read_bytes(b"t_s,x_m,y_m,z_m,eph_m\n0,1,2,3,5\n1,1,2,3,4\n", "a.csv").unwrap();
+    assert_eq!(read.motions[0].samples[1].accuracy_m, Some([4.0; 2]));
+    assert_eq!(read.notes, ["no column of epv: `eph_m` counts for both"]);
+    let told = refusal(b"t_s,x_m,y_m,z_m,eph_m\n0,1,2,3,-5\n", "a.csv");
+    assert_eq!(told, ", line 2: column `eph_m` is `-5`, must be a finite number, 0 or more");
+}
+
+#[test]
 fn what_is_wrong_is_told_with_its_line() {
     let row = "t,x_m,y_m,z_m\n0,1,2,3\n";
     for (text, name, told) in [

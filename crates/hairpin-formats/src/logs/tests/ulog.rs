@@ -175,6 +175,36 @@ fn who_measured_it_stands_before_who_estimated_it() {
 }
 
 #[test]
+fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
+    let step = |step: u64| at(100_000 * step, [step as f32, 0.0, -2.0]);
+    let of = |more: &[Position]| {
+        let log = positions(&[&[step(1), step(2), step(3)], more].concat());
+        parsed(&log.0).motions.remove(0)
+    };
+    // Loggers write samples again, and go back where they lost some.
+    let again = of(&[step(3), step(2), at(150_000, [9.0; 3]), step(4)]);
+    assert_eq!((again.samples.len(), again.unfit), (4, None));
+    // What is not valid says nothing.
+    assert_eq!(of(&[Position { valid: false, ..at(200_000, [9.0; 3]) }]).unfit, None);
+    let why = "two places with the stamp 0.2 s, (0, 2, 2) m and (0, 2, 5) m: nobody knows which is true";
+    assert_eq!(of(&[at(200_000, [2.0, 0.0, -5.0])]).unfit.as_deref(), Some(why));
+}
+
+#[test]
+fn an_accuracy_that_is_told_of_one_counts_for_both() {
+    let of = |accuracy: [f32; 2]| {
+        let read = parsed(&positions(&[Position { accuracy, ..at(100_000, [0.0; 3]) }]).0);
+        let is_told = read.notes.iter().any(|note| note.contains("1 samples tell their accuracy across or up alone"));
+        (read.motions[0].samples[0].accuracy_m, is_told)
+    };
+    assert_eq!(of([5.0, f32::NAN]), (Some([5.0; 2]), true));
+    assert_eq!(of([f32::NAN, 0.5]), (Some([0.5; 2]), true));
+    assert_eq!(of([5.0, 0.5]), (Some([5.0, 0.5]), false));
+    assert_eq!(of([f32::INFINITY, 0.5]), (Some([1e7, 0.5]), false));
+    assert_eq!(of([f32::NAN, -1.0]), (None, false));
+}
+
+#[test]
 fn a_log_that_is_cut_is_read_as_far_as_it_goes() {
     let whole = flight();
     let cut = parsed(&whole[..whole.len() - 30]);

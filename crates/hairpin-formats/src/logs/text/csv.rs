@@ -3,6 +3,7 @@
 use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Point3, Vector3};
 
+use super::super::accuracy::both;
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample};
 use super::super::samples::Budget;
@@ -15,6 +16,7 @@ use crate::quote;
 /// More than a hundred turns is another unit, rad.
 const MOST_RAD: f64 = 700.0;
 const FINITE: &str = "a finite number";
+const DEVIATION: &str = "a finite number, 0 or more";
 
 pub(in super::super) fn read_csv(text: &str, name: &str) -> Result<Logged, Fault> {
     let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
@@ -79,6 +81,11 @@ impl Reading {
         if velocity.is_none() && columns.velocity.iter().any(Option::is_some) {
             notes.push("velocities are not read: not all of vx, vy, vz are there".into());
         }
+        match &columns.accuracy {
+            [Some(one), None] => notes.push(format!("no column of epv: `{}` counts for both", one.name)),
+            [None, Some(one)] => notes.push(format!("no column of eph: `{}` counts for both", one.name)),
+            _ => {}
+        }
         if quaternion.is_none() && columns.yaw.is_some() {
             notes.push("attitude is level, turned by the yaw".into());
         }
@@ -133,12 +140,16 @@ impl Reading {
                 Some(columns) => Some(Vector3::from(numbers(row, columns, FARTHEST_M, FINITE)?)),
                 None => None,
             };
-            let accuracy_m = match &self.columns.accuracy {
-                [Some(eph), Some(epv)] => {
-                    Some([number(row, eph, f64::MAX, FINITE)?, number(row, epv, f64::MAX, FINITE)?])
+            let mut told = [None; 2];
+            for (told, column) in told.iter_mut().zip(&self.columns.accuracy) {
+                let Some(column) = column else { continue };
+                let deviation = number(row, column, f64::MAX, DEVIATION)?;
+                *told = Some(deviation).filter(|deviation| *deviation >= 0.0);
+                if told.is_none() {
+                    return Err(wrong(row, column, DEVIATION));
                 }
-                _ => None,
-            };
+            }
+            let (accuracy_m, _) = both(told);
             self.samples.push(Sample { t_s, p_m: Point3::from(p), attitude, v_m_s, accuracy_m });
         }
         if !self.columns.joints.is_empty() {
@@ -167,9 +178,17 @@ impl Reading {
             samples: self.samples,
             resets: Vec::new(),
             invalid: Vec::new(),
+            unfit: None,
         };
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();
-        let joints = Joints { name: name.into(), joints: names, times_s: self.times, positions_rad: self.joints };
+        let joints = Joints {
+            name: name.into(),
+            source: Source::Untold,
+            joints: names,
+            times_s: self.times,
+            positions_rad: self.joints,
+            unfit: None,
+        };
         Logged {
             format: "CSV",
             clock: Clock::File,

@@ -25,8 +25,8 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         let attitude = Some(attitude(qw, [qx, qy, qz], line)?);
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
-    let motion =
-        LoggedMotion { name: name.into(), source: source(name), samples, resets: Vec::new(), invalid: Vec::new() };
+    let (resets, invalid, unfit) = Default::default();
+    let motion = LoggedMotion { name: name.into(), source: source(name), samples, resets, invalid, unfit };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

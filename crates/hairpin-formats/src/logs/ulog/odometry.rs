@@ -2,11 +2,13 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_attitude, enu_point, enu_vector};
 use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source};
 use super::super::samples::Budget;
 use super::formats::Slot;
+use super::position::contradiction;
 use super::topic::{Finder, seconds};
 
 /// No robot is further from where it began, m.
@@ -42,6 +44,8 @@ pub(super) struct Odometry {
     unknown: usize,
     skipped: usize,
     frd: bool,
+    halves: usize,
+    unfit: Option<String>,
 }
 
 impl Odometry {
@@ -63,6 +67,8 @@ impl Odometry {
             unknown: 0,
             skipped: 0,
             frd: false,
+            halves: 0,
+            unfit: None,
         })
     }
 
@@ -86,8 +92,12 @@ impl Odometry {
         }
         let ned = self.p.map(read);
         let rises = self.samples.last().is_none_or(|last| last.t_s < t_s);
-        if !rises || !ned.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M) {
+        let is_number = ned.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M);
+        if !rises || !is_number {
             self.skipped += 1;
+            if is_number && self.unfit.is_none() {
+                self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
+            }
             return Ok(());
         }
         budget.take()?;
@@ -99,9 +109,11 @@ impl Odometry {
             Axes::Unknown => None,
             axes => (axes == frame).then(|| enu_vector(v)),
         });
+        // Of x and y the one that is told, where only one is.
         let variance = self.variance.map(|variance| variance.map(read));
-        let variance = variance.filter(|of| of.iter().all(|of| of.is_finite() && *of >= 0.0));
-        let accuracy_m = variance.map(|[x, y, z]| [x.max(y).sqrt(), z.sqrt()]);
+        let deviations = variance.map(|[x, y, z]| [x.max(y), z].map(|of| known(of.sqrt())));
+        let (accuracy_m, is_half) = both(deviations.unwrap_or_default());
+        self.halves += usize::from(is_half);
         let count = self.counter.map(read);
         if self.count.is_some() && self.count != count {
             self.resets.push(Reset { t_s, by_m: None });
@@ -131,8 +143,10 @@ impl Odometry {
         if self.frd {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
-        let Self { samples, resets, .. } = self;
-        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new() };
+        let Self { samples, resets, halves, unfit, .. } = self;
+        notes.extend(half(name, halves));
+        notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new(), unfit };
         ((!motion.samples.is_empty()).then_some(motion), notes)
     }
 }

@@ -2,10 +2,12 @@
 
 use nalgebra::Point3;
 
+use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_point, enu_vector};
 use super::super::error::Fault;
 use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
 use super::super::samples::Budget;
+use super::super::twice::{places_apart, two_places};
 use super::formats::Slot;
 use super::projection::{place, tangent};
 use super::topic::{Finder, seconds};
@@ -35,7 +37,7 @@ struct Slots {
     /// xy, z.
     global: [Option<Slot>; 2],
     reference: Option<[Slot; 3]>,
-    accuracy: Option<[Slot; 2]>,
+    accuracy: [Option<Slot>; 2],
 }
 
 /// What was read of one instance.
@@ -53,6 +55,9 @@ pub(super) struct Positions {
     turned: Vec<String>,
     turns: usize,
     skipped: usize,
+    /// Samples of whose accuracy only one of both is told.
+    halves: usize,
+    unfit: Option<String>,
 }
 
 impl Positions {
@@ -72,11 +77,11 @@ impl Positions {
             ],
             global: ["xy_global", "z_global"].map(|name| finder.slot(name)),
             reference: finder.slots(["ref_lat", "ref_lon", "ref_alt"]),
-            accuracy: finder.slots(["eph", "epv"]),
+            accuracy: ["eph", "epv"].map(|name| finder.slot(name)),
         };
         let (samples, resets, invalid, references, turned) = Default::default();
-        let (since, counters, turns, skipped) = Default::default();
-        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped })
+        let (since, counters, turns, skipped, halves, unfit) = Default::default();
+        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped, halves, unfit })
     }
 
     pub(super) fn push(&mut self, stamp: f64, data: &[u8], budget: &mut Budget) -> Result<(), Fault> {
@@ -92,20 +97,18 @@ impl Positions {
         let lost = !valid || !is_number || is(slots.dead_reckoning) == Some(true);
         if !is_number || !rises {
             self.skipped += usize::from(valid);
+            if !lost && self.unfit.is_none() {
+                self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
+            }
             self.settle(t_s, lost);
             return Ok(());
         }
         budget.take()?;
         let v = slots.v.map(three).filter(|v| v.iter().all(|v| v.is_finite()));
         let v = v.filter(|_| is(slots.valid[2]) != Some(false) && is(slots.valid[3]) != Some(false));
-        let accuracy = slots.accuracy.map(|slots| slots.map(|slot| slot.read(data).unwrap_or(f64::NAN)));
-        let sample = Sample {
-            t_s,
-            p_m: enu_point(ned),
-            attitude: None,
-            v_m_s: v.map(enu_vector),
-            accuracy_m: accuracy.filter(|deviations| deviations.iter().all(|d| d.is_finite() && *d >= 0.0)),
-        };
+        let (accuracy_m, is_half) = both(slots.accuracy.map(|slot| read(slot).and_then(known)));
+        let sample = Sample { t_s, p_m: enu_point(ned), attitude: None, v_m_s: v.map(enu_vector), accuracy_m };
+        self.halves += usize::from(is_half);
         self.take_resets(t_s, data);
         self.take_reference(t_s, data);
         self.samples.push(sample);
@@ -214,8 +217,10 @@ impl Positions {
         if self.references.len() > 1 {
             notes.push(format!("{name}: its reference on Earth moved {} times", self.references.len() - 1));
         }
-        let Self { samples, resets, invalid, .. } = self;
-        (LoggedMotion { name: name.into(), source, samples, resets, invalid }, notes)
+        let Self { samples, resets, invalid, halves, unfit, .. } = self;
+        notes.extend(half(name, halves));
+        notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+        (LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit }, notes)
     }
 
     /// Turns PX4's plane about the reference of each time into east, north, up about `origin`.
@@ -234,6 +239,14 @@ impl Positions {
     pub(super) fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
+}
+
+/// What is wrong where a sample at another place than `p` has the stamp `t_s` already. Loggers write samples again, and
+/// go back where they lost some: the same place once more is none.
+pub(super) fn contradiction(samples: &[Sample], t_s: f64, p: &Point3<f64>) -> Option<String> {
+    let before = samples.binary_search_by(|sample| sample.t_s.total_cmp(&t_s)).ok()?;
+    let before = samples[before].p_m;
+    places_apart(&before, p).map(|_| two_places(t_s, &before, p))
 }
 
 /// A target of a mission about `origin`.

@@ -6,7 +6,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::robot::arm::{AXES, Arm, Joints};
 use hairpin::trajectory::Track;
 use hairpin_formats::controller_log::{self, ControllerLog};
-use hairpin_formats::logs::{self, Clock, Logged};
+use hairpin_formats::logs::{self, Clock, Logged, Source};
 use hairpin_formats::quote::shortened;
 
 use super::super::asks::Asks;
@@ -94,11 +94,19 @@ fn chosen<'a>(
     asked: Option<&str>,
     asks: &Asks,
 ) -> Result<(&'a logs::Joints, [usize; AXES], JointsTold), String> {
-    let sets: Vec<&logs::Joints> =
-        logged.joints.iter().filter(|joints| asked.is_none_or(|topic| joints.name == topic)).collect();
+    // What by its name was asked for is judged only where it is named.
+    let is_meant = |joints: &&logs::Joints| match asked {
+        Some(topic) => joints.name == topic,
+        None => joints.source != Source::Asked,
+    };
+    let sets: Vec<&logs::Joints> = logged.joints.iter().filter(is_meant).collect();
     let names = || logged.joints.iter().map(|joints| joints.name.as_str()).collect::<Vec<_>>().join(", ");
     match (&sets[..], asked) {
         ([], Some(topic)) => return Err(format!("--source {topic}: no joints of that topic; it has {}", names())),
+        ([], None) if !logged.joints.is_empty() => {
+            let names = names();
+            return Err(format!("no joints in it are known to have moved: {names} may be a command; {}", asks.topic));
+        }
         ([], None) => return Err(format!("a {} log without joints (sensor_msgs/JointState)", logged.format)),
         _ => {}
     }
@@ -111,6 +119,9 @@ fn chosen<'a>(
         }
     }
     match (fitting.len(), fitting.pop()) {
+        (1, Some((joints, ..))) if joints.unfit.is_some() => {
+            Err(format!("{}: {}", shortened(&joints.name), joints.unfit.as_deref().unwrap_or_default()))
+        }
         (1, Some(only)) => Ok(only),
         (0, _) => Err(why),
         _ => Err(format!("several topics have this arm's joints: {}; {}", names(), asks.topic)),

@@ -75,6 +75,21 @@ fn a_column_of_legs_is_no_word_that_they_were_flown() {
 }
 
 #[test]
+fn a_column_of_other_legs_is_refused() {
+    let step = |t_s: f64, item: u32| Progress { t_s, item, target_m: None };
+    let with = |steps: &[(f64, u32)]| {
+        let progress = steps.iter().map(|(t_s, leg)| step(*t_s, leg + 1)).collect();
+        judged_as(&Logged { format: "CSV", progress, ..log(100.0, 0.3) }, |_, _| {})
+    };
+    // Behind the last one it may say that all are reached.
+    assert_eq!(with(&[(0.0, 0), (4.0, 1), (7.99, 2)]).unwrap().verdict.exit_code, 0);
+    let told = with(&[(0.0, 0), (4.0, 57)]).unwrap_err();
+    assert!(told.ends_with("column `leg` is 57 at t = 4 s, must be 0 … 1"), "{told}");
+    let told = with(&[(0.0, 1), (4.0, 2)]).unwrap_err();
+    assert!(told.ends_with("`leg` is 2 at t = 4 s, must be 0 … 1: it seems to number legs from 1"), "{told}");
+}
+
+#[test]
 fn a_mission_state_that_stops_at_its_first_leg_is_no_whole_mission() {
     let target = |k: usize| Some(Point3::from(SQUARE[k]));
     let mut log = Logged { format: "PX4 ULog", ..through(&[SQUARE[0], [14.0, 4.0, 5.0], SQUARE[0]]) };
@@ -119,6 +134,19 @@ fn what_may_be_a_plan_is_judged_only_where_it_is_named() {
         let sentence = asked(&alone, name).sentence;
         assert!(sentence.starts_with(&format!("PASS m (flown, log_24.ulg, {words}): ")), "{sentence}");
     }
+}
+
+#[test]
+fn what_is_at_two_places_at_one_moment_is_not_judged() {
+    let mut two = bag(&[("/a/odom", Source::Untold), ("/b/pose", Source::Asked)]);
+    two.motions[0].unfit = Some("two places with the stamp 7 s, here and there".into());
+    let told = judged_as(&two, |_, _| {}).unwrap_err();
+    assert!(told.contains("/a/odom: two places with the stamp 7 s, here and there"), "{told}");
+    // Nor where it is named; another that is named is.
+    let by_name = |topic: &str| judged_as(&two, |settings, _| settings.source = Some(topic.into()));
+    assert!(by_name("/a/odom").unwrap_err().contains("two places with the stamp 7 s"));
+    assert_eq!(by_name("/b/pose").unwrap().verdict.exit_code, 0);
+    assert!(best(&two, &Asks::FIT).unwrap_err().contains("two places"));
 }
 
 #[test]
