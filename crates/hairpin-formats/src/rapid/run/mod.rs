@@ -169,6 +169,11 @@ impl<'a> Machine<'a> {
         self.frames.pop();
     }
 
+    /// What the text leaves open at `at`: nothing behind what was executed is certain.
+    pub(super) fn leave_open(&mut self, at: At, what: &str) {
+        self.mark(at, Class::ChangesMotion, what);
+    }
+
     /// The routine that the name (lower case) means here.
     fn routine(&self, name: &str) -> Option<&'a Routine> {
         self.routines.get(self.module, name).copied()

@@ -124,7 +124,7 @@ impl Machine<'_> {
                 let extents = extents(place);
                 value.into_declared(kind, &extents)
             }
-            (_, Some(kind)) if whole => value.into_kind(kind),
+            (_, Some(kind)) if whole || kind == DataKind::Dnum => value.into_kind(kind),
             _ => Ok(value),
         };
         match fitted {

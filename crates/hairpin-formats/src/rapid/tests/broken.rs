@@ -38,6 +38,32 @@ fn broken_blocks_cost_themselves_only() {
     assert_eq!((module.program.moves.len(), module.certain), (1, 1));
 }
 
+/// A file that is cut short, or has more than modules in it, is loaded by no controller; the moves that are there stay.
+#[test]
+fn what_is_cut_short_is_not_understood() {
+    let head = "MODULE M\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;\n";
+    for (rest, line) in [
+        ("", 4),
+        ("ENDPROC\n", 5),
+        ("!ENDPROC\n!ENDMODULE\n", 6),
+        ("!ENDPROC\nENDMODULE\n", 5),
+        ("ENDPROC\nCONST robtarget p:=[[1,2", 5),
+        ("ENDPROC\nPROC other()\nTPWrite \"a\";\n", 7),
+        ("ENDPROC\nPROC other()\nIF di1=1 THEN\n", 7),
+        ("ENDPROC\nVAR num n:=;\nENDMODULE\n", 5),
+        ("ENDPROC\nENDMODULE\nMoveL p10,v5,fine,tool0;\n", 6),
+    ] {
+        let module = read(format!("{head}{rest}").as_bytes(), &Options::default()).unwrap();
+        assert_eq!((module.program.moves.len(), module.certain), (1, 1), "{rest}");
+        assert_eq!((module.unclear_line, module.class(line)), (Some(line), Class::ChangesMotion), "{rest}");
+        assert!(module.mistakes.iter().any(|found| found.what == module.lines[&line].what), "{rest}");
+    }
+    for rest in ["ENDPROC\nENDMODULE", "ENDPROC\nENDMODULE\n! end\n\n%%%\nVERSION:1\n%%%\nMODULE N\nENDMODULE\u{1a}"] {
+        let module = read(format!("{head}{rest}").as_bytes(), &Options::default()).unwrap();
+        super::assert_clear(&module);
+    }
+}
+
 /// Each would take years, or more memory than there is, if it were followed.
 #[test]
 fn nothing_takes_for_ever_or_too_much() {
