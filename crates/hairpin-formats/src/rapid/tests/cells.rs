@@ -192,9 +192,10 @@ fn moves_with_extras_are_moves() {
          MoveLDO p20, v100, z10, tool0, do1, 1;\n\
          MoveJSync p10, v100, z10, tool0, \"note\";\n\
          MoveC p20, Offs(p20,-200,100,-50), vmax, z1, tool0;\n\
-         movej p20, V100, Fine, TOOL0;",
+         movej p20, V100, Fine, TOOL0;\nENDPROC\nPROC note()\nTPWrite \"corner\";",
     );
     assert_clear(&module);
+    assert!(module.procedures.iter().all(|procedure| procedure.executed));
     let moves = &module.program.moves;
     assert_eq!(moves.len(), 6);
     let Motion::AbsoluteJoint(home) = &moves[0].motion else { panic!("{:?}", moves[0]) };
