@@ -43,7 +43,10 @@ impl Machine<'_> {
             Expression::Chain { first, rest } => {
                 let first = self.evaluate(first, at);
                 rest.iter().fold(first, |left, (sign, right)| {
+                    let decided = matches!((*sign, &left), ("AND", Value::Bool(false)) | ("OR", Value::Bool(true)));
+                    self.decided += usize::from(decided);
                     let right = self.evaluate(right, at);
+                    self.decided -= usize::from(decided);
                     combine(sign, &left, &right)
                 })
             }

@@ -64,6 +64,29 @@ fn what_is_cut_short_is_not_understood() {
     }
 }
 
+/// A controller stops at an index that no element has.
+#[test]
+fn elements_that_are_not_there_are_told() {
+    let go = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;";
+    for (body, index, bound) in [
+        ("a{4}:=9;", 4, 3),
+        ("a{n}:=9;", 0, 3),
+        ("n:=a{4};", 4, 3),
+        ("IF a{4}=1 TPWrite \"x\";", 4, 3),
+        ("b{2,3}:=1;", 3, 2),
+        ("n:=b{3,1};", 3, 2),
+    ] {
+        let module = inside(&format!(
+            "VAR num a{{3}}:=[1,2,3];\nVAR num b{{2,2}};\nPROC main()\nVAR num n:=0;\n{go}\n{body}\n{go}\nENDPROC"
+        ));
+        assert_eq!((module.unclear_line, module.certain), (Some(7), 1), "{body}");
+        let what = &module.lines[&7].what;
+        assert!(what.ends_with(&format!("has the index {index}: must be from 1 to {bound}")), "{what}");
+    }
+    let guarded = "FOR n FROM 1 TO 4 DO\nIF n<=3 AND a{n}>0 a{n}:=0;\nENDFOR";
+    super::assert_clear(&inside(&format!("VAR num a{{3}}:=[1,2,3];\nPROC main()\n{guarded}\n{go}\nENDPROC")));
+}
+
 /// Each would take years, or more memory than there is, if it were followed.
 #[test]
 fn nothing_takes_for_ever_or_too_much() {
