@@ -5,7 +5,7 @@ use hairpin::trajectory::program::unit_quaternion;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::kinds::DataKind;
-use super::value::{Value, pose};
+use super::value::{Value, pose, single};
 
 /// Evaluated arguments of a function.
 pub(super) struct Arguments {
@@ -99,7 +99,7 @@ pub(super) fn call(name: &str, arguments: &Arguments) -> Value {
 }
 
 fn scalar(name: &str, arguments: &Arguments) -> Option<f64> {
-    let a = arguments.number(0)?;
+    let a = single(arguments.number(0)?);
     Some(match name {
         "abs" => a.abs(),
         "sqrt" => a.sqrt(),
@@ -150,7 +150,9 @@ fn shift(target: &mut Value, by: &Vector3<f64>) -> Option<()> {
     let place = target.component("trans")?;
     for (name, by) in ["x", "y", "z"].into_iter().zip(by.iter()) {
         let coordinate = place.component(name)?;
-        *coordinate = Value::Num(coordinate.number()? + by);
+        let from = coordinate.number()?;
+        // Left where it is, it stays as it is written.
+        *coordinate = Value::Num(if *by == 0.0 { from } else { single(single(from) + single(*by)) });
     }
     Some(())
 }

@@ -4,6 +4,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DataKind {
     Num,
+    Dnum,
     Bool,
     Text,
     Pos,
@@ -22,8 +23,8 @@ pub(super) enum DataKind {
 }
 
 use DataKind::{
-    Bool, ConfData, ExtJoint, JointTarget, LoadData, Num, Orient, Pos, Pose, RobJoint, RobTarget, SpeedData, Text,
-    ToolData, WobjData, ZoneData,
+    Bool, ConfData, Dnum, ExtJoint, JointTarget, LoadData, Num, Orient, Pos, Pose, RobJoint, RobTarget, SpeedData,
+    Text, ToolData, WobjData, ZoneData,
 };
 
 /// Name of a component and its kind.
@@ -31,7 +32,7 @@ type Component = (&'static str, DataKind);
 
 const NAMES: [(&str, DataKind); 17] = [
     ("num", Num),
-    ("dnum", Num),
+    ("dnum", Dnum),
     ("bool", Bool),
     ("string", Text),
     ("pos", Pos),
@@ -63,7 +64,7 @@ impl DataKind {
     /// Its components in order; none for what is not a record.
     pub(super) fn components(self) -> &'static [Component] {
         match self {
-            Num | Bool | Text => &[],
+            Num | Dnum | Bool | Text => &[],
             Pos => &[("x", Num), ("y", Num), ("z", Num)],
             Orient => &[("q1", Num), ("q2", Num), ("q3", Num), ("q4", Num)],
             Pose => &[("trans", Pos), ("rot", Orient)],

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::kinds::DataKind;
 use super::lex::Comment;
-use super::parse::parse;
+use super::parse::{Mistake, parse};
 use super::run::{Known, Machine};
 use super::syntax::{Routine, RoutineKind, Source, What, each};
 use super::value;
@@ -111,7 +111,7 @@ pub fn read_all(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (us
 struct Text {
     source: Source,
     parts: Vec<Part>,
-    mistakes: Vec<Found>,
+    mistakes: Vec<Mistake>,
     /// Of the first file.
     header: Vec<String>,
 }
@@ -128,7 +128,7 @@ impl Text {
             if index == 0 {
                 text.header = header(&comments, *line);
             }
-            text.mistakes.extend(mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }));
+            text.mistakes.extend(mistakes);
             text.parts.push(Part { name: file.name.into(), first_line });
             first_line += decoded.matches('\n').count() + 1;
         }
@@ -158,9 +158,13 @@ fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize
     if let Some(entry) = entry {
         machine.run(entry);
     }
+    // Statements are told where they are executed. Anything else, a module that is cut short above all, leaves open what
+    // the program would have been: no controller loads it.
+    for mistake in mistakes.iter().filter(|mistake| !mistake.in_routine) {
+        machine.leave_open(mistake.at, &mistake.what);
+    }
     let mut lines = machine.lines;
     for mistake in &mistakes {
-        // Within routines they are told where they are executed; a declaration that is lost shows where it is used.
         lines.entry(mistake.at.line).or_insert_with(|| Line::harmless(mistake.what.clone()));
     }
     let (certain, unclear_line) = match machine.unclear {
@@ -187,7 +191,7 @@ fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize
         unclear_line,
         header,
         lines,
-        mistakes,
+        mistakes: mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }).collect(),
         targets,
         parts,
     })

@@ -139,6 +139,8 @@ pub(super) struct Routine {
     pub(super) at: At,
     pub(super) home: Home,
     pub(super) kind: RoutineKind,
+    /// The kind of data that a function gives.
+    pub(super) gives: Option<String>,
     pub(super) name: String,
     pub(super) parameters: Vec<Parameter>,
     pub(super) data: Vec<Declaration>,

@@ -9,7 +9,10 @@ use super::kinds::DataKind;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Unknown,
+    /// A `num`, single on a controller: whatever is computed or compared is rounded then ([`single`]).
     Num(f64),
+    /// A `dnum`.
+    Double(f64),
     Bool(bool),
     Text(String),
     /// A record, or an aggregate that has no kind yet.
@@ -52,6 +55,7 @@ impl Value {
     pub(super) fn initial(kind: DataKind) -> Self {
         match kind {
             DataKind::Num => Self::Num(0.0),
+            DataKind::Dnum => Self::Double(0.0),
             DataKind::Bool => Self::Bool(false),
             DataKind::Text => Self::Text(String::new()),
             record => Self::Record {
@@ -71,9 +75,10 @@ impl Value {
         let expected = kind.components();
         match (self, kind) {
             (Self::Unknown, _) => Ok(Self::Unknown),
-            (value @ Self::Num(_), DataKind::Num)
-            | (value @ Self::Bool(_), DataKind::Bool)
-            | (value @ Self::Text(_), DataKind::Text) => Ok(value),
+            // Literals are of either kind.
+            (Self::Num(value) | Self::Double(value), DataKind::Num) => Ok(Self::Num(value)),
+            (Self::Num(value) | Self::Double(value), DataKind::Dnum) => Ok(Self::Double(value)),
+            (value @ Self::Bool(_), DataKind::Bool) | (value @ Self::Text(_), DataKind::Text) => Ok(value),
             (Self::Record { kind: own, parts }, _) if own == Some(kind) => Ok(Self::Record { kind: own, parts }),
             (Self::Record { kind: None, parts }, _) if !expected.is_empty() && parts.len() == expected.len() => {
                 let parts = parts.into_iter().zip(expected).map(|(part, (_, kind))| part.into_kind(*kind));
@@ -103,7 +108,7 @@ impl Value {
     }
 
     pub(super) fn number(&self) -> Option<f64> {
-        if let Self::Num(value) = self { Some(*value) } else { None }
+        if let Self::Num(value) | Self::Double(value) = self { Some(*value) } else { None }
     }
 
     pub(super) fn truth(&self) -> Option<bool> {
@@ -112,6 +117,31 @@ impl Value {
 
     pub(super) fn parts(&self) -> &[Self] {
         if let Self::Record { parts, .. } | Self::Array(parts) = self { parts } else { &[] }
+    }
+
+    /// Whether both are equal, whatever kind an aggregate has yet; `None` where that is not known.
+    pub(super) fn same(&self, other: &Self) -> Option<bool> {
+        match (self, other) {
+            (Self::Num(a), Self::Num(b)) => Some(single(*a) == single(*b)),
+            (Self::Num(a) | Self::Double(a), Self::Num(b) | Self::Double(b)) => Some(a == b),
+            (Self::Bool(a), Self::Bool(b)) => Some(a == b),
+            (Self::Text(a), Self::Text(b)) => Some(a == b),
+            (Self::Record { parts: a, .. }, Self::Record { parts: b, .. }) | (Self::Array(a), Self::Array(b))
+                if a.len() == b.len() =>
+            {
+                // One pair that differs decides alone.
+                a.iter()
+                    .zip(b)
+                    .map(|(a, b)| a.same(b))
+                    .try_fold(Some(true), |all, same| match same {
+                        Some(false) => Err(Some(false)),
+                        None => Ok(None),
+                        Some(true) => Ok(all),
+                    })
+                    .unwrap_or_else(|decided| decided)
+            }
+            _ => None,
+        }
     }
 
     /// Its component of that name (lower case).
@@ -131,6 +161,11 @@ impl Value {
         let numbers: Option<Vec<f64>> = self.parts().iter().map(Self::number).collect();
         numbers.and_then(|all| all.try_into().ok()).ok_or_else(|| UNKNOWN.into())
     }
+}
+
+/// The `num` nearest to it: IEEE 754 single precision.
+pub(super) fn single(value: f64) -> f64 {
+    f64::from(value as f32)
 }
 
 const UNKNOWN: &str = "is not known from this file";

@@ -19,6 +19,14 @@ const MOST_MISTAKES: usize = 10_000;
 pub(super) struct Mistake {
     pub(super) at: At,
     pub(super) what: String,
+    /// Whether it is a statement of a routine, which is told where it is executed.
+    pub(super) in_routine: bool,
+}
+
+impl Mistake {
+    fn new(at: At, what: String) -> Self {
+        Self { at, what, in_routine: false }
+    }
 }
 
 /// What an attempt to understand gives: a mistake ends the line.
@@ -32,7 +40,8 @@ pub(super) fn parse(text: &str, first_line: usize, source: &mut Source) -> (Vec<
     parser.file(source);
     if parser.tokens.len() > MOST_WORDS {
         let at = parser.tokens[MOST_WORDS].at;
-        parser.mistakes.push(Mistake { at, what: format!("more than {MOST_WORDS} words: the rest is not read") });
+        let what = format!("more than {MOST_WORDS} words: the rest is not read");
+        parser.mistakes.push(Mistake::new(at, what));
     }
     (parser.mistakes, comments)
 }
@@ -122,13 +131,13 @@ impl Parser {
             Word::Stray(c) => format!("`{}`", c.escape_default()),
             Word::End => "the end of the file".into(),
         };
-        Mistake { at: self.at(), what: format!("expected {what}, found {found}") }
+        Mistake::new(self.at(), format!("expected {what}, found {found}"))
     }
 
     /// Runs `inner` one level deeper.
     fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == DEEPEST {
-            return Err(Mistake { at: self.at(), what: format!("nested more than {DEEPEST} deep") });
+            return Err(Mistake::new(self.at(), format!("nested more than {DEEPEST} deep")));
         }
         self.depth += 1;
         let result = inner(self);
@@ -149,9 +158,16 @@ impl Parser {
 
     /// All modules of the file.
     fn file(&mut self, source: &mut Source) {
+        let before = source.modules.len();
+        let mut told = false;
         while !matches!(self.word(), Word::End) {
             // Expressions of a file that is none may hold the word as well; a module has a name.
             if !(self.is_keyword("MODULE") && matches!(self.ahead(1), Word::Name(_))) {
+                // Behind a module nothing but another one may stand; of what is left over one mistake tells.
+                let over = matches!(self.word(), Word::Name(_) | Word::Number(_) | Word::Text(_));
+                if over && source.modules.len() > before && !std::mem::replace(&mut told, true) {
+                    self.mistakes.push(self.expected("MODULE or the end of the file"));
+                }
                 self.advance();
                 continue;
             }
@@ -188,7 +204,7 @@ impl Parser {
                 self.mistakes.push(mistake);
                 if self.mistakes.len() >= MOST_MISTAKES {
                     let what = format!("more than {MOST_MISTAKES} lines are not understood: the rest is not read");
-                    self.mistakes.push(Mistake { at, what });
+                    self.mistakes.push(Mistake::new(at, what));
                     self.next = self.tokens.len() - 1;
                     return;
                 }
@@ -241,9 +257,7 @@ impl Parser {
 
     fn routine(&mut self, kind: RoutineKind, at: At) -> Parsed<Routine> {
         let home = self.home;
-        if kind == RoutineKind::Function {
-            self.expect_name()?;
-        }
+        let gives = if kind == RoutineKind::Function { Some(self.expect_name()?.to_ascii_lowercase()) } else { None };
         let name = self.expect_name()?;
         let parameters = if kind == RoutineKind::Trap { Vec::new() } else { self.parameters()? };
         let mut data = Vec::new();
@@ -274,6 +288,6 @@ impl Parser {
         if !self.take_keyword(end) {
             self.mistakes.push(self.expected(end));
         }
-        Ok(Routine { at, home, kind, name, parameters, data, body, handlers })
+        Ok(Routine { at, home, kind, gives, name, parameters, data, body, handlers })
     }
 }

@@ -19,8 +19,11 @@ impl Parser {
                 Ok(what) => all.push(Statement { at, what }),
                 Err(mistake) => {
                     all.push(Statement { at, what: What::Broken(mistake.what.clone()) });
-                    self.mistakes.push(mistake);
-                    self.recover(at);
+                    self.mistakes.push(Mistake { in_routine: true, ..mistake });
+                    // What lost its end ends with the routine, whose own end stays.
+                    if self.keyword_of(&ENDS).is_none() {
+                        self.recover(at);
+                    }
                     if self.next == start {
                         self.advance();
                     }

@@ -53,7 +53,12 @@ impl<'a> Machine<'a> {
         }
         match flow {
             Flow::Next => (true, None),
-            Flow::Return(value) => (true, value),
+            Flow::Return(value) => {
+                // An aggregate gets its kind here, and a literal its precision.
+                let kind = routine.gives.as_deref().and_then(DataKind::of);
+                let of_kind = |value: Value| kind.map_or(Ok(value.clone()), |kind| value.into_kind(kind));
+                (true, value.map(|value| of_kind(value).unwrap_or(Value::Unknown)))
+            }
             Flow::End => (false, None),
         }
     }

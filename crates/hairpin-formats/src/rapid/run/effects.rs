@@ -170,7 +170,7 @@ impl Machine<'_> {
 }
 
 /// Whether a routine may end the program.
-fn ends(block: &[Statement]) -> bool {
+pub(super) fn ends(block: &[Statement]) -> bool {
     block
         .iter()
         .any(|statement| matches!(statement.what, What::Exit | What::Goto(_)) || inner(statement).into_iter().any(ends))

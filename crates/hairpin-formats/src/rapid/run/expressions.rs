@@ -4,7 +4,7 @@ use super::{DEEPEST, Machine};
 use crate::listing::At;
 use crate::rapid::builtin::{self, Arguments};
 use crate::rapid::syntax::{Argument, Expression};
-use crate::rapid::value::Value;
+use crate::rapid::value::{Value, single};
 
 /// Longest string.
 const LONGEST_TEXT: usize = 80;
@@ -36,13 +36,17 @@ impl Machine<'_> {
             Expression::Call { name, arguments } => self.function(name, arguments, at),
             Expression::Unary { sign, of } => match (*sign, self.evaluate(of, at)) {
                 ("-", Value::Num(value)) => Value::Num(-value),
+                ("-", Value::Double(value)) => Value::Double(-value),
                 ("NOT", Value::Bool(value)) => Value::Bool(!value),
                 _ => Value::Unknown,
             },
             Expression::Chain { first, rest } => {
                 let first = self.evaluate(first, at);
                 rest.iter().fold(first, |left, (sign, right)| {
+                    let decided = matches!((*sign, &left), ("AND", Value::Bool(false)) | ("OR", Value::Bool(true)));
+                    self.decided += usize::from(decided);
                     let right = self.evaluate(right, at);
+                    self.decided -= usize::from(decided);
                     combine(sign, &left, &right)
                 })
             }
@@ -80,9 +84,14 @@ impl Machine<'_> {
     }
 }
 
-fn combine(sign: &str, left: &Value, right: &Value) -> Value {
+pub(super) fn combine(sign: &str, left: &Value, right: &Value) -> Value {
     match (left, right) {
-        (Value::Num(a), Value::Num(b)) => numbers(sign, *a, *b),
+        (Value::Num(a), Value::Num(b)) => match numbers(sign, single(*a), single(*b)) {
+            Value::Double(value) if single(value).is_finite() => Value::Num(single(value)),
+            Value::Double(_) => Value::Unknown,
+            truth => truth,
+        },
+        (Value::Num(a) | Value::Double(a), Value::Num(b) | Value::Double(b)) => numbers(sign, *a, *b),
         (Value::Bool(a), Value::Bool(b)) => Value::Bool(match sign {
             "AND" => *a && *b,
             "OR" => *a || *b,
@@ -102,7 +111,7 @@ fn combine(sign: &str, left: &Value, right: &Value) -> Value {
             _ => Value::Unknown,
         },
         (Value::Record { kind, parts: a }, Value::Record { parts: b, .. }) if a.len() == b.len() => {
-            records(sign, left == right, *kind, a, b)
+            records(sign, left.same(right), *kind, a, b)
         }
         // pos * num
         (Value::Record { kind, parts }, Value::Num(_)) if sign == "*" && parts.len() == 3 => {
@@ -114,6 +123,7 @@ fn combine(sign: &str, left: &Value, right: &Value) -> Value {
     }
 }
 
+/// In double precision. Of two singles it is the same as in single, once it is rounded.
 fn numbers(sign: &str, a: f64, b: f64) -> Value {
     let value = match sign {
         "+" => a + b,
@@ -131,20 +141,23 @@ fn numbers(sign: &str, a: f64, b: f64) -> Value {
         _ => return Value::Unknown,
     };
     // Division by zero stops a controller.
-    if value.is_finite() { Value::Num(value) } else { Value::Unknown }
+    if value.is_finite() { Value::Double(value) } else { Value::Unknown }
 }
 
-/// pos + pos, pos − pos, and comparisons of records without unknown parts.
-fn records(sign: &str, equal: bool, kind: Option<crate::rapid::kinds::DataKind>, a: &[Value], b: &[Value]) -> Value {
-    let unknown = |value: &Value| *value == Value::Unknown;
+/// pos + pos, pos − pos, and comparisons of records.
+fn records(
+    sign: &str,
+    equal: Option<bool>,
+    kind: Option<crate::rapid::kinds::DataKind>,
+    a: &[Value],
+    b: &[Value],
+) -> Value {
     match sign {
         "+" | "-" if a.len() == 3 => {
             let parts = a.iter().zip(b).map(|(a, b)| combine(sign, a, b)).collect();
             Value::Record { kind, parts }
         }
-        "=" | "<>" if !a.iter().chain(b).any(|part| unknown(part) || part.parts().iter().any(unknown)) => {
-            Value::Bool(equal == (sign == "="))
-        }
+        "=" | "<>" => equal.map_or(Value::Unknown, |equal| Value::Bool(equal == (sign == "="))),
         _ => Value::Unknown,
     }
 }

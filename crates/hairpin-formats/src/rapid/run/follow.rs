@@ -1,6 +1,7 @@
 //! What is followed of the instructions around moves.
 
 use super::Machine;
+use super::expressions::combine;
 use crate::listing::{At, Class, Unmodelled};
 use crate::rapid::syntax::{Argument, Expression};
 use crate::rapid::value::Value;
@@ -9,7 +10,8 @@ impl Machine<'_> {
     /// ConfL, ConfJ, SingArea, AccSet, VelSet, GripLoad, SoftDeact; Incr, Decr, Add, Clear.
     pub(super) fn follow(&mut self, name: &str, arguments: &[Argument], at: At) {
         let (placed, named) = self.sort(arguments);
-        let numbers: Vec<Option<f64>> = placed.iter().map(|value| self.evaluate(value, at).number()).collect();
+        let values: Vec<Value> = placed.iter().map(|value| self.evaluate(value, at)).collect();
+        let numbers: Vec<Option<f64>> = values.iter().map(Value::number).collect();
         match name {
             "confl" | "confj" => {
                 let on = !named.contains_key("off");
@@ -29,25 +31,21 @@ impl Machine<'_> {
                 self.mark_unmodelled(at, Unmodelled::SoftServos, "SoftDeact: servos get stiff again");
             }
             "softdeact" => self.mark(at, Class::Harmless, ""),
-            _ => self.adjust(name, &placed, &numbers, at),
+            _ => self.adjust(name, &placed, &values, at),
         }
     }
 
-    fn adjust(&mut self, name: &str, placed: &[&Expression], numbers: &[Option<f64>], at: At) {
+    fn adjust(&mut self, name: &str, placed: &[&Expression], values: &[Value], at: At) {
         let Some(Expression::Path(path)) = placed.first() else {
             return self.mark(at, Class::Harmless, "no variable");
         };
         let by = match name {
-            "incr" => Some(1.0),
-            "decr" => Some(-1.0),
-            "add" => numbers.get(1).copied().flatten(),
-            _ => None,
-        };
-        let value = match (name, numbers[0].zip(by)) {
-            ("clear", _) => Value::Num(0.0),
-            (_, Some((value, by))) => Value::Num(value + by),
+            "incr" => Value::Num(1.0),
+            "decr" => Value::Num(-1.0),
+            "add" => values.get(1).cloned().unwrap_or(Value::Unknown),
             _ => Value::Unknown,
         };
+        let value = if name == "clear" { Value::Num(0.0) } else { combine("+", &values[0], &by) };
         match self.assign(path, value, at) {
             Ok(()) => self.mark(at, Class::Understood, ""),
             Err(what) => self.mark(at, Class::Harmless, what),

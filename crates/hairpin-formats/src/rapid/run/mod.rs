@@ -50,6 +50,8 @@ pub(super) struct Machine<'a> {
     carried: BTreeSet<String>,
     steps: usize,
     depth: usize,
+    /// How many conditions are decided whatever the operand comes to that is evaluated just now.
+    decided: usize,
     /// Data that is declared, in values.
     size: usize,
     pub(super) tools: Vec<Tool>,
@@ -110,6 +112,7 @@ impl<'a> Machine<'a> {
             carried: BTreeSet::new(),
             steps: 0,
             depth: 0,
+            decided: 0,
             size: 0,
             tools: Vec::new(),
             work_objects: Vec::new(),
@@ -167,6 +170,11 @@ impl<'a> Machine<'a> {
         self.frames.push(Frame::default());
         self.enter(procedure);
         self.frames.pop();
+    }
+
+    /// What the text leaves open at `at`: nothing behind what was executed is certain.
+    pub(super) fn leave_open(&mut self, at: At, what: &str) {
+        self.mark(at, Class::ChangesMotion, what);
     }
 
     /// The routine that the name (lower case) means here.

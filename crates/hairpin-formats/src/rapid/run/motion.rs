@@ -39,11 +39,15 @@ impl Doubts {
 }
 
 impl Machine<'_> {
-    /// Executes a move.
-    pub(super) fn go(&mut self, kind: MoveKind, arguments: &[Argument], at: At) {
+    /// Executes a move, with a procedure in the middle of its corner where it is one that `calls`.
+    pub(super) fn go(&mut self, kind: MoveKind, calls: bool, arguments: &[Argument], at: At) {
         let (placed, named) = self.sort(arguments);
         match self.movement(kind, &placed, &named, at) {
-            Ok((m, doubts)) => {
+            Ok((m, mut doubts)) => {
+                if calls {
+                    let name = placed.get(least(kind));
+                    self.in_corner(name.copied(), at, &mut doubts);
+                }
                 self.moves.push(m);
                 match doubts.told() {
                     None => self.mark(at, Class::Understood, ""),
@@ -54,6 +58,28 @@ impl Machine<'_> {
                 }
             }
             Err(what) => self.mark(at, Class::ChangesMotion, what),
+        }
+    }
+
+    /// The procedure of a move: the program may be far ahead when it comes, so what it assigns is never known.
+    fn in_corner(&mut self, name: Option<&Expression>, at: At, doubts: &mut Doubts) {
+        let Some(Value::Text(name)) = name.map(|name| self.evaluate(name, at)) else {
+            return doubts.push(Some(Unmodelled::Triggers), "which procedure it calls is not known".into());
+        };
+        let name = name.rsplit(':').next().unwrap_or_default();
+        let Some(routine) = self.routine(&name.to_ascii_lowercase()) else {
+            let what = format!("procedure `{}` is not in this file: what it does is not known", name.escape_debug());
+            return doubts.push(Some(Unmodelled::Triggers), what);
+        };
+        self.ran.insert(routine.at);
+        self.mark(routine.at, Class::Harmless, "called in the corner of a move: not followed");
+        let effects = self.effects_of(routine);
+        for (module, name) in effects.assigned {
+            self.make_volatile(module, &name);
+        }
+        if effects.moves || super::effects::ends(&routine.body) {
+            let what = format!("procedure `{}` may change motion in the corner of the move", routine.name);
+            doubts.push(Some(Unmodelled::Triggers), what);
         }
     }
 
@@ -75,7 +101,7 @@ impl Machine<'_> {
     ) -> Result<(Move, Doubts), Unfit> {
         let mut doubts = Doubts::default();
         let circular = usize::from(kind == MoveKind::Circular);
-        let expected = 4 + circular;
+        let expected = least(kind);
         if placed.len() < expected {
             return Err(format!("a move needs {expected} arguments without a backslash, found {}", placed.len()));
         }
@@ -236,6 +262,11 @@ impl Machine<'_> {
         }
         (placed, named)
     }
+}
+
+/// How many arguments without a backslash a move has at least.
+fn least(kind: MoveKind) -> usize {
+    4 + usize::from(kind == MoveKind::Circular)
 }
 
 /// A speed without end has the one name under which it can be written.

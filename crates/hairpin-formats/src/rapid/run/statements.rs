@@ -4,7 +4,7 @@ use super::{DEEPEST, Flow, Machine};
 use crate::listing::{At, Class, Unmodelled};
 use crate::rapid::instructions::{self, Effect};
 use crate::rapid::syntax::{Argument, Expression, Statement, What};
-use crate::rapid::value::Value;
+use crate::rapid::value::{Value, single};
 
 type Blocks<'b> = Vec<&'b [Statement]>;
 
@@ -80,7 +80,7 @@ impl Machine<'_> {
             return if on { Flow::Next } else { Flow::End };
         }
         match instructions::effect(&lower) {
-            Some(Effect::Move(kind)) => self.go(kind, arguments, at),
+            Some(Effect::Move(kind)) => self.go(kind, lower.ends_with("sync"), arguments, at),
             Some(Effect::Followed) => self.follow(&lower, arguments, at),
             Some(Effect::Harmless) => self.mark(at, Class::Harmless, ""),
             Some(Effect::Writes) => {
@@ -155,13 +155,12 @@ impl Machine<'_> {
         let of = self.evaluate(of, at);
         for (index, (values, body)) in cases.iter().enumerate() {
             for value in values {
-                let value = self.evaluate(value, at);
-                if of == Value::Unknown || value == Value::Unknown {
+                let Some(same) = of.same(&self.evaluate(value, at)) else {
                     let rest = cases[index..].iter().map(|(_, body)| body.as_slice()).chain([otherwise]);
                     self.depends(&rest.collect::<Blocks<'_>>(), at);
                     return Flow::Next;
-                }
-                if of == value {
+                };
+                if same {
                     self.mark(at, Class::Understood, "");
                     return self.block(body);
                 }
@@ -203,9 +202,9 @@ impl Machine<'_> {
         body: &[Statement],
         at: At,
     ) -> Flow {
-        let [from, to] = bounds.map(|bound| self.evaluate(bound, at).number());
+        let [from, to] = bounds.map(|bound| self.evaluate(bound, at).number().map(single));
         let by = match step {
-            Some(step) => self.evaluate(step, at).number(),
+            Some(step) => self.evaluate(step, at).number().map(single),
             None => from.zip(to).map(|(from, to)| if from <= to { 1.0 } else { -1.0 }),
         };
         let (Some(from), Some(to), Some(by)) = (from, to, by.filter(|by| *by != 0.0)) else {
@@ -226,7 +225,7 @@ impl Machine<'_> {
                 flow = Flow::End;
                 break;
             }
-            value += by;
+            value = single(value + by);
         }
         self.unhide(variable, hidden);
         flow

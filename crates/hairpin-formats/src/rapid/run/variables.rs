@@ -91,9 +91,15 @@ impl Machine<'_> {
             let Some(mut value) = predefined::value(&path.name.to_ascii_lowercase()) else { return Value::Unknown };
             return walk(&mut value, &steps).map_or(Value::Unknown, |value| value.clone());
         };
+        let beyond = beyond(&variable.value, &steps);
         if variable.volatile {
             return Value::Unknown;
         }
+        if let Some(what) = beyond {
+            self.beyond(path, &what, at);
+            return Value::Unknown;
+        }
+        let Some(variable) = self.find_mut(&path.name) else { return Value::Unknown };
         let value = walk(&mut variable.value, &steps).map_or(Value::Unknown, |value| value.clone());
         self.steps = self.steps.saturating_add(value.size());
         value
@@ -106,6 +112,12 @@ impl Machine<'_> {
             return Err(format!("`{}` is not declared in this file", path.name));
         };
         variable.untouched = false;
+        let beyond = steps.as_ref().and_then(|steps| beyond(&variable.value, steps));
+        if let Some(what) = beyond {
+            variable.value = Value::Unknown;
+            self.beyond(path, &what, at);
+            return Ok(());
+        }
         let (kind, whole) = (variable.kind, path.steps.is_empty());
         let place = match &steps {
             Some(steps) => walk(&mut variable.value, steps),
@@ -124,7 +136,7 @@ impl Machine<'_> {
                 let extents = extents(place);
                 value.into_declared(kind, &extents)
             }
-            (_, Some(kind)) if whole => value.into_kind(kind),
+            (_, Some(kind)) if whole || kind == DataKind::Dnum => value.into_kind(kind),
             _ => Ok(value),
         };
         match fitted {
@@ -184,7 +196,15 @@ impl Machine<'_> {
         }
     }
 
-    /// The steps of a path with their indices evaluated, counted from 0; `None` where one is unknown.
+    /// Tells of an index that no element has, which stops a controller. Behind an operand that has decided already
+    /// nobody looks.
+    fn beyond(&mut self, path: &Path, what: &str, at: At) {
+        if self.decided == 0 {
+            self.mark(at, Class::ChangesMotion, format!("`{}` {what}", path.name));
+        }
+    }
+
+    /// The steps of a path with their indices evaluated, as written; `None` where one is unknown.
     fn resolve(&mut self, path: &Path, at: At) -> Option<Vec<Resolved>> {
         let mut resolved = Vec::new();
         for step in &path.steps {
@@ -192,8 +212,8 @@ impl Machine<'_> {
                 Step::Component(name) => resolved.push(Resolved::Component(name.clone())),
                 Step::Element(indices) => {
                     for index in indices {
-                        let index = self.evaluate(index, at).number().filter(|index| (1.0..1e7).contains(index))?;
-                        resolved.push(Resolved::Element(index as usize - 1));
+                        let index = self.evaluate(index, at).number().filter(|index| index.abs() < 1e7)?;
+                        resolved.push(Resolved::Element(index as i64));
                     }
                 }
             }
@@ -203,14 +223,34 @@ impl Machine<'_> {
 }
 
 enum Resolved {
-    Element(usize),
+    /// Counted from 1.
+    Element(i64),
     Component(String),
+}
+
+/// Where an element stands in its array.
+fn place(index: i64) -> Option<usize> {
+    usize::try_from(index.checked_sub(1)?).ok()
+}
+
+/// The first index that its array has not, in words.
+fn beyond(value: &Value, steps: &[Resolved]) -> Option<String> {
+    // Components come behind all indices of data: no kind of record holds an array.
+    let mut value = value;
+    for step in steps {
+        let (Resolved::Element(index), Value::Array(parts)) = (step, value) else { return None };
+        match place(*index).and_then(|place| parts.get(place)) {
+            Some(part) => value = part,
+            None => return Some(format!("has the index {index}: must be from 1 to {}", parts.len())),
+        }
+    }
+    None
 }
 
 fn walk<'v>(mut value: &'v mut Value, steps: &[Resolved]) -> Option<&'v mut Value> {
     for step in steps {
         value = match (step, value) {
-            (Resolved::Element(index), Value::Array(parts)) => parts.get_mut(*index)?,
+            (Resolved::Element(index), Value::Array(parts)) => parts.get_mut(place(*index)?)?,
             (Resolved::Component(name), record) => record.component(name)?,
             _ => return None,
         };

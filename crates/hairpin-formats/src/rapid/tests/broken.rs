@@ -38,6 +38,55 @@ fn broken_blocks_cost_themselves_only() {
     assert_eq!((module.program.moves.len(), module.certain), (1, 1));
 }
 
+/// A file that is cut short, or has more than modules in it, is loaded by no controller; the moves that are there stay.
+#[test]
+fn what_is_cut_short_is_not_understood() {
+    let head = "MODULE M\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;\n";
+    for (rest, line) in [
+        ("", 4),
+        ("ENDPROC\n", 5),
+        ("!ENDPROC\n!ENDMODULE\n", 6),
+        ("!ENDPROC\nENDMODULE\n", 5),
+        ("ENDPROC\nCONST robtarget p:=[[1,2", 5),
+        ("ENDPROC\nPROC other()\nTPWrite \"a\";\n", 7),
+        ("ENDPROC\nPROC other()\nIF di1=1 THEN\n", 7),
+        ("ENDPROC\nVAR num n:=;\nENDMODULE\n", 5),
+        ("ENDPROC\nENDMODULE\nMoveL p10,v5,fine,tool0;\n", 6),
+    ] {
+        let module = read(format!("{head}{rest}").as_bytes(), &Options::default()).unwrap();
+        assert_eq!((module.program.moves.len(), module.certain), (1, 1), "{rest}");
+        assert_eq!((module.unclear_line, module.class(line)), (Some(line), Class::ChangesMotion), "{rest}");
+        assert!(module.mistakes.iter().any(|found| found.what == module.lines[&line].what), "{rest}");
+    }
+    for rest in ["ENDPROC\nENDMODULE", "ENDPROC\nENDMODULE\n! end\n\n%%%\nVERSION:1\n%%%\nMODULE N\nENDMODULE\u{1a}"] {
+        let module = read(format!("{head}{rest}").as_bytes(), &Options::default()).unwrap();
+        super::assert_clear(&module);
+    }
+}
+
+/// A controller stops at an index that no element has.
+#[test]
+fn elements_that_are_not_there_are_told() {
+    let go = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;";
+    for (body, index, bound) in [
+        ("a{4}:=9;", 4, 3),
+        ("a{n}:=9;", 0, 3),
+        ("n:=a{4};", 4, 3),
+        ("IF a{4}=1 TPWrite \"x\";", 4, 3),
+        ("b{2,3}:=1;", 3, 2),
+        ("n:=b{3,1};", 3, 2),
+    ] {
+        let module = inside(&format!(
+            "VAR num a{{3}}:=[1,2,3];\nVAR num b{{2,2}};\nPROC main()\nVAR num n:=0;\n{go}\n{body}\n{go}\nENDPROC"
+        ));
+        assert_eq!((module.unclear_line, module.certain), (Some(7), 1), "{body}");
+        let what = &module.lines[&7].what;
+        assert!(what.ends_with(&format!("has the index {index}: must be from 1 to {bound}")), "{what}");
+    }
+    let guarded = "FOR n FROM 1 TO 4 DO\nIF n<=3 AND a{n}>0 a{n}:=0;\nENDFOR";
+    super::assert_clear(&inside(&format!("VAR num a{{3}}:=[1,2,3];\nPROC main()\n{guarded}\n{go}\nENDPROC")));
+}
+
 /// Each would take years, or more memory than there is, if it were followed.
 #[test]
 fn nothing_takes_for_ever_or_too_much() {

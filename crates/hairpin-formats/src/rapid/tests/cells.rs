@@ -137,11 +137,50 @@ fn expressions_have_the_precedence_of_rapid() {
         ("\"ab\"+\"c\"=\"abc\"", true),
         ("di1=1 OR TRUE", true),
         ("[1,2,3]=[1,2,3]", true),
+        ("home.robax=[0,-10,20,0,30,0]", true),
+        ("p10.robconf<>[0,-1,0,1]", false),
+        ("[500,0,600]=p10.trans", true),
+        ("p10.trans=[500,0,601]", false),
+        ("0.1+0.2=0.3", true),
     ] {
         let module =
             main_of(&format!("IF {condition} THEN MoveL p10,v5,fine,tool0; ELSE MoveL p20,v5,fine,tool0; ENDIF"));
         assert_clear(&module);
         assert_eq!(module.program.moves[0].motion.name(), Some(if holds { "p10" } else { "p20" }), "{condition}");
+    }
+}
+
+#[test]
+fn records_are_compared_whatever_they_are_made_by() {
+    let module = inside(
+        "CONST robtarget p:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR pos a:=[1,2,3];\nVAR num n:=0;\n\
+         PROC main()\nIF a=there(2) n:=n+1;\nIF there(2)=a n:=n+10;\nIF a<>there(4) n:=n+100;\n\
+         TEST a\nCASE [3,2,1]: n:=0;\nCASE [1,2,3]: n:=n+1000;\nENDTEST\nMoveL Offs(p,n,0,0),v5,fine,tool0;\nENDPROC\n\
+         FUNC pos there(num y)\nRETURN [1,y,3];\nENDFUNC",
+    );
+    assert_clear(&module);
+    assert_eq!(place(&module.program.moves[0]), [1_111_000, 0, 0]);
+}
+
+/// Ten times 0.1 is more than 1 in single precision, and less in double.
+#[test]
+fn a_num_is_single_and_a_dnum_double() {
+    for (kind, rounds, times) in [
+        ("num", "WHILE h<1 DO\nh:=h+0.1;\nn:=n+1;\nENDWHILE", 10),
+        ("num", "WHILE h<1 DO\nAdd h,0.1;\nn:=n+1;\nENDWHILE", 10),
+        ("num", "FOR i FROM 0 TO 1 STEP 0.1 DO\nn:=n+1;\nENDFOR", 10),
+        ("num", "WHILE h<1 DO\nh:=tenth()+h;\nn:=n+1;\nENDWHILE", 10),
+        ("dnum", "WHILE h<1 DO\nh:=h+0.1;\nn:=n+1;\nENDWHILE", 11),
+        ("dnum", "WHILE h<1 DO\nAdd h,0.1;\nn:=n+1;\nENDWHILE", 11),
+        ("dnum", "WHILE h<1 DO\nh:=tenth()+h;\nn:=n+1;\nENDWHILE", 11),
+    ] {
+        let module = inside(&format!(
+            "CONST robtarget p:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+             PROC main()\nVAR {kind} h:=0;\nVAR num n:=0;\n{rounds}\nMoveL Offs(p,n,0,0),v5,fine,tool0;\nENDPROC\n\
+             FUNC {kind} tenth()\nRETURN 0.1;\nENDFUNC"
+        ));
+        assert_clear(&module);
+        assert_eq!(place(&module.program.moves[0]), [times * 1000, 0, 0], "{kind}: {rounds}");
     }
 }
 
@@ -153,9 +192,10 @@ fn moves_with_extras_are_moves() {
          MoveLDO p20, v100, z10, tool0, do1, 1;\n\
          MoveJSync p10, v100, z10, tool0, \"note\";\n\
          MoveC p20, Offs(p20,-200,100,-50), vmax, z1, tool0;\n\
-         movej p20, V100, Fine, TOOL0;",
+         movej p20, V100, Fine, TOOL0;\nENDPROC\nPROC note()\nTPWrite \"corner\";",
     );
     assert_clear(&module);
+    assert!(module.procedures.iter().all(|procedure| procedure.executed));
     let moves = &module.program.moves;
     assert_eq!(moves.len(), 6);
     let Motion::AbsoluteJoint(home) = &moves[0].motion else { panic!("{:?}", moves[0]) };

@@ -116,6 +116,43 @@ fn loads_that_stay_change_nothing() {
     assert_eq!(put_down.unclear().map(|(line, _)| line).collect::<Vec<_>>(), [6, 7]);
 }
 
+/// The program is ahead of the arm when the procedure of a corner comes.
+#[test]
+fn what_procedures_of_corners_do_is_not_known() {
+    let with = |call: &str, corner: &str| {
+        inside(&format!(
+            "CONST robtarget p10:=[[500,0,600],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR num n:=1;\n\
+             PROC main()\n{GO}\n{call}\nMoveL Offs(p10,n,0,0),v5,fine,tool0;\nENDPROC\nPROC corner()\n{corner}\nENDPROC"
+        ))
+    };
+    let calls = [
+        "MoveLSync p10,v5,z10,tool0,\"corner\";",
+        "MoveJSync p10,v5,z10,tool0\\WObj:=wobj0,\"CORNER\";",
+        "MoveCSync Offs(p10,9,9,0),Offs(p10,20,0,0),v5,z10,tool0,\"M:corner\";",
+    ];
+    for call in calls {
+        let said = with(call, "TPWrite \"here\";");
+        assert_clear(&said);
+        assert_eq!(said.program.moves.len(), 3, "{call}");
+        let assigned = with(call, "n:=3000;");
+        assert_eq!((assigned.certain, assigned.unclear_line), (2, Some(7)), "{call}");
+        for corner in ["StopMove;", GO, "IF di1=1 EXIT;", "away;"] {
+            let module = with(call, corner);
+            let (line, what) = unclear(&module);
+            assert_eq!((line, module.certain), (6, 1), "{call} {corner}: {what}");
+            assert_eq!(module.lines[&6].unmodelled, Some(Unmodelled::Triggers), "{corner}");
+        }
+    }
+    for (call, words) in [
+        ("MoveLSync p10,v5,z10,tool0,\"gone\";", "`gone` is not in this file"),
+        ("MoveLSync p10,v5,z10,tool0,which;", "which procedure it calls is not known"),
+        ("MoveLSync p10,v5,z10,tool0;", "which procedure it calls is not known"),
+    ] {
+        let module = with(call, "");
+        assert!(unclear(&module).1.contains(words), "{call}: {}", unclear(&module).1);
+    }
+}
+
 #[test]
 fn interrupts_that_move_the_arm_are_named() {
     let with = |trap: &str, after: &str| {
