@@ -66,6 +66,11 @@ pub(super) fn columns(rows: &[Option<&Measures>]) -> Vec<(&'static str, ArrayRef
     if rows.iter().flatten().any(|measures| measures.most_between.is_some()) {
         all.push((BETWEEN, number(&|m| m.most_between)));
     }
+    for (name, value) in BETWEEN_TOO {
+        if rows.iter().flatten().any(|measures| value(measures).is_some()) {
+            all.push((name, number(&value)));
+        }
+    }
     if rows.iter().flatten().any(|measures| measures.missing != Missing::default()) {
         let flag = |of: fn(&Missing) -> bool| -> ArrayRef {
             Arc::new(rows.iter().map(|row| row.map(|m| of(&m.missing))).collect::<BooleanArray>())
@@ -82,6 +87,15 @@ const NO_ACCELERATION: &str = "acceleration_missing";
 
 /// Column: what may hide between samples, of runs of which that is asked.
 pub(super) const BETWEEN: &str = "max_deviation_between_m";
+
+type Figure = fn(&Measures) -> Option<f64>;
+
+/// The same of other limits, and the longest time that an acceleration is a mean over.
+pub(super) const BETWEEN_TOO: [(&str, Figure); 3] = [
+    ("max_overshoot_between_m", |m| m.overshoot_between),
+    ("min_clearance_between_m", |m| m.clearance_between),
+    ("acceleration_over_s", |m| m.acceleration_over),
+];
 
 fn leg_source_word(source: LegSource) -> &'static str {
     match source {
@@ -116,6 +130,8 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let between = optional_column(table, BETWEEN)?;
+    let [over_between, clear_between, mean_over] = BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
+    let (over_between, clear_between, mean_over) = (over_between?, clear_between?, mean_over?);
     let no_deviation = flags(table, NO_DEVIATION)?;
     let no_acceleration = flags(table, NO_ACCELERATION)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
@@ -142,6 +158,9 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 t_worst,
                 leg_worst: leg_worst[row].ok_or_else(|| table.refuse("leg_worst", row, "empty", "a leg's number"))?,
                 most_between: between[row],
+                overshoot_between: over_between[row],
+                clearance_between: clear_between[row],
+                acceleration_over: mean_over[row],
                 mean_deviation,
                 max_acceleration,
                 t_acceleration,

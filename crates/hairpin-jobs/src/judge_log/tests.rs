@@ -387,6 +387,41 @@ fn obstacles_need_not_have_been_there() {
     );
 }
 
+/// What no limit asks for counts as in simulation: an obstacle is in the way whatever is judged.
+#[test]
+fn what_is_in_an_obstacle_has_met_it() {
+    let judge = |off: f64| {
+        let judged = judged_as(&log(100.0, off), |settings, here| {
+            let world = here.join("w.toml");
+            let ball = "[[obstacles]]\nname = \"ball\"\nsphere = { center_m = [14, 6, 5], radius_m = 0.5 }\n";
+            fs::write(&world, format!("size_m = [30, 30, 30]\n{ball}")).unwrap();
+            settings.world = Some(world.to_string_lossy().into_owned());
+            settings.sets = vec![("spec.deviation.max_m".into(), "5".into())];
+        });
+        let verdict = judged.unwrap().verdict;
+        (verdict.sentence, verdict.exit_code)
+    };
+    let (sentence, code) = judge(0.0);
+    assert_eq!(code, 0, "{sentence}");
+    let (sentence, code) = judge(1.8);
+    assert!(code == 1 && sentence.contains("): met an obstacle: clearance -0."), "{sentence}");
+}
+
+#[test]
+fn an_acceleration_in_long_means_is_open() {
+    let judge = |rate: f64| {
+        let sets = vec![("spec.acceleration.max_m_s2".into(), "1000".into())];
+        let verdict = judged_as(&log(rate, 0.0), |settings, _| settings.sets = sets).unwrap().verdict;
+        (verdict.sentence, verdict.exit_code)
+    };
+    let (sentence, code) = judge(1.0);
+    assert_eq!(code, 5, "{sentence}");
+    let words = "in samples at 1 Hz, but as a mean over as much as 2.00 s, and what is shorter was not seen";
+    assert!(sentence.contains(words) && sentence.contains("log at 4 Hz or faster"), "{sentence}");
+    let (sentence, code) = judge(10.0);
+    assert_eq!(code, 0, "{sentence}");
+}
+
 #[test]
 fn a_mission_needs_a_robot_and_a_limit() {
     let none =

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::scenario::Asked;
 use hairpin::campaign::{Doubt, Exceeded, Flown, Setup, Why};
 use hairpin::judgement::{
-    AccelerationSource, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated, within_spec,
+    AccelerationSource, SEEN_WITHIN_S, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated,
+    within_spec,
 };
 use hairpin_formats::quote::shortened;
 
@@ -188,6 +189,14 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
                 "edge" => format!("{own}; {other}"),
                 _ => format!("{own}{may}; {other} or {limit} the limit"),
             }
+        }
+        Why::Mean(span) => {
+            let rate = found.source.rate_hz;
+            format!(
+                "{value} in samples at {rate:.0} Hz, but as a mean over as much as {span:.2} s, and what is shorter was \
+                 not seen; log at {:.0} Hz or faster, without pauses",
+                (2.0 / SEEN_WITHIN_S).ceil()
+            )
         }
         Why::Between { most, rate_hz } if most.is_finite() => {
             let bounds = found.flown.as_ref().map_or(String::new(), bounds);

@@ -104,7 +104,11 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
     for run in runs {
         let measures = measures_of(setup, case, run)?;
         let flight = run.outcome.as_ref().ok()?;
-        let events = Limits { unfinished: setup.scenario.asked() != Asked::Nothing, ..Limits::default() };
+        let events = Limits {
+            unfinished: setup.scenario.asked() != Asked::Nothing,
+            contact: setup.program().is_some(),
+            ..Limits::default()
+        };
         let events = violations(&measures, flight, &events);
         found.ended_badly |= events.iter().any(|event| event.is_crash() || event.is_unfinished());
         found.left_world |= flight.left_world.is_some();

@@ -13,10 +13,9 @@ use super::judge::{reference, settings};
 use super::scenario::DeviationFrom;
 use super::{Case, Mistake, Setup};
 use crate::judgement::{
-    self, Clearance, Close, JudgementError, Limits, Measures, Settings, Statistics, Swiftness, Violation, look_closely,
-    measure, most_between,
+    self, Clearance, Close, JudgementError, Limits, Measures, Settings, Statistics, Swiftness, Violation, beyond,
+    is_seen, longest_mean, look_closely, measure, most_between,
 };
-use crate::math::segment::nearest_point;
 use crate::trajectory::{Flight, Track};
 
 /// What of a log is judged.
@@ -48,6 +47,8 @@ pub enum Why {
         /// Samples a second that would decide, 1/s; `None` where none do.
         rate_hz: Option<f64>,
     },
+    /// It is a mean over as long a time, s, and what is shorter was not seen.
+    Mean(f64),
     /// The log itself does not know its place any better.
     Accuracy {
         /// `eph` or `epv`.
@@ -125,8 +126,10 @@ pub enum FlownError {
 /// log claims there, in the direction in which it is off: σ² = (e_h σ_h)² + (e_v σ_v)², e the unit vector from the
 /// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
 /// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit. Bounds that
-/// the log itself exceeds bound nothing. Accelerations, durations and attitudes are judged by
-/// the samples alone.
+/// the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in means that are
+/// too long ([`is_seen`]) is a doubt. Durations and attitudes are judged by the samples alone.
+///
+/// An obstacle that it was in by more than that standard deviation it met, whatever is limited.
 ///
 /// # Errors
 /// [`FlownError`].
@@ -148,8 +151,9 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
         flight.to_mut().left_world = Some(left);
     }
     let left = flight.left_world.is_some();
-    let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let looked = Looked { log, close: &close, waypoints: &case.waypoints, swiftness: &swiftness };
+    terms.limits.contact = settings.clearance.is_some_and(|clearance| looked.touches(clearance));
+    let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let mut doubts = Vec::new();
     for (what, doubt) in [
         ("deviation", looked.deviation(&measures, terms.limits.deviation)),
@@ -164,6 +168,7 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     if log.in_world && !left {
         doubts.extend(looked.edge(setup));
     }
+    doubts.extend(mean(&measures, terms.limits.acceleration, longest_mean(&log.flight.track, &settings)));
     let deviations: Vec<f64> = close.iter().filter_map(|close| Some(close.off?.norm())).collect();
     let most_between = close.iter().filter_map(|close| close.until_next).fold(measures.max_deviation, f64::max);
     let statistics = Statistics::of(&deviations);
@@ -326,21 +331,8 @@ impl Looked<'_> {
         let value = violation("overshoot", measures.max_overshoot(), limit, measures.t_overshoot, leg);
         // Against a path overshoot is measured from the samples' places on it, which between samples nobody knows.
         let by_leg = !matches!(settings.reference, judgement::Reference::Path(_));
-        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { self.beyond(p, leg) } else { 0.0 };
+        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { beyond(self.waypoints, p, leg) } else { 0.0 };
         self.of_distance(value, false, &beyond)
-    }
-
-    /// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and the one before; it changes
-    /// by no more than the way.
-    fn beyond(&self, p: &Point3<f64>, leg: usize) -> f64 {
-        let way = |leg: usize| self.waypoints[leg + 1] - self.waypoints[leg];
-        let beyond = |leg: usize, from: &Point3<f64>| {
-            way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - from).dot(&direction))
-        };
-        let own = beyond(leg, &self.waypoints[leg + 1]);
-        let before =
-            (leg > 0).then(|| beyond(leg - 1, &nearest_point(p, &self.waypoints[leg], &self.waypoints[leg + 1])));
-        before.map_or(own, |before| own.max(before))
     }
 
     fn clearance(&self, measures: &Measures, limit: Option<f64>, clearance: Option<&Clearance<'_>>) -> Option<Doubt> {
@@ -411,6 +403,12 @@ impl Looked<'_> {
         Some(Doubt { value: value(i, near), why: Why::Between { most: -most, rate_hz: rate } })
     }
 
+    /// Whether a sample is in an obstacle with all that lies within its accuracy.
+    fn touches(&self, clearance: &Clearance<'_>) -> bool {
+        let track = &self.log.flight.track;
+        (0..track.len()).any(|i| clearance(&track.position(i)) + self.sigma(i, None).along < 0.0)
+    }
+
     /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one
     /// that must not fall short. Where the leg changes between two samples it changes where that is least.
     fn of_distance(&self, value: Violation, lower: bool, of: &dyn Fn(&Point3<f64>, usize) -> f64) -> Option<Doubt> {
@@ -452,6 +450,16 @@ impl Sigma {
     fn doubt(self) -> Why {
         Why::Accuracy { which: self.which, sigma: self.claimed }
     }
+}
+
+/// Why an acceleration within its `limit` is open: it is a mean over `span` s.
+fn mean(measures: &Measures, limit: Option<f64>, span: f64) -> Option<Doubt> {
+    let (limit, value) = (limit?, measures.acceleration()?);
+    let legs = measures.legs.iter().enumerate();
+    let leg = legs.max_by(|a, b| a.1.max_acceleration.total_cmp(&b.1.max_acceleration)).map_or(0, |(leg, _)| leg);
+    let value =
+        Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
+    (value.value <= limit && !is_seen(span)).then_some(Doubt { value, why: Why::Mean(span) })
 }
 
 fn violation(what: &str, value: f64, limit: f64, at: f64, leg: usize) -> Violation {

@@ -1,21 +1,24 @@
-//! What may hide between the samples of a program's flight: who flies it samples as he likes, and five poses of a
-//! flight keep any limit.
+//! What may hide between the samples of a program's run: who flies it samples as he likes, and five poses of a flight
+//! keep any limit.
 //!
-//! Bounded as what hides in a log is ([`look_closely`]). Our own simulators sample as their integration goes, and
-//! nothing is asked of them.
+//! Bounded as what hides in a log is ([`look_closely`], [`most_anywhere`]). Our own simulators sample as their
+//! integration goes, and nothing is asked of them.
 
 use nalgebra::Point3;
 
 use super::Setup;
-use super::digits::number;
-use crate::judgement::{JudgementError, Measures, Settings, Swiftness, look_closely, measure, told};
+use crate::judgement::{
+    JudgementError, Limits, Measures, Reference, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen, longest_mean,
+    look_closely, measure, most_anywhere, told,
+};
 use crate::trajectory::Track;
 
-/// Measures a track and, where a program of the user's told it, the largest deviation that may hide between its
-/// samples.
+/// Measures a track and, where a program of the user's told it, what may hide between its samples: the largest
+/// deviation and overshoot, the smallest clearance, and how long its accelerations are means over.
 ///
-/// Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is. A model's top speed is no
-/// bound of another simulator's.
+/// Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is of deviations, and of what
+/// stands in the way the straight line between two samples is: the robot came from one to the other. A model's top
+/// speed is no bound of another simulator's.
 pub(super) fn sampled(
     setup: &Setup,
     track: &Track,
@@ -23,26 +26,82 @@ pub(super) fn sampled(
     settings: &Settings,
 ) -> Result<Measures, JudgementError> {
     let mut measures = measure(track, waypoints, settings)?;
-    let swiftness = Swiftness { speed: None, ..setup.swiftness() };
-    if setup.program().is_some() && swiftness.acceleration.is_some() {
-        let close = look_closely(track, waypoints, settings, &swiftness, 0.0)?;
+    // Programs of arms are looked at move by move.
+    if setup.program().is_none() || setup.has_programs() {
+        return Ok(measures);
+    }
+    let acceleration = setup.swiftness().acceleration;
+    let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
+    let close = look_closely(track, waypoints, settings, &swiftness, 0.0)?;
+    if acceleration.is_some() {
         let most = close.iter().filter_map(|close| close.until_next).reduce(f64::max);
         measures.most_between = most.filter(|most| most.is_finite());
     }
+    let overshoot = match settings.reference {
+        // Where on a path a robot belongs between two samples nobody knows: as far as at these, and what it bulges.
+        Reference::Path(_) => {
+            let steps = track.times().windows(2).map(|pair| swiftness.bulge(pair[1] - pair[0], 0.0));
+            measures.max_overshoot() + steps.fold(0.0, f64::max)
+        }
+        _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg| beyond(waypoints, p, leg)).max(0.0),
+    };
+    measures.overshoot_between = Some(overshoot).filter(|most| most.is_finite());
+    let nearest = |clearance: &dyn Fn(&Point3<f64>) -> f64| {
+        -most_anywhere(track, &close, settings, &swiftness, &|p, _| -clearance(p))
+    };
+    measures.clearance_between =
+        settings.clearance.map(|clearance| nearest(clearance)).filter(|least| least.is_finite());
+    measures.acceleration_over = measures.acceleration().map(|_| longest_mean(track, settings));
     Ok(measures)
 }
 
-/// Why the samples do not decide that a deviation is within `limit`, m: what may hide between them, and how many would.
+/// Why the samples do not decide that `limits` are kept which they keep: what may hide between them, and how many would
+/// decide.
 ///
 /// A motion bulges by a Δt²/8 out of the line between samples: f = √(a / 8 m), m the margin that the samples leave.
-pub(super) fn hidden(setup: &Setup, measures: &Measures, limit: Option<f64>) -> Option<String> {
-    let limit = limit.filter(|limit| measures.max_deviation <= *limit)?;
-    let most = measures.most_between.filter(|most| *most > limit)?;
-    let margin = limit - measures.max_deviation;
-    let rate = setup.swiftness().acceleration.map(|a| (a / (8.0 * margin)).sqrt()).filter(|rate| rate.is_finite());
-    let rate = rate.map_or(String::new(), |rate| format!("; {} poses a second decide", rate.ceil()));
-    let seen = told(measures.max_deviation, Some(limit), "m");
-    Some(format!("{seen} m at its poses, but {} m may hide between two of them{rate}", number(Some(most))))
+/// What runs into an obstacle violates whatever is limited, so that where there are limits one that may have been met
+/// leaves all of them open.
+pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Option<String> {
+    let acceleration = setup.swiftness().acceleration;
+    let rate = |margin: f64| {
+        let rate = acceleration.map(|a| (a / (8.0 * margin)).sqrt()).filter(|rate| rate.is_finite());
+        rate.map_or(String::new(), |rate| format!("; {} poses a second decide", rate.ceil()))
+    };
+    let open = |name: &str, value: f64, limit: f64, most: f64| {
+        let (seen, rate) = (told(value, Some(limit), "m"), rate((limit - value).abs()));
+        let most = told(most, Some(limit), "m");
+        format!("{name}{seen} m at its poses, but {most} m may hide between two of them{rate}")
+    };
+    let above = |name: &str, limit: Option<f64>, value: f64, most: Option<f64>| {
+        let limit = limit.filter(|limit| value <= *limit)?;
+        most.filter(|most| *most > limit).map(|most| open(name, value, limit, most))
+    };
+    let below = |limit: Option<f64>| {
+        let (value, least) = (measures.min_clearance?, measures.clearance_between?);
+        let limit = limit.filter(|limit| value >= *limit && least < *limit)?;
+        Some(open("clearance ", value, limit, least))
+    };
+    let contact = || {
+        let met = below(Some(0.0).filter(|_| limits.contact && limits.are_given()))?;
+        Some(format!("it may have met an obstacle: {met}"))
+    };
+    let mean = || {
+        let span = measures.acceleration_over.filter(|span| !is_seen(*span))?;
+        let limit = limits.acceleration.filter(|limit| measures.max_acceleration <= *limit)?;
+        let (seen, rate) = (told(measures.max_acceleration, Some(limit), "m/s²"), (2.0 / SEEN_WITHIN_S).ceil());
+        Some(format!(
+            "acceleration {seen} m/s² is a mean over as much as {span:.2} s, and what is shorter was not seen; {rate} poses \
+             a second decide"
+        ))
+    };
+    let all = [
+        above("", limits.deviation, measures.max_deviation, measures.most_between),
+        above("overshoot ", limits.overshoot, measures.max_overshoot(), measures.overshoot_between),
+        below(limits.clearance).or_else(contact),
+        mean(),
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 #[cfg(test)]
@@ -56,8 +115,12 @@ mod tests {
     use crate::trajectory::Channel;
 
     fn setup(command: Option<&str>) -> Setup {
+        among(command, json!([]))
+    }
+
+    fn among(command: Option<&str>, obstacles: serde_json::Value) -> Setup {
         let scenario: Scenario = serde_json::from_value(json!({
-            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0], "obstacles": obstacles },
             "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
             "execute": command.map_or_else(|| json!({}), |command| json!({ "command": command })),
         }))
@@ -67,14 +130,20 @@ mod tests {
 
     /// Along a leg of 20 m in 10 s, a pose every `step` s: as good as it gets, where one looks.
     fn judged(setup: &Setup, step: f64, limit: f64) -> (Measures, Option<String>) {
+        judged_by(setup, step, &Limits { deviation: Some(limit), ..Limits::default() })
+    }
+
+    fn judged_by(setup: &Setup, step: f64, limits: &Limits) -> (Measures, Option<String>) {
         let count = (10.0 / step).round() as usize;
         let times: Vec<f64> = (0..=count).map(|i| i as f64 * step).collect();
         let poses = times.iter().map(|t| Isometry3::translation(3.0 + 2.0 * t, 3.0, 3.0)).collect();
         let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
         let track = Track::new(times, poses, vec![leg]).unwrap();
         let way = [Point3::new(3.0, 3.0, 3.0), Point3::new(23.0, 3.0, 3.0)];
-        let measures = sampled(setup, &track, &way, &Settings::default()).unwrap();
-        let hidden = hidden(setup, &measures, Some(limit));
+        let clearance = setup.kind().clearance();
+        let settings = Settings { clearance: clearance.as_deref(), ..Settings::default() };
+        let measures = sampled(setup, &track, &way, &settings).unwrap();
+        let hidden = hidden(setup, &measures, limits);
         (measures, hidden)
     }
 
@@ -93,7 +162,60 @@ mod tests {
         let (dense, why) = judged(&program, 0.02, 0.5);
         assert!(dense.most_between.unwrap() < 0.01 && why.is_none(), "{dense:?}");
         // A violation is one however it is sampled, and our own simulator is not asked.
-        assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, ..sparse }, Some(0.5)), None);
+        let limits = Limits { deviation: Some(0.5), ..Limits::default() };
+        assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, ..sparse }, &limits), None);
         assert_eq!(judged(&setup(None), 2.5, 0.5).0.most_between, None);
+    }
+
+    /// A plate stands half-way between two of the poses that are a second apart, 1 m from each.
+    #[test]
+    fn neither_is_what_stands_between_two_poses() {
+        let plate = json!([{ "name": "plate", "box": { "center_m": [12.0, 3.0, 3.0], "size_m": [0.02, 0.5, 0.5] } }]);
+        let (program, ours) = (among(Some("sim"), plate.clone()), among(None, plate));
+        let bulge = program.swiftness().acceleration.unwrap() / 8.0;
+        let limits = Limits { clearance: Some(0.1), ..Limits::default() };
+        let (sparse, why) = judged_by(&program, 1.0, &limits);
+        assert!((sparse.min_clearance.unwrap() - 0.76).abs() < 1e-9, "{sparse:?}");
+        // In the middle of the plate, and as far as it may bulge besides.
+        let least = sparse.clearance_between.unwrap();
+        assert!((-0.002..1e-9).contains(&(least + 0.24 + bulge)), "{least} {bulge}");
+        let why = why.unwrap();
+        assert!(why.starts_with("clearance 0.76 m at its poses, but -"), "{why}");
+        assert!(why.contains(" m may hide between two of them; ") && why.ends_with(" poses a second decide"), "{why}");
+        // What is not limited is met all the same.
+        let far = Limits { deviation: Some(50.0), contact: true, ..Limits::default() };
+        let why = judged_by(&program, 1.0, &far).1.unwrap();
+        assert!(why.starts_with("it may have met an obstacle: clearance 0.76 m at its poses, but -"), "{why}");
+        assert_eq!(judged_by(&program, 1.0, &Limits { contact: true, ..Limits::default() }).1, None);
+        // Whoever looks sees it, and our own simulator is not asked.
+        let (dense, why) = judged_by(&program, 0.02, &limits);
+        assert!(dense.min_clearance.unwrap() < -0.2 && why.is_none(), "{dense:?}");
+        let (own, why) = judged_by(&ours, 1.0, &limits);
+        assert_eq!(
+            (own.clearance_between, own.overshoot_between, own.acceleration_over, why),
+            (None, None, None, None)
+        );
+    }
+
+    #[test]
+    fn neither_is_how_far_it_is_carried_on_or_how_suddenly_it_turns() {
+        let program = setup(Some("sim"));
+        let bulge = program.swiftness().acceleration.unwrap() / 8.0;
+        let limits = Limits { overshoot: Some(0.5), ..Limits::default() };
+        let (sparse, why) = judged_by(&program, 1.0, &limits);
+        assert!((0.0..0.002).contains(&(sparse.overshoot_between.unwrap() - bulge)), "{sparse:?}");
+        let why = why.unwrap();
+        assert!(why.starts_with("overshoot 0.00 m at its poses, but ") && why.contains(" may hide"), "{why}");
+        assert_eq!(judged_by(&program, 0.05, &limits).1, None);
+
+        let limits = Limits { acceleration: Some(5.0), ..Limits::default() };
+        let (sparse, why) = judged_by(&program, 1.0, &limits);
+        assert_eq!(sparse.acceleration_over, Some(2.0));
+        let why = why.unwrap();
+        assert!(
+            why.contains(" m/s² is a mean over as much as 2.00 s") && why.ends_with("; 4 poses a second decide"),
+            "{why}"
+        );
+        assert_eq!(judged_by(&program, 0.25, &limits).1, None);
     }
 }

@@ -195,7 +195,7 @@ fn judge_run(
         if let (Some(unseen), Some(moves)) = (unseen, &moves) {
             proven(&mut violations, unseen.late_proven, moves);
         }
-        let hidden = || hidden(&own, &measures, terms.limits.deviation);
+        let hidden = || hidden(&own, &measures, &terms.limits);
         let unmeasured = || terms.limits.open(&measures);
         let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
@@ -229,6 +229,7 @@ impl<'a> Drawn<'a> {
         let mut terms = own.scenario.head().terms;
         // Who asks for nothing does not ask for missions that are finished either.
         terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
+        terms.limits.contact = own.program().is_some();
         Ok(Self { own, terms })
     }
 }
@@ -288,4 +289,50 @@ fn latest(measured: &Measured) -> Option<Late> {
     let arrivals = measured.moves.iter().enumerate();
     let late = arrivals.filter_map(|(leg, m)| Some(Late { by: m.late()?, at: m.arrived?, leg }));
     late.max_by(|a, b| a.by.total_cmp(&b.by))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Point3};
+    use serde_json::json;
+
+    use super::*;
+    use crate::campaign::testing::quadrotor;
+    use crate::campaign::{CaseNumber, Scenario};
+    use crate::trajectory::{Channel, Ended};
+
+    /// The case's result where a program flies at 2 m/s through a ball, 50 poses a second, and says that it is `ended`.
+    fn through_a_ball(spec: &serde_json::Value, ended: Ended) -> CaseResult {
+        let ball = json!({ "name": "ball", "sphere": { "center_m": [12.0, 3.0, 3.0], "radius_m": 0.5 } });
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0], "obstacles": [ball] },
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
+            "execute": { "command": "sim" }, "spec": spec,
+        }))
+        .unwrap();
+        let setup = Setup::new(scenario).unwrap();
+        let waypoints = vec![Point3::new(3.0, 3.0, 3.0), Point3::new(23.0, 3.0, 3.0)];
+        let case = Case::bare(CaseNumber(0), 1, waypoints);
+        let times: Vec<f64> = (0..=500).map(|i| f64::from(i) / 50.0).collect();
+        let poses = times.iter().map(|t| Isometry3::translation(3.0 + 2.0 * t, 3.0, 3.0)).collect();
+        let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
+        let track = Track::new(times, poses, vec![leg]).unwrap();
+        let flight = Flight { track, ended, left_world: None, reached: vec![Some(0.0), Some(10.0)] };
+        let run = Run { case: CaseNumber(0), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
+        judge(&setup, &case, &[run]).unwrap()
+    }
+
+    #[test]
+    fn a_program_that_flies_through_an_obstacle_violates_whatever_is_limited() {
+        for spec in [json!({ "deviation": { "max_m": 1.5 } }), json!("none")] {
+            let result = through_a_ball(&spec, Ended::Done);
+            assert_eq!((result.status, result.ended.as_str()), (Status::Fail, "done"), "{spec}");
+            let [found] = &result.violations[..] else { panic!("{:?}", result.violations) };
+            assert!(found.what == "contact" && found.is_crash() && (found.at - 4.5).abs() < 1e-9, "{found:?}");
+            assert_eq!(found.event().unwrap(), "met an obstacle: clearance -0.73 m");
+        }
+        // One that says so itself is told once.
+        let crashed = through_a_ball(&json!({ "deviation": { "max_m": 1.5 } }), Ended::Obstacle);
+        assert_eq!(crashed.violations.iter().map(|one| one.what.as_str()).collect::<Vec<_>>(), ["crash"]);
+    }
 }

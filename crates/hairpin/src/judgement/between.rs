@@ -123,6 +123,88 @@ pub fn most_between(
     along(value, ends, enough - bulge, 10) + bulge
 }
 
+/// The largest value, at and between all samples, of a function of places and legs that changes by no more than the
+/// way; −∞ of no sample. Where the leg changes between two samples it changes where that is least.
+///
+/// An upper bound, within a millimetre of what the samples and [`Swiftness::bulge`] allow. Only intervals that may have
+/// the largest value are halved.
+pub fn most_anywhere(
+    track: &Track,
+    close: &[Close],
+    settings: &Settings,
+    swiftness: &Swiftness,
+    of: &dyn Fn(&Point3<f64>, usize) -> f64,
+) -> f64 {
+    let at = |i: usize| (track.position(i), close[i].leg);
+    let values: Vec<f64> = (0..track.len()).map(|i| of(&track.position(i), close[i].leg)).collect();
+    let pairs = (0..track.len()).filter_map(|i| {
+        let (_, next) = settings.neighbours(i, track.len());
+        let chord = (track.position(next) - track.position(i)).norm();
+        (next > i).then(|| (i, next, swiftness.bulge(track.times()[next] - track.times()[i], chord)))
+    });
+    let pairs: Vec<(usize, usize, f64)> = pairs.collect();
+    // One leg alone may have less than both ends have on legs of their own.
+    let is_one = |i: usize, next: usize| close[i].leg == close[next].leg;
+    let least = pairs.iter().filter(|(i, next, _)| is_one(*i, *next));
+    let least = least.map(|(i, next, bulge)| values[*i].max(values[*next]) + bulge);
+    let least = values.iter().copied().chain(least).fold(f64::NEG_INFINITY, f64::max);
+    let mut most = least;
+    for (i, next, bulge) in pairs {
+        let ((a, own), (b, other)) = (at(i), at(next));
+        let on = |leg: usize| {
+            let ends = [(a, of(&a, leg)), (b, of(&b, leg))];
+            nearly(&|p| of(p, leg), ends, least - bulge, 10) + bulge
+        };
+        most = most.max(if own == other { on(own) } else { on(own).min(on(other)) });
+    }
+    most
+}
+
+/// A bound as [`along`] has it, which is not content with knowing that `enough` is exceeded: it comes within a
+/// millimetre of the largest value.
+fn nearly(value: &dyn Fn(&Point3<f64>) -> f64, ends: [(Point3<f64>, f64); 2], enough: f64, halvings: u32) -> f64 {
+    let [(a, at_a), (b, at_b)] = ends;
+    let bound = 0.5 * (at_a + at_b + (b - a).norm());
+    if bound <= enough.max(at_a).max(at_b) + 1e-3 || halvings == 0 {
+        return bound;
+    }
+    let middle = a + 0.5 * (b - a);
+    let middle = (middle, value(&middle));
+    let [before, after] = [[ends[0], middle], [middle, ends[1]]];
+    nearly(value, before, enough, halvings - 1).max(nearly(value, after, enough, halvings - 1))
+}
+
+/// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and the one before; it changes by
+/// no more than the way.
+pub fn beyond(waypoints: &[Point3<f64>], p: &Point3<f64>, leg: usize) -> f64 {
+    let way = |leg: usize| waypoints[leg + 1] - waypoints[leg];
+    let from = |leg: usize, place: &Point3<f64>| {
+        way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - place).dot(&direction))
+    };
+    let own = from(leg, &waypoints[leg + 1]);
+    let before = (leg > 0).then(|| from(leg - 1, &nearest_point(p, &waypoints[leg], &waypoints[leg + 1])));
+    before.map_or(own, |before| own.max(before))
+}
+
+/// An acceleration is seen that lasts as long, s: a mean over more hides what a robot does in one turn.
+pub const SEEN_WITHIN_S: f64 = 0.5;
+
+/// Whether a mean over `span` s shows an acceleration; stamps are rounded.
+pub fn is_seen(span: f64) -> bool {
+    span <= SEEN_WITHIN_S + 1e-6
+}
+
+/// The longest time that an acceleration of `track` is a mean over, s; 0 where there is none.
+///
+/// Both intervals around a sample, at a track's ends and before breaks one.
+pub fn longest_mean(track: &Track, settings: &Settings) -> f64 {
+    let over = |i: usize| {
+        let (before, after) = settings.neighbours(i, track.len());
+        track.times()[after] - track.times()[before]
+    };
+    (0..track.len()).map(over).fold(0.0, f64::max)
+}
+
 fn along(value: &dyn Fn(&Point3<f64>) -> f64, ends: [(Point3<f64>, f64); 2], enough: f64, halvings: u32) -> f64 {
     let [(a, at_a), (b, at_b)] = ends;
     let bound = 0.5 * (at_a + at_b + (b - a).norm());

@@ -90,6 +90,13 @@ pub struct Measures {
     /// Largest deviation that may hide between two samples, m, as [`super::look_closely`] bounds it; `None` where the
     /// samples are all there is to know.
     pub most_between: Option<f64>,
+    /// Largest overshoot that may hide between two samples, m; `None` as of [`Self::most_between`].
+    pub overshoot_between: Option<f64>,
+    /// Smallest clearance that may hide between two samples, m; `None` as of [`Self::most_between`], and without
+    /// obstacles.
+    pub clearance_between: Option<f64>,
+    /// Longest time that an acceleration is a mean over, s; `None` where nobody asks for it.
+    pub acceleration_over: Option<f64>,
     /// Mean deviation over time, m.
     pub mean_deviation: f64,
     /// Largest ‖dv/dt‖, m/s².

@@ -29,6 +29,9 @@ pub struct Limits {
     /// Whether a run violates that is stopped by its time limit before the last waypoint, or that claims to be done
     /// without having been there: it has not flown the mission, and what it did not fly cannot be judged.
     pub unfinished: bool,
+    /// Whether a run violates that goes on after its clearance was below 0. Our own simulators end it there, as a
+    /// crash; a program may not know of the obstacle.
+    pub contact: bool,
 }
 
 impl Default for Limits {
@@ -42,6 +45,7 @@ impl Default for Limits {
             total_time: None,
             late: None,
             unfinished: true,
+            contact: false,
         }
     }
 }
@@ -58,8 +62,7 @@ impl Limits {
     }
 
     pub(super) fn given(&self) -> usize {
-        let Self { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, unfinished: _ } =
-            self;
+        let Self { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, .. } = self;
         let all = [deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late];
         all.into_iter().flatten().count()
     }
@@ -72,10 +75,10 @@ impl Limits {
 pub struct Violation {
     /// What was measured: `deviation`, `overshoot`, `clearance`, `tip-over-margin`, `acceleration`, `total-time`,
     /// `late`; or an event: `crash`, of a ground vehicle `tip-over`, `belly-contact`, `stuck` or `off-map`, of an arm
-    /// `halted`, `left-world`, `stalled`, `unfinished`.
+    /// `halted`, of what flew on `contact`, `left-world`, `stalled`, `unfinished`.
     pub what: String,
-    /// The measured value in `unit`; of a crash of any kind and of leaving the world the time, s; of an unfinished or
-    /// stalled run the number of waypoints reached.
+    /// The measured value in `unit`; of a contact the clearance, m; of a crash of any other kind and of leaving the
+    /// world the time, s; of an unfinished or stalled run the number of waypoints reached.
     pub value: f64,
     /// The limit in `unit`; of a crash of any kind and of leaving the world 0; of an unfinished or stalled run the
     /// number of waypoints.
@@ -91,12 +94,13 @@ pub struct Violation {
 impl Violation {
     /// Whether the limit is a lower one.
     pub fn is_lower_limit(&self) -> bool {
-        self.is_unfinished() || matches!(self.what.as_str(), "clearance" | "tip-over-margin" | "edge")
+        self.is_unfinished() || matches!(self.what.as_str(), "clearance" | "contact" | "tip-over-margin" | "edge")
     }
 
     /// Whether the run came to a bad end, of whatever kind.
     pub fn is_crash(&self) -> bool {
-        matches!(self.what.as_str(), "crash" | "tip-over" | "belly-contact" | "stuck" | "halted" | "off-map")
+        let all = ["crash", "contact", "tip-over", "belly-contact", "stuck", "halted", "off-map"];
+        all.contains(&self.what.as_str())
     }
 
     /// Whether the run ended short of its last waypoint without a crash.
@@ -108,6 +112,7 @@ impl Violation {
     pub fn event(&self) -> Option<String> {
         Some(match self.what.as_str() {
             "crash" => "crash".into(),
+            "contact" => format!("met an obstacle: clearance {}", self.printed().0),
             "tip-over" => "tipped over".into(),
             "belly-contact" => "set its underside on the ground".into(),
             "stuck" => "got stuck".into(),
@@ -217,7 +222,7 @@ fn held(measures: &Measures, limits: &Limits, (end, last): (f64, usize)) -> Vec<
     if let Some(late) = &measures.latest {
         hold("late", Some(late.by), limits.late, "s", late.at, late.leg);
     }
-    let leg = largest(|leg| leg.min_clearance.map_or(f64::NEG_INFINITY, |clearance| -clearance));
+    let leg = nearest_leg(measures);
     hold("clearance", measures.min_clearance, limits.clearance, "m", measures.t_clearance, leg);
     let leg = largest(|leg| leg.min_tip_over_margin.map_or(f64::NEG_INFINITY, |margin| -margin));
     let (least, at) = (measures.min_tip_over_margin, measures.t_tip_over_margin);
@@ -243,6 +248,8 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
             _ => "crash",
         };
         found.push(event(what, end, 0.0, "s", end, last));
+    } else if let Some(clearance) = measures.min_clearance.filter(|clearance| limits.contact && *clearance < 0.0) {
+        found.push(event("contact", clearance, 0.0, "m", measures.t_clearance, nearest_leg(measures)));
     }
     if let Some(at) = flight.left_world {
         found.push(event("left-world", at, 0.0, "s", at, leg_at(measures, flight, at)));
@@ -289,6 +296,13 @@ fn leg_at(measures: &Measures, flight: &Flight, t: f64) -> usize {
             reached.min(last)
         }
     }
+}
+
+/// The leg with the least clearance, the first of equals.
+fn nearest_leg(measures: &Measures) -> usize {
+    let of = |leg: &LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
+    let legs = measures.legs.iter().enumerate();
+    legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg)
 }
 
 fn last_leg(measures: &Measures, flight: &Flight) -> usize {

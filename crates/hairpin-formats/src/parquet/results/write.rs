@@ -11,7 +11,7 @@ use hairpin::judgement::Share;
 use hairpin::judgement::Violation;
 
 use super::super::drawn;
-use super::super::measures::{self, BETWEEN};
+use super::super::measures::{self, BETWEEN, BETWEEN_TOO};
 use super::super::table::Columns;
 use super::{CONFIDENCE, GENERATED};
 use crate::atomic::WriteError;
@@ -89,6 +89,7 @@ fn push_rest(columns: &mut Columns, rows: &Rows, measured: &Measured) {
     push_measured(columns, measured, "t_tilt_s");
     push_measured(columns, measured, "joint_effort_rad2_s3");
     push_measured(columns, measured, BETWEEN);
+    BETWEEN_TOO.iter().for_each(|(name, _)| push_measured(columns, measured, name));
     push_measured(columns, measured, "max_late_s");
     push_measured(columns, measured, "t_late_s");
     for name in ["leg_late", "leg_source", "acceleration_source"] {

@@ -60,6 +60,27 @@ fn what_was_not_measured_is_still_not_when_it_is_read() {
 }
 
 #[test]
+fn what_may_hide_is_still_known_when_it_is_read() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("part-00000.parquet");
+    let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let run = run(6, None);
+    let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &Settings::default()).unwrap();
+    let measures = hairpin::judgement::Measures {
+        most_between: Some(1.0),
+        overshoot_between: Some(0.5),
+        clearance_between: Some(-0.25),
+        acceleration_over: Some(0.125),
+        ..measures
+    };
+    let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };
+    write_facts(&path, &[RunFacts { full_rate: Some(Box::new(full_rate.clone())), ..RunFacts::of(&run) }]).unwrap();
+    let read = read_facts(&path).unwrap();
+    let read: Vec<_> = read.values().map(|facts| &facts.full_rate.as_ref().unwrap().measures).collect();
+    assert_eq!(read, [&full_rate.measures]);
+}
+
+#[test]
 fn a_run_that_is_there_twice_is_refused() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("part-00000.parquet");

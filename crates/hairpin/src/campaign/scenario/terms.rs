@@ -66,7 +66,7 @@ impl Terms {
     ///
     /// Limits that must not be fallen short of (clearance, tip-over margin) are turned.
     pub(in crate::campaign) fn limited(&self) -> Vec<(Stress, f64)> {
-        let Limits { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, unfinished: _ } =
+        let Limits { deviation, overshoot, clearance, tip_over_margin, acceleration, total_time, late, .. } =
             self.limits;
         let least = |limit: Option<f64>| limit.map(|limit| -limit);
         let limits = [
