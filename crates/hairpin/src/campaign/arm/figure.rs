@@ -32,7 +32,7 @@ pub(super) fn figure(station: &Station) -> RobotFigure {
         ..FigureLink::still(Look::Nose, false, vec![tool])
     });
     let told = if arm.has_stand_ins() { "hatched links are stand-ins along the arm's dimensions" } else { "" };
-    RobotFigure { links, fixed: true, radius: 0.5 * arm.chain.reach(), lift: 0.0, told: told.into() }
+    RobotFigure { links, fixed: true, radius: 0.5 * arm.chain.length(), lift: 0.0, told: told.into() }
 }
 
 /// Capsules as they are; hulls without what they are grown by.

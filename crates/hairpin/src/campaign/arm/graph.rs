@@ -181,7 +181,12 @@ fn in_space(setup: &ArmSetup, cost: &Cost) -> ArmGraph {
     let (station, scenario) = (&setup.station, &setup.scenario);
     let points: Vec<Point3<f64>> = station.points.iter().map(|point| point.pose.translation.vector.into()).collect();
     let settings = CartesianSettings { radius: sphere(station, scenario), level: Level::Certified, simd: setup.simd };
-    let reachability = cartesian(&points, &station.cell_within_reach(), &settings);
+    let ball = station.cell.parts.len();
+    let reachability =
+        cartesian(&points, &station.cell_within_reach(), &settings).with_reasons(|reason| match reason {
+            Refusal::ToolMeets { part, undecided } if part == ball => Refusal::BeyondReach { undecided },
+            other => other,
+        });
     let costs = masked(reachability.matrix(), setup);
     let (unit, unit_name) = unit_of(cost, setup);
     let anywhere = vec![true; points.len()];
@@ -262,8 +267,12 @@ fn sphere(station: &Station, scenario: &ArmScenario) -> f64 {
 
 /// Whether the arm can stand with its tool at `pose`, as far as the scenario's mode looks.
 ///
-/// In joint mode this is a graph of one point, moves from home and back included: as dear as that.
+/// In joint mode this is a graph of one point, moves from home and back included: as dear as that. Of an arm without a
+/// closed inverse only places are taken that Newton's steps find from home: of thousands it is not searched for each.
 pub(super) fn stands(station: &Station, scenario: &ArmScenario, pose: &Isometry3<f64>) -> bool {
+    if !is_met_from_home(station, pose) {
+        return false;
+    }
     match scenario.generate.mode {
         ArmMode::Cartesian => {
             let place: Point3<f64> = pose.translation.vector.into();
@@ -278,6 +287,13 @@ pub(super) fn stands(station: &Station, scenario: &ArmScenario, pose: &Isometry3
             graph.joints[0].is_ok() && graph.from_home[0].is_none() && graph.to_home[0].is_none()
         }
     }
+}
+
+/// Whether home is seed enough for a posture with the tool at `pose`; where all postures are known nothing is asked.
+fn is_met_from_home(station: &Station, pose: &Isometry3<f64>) -> bool {
+    let (arm, flange) = (&station.arm, station.flange(pose));
+    arm.has_closed_inverse()
+        || (arm.chain.inverse_near(&flange, &station.home)).is_some_and(|found| !arm.turns_of(&found.joints).is_empty())
 }
 
 /// Joint angles within their bounds with the tool at `pose`, those nearest to home.

@@ -46,17 +46,16 @@ pub(super) fn losses(setup: &ArmSetup) -> Losses {
 }
 
 /// The limit is named as users name it: a part of the cell, an axis (from 1), a kind of singularity.
-///
-/// `reach` is the name that the ball of reach has among a cell's parts: what meets that is out of reach, not in the
-/// way of something.
 pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
     let part = |index: usize| names.get(index).cloned().unwrap_or_else(|| "a part of the cell".into());
     match *refusal {
         Refusal::ToolMeets { part: index, .. } | Refusal::Collides { part: index, .. } => {
-            (if part(index) == "reach" { Stage::Reach } else { Stage::Obstacle }, part(index))
+            (Stage::Obstacle, part(index))
         }
         Refusal::SelfCollides { .. } => (Stage::Obstacle, "the arm itself".into()),
+        Refusal::BeyondReach { .. } => (Stage::Reach, "farther off than the arm with its tool is long".into()),
         Refusal::OutOfReach { .. } => (Stage::Reach, "no joint angles".into()),
+        Refusal::NotFound { .. } => (Stage::Reach, "no posture found".into()),
         Refusal::JointLimit { axis, .. } => (Stage::Limits, format!("axis {}", axis + 1)),
         Refusal::Singular { margin, .. } => (Stage::Limits, format!("{} singularity", margin.of)),
         Refusal::Configuration { .. } | Refusal::ArrivesOtherwise { .. } => {

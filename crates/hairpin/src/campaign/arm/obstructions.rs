@@ -159,7 +159,7 @@ fn of_moves(setup: &ArmSetup, graph: &ArmGraph) -> Vec<String> {
         (0..n).filter(|row| stands(*row)).flat_map(|from| (0..n).filter(|row| stands(*row)).map(move |to| (from, to)));
     let mut counts: BTreeMap<String, u64> = BTreeMap::new();
     for refusal in pairs.filter(|(from, to)| from != to).filter_map(|(from, to)| graph.reachability.refusal(from, to)) {
-        if refusal.kind() == "collision" {
+        if refusal.kind() == "collision" || matches!(refusal, Refusal::BeyondReach { .. }) {
             *counts.entry(setup.alike(refusal)).or_default() += 1;
         }
     }

@@ -85,7 +85,8 @@ impl Station {
 
     /// The cell and the sphere that the tool's point must stay in.
     ///
-    /// That part comes last, so that the others keep their numbers.
+    /// That part comes last, so that the others keep their numbers; it is none of the scenario's, and what meets it is
+    /// told as out of reach.
     pub(super) fn cell_within_reach(&self) -> Cell {
         let (center, radius) = self.reach();
         let mut cell = self.cell.clone();

@@ -97,6 +97,20 @@ fn kinds() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
     ]
 }
 
+/// What bounds the reach in Cartesian mode is no part of the cell, and is told for what it is.
+#[test]
+fn a_sphere_out_of_reach_is_told_so() {
+    let points = json!([[300, 0, 400], [3000, 0, 400], [350, 50, 400], [300, 50, 400], [350, 0, 400], [300, -50, 400]]);
+    let setup = setup(&[("generate.mode", json!("cartesian")), ("task.points", points)]);
+    let graph = super::graph::whole_graph(own(&setup), &Stop::never()).unwrap();
+    let told = |from: usize, to: usize| {
+        graph.reachability.refusal(from, to).map(|refusal| refusal.in_words(&own(&setup).part_names()).to_string())
+    };
+    let far = told(0, 1).unwrap();
+    assert!(far.starts_with("out of reach: ") && !far.contains('?'), "{far}");
+    assert_eq!((told(1, 0), told(0, 2)), (Some(far), None));
+}
+
 #[test]
 fn programs_are_drawn_by_numbers_and_are_possible() {
     for (name, changes) in kinds() {

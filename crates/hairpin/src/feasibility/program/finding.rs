@@ -50,7 +50,8 @@ pub struct Finding {
     pub fit: Option<Fit>,
     /// What it rests on that is estimated, in words.
     pub estimated: Option<String>,
-    /// Whether it rests on nothing but what is estimated or assumed, so that it is no finding but not found out.
+    /// Whether it rests on nothing but what is estimated or assumed, or on a posture that was not found, so that it is
+    /// no finding but not found out.
     pub open: bool,
 }
 

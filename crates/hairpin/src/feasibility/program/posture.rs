@@ -53,7 +53,8 @@ fn distance(a: &Joints, b: &Joints) -> f64 {
 ///
 /// The refusal, from the strongest reason down: nothing reaches the pose at all; of the solutions in the demanded
 /// branch one is beyond a bound, told with the bound that is passed by least; the pose can be met but not so demanded.
-/// Axes of a chain without closed inverse are looked for from `near`: there `OutOfReach` means that none was found.
+/// Of an arm without a closed inverse it is told that no posture was found, unless the pose is farther off than the arm
+/// is long.
 ///
 /// # Errors
 /// Why there is none, and the posture with the most room that would do instead.
@@ -70,6 +71,9 @@ pub(super) fn choose(
     }
     let best = possible.iter().max_by(|a, b| room(arm, a).total_cmp(&room(arm, b)));
     let fit = best.and_then(|q| fit(arm, q));
+    if possible.is_empty() && !arm.has_closed_inverse() {
+        return Err((Refusal::unmet(arm, flange, 1.0), None));
+    }
     let solutions = arm.inverse(flange, &[0.0; AXES]);
     if solutions.is_empty() {
         return Err((Refusal::OutOfReach { at: 1.0 }, None));

@@ -1,7 +1,9 @@
 //! A shipped arm against postures whose poses its forward kinematics gives: what is within reach passes, and each fault
 //! is found where it was put.
 
-use nalgebra::{Isometry3, Point3, Translation3, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::{Surroundings, check};
 use crate::feasibility::reachability::Refusal;
@@ -198,6 +200,34 @@ fn configurations_of_a_chain_are_not_found_out() {
     assert!(all.iter().all(|finding| finding.open), "{all:?}");
     asked.moves[1..].iter_mut().for_each(|m| m.configuration_demanded = false);
     assert_eq!(found(&asked).len(), 0);
+}
+
+/// A flange that looks back at the arm: nearer than all lengths together, and the wrist cannot come there. A closed
+/// inverse proves that, and that Newton's steps find nothing does not.
+#[test]
+fn what_a_search_does_not_find_is_not_found_out() {
+    let arm = arm();
+    let back =
+        Isometry3::from_parts(Translation3::new(0.65, 0.0, 0.29), UnitQuaternion::new(Vector3::y() * -FRAC_PI_2));
+    let asked = |flange: Isometry3<f64>| {
+        let pose = object().base_from_object().inverse() * flange * tool().tcp;
+        program(vec![Motion::Joint(PoseTarget::unnamed(pose))])
+    };
+    let chain = Arm { kinematics: Kinematics::Chain, ..arm.clone() };
+    let found = |arm: &Arm, flange: Isometry3<f64>| {
+        let all = check(arm, &asked(flange), 2, &Surroundings::default(), &settings()).findings;
+        let [only] = &all[..] else { panic!("{all:?}") };
+        only.clone()
+    };
+    let open = found(&chain, back);
+    assert_eq!((open.refusal, open.open), (Refusal::NotFound { at: 1.0 }, true));
+    let told = open.in_words(&[]);
+    assert!(told.contains("INCONCLUSIVE home→") && told.contains("no posture within the limits found"), "{told}");
+    let proven = found(&arm, back);
+    assert_eq!((proven.refusal, proven.open), (Refusal::OutOfReach { at: 1.0 }, false));
+    // Farther off than all lengths together nothing is.
+    let far = found(&chain, Translation3::new(3.0, 0.0, 0.0) * back);
+    assert_eq!((far.refusal, far.open), (Refusal::OutOfReach { at: 1.0 }, false));
 }
 
 #[test]

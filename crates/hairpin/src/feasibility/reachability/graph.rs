@@ -45,6 +45,12 @@ impl ReachabilityGraph {
         self
     }
 
+    /// With other reasons in the place of those that it has: what a part of the cell stands for its caller knows.
+    pub fn with_reasons(mut self, other: impl Fn(Refusal) -> Refusal) -> Self {
+        self.refusals.iter_mut().for_each(|refusal| *refusal = other(*refusal));
+        self
+    }
+
     /// How many points there are.
     pub fn points(&self) -> usize {
         self.points

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
+use nalgebra::Isometry3;
+
 use super::joint::CircleError;
-use crate::robot::arm::{Margin, Singularity, body_name};
+use crate::robot::arm::{Arm, Margin, Singularity, body_name};
 
 /// Why a move between two points is not possible.
 ///
@@ -17,8 +19,18 @@ pub enum Refusal {
         /// Neither clear nor a hit could be proven.
         undecided: bool,
     },
+    /// An end of a straight move is farther off than the arm with its tool is long.
+    BeyondReach {
+        /// It was not proven to be, nor to be nearer.
+        undecided: bool,
+    },
     /// No joint angles reach the pose.
     OutOfReach {
+        /// Share of the move.
+        at: f64,
+    },
+    /// Of an arm without a closed inverse no posture within the bounds was found, which is no proof that it has none.
+    NotFound {
         /// Share of the move.
         at: f64,
     },
@@ -104,15 +116,28 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// Where no posture within the bounds puts the flange at `flange` (`base_from_flange`), as far as was looked: of an
+    /// arm without a closed inverse that is proven of what is farther off than its lengths add up to, and of nothing
+    /// else.
+    pub(in crate::feasibility) fn unmet(arm: &Arm, flange: &Isometry3<f64>, at: f64) -> Self {
+        if arm.has_closed_inverse() || arm.chain.is_beyond(&flange.translation.vector.into()) {
+            Self::OutOfReach { at }
+        } else {
+            Self::NotFound { at }
+        }
+    }
+
     /// The same at another share of the move.
     pub(super) fn shifted(mut self, share: f64) -> Self {
         match &mut self {
             Self::OutOfReach { at }
+            | Self::NotFound { at }
             | Self::JointLimit { at, .. }
             | Self::Singular { at, .. }
             | Self::Collides { at, .. }
             | Self::SelfCollides { at, .. } => *at = share,
             Self::ToolMeets { .. }
+            | Self::BeyondReach { .. }
             | Self::Configuration { .. }
             | Self::OtherBranch { .. }
             | Self::NoArc(_)
@@ -130,7 +155,7 @@ impl Refusal {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::ToolMeets { .. } | Self::Collides { .. } | Self::SelfCollides { .. } => "collision",
-            Self::OutOfReach { .. } => "reach",
+            Self::BeyondReach { .. } | Self::OutOfReach { .. } | Self::NotFound { .. } => "reach",
             Self::JointLimit { .. } => "limit",
             Self::Singular { .. } => "singularity",
             Self::NoArc(_) | Self::Turned { .. } => "arc",
@@ -147,7 +172,7 @@ impl Refusal {
     /// Two joint limits are compared by how far the angle is beyond, rad; of equals the first stays.
     pub(super) fn or_nearer(self, other: Self) -> Self {
         let rank = |refusal: &Self| match refusal {
-            Self::OutOfReach { .. } => 0,
+            Self::OutOfReach { .. } | Self::NotFound { .. } => 0,
             Self::JointLimit { .. } => 1,
             _ => 2,
         };
@@ -190,7 +215,16 @@ impl fmt::Display for InWords<'_> {
             Refusal::ToolMeets { part: index, undecided } => {
                 write!(f, "the tool's sphere {} {}", if undecided { not_proven } else { meets }, part(index))
             }
+            Refusal::BeyondReach { undecided: false } => {
+                f.write_str("out of reach: the tool's sphere leaves the ball that the arm with its tool can come to")
+            }
+            Refusal::BeyondReach { undecided: true } => {
+                f.write_str("the tool's sphere is not proven within the ball that the arm with its tool can come to")
+            }
             Refusal::OutOfReach { at } => write!(f, "out of reach {}", percent(at)),
+            Refusal::NotFound { at } => {
+                write!(f, "no posture within the limits found (no proof that there is none) {}", percent(at))
+            }
             Refusal::JointLimit { axis, angle, bound, at } => {
                 let sign = if angle > bound { '>' } else { '<' };
                 let (axis, [angle, bound]) = (axis + 1, degrees(angle, bound));

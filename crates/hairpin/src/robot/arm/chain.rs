@@ -88,7 +88,8 @@ impl Chain {
 
     /// Where the first joint carries the second around: the centre of that circle, base frame, and its radius, m.
     ///
-    /// The foot of the perpendicular from the second joint to the first axis, which may stand aside of the base or lean.
+    /// The foot of the perpendicular from the second joint to the first axis, which may stand aside of the base or
+    /// lean.
     pub fn shoulder(&self) -> (Point3<f64>, f64) {
         let frames = self.frames(&[0.0; AXES]);
         let [(foot, axis), ..] = self.axes(&frames);
@@ -98,12 +99,27 @@ impl Chain {
         (centre, libm::hypot(libm::hypot(out.x, out.y), out.z))
     }
 
-    /// Upper bound of the distance from the base to the flange, m.
+    /// Upper bound of the distance from the first axis to the flange, m, and from the centre of [`Chain::shoulder`].
     ///
-    /// Σ of the lengths of all offsets: no posture has the flange farther out. A scale, not the largest distance.
+    /// ```text
+    /// reach = r₂ + Σ_{k=3…6} |origin_k| + |flange|,   r₂ how far the second joint is from the first axis
+    /// ```
+    ///
+    /// No posture has the flange farther out. A scale, not the largest distance. What the arm stands on does not count,
+    /// nor where along its first axis the first joint is said to be: neither moves the flange against the axis.
     pub fn reach(&self) -> f64 {
-        self.joints.iter().map(|joint| joint.origin.translation.vector.norm()).sum::<f64>()
-            + self.flange.translation.vector.norm()
+        self.shoulder().1 + self.joints[2..].iter().map(offset).sum::<f64>() + self.flange.translation.vector.norm()
+    }
+
+    /// Whether a flange there is farther off than any posture has it.
+    pub fn is_beyond(&self, flange: &Point3<f64>) -> bool {
+        // For the rounding of the sum.
+        (flange - self.shoulder().0).norm() > self.reach() * (1.0 + 1e-9)
+    }
+
+    /// Σ of the lengths of all offsets from the base to the flange, m.
+    pub fn length(&self) -> f64 {
+        self.joints.iter().map(offset).sum::<f64>() + self.flange.translation.vector.norm()
     }
 
     /// Joint angles near `seed` whose flange is at `target`, by damped Newton steps
@@ -139,6 +155,11 @@ impl Chain {
     }
 }
 
+/// From the joint before, m.
+fn offset(joint: &Joint) -> f64 {
+    joint.origin.translation.vector.norm()
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::UnitQuaternion;
@@ -163,6 +184,35 @@ mod tests {
                 let joint: Point3<f64> = chain.frames(&q)[2].translation.vector.into();
                 assert!(((joint - centre).norm() - radius).abs() < 1e-12, "{turn}");
             }
+        }
+    }
+
+    /// A leaning base of 3 m, and the first joint's place along its axis: neither is a length of the arm.
+    #[test]
+    fn what_an_arm_stands_on_is_no_part_of_its_reach() {
+        let at = |x: f64, y: f64, z: f64| Isometry3::translation(x, y, z);
+        let mut joints = [Joint { origin: at(0.0, 0.0, 0.2), axis: Vector3::z() }; AXES];
+        joints[1] = Joint { origin: at(0.3, 0.0, 0.05), axis: Vector3::y() };
+        joints[3].axis = Vector3::x();
+        joints[4].axis = Vector3::y();
+        let chain = Chain { joints, flange: at(0.0, 0.05, 0.0) };
+        assert!((chain.reach() - (0.3 + 4.0 * 0.2 + 0.05)).abs() < 1e-12, "{}", chain.reach());
+        let mut stands = chain.clone();
+        let base =
+            Isometry3::from_parts(at(0.5, -1.0, 3.0).translation, UnitQuaternion::from_euler_angles(0.4, 1.2, 0.0));
+        stands.joints[0].origin = base * chain.joints[0].origin;
+        let mut slid = chain.clone();
+        slid.joints[0].origin.translation.vector.z -= 2.0;
+        slid.joints[1].origin.translation.vector.z += 2.0;
+        for other in [&stands, &slid] {
+            assert!((other.reach() - chain.reach()).abs() < 1e-12, "{}", other.reach());
+            assert!(other.length() > chain.length() + 2.0);
+            for turn in 0..50 {
+                let q = std::array::from_fn(|k| f64::from(turn) * (0.3 + 0.2 * k as f64));
+                assert!(!other.is_beyond(&other.forward(&q).translation.vector.into()), "{q:?}");
+            }
+            let (centre, _) = other.shoulder();
+            assert!(other.is_beyond(&(centre + Vector3::x() * (chain.reach() + 1e-6))));
         }
     }
 }

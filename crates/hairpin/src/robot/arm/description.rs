@@ -458,7 +458,7 @@ impl ChainDescription {
         }
         let flange = frame(["chain.flange_mm", "chain.flange_rpy_deg"], &self.flange_mm, &self.flange_rpy_deg)?;
         let chain = Chain { joints, flange };
-        within("chain, length in m", chain.reach(), 1e-3, 1e3)?;
+        within("chain, reach from the first axis in m", chain.reach(), 1e-3, 1e3)?;
         Ok(chain)
     }
 }

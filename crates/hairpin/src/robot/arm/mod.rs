@@ -9,6 +9,7 @@
 //! | --- | --- |
 //! | `joints` | angles and what joints may do |
 //! | `chain` | forward kinematics, Jacobian, Newton's inverse: for every arm |
+//! | `seeds` | from where Newton begins, until a posture within the limits is found |
 //! | `opw` | the closed inverse, eight branches: for spherical wrists |
 //! | `configuration` | cf1, cf4, cf6, cfx of a controller's robtarget |
 //! | `singularity` | margins without unit |
@@ -28,6 +29,7 @@ mod dynamics;
 mod joints;
 mod opw;
 mod rates;
+mod seeds;
 mod singularity;
 mod tool;
 
@@ -56,7 +58,7 @@ use nalgebra::Isometry3;
 pub enum Kinematics {
     /// In closed form.
     Opw(Opw),
-    /// By continuation along the chain.
+    /// By Newton's steps along the chain.
     Chain,
 }
 
@@ -119,15 +121,16 @@ impl Arm {
     }
 
     /// Joint angles whose flange is at `flange`, with every angle on the turn nearest to `near`: of arms with a closed
-    /// form all solutions in the order of cfx, of others the one that Newton finds from `near`. Limits are not looked
-    /// at.
+    /// form all solutions in the order of cfx, and limits are not looked at; of others the first one within the limits
+    /// that Newton finds, beginning at `near` and then elsewhere, else the first one beyond them.
     ///
     /// `flange` is `base_from_flange`. Eight solutions at most with a closed form, none where the wrist centre is out
-    /// of reach, one or none by Newton; a target may have more on other turns ([`Arm::turns_of`]).
+    /// of reach; one or none by Newton, and that there is none proves nothing unless the flange is farther off than the
+    /// arm is long ([`Chain::is_beyond`]). A target may have more on other turns ([`Arm::turns_of`]).
     pub fn inverse(&self, flange: &Isometry3<f64>, near: &Joints) -> Vec<Joints> {
         match &self.kinematics {
             Kinematics::Opw(opw) => opw.solutions(flange, near[3]).map(|q| nearest_turns(&q, near)).collect(),
-            Kinematics::Chain => self.chain.inverse_near(flange, near).map(|found| found.joints).into_iter().collect(),
+            Kinematics::Chain => self.searched(flange, near).into_iter().collect(),
         }
     }
 
@@ -146,12 +149,17 @@ impl Arm {
         }
     }
 
+    /// Whether all postures that put the flange somewhere are known: of others what is not found may be there.
+    pub fn has_closed_inverse(&self) -> bool {
+        matches!(self.kinematics, Kinematics::Opw(_))
+    }
+
     /// Whether it is known which posture a controller's cfx means.
     ///
     /// cfx counts from wrist, elbow and shoulder, which only arms with a closed form have: of others [`Arm::branch`]
     /// tells postures apart here, and no controller.
     pub fn knows_configurations(&self) -> bool {
-        matches!(self.kinematics, Kinematics::Opw(_))
+        self.has_closed_inverse()
     }
 
     /// Which solution `q` is. Without a closed form only the sign of axis 5 tells.

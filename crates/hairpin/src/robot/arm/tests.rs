@@ -221,6 +221,54 @@ fn chains_are_inverted_by_continuation() {
     }
 }
 
+/// What an arm stands on is no length of it: on a pedestal of 3 m, aside and leaning, all margins are the same.
+#[test]
+fn where_an_arm_stands_changes_no_margin() {
+    let mut random = stream(named_seed(7, "arm stands", 0));
+    for arm in arms() {
+        let here = Arm { kinematics: Kinematics::Chain, ..arm };
+        let mut there = here.clone();
+        let base = Isometry3::new(Vector3::new(0.4, -1.0, 3.0), Vector3::new(0.3, 0.8, 0.0));
+        there.chain.joints[0].origin = base * here.chain.joints[0].origin;
+        for _ in 0..200 {
+            let q = random_joints(&here, &mut random);
+            let margins = [&here, &there].map(|arm| arm.margin(&q).value);
+            assert!((margins[0] - margins[1]).abs() < 1e-9, "{}: {margins:?} at {q:?}", here.name);
+        }
+    }
+}
+
+/// Poses made from postures within the bounds: a chain finds a posture within them for each, from one home.
+#[test]
+fn chains_are_searched_from_more_than_one_seed() {
+    let mut random = stream(named_seed(8, "arm seeds", 0));
+    for arm in arms() {
+        let chain = Arm { kinematics: Kinematics::Chain, ..arm.clone() };
+        let home = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
+        let (mut tried, mut at_once) = (0, 0);
+        while tried < 200 {
+            let q = random_joints(&arm, &mut random);
+            if arm.margin(&q).value < 0.05 {
+                continue;
+            }
+            tried += 1;
+            let flange = arm.forward(&q);
+            let found = chain.inverse(&flange, &home);
+            let [posture] = found[..] else { panic!("{}: none at {q:?}", arm.name) };
+            assert_eq!(chain.outside_limits(&posture), None, "{}: {posture:?}", arm.name);
+            assert!(apart(&chain.forward(&posture), &flange) < 1e-10, "{}: {posture:?}", arm.name);
+            if let Some(first) = chain.chain.inverse_near(&flange, &home)
+                && chain.outside_limits(&first.joints).is_none()
+            {
+                // What one seed finds stays what is found.
+                assert_eq!(posture, first.joints);
+                at_once += 1;
+            }
+        }
+        assert!(at_once < tried, "{}", arm.name);
+    }
+}
+
 #[test]
 fn jacobians_are_derivatives() {
     let mut random = stream(named_seed(4, "arm jacobian", 0));

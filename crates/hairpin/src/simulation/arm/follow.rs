@@ -129,18 +129,29 @@ impl Follower<'_> {
             };
         };
         let branch = Branch::from_cfx(wanted.cfx);
-        let found = self.arm.inverse_in(flange, branch, near).ok_or(Reason::OutOfReach)?;
-        self.iterations += u64::from(found.iterations);
+        let joints = self.led(flange, branch, near)?;
         // The middle of each quadrant picks the turn.
         let middle = |quadrant: i32| (f64::from(quadrant) + 0.5) * std::f64::consts::FRAC_PI_2;
-        let mut reference = found.joints;
+        let mut reference = joints;
         for (axis, quadrant) in [(0, wanted.cf1), (3, wanted.cf4), (5, wanted.cf6)] {
             reference[axis] = middle(quadrant);
         }
-        let joints = nearest_turns(&found.joints, &reference);
+        let joints = nearest_turns(&joints, &reference);
         self.within(&joints)?;
         self.meets(&joints, wanted)?;
         Ok(joints)
+    }
+
+    /// The angles in `branch` near `near`; of an arm without a closed inverse, where Newton's steps from there lead to
+    /// none within the bounds, those that the search for points finds from there.
+    fn led(&mut self, flange: &Isometry3<f64>, branch: Branch, near: &Joints) -> Result<Joints, Reason> {
+        let found = self.arm.inverse_in(flange, branch, near);
+        self.iterations += found.map_or(0, |found| u64::from(found.iterations));
+        let joints = found.map(|found| found.joints);
+        if self.arm.has_closed_inverse() || joints.is_some_and(|q| !self.arm.turns_of(&q).is_empty()) {
+            return joints.ok_or(Reason::OutOfReach);
+        }
+        self.arm.inverse(flange, near).first().copied().ok_or(Reason::OutOfReach)
     }
 
     /// Whether `joints` are in the configuration `wanted`; an angle on the border of two quadrants is in both.

@@ -92,7 +92,8 @@ impl Arm<'_> {
     }
 
     /// The nearest singularity and how far it is: |sin| of axis 5 and of the elbow, distance of the wrist before axis 1
-    /// over the arm's length; of other builds 1/‖J⁻¹‖ of the flange, lengths over the reach.
+    /// over the arm's length; of other builds 1/‖J⁻¹‖ of the flange, lengths over what adds up from axis 1 to
+    /// the flange.
     ///
     /// A pure number, 0 in a singularity: the same three measures that the claim keeps above its bound.
     pub(super) fn margin(&self, q: &[f64; 6]) -> (&'static str, f64) {
@@ -104,8 +105,11 @@ impl Arm<'_> {
         }
         let carried = self.screws.carried(q);
         let flange = carried.link(&self.screws, 6) * self.claim.flange;
-        let lengths = self.claim.joints.iter().map(|joint| joint.parent_from_joint.translation.vector.norm());
-        let reach = lengths.sum::<f64>() + self.claim.flange.translation.vector.norm();
+        // From the first axis on: what the arm stands on is no length of it.
+        let ((foot, axis), second) = (self.screws.lines[0], self.screws.lines[1].0);
+        let lengths = self.claim.joints[2..].iter().map(|joint| joint.parent_from_joint.translation.vector.norm());
+        let reach =
+            axis.cross(&(second - foot)).norm() + lengths.sum::<f64>() + self.claim.flange.translation.vector.norm();
         let mut jacobian = carried.jacobian(&self.screws, &flange.translation.vector);
         jacobian.fixed_view_mut::<3, 6>(0, 0).scale_mut(1.0 / reach);
         ("chain", jacobian.try_inverse().map_or(0.0, |inverse| 1.0 / inverse.norm()))

@@ -64,7 +64,12 @@ fn pose(random: &mut Stream) -> Isometry3<f64> {
 /// Joint angles with the flange at a pose, the arm upright, and nothing out of bounds.
 fn stand(arm: &Arm, flange: &Isometry3<f64>) -> Option<Joints> {
     let near = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
-    let all = arm.inverse(flange, &near).into_iter().filter(|q| arm.outside_limits(q).is_none());
+    let all = match arm.kinematics {
+        // Where Newton's steps from there lead, and nowhere else: what is folded otherwise is not upright.
+        Kinematics::Chain => arm.chain.inverse_near(flange, &near).map(|found| found.joints).into_iter().collect(),
+        Kinematics::Opw(_) => arm.inverse(flange, &near),
+    };
+    let all = all.into_iter().filter(|q| arm.outside_limits(q).is_none());
     let upright = |q: &Joints| q[3].abs() + q[1].abs();
     all.min_by(|a, b| upright(a).total_cmp(&upright(b)))
 }

@@ -213,10 +213,11 @@ fn candidates(
 ) -> ([Option<Joints>; 8], Refusal) {
     let near = |q: &Joints| -> f64 { (0..AXES).map(|k| (q[k] - settings.home[k]).abs()).sum() };
     let flange = station.pose * tool.tcp.inverse();
-    let (mut best, mut why) = ([None::<Joints>; 8], Refusal::OutOfReach { at: 0.0 });
+    let (mut best, mut why) = ([None::<Joints>; 8], Refusal::unmet(arm, &flange, 0.0));
     for solution in arm.inverse(&flange, &settings.home) {
         let turned = arm.turns_of(&solution);
-        if turned.is_empty() {
+        // Of a chain other postures may be there.
+        if turned.is_empty() && arm.has_closed_inverse() {
             why = why.or_nearer(beyond(arm, &solution));
         }
         for q in turned {

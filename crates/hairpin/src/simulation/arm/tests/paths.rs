@@ -98,6 +98,31 @@ fn arcs_stay_on_their_circle_and_turn_evenly() {
     }
 }
 
+/// Where Newton's steps from where a chain stands lead to nothing within its bounds, a move in joints ends in the
+/// posture that the search for points finds.
+#[test]
+fn a_chain_comes_in_joints_to_what_one_seed_does_not_find() {
+    let arm = Arm { kinematics: Kinematics::Chain, ..arm() };
+    let (home, mut random, mut tried) = ([0.0, 0.0, 0.0, 0.0, 0.5, 0.0], stream(9), 0);
+    while tried < 20 {
+        let q: Joints = std::array::from_fn(|k| {
+            let limit = &arm.limits[k];
+            limit.lower + (limit.upper - limit.lower) * unit(&mut random)
+        });
+        let flange = arm.forward(&q);
+        let first = arm.chain.inverse_near(&flange, &home);
+        if first.is_some_and(|found| !arm.turns_of(&found.joints).is_empty()) {
+            continue;
+        }
+        let found = arm.inverse(&flange, &home).into_iter().find(|q| arm.outside_limits(q).is_none());
+        let Some(found) = found else { continue };
+        tried += 1;
+        let orders = [order(Target::Joint(flange, Some(arm.configuration(&found))), 0.5, Zone::Fine)];
+        let plan = Plan::new(&arm, &home, &orders, &PlanSettings::default()).unwrap();
+        assert_eq!(plan.stop(), None, "{q:?}");
+    }
+}
+
 #[test]
 fn what_cannot_be_followed_stops_with_its_reason() {
     let arm = arm();
