@@ -3,15 +3,12 @@
 //! Such a vehicle is a point that drives over any map as over a plane. How it stands on a slope its file does not say,
 //! so that what is steeper than a plane's slack is no ground for it.
 
-use hairpin::campaign::drive::Site;
+use hairpin::campaign::drive::{LEVEL_GROUND, Site};
 use hairpin::feasibility::steering::shooting::rough::Steps;
 use hairpin::robot::rover::Suspension;
 use hairpin::trajectory::drive::{Planar, Segment};
 use hairpin::world::terrain::{NoGround, Terrain};
 
-/// Steepest ground that counts as level, rad: along it a metre of the map is longer than one of the plane by 5·10⁻⁵, a
-/// centimetre in 200 m.
-const LEVEL: f64 = 0.01;
 /// Share of a cell that is looked at, and the longest and shortest of such steps, m.
 const SHARE: f64 = 0.25;
 const LONGEST: f64 = 0.06;
@@ -53,5 +50,5 @@ pub(super) fn uneven(site: &Site<'_>, start: &Planar, goal: &Planar, segments: &
             Err(place) => return Some(Uneven::NoGround { place, after_m }),
         }
     }
-    (steepest > LEVEL).then_some(Uneven::Steep(steepest - LEVEL))
+    (steepest > LEVEL_GROUND).then_some(Uneven::Steep(steepest - LEVEL_GROUND))
 }
