@@ -23,6 +23,8 @@ pub struct Verified {
     pub graph: Option<GraphAgain>,
     /// Cases with something placed around them that were checked, and those of them that are clear of it.
     pub surrounded: [usize; 2],
+    /// What of the robot the claims rest on that is not known, or leave out.
+    pub unknown: Option<&'static str>,
 }
 
 /// What came of one case.
@@ -76,7 +78,8 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let around = answers.iter().zip(&cases).filter(|(answer, case)| case.environment.is_some() && answer.is_checked());
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();
     let surrounded = [around.count(), clear];
-    Ok(Verified { answers, optimum, graph, surrounded })
+    let unknown = work.setup.unknown_shapes();
+    Ok(Verified { answers, optimum, graph, surrounded, unknown })
 }
 
 impl Verified {

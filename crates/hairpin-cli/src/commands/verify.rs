@@ -31,6 +31,7 @@ pub fn object(verified: &Verified, code: u8) -> Value {
             "verified": optimum.findings.is_empty(), "steps": optimum.steps, "findings": optimum.findings,
         })),
         "graph": verified.graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
+        "unknown": verified.unknown,
     })
 }
 
@@ -76,9 +77,10 @@ fn in_words(verified: &Verified) {
             format!("; {} of {moves} moves of the graph followed again hold", moves - findings.len())
         }
     };
+    let unknown = verified.unknown.map_or(String::new(), |what| format!("; {what}"));
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
     let [witnesses, fine] = verified.witnesses();
     console::say(&format!(
-        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}{free}"
+        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}{free}{unknown}"
     ));
 }

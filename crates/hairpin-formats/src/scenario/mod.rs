@@ -29,6 +29,7 @@ use std::path::Path;
 
 use hairpin::campaign::scenario::{KeyPath, RobotKind};
 use hairpin::campaign::{Mistake, Resolved, Scenario, Setup};
+use serde_json::Value;
 use toml::Table;
 
 pub use arm::{arm_for, arm_with};
@@ -279,9 +280,14 @@ fn read(
     }
     let mut resolver = Resolver { base, report };
     apply_sets(&mut root, sets, &mut resolver);
+    let before = resolver.report.complaints().len();
     resolver.robot(&mut root);
+    let is_read = resolver.report.complaints().len() == before;
     resolver.world(&mut root);
-    let schema = schema::scenario_schema_of(kind_of(&root));
+    let schema = match is_read {
+        true => schema::scenario_schema_of(kind_of(&root)),
+        false => schema_without_robot(&mut root, report),
+    };
     shape::check(&schema, &root, "", report);
     if !report.is_empty() {
         return None;
@@ -322,6 +328,25 @@ fn read(
         report.complain(&place, &mistake.key, &mistake.value, &format!("must be {bound}"), message);
     };
     make(Resolved { scenario, attachments }).map_err(|mistakes| mistakes.into_iter().for_each(told)).ok()
+}
+
+/// The schema of a scenario whose robot could not be read, which has been told: that of the kind that it says, or else
+/// of the kind of whose keys the fewest are wrong. What there is of the robot is no more to be held against it.
+fn schema_without_robot(root: &mut Node, report: &Report) -> Value {
+    let said = kind_of(root).map(str::to_owned);
+    if let Some(robot) = root.entries().and_then(|entries| entries.get_mut("robot")) {
+        robot.kind = NodeKind::Text("its name".into());
+    }
+    if said.is_some() {
+        return schema::scenario_schema_of(said.as_deref());
+    }
+    let wrong = |schema: &Value| {
+        let mut told = report.clone();
+        shape::check(schema, root, "", &mut told);
+        told.complaints().len()
+    };
+    let schemas = RobotKind::all().map(|kind| schema::scenario_schema_of(kind.words.first().copied()));
+    schemas.min_by_key(wrong).unwrap_or_else(|| schema::scenario_schema_of(None))
 }
 
 /// The robot's kind, where its table says it.

@@ -17,6 +17,8 @@ use crate::urdf::{NoMesh, Triangles, UrdfError, UrdfOptions, read_srdf, read_urd
 pub(super) const URDF: &str = "urdf";
 /// Keys that say how a URDF is read; what stands beside them goes over what is read.
 const KEYS: [&str; 6] = [URDF, "tip", "base", "packages", "srdf", "exclude"];
+/// Arrays of shapes, each of which says of which link it is.
+const SHAPES: [&str; 2] = ["capsules", "hulls"];
 /// Kinds of meshes that are read.
 const READ: [&str; 3] = [".stl", ".obj", ".dae"];
 /// Folders above a URDF that a package's folder is looked for in.
@@ -51,7 +53,9 @@ pub(super) fn of_urdf(mut table: Node, base: &Path, report: &mut Report) -> Opti
         told(&named, URDF, "expected the path of a URDF", report);
         return None;
     };
-    let wanted = wanted(&given, base, report)?;
+    let mut wanted = wanted(&given, base, report)?;
+    let shaped = SHAPES.map(|key| links(&table, key)).concat();
+    wanted.options.no_stand_in = [links(&table, "no_body"), shaped.clone()].concat();
     let path = base.join(name);
     let text = read_file(&path).and_then(|b| String::from_utf8(b).map_err(|_| "it is no UTF-8 text".into()));
     let mut arm = match text {
@@ -61,8 +65,39 @@ pub(super) fn of_urdf(mut table: Node, base: &Path, report: &mut Report) -> Opti
             return None;
         }
     };
+    for key in SHAPES {
+        join(&mut arm, &mut table, key, &shaped);
+    }
     merge(&mut arm, table);
     Some(arm)
+}
+
+/// The arm's links that the array `key` of `table` is about: numbers, or tables with a `link`.
+fn links(table: &Node, key: &str) -> Vec<usize> {
+    let Some(Node { kind: NodeKind::Array(items), .. }) = table.get(key) else { return Vec::new() };
+    items.iter().filter_map(link_of).collect()
+}
+
+fn link_of(item: &Node) -> Option<usize> {
+    match item.get("link").unwrap_or(item).kind {
+        NodeKind::Integer(number) => usize::try_from(number).ok(),
+        _ => None,
+    }
+}
+
+/// Shapes of `table` are in the place of those that `arm` has of the same links, `shaped`; of others its own stay. An
+/// empty array is in the place of all.
+fn join(arm: &mut Node, table: &mut Node, key: &str, shaped: &[usize]) {
+    if shaped.is_empty() {
+        return;
+    }
+    let Some(Node { kind: NodeKind::Array(own), .. }) = arm.entries().and_then(|arm| arm.get_mut(key)) else { return };
+    own.retain(|item| link_of(item).is_none_or(|link| !shaped.contains(&link)));
+    if let Some(Node { kind: NodeKind::Array(given), .. }) = table.entries().and_then(|table| table.get_mut(key))
+        && !given.is_empty()
+    {
+        given.append(own);
+    }
 }
 
 fn told(node: &Node, key: &str, bound: &str, report: &mut Report) {

@@ -124,11 +124,12 @@ impl Built {
         Ok([lower, upper, speed.unwrap_or(USUAL_SPEED)])
     }
 
-    /// Bodies of all links, each with the arm's link that carries it.
+    /// Bodies of all links, each with the arm's link that carries it; those of `known` get no stand-in.
     pub(super) fn bodies(
         &mut self,
         tree: &Tree,
         stands: &[(&str, Stand)],
+        known: &[usize],
         reader: &mut Reader,
     ) -> Result<(), UrdfError> {
         let mut with_body = [false; AXES + 1];
@@ -151,7 +152,7 @@ impl Built {
                 let how = if stand.held == Held::AtRest { "held at rest" } else { "anywhere about its joint" };
                 self.say(format!("{named} {how}"));
             }
-            if let Some(why) = shapes.missing.first() {
+            if let Some(why) = shapes.missing.first().filter(|_| !known.contains(&stand.of)) {
                 let more = if shapes.missing.len() > 1 { " and others" } else { "" };
                 self.say(format!("{named} is a stand-in: {why}{more}"));
                 with_body[stand.of] = true;
@@ -165,7 +166,8 @@ impl Built {
                 self.mass(stand, &inertial)?;
             }
         }
-        for (link, names) in names.iter().enumerate().filter(|(link, _)| !with_body[*link]) {
+        let bare = |link: usize| !with_body[link] && !known.contains(&link);
+        for (link, names) in names.iter().enumerate().filter(|(link, _)| bare(*link)) {
             let named: Vec<String> = names.iter().take(3).map(|name| format!("`{}`", told(name))).collect();
             self.say(format!("link {link} ({}) is a stand-in: no <collision>", named.join(", ")));
             self.stand_in(link);

@@ -52,6 +52,8 @@ pub struct UrdfOptions {
     pub exclude: Vec<[String; 2]>,
     /// An SRDF's pairs ([`read_srdf`]).
     pub disabled: Vec<[String; 2]>,
+    /// The arm's links (0 the base, k what axis k moves) that get no stand-in: elsewhere is said what they take up.
+    pub no_stand_in: Vec<usize>,
 }
 
 /// Bytes of a text, at most.
@@ -74,7 +76,7 @@ pub fn read_urdf(text: &str, options: &UrdfOptions, find: &MeshFile) -> Result<U
     let stands = stand::stands(&tree, &way)?;
     let mut built = arm::Built::default();
     let flange = built.chain(&tree, &way)?;
-    built.bodies(&tree, &stands, &mut shapes::Reader::new(find))?;
+    built.bodies(&tree, &stands, &options.no_stand_in, &mut shapes::Reader::new(find))?;
     let has_body = |link: &str| tree.links.get(link).is_some_and(|link| element::child(link, "collision").is_some());
     let exclude = pairs::left_out(&stands, (way.tip, &has_body), &options.disabled, &options.exclude)?;
     Ok(built.finish(robot.attribute("name").unwrap_or_default(), &flange, exclude))

@@ -347,3 +347,32 @@ fn moments_are_turned_and_missing_ones_told() {
     let told = "joint effort is of accelerations, not of torques: link 1 (`link_1`) has no <inertial>";
     assert!(read.masses.is_empty() && read.estimates.iter().any(|said| said == told), "{:?}", read.estimates);
 }
+
+/// `no_body` beside a URDF did nothing, and shapes of one link took those of all others away.
+#[test]
+fn what_a_table_says_of_links_goes_before_stand_ins_and_shapes() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("six.urdf"), irb120()).unwrap();
+    let path = folder.path().join("my_arm.toml");
+    let of = |more: &str| {
+        std::fs::write(&path, format!("kind = \"arm\"\nurdf = \"six.urdf\"\n{more}")).unwrap();
+        crate::scenario::arm_for(&path.display().to_string()).unwrap()
+    };
+    let stand_ins =
+        |arm: &Arm| -> Vec<usize> { (0..7).filter(|link| arm.links[*link].outline == Outline::StandIn).collect() };
+    let named = |arm: &Arm, link: usize| arm.estimated.iter().any(|said| said.starts_with(&format!("link {link} ")));
+    let plain = of("");
+    assert_eq!(stand_ins(&plain), [1, 2, 3, 4, 5, 6]);
+    let without = of("no_body = [1, 5]\n");
+    assert_eq!(stand_ins(&without), [2, 3, 4, 6]);
+    assert!(without.links[1].capsules.is_empty() && without.links[5].capsules.is_empty());
+    assert!(!named(&without, 1) && !named(&without, 5) && named(&without, 2), "{:?}", without.estimated);
+    // The base keeps the hull of its cylinder.
+    let shaped = of("capsules = [{ link = 3, a_mm = [0, 0, 0], b_mm = [0, 0, 80], radius_mm = 50 }]\n");
+    assert_eq!(stand_ins(&shaped), [1, 2, 4, 5, 6]);
+    assert_eq!((shaped.links[3].outline, shaped.links[3].capsules.len()), (Outline::Given, 1));
+    assert_eq!((&shaped.links[0], named(&shaped, 3)), (&plain.links[0], false));
+    // Of the base that is given anew nothing else is left.
+    let base = of("capsules = [{ link = 0, a_mm = [0, 0, 0], b_mm = [0, 0, 80], radius_mm = 90 }]\n");
+    assert_eq!((base.links[0].hulls.len(), base.links[0].capsules.len()), (0, 1));
+}

@@ -230,3 +230,22 @@ fn axes_of_an_arm_may_count_the_other_way() {
         assert!(lines(&told).contains(bound) && lines(&told).lines().count() == 1, "{}", lines(&told));
     }
 }
+
+/// The rest was held to a quadrotor's keys, with some twenty mistakes that were none.
+#[test]
+fn a_robot_that_cannot_be_read_is_told_alone() {
+    let told = |kind: &str, robot: &str| {
+        let line =
+            |line: &str| if line.starts_with("robot = ") { format!("robot = {robot}\n") } else { format!("{line}\n") };
+        let text: String = hairpin_formats::template::template(kind).expect(kind).lines().map(line).collect();
+        let report = read(&text, &[]).expect_err(kind);
+        let [one] = report.complaints() else { panic!("{kind}, {robot}: {report}") };
+        one.field.clone()
+    };
+    for kind in ["quadrotor", "rover", "car", "differential-drive", "arm", "boat"] {
+        for robot in ["\"nix.toml\"", "\"nix.urdf\"", "\"irb12\""] {
+            assert_eq!(told(kind, robot), "robot", "{kind}: {robot}");
+        }
+    }
+    assert_eq!(told("arm", "{ kind = \"arm\", urdf = \"nix.urdf\" }"), "robot.urdf");
+}

@@ -19,6 +19,7 @@ use hairpin_formats::steering::{Asked, Status};
 use hairpin_formats::terrain::{Georeference, MapFile};
 
 use super::answered::{Answered, Near, claim, pieces};
+use super::level::{Uneven, uneven};
 use super::pace::{direction, start};
 use super::plane::{STANDING, Task};
 use super::trace::trace_step;
@@ -100,6 +101,10 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         (_, Ok(ground)) => ground,
     };
     let replay = on_the_ground(&flat, ground, &start);
+    let along = if task.glides { None } else { uneven(&site, &start, &goal, &solution.segments) };
+    if let (false, None, Some(Uneven::NoGround { place, after_m })) = (ran_out, &near, &along) {
+        return stopped(no_ground(map, &goal, place), *after_m);
+    }
     let drive = Some((solution, replay));
     let over_tilt = ground.max_tilt - task.rover.limits.tilt;
     if let Some(near) = near {
@@ -109,6 +114,10 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         _ if ran_out => answered(Status::TimeLimit, None, drive),
         (Found::Ok, None) if over_tilt > 0.0 => {
             answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
+        }
+        (Found::Ok, None) if along.is_some() => {
+            let over = along.and_then(|along| along.steeper_by());
+            answered(Status::Infeasible, Some(("slope_rad", over)), drive)
         }
         (Found::Ok, None) => Answered {
             cost: site.cost(&start, &solution.segments, solver.ground.cost),

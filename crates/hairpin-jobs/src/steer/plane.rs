@@ -39,6 +39,8 @@ pub(super) struct Task<'a> {
     pub(super) aim: Precision,
     /// Whether the start is there already.
     pub(super) there: bool,
+    /// Whether what has no suspension may drive over a map as over a plane.
+    pub(super) glides: bool,
 }
 
 impl<'a> Task<'a> {

@@ -330,3 +330,46 @@ fn rows_beyond_what_can_be_planned_are_told_and_queries_are_kept() {
     let refused = generic().answer_file(&path, Answers::File(&path), false, &Unwatched).unwrap_err().to_string();
     assert!(refused.contains("--out") && fs::read_to_string(&path).unwrap() == text, "{refused}");
 }
+
+/// `rover` on a map of 15 m by 15 m from (0, 0) on, in cells of 0.25 m, whose heights along x (m) are `height`.
+fn on_map(rover: &str, height: fn(f64) -> f64) -> Vehicle {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.asc");
+    let row: String = (0..60).map(|column| format!("{} ", height(0.25 * f64::from(column)))).collect();
+    let head = "ncols 60\nnrows 60\nxllcenter 0\nyllcenter 0\ncellsize 0.25\nNODATA_value -9999\n";
+    fs::write(&path, format!("{head}{}", format!("{row}\n").repeat(60))).unwrap();
+    let holes = hairpin::world::terrain::HoleRule::KeepOut;
+    let georeference = hairpin_formats::terrain::Georeference { holes, ..Default::default() };
+    let settings = SteerSettings { rover: rover.into(), terrain: Some((path, georeference)), ..Default::default() };
+    Vehicle::new(&settings, &Unwatched).unwrap()
+}
+
+/// Drives went through holes, over cliffs and beyond the edge, and were `ok`.
+#[test]
+fn what_has_no_suspension_needs_ground_and_level_ground() {
+    let level = |_: f64| 100.0;
+    let hole = |x: f64| if (6.2..7.3).contains(&x) { -9999.0 } else { 0.0 };
+    let cliff = |x: f64| if x < 6.2 { 0.0 } else { 20.0 * (x - 6.2) };
+    let plane = |x: f64| 0.16 * x;
+    let near = |x: f64| Question { from: Some([3.0, 7.0, 0.0, 0.0]), to: [x, 7.5, 0.0, 0.0], ..Question::default() };
+    for rover in ["generic", "car", "differential-drive"] {
+        let of = |height: fn(f64) -> f64, x: f64| {
+            let (vehicle, asked) = (on_map(rover, height), near(x).asked());
+            let answered = vehicle.answer(&asked);
+            (answered.status, answered.limit.map(|(limit, _)| limit))
+        };
+        assert_eq!(of(level, 10.0), (Status::Ok, None), "{rover}");
+        assert_eq!(of(hole, 10.0), (Status::Infeasible, Some("no_data")), "{rover}");
+        assert_eq!(of(cliff, 10.0), (Status::Infeasible, Some("slope_rad")), "{rover}");
+        assert_eq!(of(plane, 10.0), (Status::Infeasible, Some("slope_rad")), "{rover}");
+        assert_eq!(of(level, 100.0), (Status::Infeasible, Some("map_edge")), "{rover}");
+    }
+    let vehicle = on_map("generic", level);
+    let asked = near(10.0).asked();
+    let states = vehicle.follow(&asked, &vehicle.answer(&asked), Rows::Few).unwrap().states;
+    assert!(states.iter().all(|state| (state.settled.z - 100.0).abs() < 1e-6), "it drives on the ground");
+    // By the slope itself: atan 0.16 rad, of which 0.01 count as level.
+    let steep = on_map("generic", plane).answer(&asked);
+    let (_, excess) = steep.limit.unwrap();
+    assert!((excess.unwrap() - (0.16f64.atan() - 0.01)).abs() < 1e-3, "{excess:?}");
+}

@@ -8,11 +8,11 @@ use hairpin::feasibility::steering::shooting::Control;
 use hairpin::feasibility::steering::shooting::families::Problem as Boundary;
 use hairpin::feasibility::steering::shooting::flat;
 use hairpin::feasibility::steering::shooting::query::{Curvatures, Goal, Precision, Query, Refusal};
-use hairpin::robot::rover::{Rover, Twist};
+use hairpin::robot::rover::{Rover, Suspension, Twist};
 use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Planar;
 use hairpin::trajectory::start_table::StartTable;
-use hairpin::world::terrain::{ElevationMap, KeepOuts};
+use hairpin::world::terrain::{ElevationMap, KeepOuts, Terrain};
 use hairpin_formats::scenario::{rover_for, shadowed};
 use hairpin_formats::steering::{Asked, Status};
 use hairpin_formats::terrain::MapFile;
@@ -37,6 +37,8 @@ pub struct Vehicle {
     solver: Solver<'static>,
     /// Where start values are looked up.
     table: Option<StartTable>,
+    /// Whether what has no suspension may drive over the map as over a plane.
+    glides: bool,
     /// How fast, and by which controls.
     pub pace: Pace,
 }
@@ -64,13 +66,15 @@ impl Vehicle {
             None => (None, [0.0, 0.0]),
         };
         let keep_outs = places(settings, offset)?;
-        Ok(Self { map, offset, rover, keep_outs, solver, table, pace: settings.pace })
+        Ok(Self { map, offset, rover, keep_outs, solver, table, glides: false, pace: settings.pace })
     }
 
     /// `rover` on `map`, forward arcs, with `time_limit` for each question: what requirements are checked with.
+    ///
+    /// Without a suspension it is a point to which the map is a plane, whatever its slopes.
     pub fn on(rover: Rover, map: Option<ElevationMap>, time_limit: Option<Duration>) -> Self {
         let (keep_outs, solver) = (KeepOuts::default(), Solver::plain(time_limit));
-        Self { rover, map, offset: [0.0, 0.0], keep_outs, solver, table: None, pace: Pace::default() }
+        Self { rover, map, offset: [0.0, 0.0], keep_outs, solver, table: None, glides: true, pace: Pace::default() }
     }
 
     /// The solver, with its table.
@@ -182,6 +186,7 @@ impl Vehicle {
             towards,
             aim,
             there,
+            glides: self.glides,
         };
         let mut answered = self.found(asked, &task, &shaping);
         if answered.status == Status::NotConverged && shaping != bounds && shaping.most >= sharpest {
@@ -245,6 +250,11 @@ impl Vehicle {
     /// ends.
     pub fn follow(&self, asked: &Asked, answered: &Answered, rows: Rows) -> Option<States> {
         let mut states = self.states(&self.near(asked), answered, rows)?;
+        if let Some(map) = self.map.as_ref().filter(|_| self.rover.suspension == Suspension::Level) {
+            // A point that is level wherever it is has no height of its own.
+            let height = |at: &Planar| map.height(at.x, at.y).unwrap_or(f64::NAN);
+            states.states.iter_mut().for_each(|state| state.settled.z = height(&state.at));
+        }
         states.states.iter_mut().for_each(|state| self.move_back(&mut state.at));
         Some(states)
     }

@@ -82,6 +82,13 @@ pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
             "The map's cells of {coarse:.2} m are coarser than half the wheelbase: attitudes are optimistic."
         ));
     }
+    if setup.leaves_slopes_out {
+        said.push(format!(
+            "Slopes of the map are not modelled for `{}`, which has no suspension: its legs, proofs and runs are those of level \
+             ground below it, and nothing is known of its tilt.",
+            setup.rover.name
+        ));
+    }
     if setup.map.holes() > 0 {
         said.push(format!("{} cells of the map came without data.", setup.map.holes()));
     }

@@ -53,5 +53,5 @@ mod verify;
 mod walking;
 
 pub use held::{broken, steerable};
-pub use setup::DriveSetup;
+pub use setup::{DriveSetup, LEVEL_GROUND};
 pub use site::{Site, drive_piece, flat_claim, replay_flat, replay_pieces, wheel_rims};

@@ -90,6 +90,7 @@ pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, Str
 
 fn model(setup: &DriveSetup) -> String {
     let ground = match setup.rover.suspension {
+        Suspension::Level if setup.leaves_slopes_out => "the vehicle in the plane, without the map's slopes",
         Suspension::Level => "the vehicle in the plane",
         _ => "the vehicle settled on the ground at every step",
     };

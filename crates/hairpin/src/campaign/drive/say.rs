@@ -23,7 +23,7 @@ impl Say for DriveSetup {
             caveat: &rover.caveat,
             estimated: rover.estimated.clone(),
             has_sides: true,
-            unknown_shapes: None,
+            unknown_shapes: self.leaves_slopes_out.then_some("slopes of the map are not modelled: no suspension"),
             loops: Rover::LOOPS,
             battery: None,
         }

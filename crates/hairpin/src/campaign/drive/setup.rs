@@ -12,7 +12,7 @@ use crate::campaign::scenario::{
 use crate::feasibility::reach::drive::{DriveSettings as ReachSettings, DriveSite, Pace, Slopes};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, flat, rough};
 use crate::math::simd::Simd;
-use crate::robot::rover::Rover;
+use crate::robot::rover::{Rover, Suspension};
 use crate::simulation::OwnController;
 use crate::trajectory::Direction;
 use crate::world::terrain::generate::{Recipe, generate};
@@ -24,6 +24,11 @@ use super::Site;
 ///
 /// It takes the place of a bound of 0, which rims at their full speed would leave.
 const STRAIGHT: f64 = 1e-6;
+
+/// Steepest ground that counts as level for a vehicle without a suspension, rad.
+///
+/// Along it a metre of the map is longer than one of the plane by 5·10⁻⁵: a centimetre in 200 m.
+pub const LEVEL_GROUND: f64 = 0.01;
 
 /// A resolved scenario of drives and what it describes.
 ///
@@ -42,6 +47,8 @@ pub struct DriveSetup {
     pub planner: Arc<Rover>,
     /// The ground.
     pub map: Arc<ElevationMap>,
+    /// Whether the map has slopes, and the vehicle no suspension that would say how it stands on them.
+    pub(super) leaves_slopes_out: bool,
     /// Where nothing may drive.
     /// Of the scenario and of a case's environment.
     pub keep_out: Arc<KeepOuts>,
@@ -193,6 +200,15 @@ impl DriveSetup {
             }
             _ => map_of(terrain, keys.seed, files),
         }
+    }
+
+    /// Whether `rover` has no suspension, and `map` slopes; of a map that is known it is known.
+    pub(super) fn slopes_left_out(rover: &Rover, map: &Arc<ElevationMap>, known: Option<&Self>) -> bool {
+        if rover.suspension != Suspension::Level {
+            return false;
+        }
+        let same = |known: &&Self| Arc::ptr_eq(&known.map, map) && known.rover.suspension == Suspension::Level;
+        known.filter(same).map_or_else(|| map.is_steeper_than(LEVEL_GROUND), |known| known.leaves_slopes_out)
     }
 
     /// The keep-outs of `keys`, likewise.

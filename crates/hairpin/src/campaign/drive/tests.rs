@@ -392,3 +392,19 @@ fn what_is_kept_is_confirmed_under_what_varies() {
     assert_eq!(still, alone, "run 0 is nominal");
     assert!(varied > 1.2 * unvaried, "{varied} with the latencies of runs 1 and 2, {unvaried} without");
 }
+
+/// Legs over a cliff were witnesses, and nobody said that slopes are nothing to such a vehicle.
+#[test]
+fn slopes_that_are_not_modelled_are_named() {
+    let hills = [("world.terrain", json!({ "generator": "fractal", "size_m": 40, "cell_m": 0.25 }))];
+    let named = Some("slopes of the map are not modelled: no suspension");
+    let (level, steep) = (setup(car(), &[]), setup(car(), &hills));
+    assert_eq!((level.unknown_shapes(), steep.unknown_shapes()), (None, named));
+    assert_eq!(setup(rover(), &hills[..0]).unknown_shapes(), None, "it stands on its wheels");
+    let mut said = Vec::new();
+    super::assumptions::claim(steep.own().unwrap(), &mut said);
+    assert!(
+        said.iter().any(|sentence| sentence.starts_with("Slopes of the map are not modelled for `car`")),
+        "{said:?}"
+    );
+}

@@ -26,7 +26,7 @@ pub(in crate::campaign) struct RobotWords<'a> {
     pub(in crate::campaign) estimated: Vec<&'a str>,
     /// Whether its attitude has a front and a left side that people know.
     pub(in crate::campaign) has_sides: bool,
-    /// What of its shape a claim rests on that is not known, or leaves out, in a few words of the verdict.
+    /// What of its shape or stand a claim rests on that is not known, or leaves out, in a few words of the verdict.
     pub(in crate::campaign) unknown_shapes: Option<&'static str>,
     /// What of ours carries out what a stranger's controller asks for.
     pub(in crate::campaign) loops: Option<&'static str>,

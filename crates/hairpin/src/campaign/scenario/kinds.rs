@@ -26,6 +26,11 @@ impl RobotKind {
         named.unwrap_or(&KINDS[0])
     }
 
+    /// All kinds; robots that do not say theirs are of the first.
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        KINDS.iter()
+    }
+
     /// The JSON Schema of its scenarios.
     pub fn schema(&self) -> Value {
         (self.schema)()

@@ -326,6 +326,10 @@ impl ArmDescription {
                 return Err(wrong(&format!("{key}[{i}]"), link, "0 to 6"));
             }
         }
+        // One of both cannot be meant, and neither is safe to guess.
+        if let Some((i, link)) = self.no_body.iter().enumerate().find(|(_, link)| self.stand_ins.contains(link)) {
+            return Err(wrong(&format!("no_body[{i}]"), link, "a link that stand_ins does not name"));
+        }
         let all_bare = links.iter().all(bare);
         for (number, (link, stand_in)) in links.iter_mut().zip(stand_ins).enumerate() {
             let without = bare(link) && !self.no_body.contains(&number);

@@ -425,6 +425,7 @@ fn files_are_held_to_their_bounds() {
     assert_eq!(wrong(&|arm| arm.joints.speed_deg_s[5] = 0.0), "joints.speed_deg_s[5]");
     let capsule = CapsuleDescription { link: 7, a_mm: [0.0; 3], b_mm: [0.0; 3], radius_mm: 10.0, larger_mm: 0.0 };
     assert_eq!(wrong(&|arm| arm.capsules = vec![capsule]), "capsules[0].link");
+    assert_eq!(wrong(&|arm| (arm.no_body, arm.stand_ins) = (vec![2, 5], vec![5])), "no_body[1]");
     let mass = MassDescription {
         link: 1,
         mass_kg: 3.0,

@@ -195,6 +195,22 @@ impl ElevationMap {
         least
     }
 
+    /// Whether the ground rises or falls by more than `slope` (m per m, along x or y) between two neighbouring cells.
+    ///
+    /// Cells without data have no neighbours. Linear in the cells.
+    pub fn is_steeper_than(&self, slope: f64) -> bool {
+        let Grid { columns, rows, cell: [east, north], .. } = self.grid;
+        let height = |row: usize, column: usize| f64::from(self.heights[(row + 1) * self.stride + column + 1]);
+        (0..rows).any(|row| {
+            (0..columns).any(|column| {
+                let here = height(row, column);
+                let rises = |there: f64, over: f64| (there - here).abs() > slope * over;
+                (column + 1 < columns && rises(height(row, column + 1), east))
+                    || (row + 1 < rows && rises(height(row + 1, column), north))
+            })
+        })
+    }
+
     /// Height of the cell in `row` from the south and `column`, m; NaN in a hole.
     ///
     /// # Panics

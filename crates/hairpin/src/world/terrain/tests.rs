@@ -116,3 +116,13 @@ fn outside_the_outermost_centres_there_is_no_ground() {
         assert!(matches!(map.patch(x, y), Err(NoGround::OffMap { .. })), "({x}, {y})");
     }
 }
+
+#[test]
+fn a_map_is_as_steep_as_its_neighbouring_cells() {
+    let plane = map(12, 9, 0.25, [3.0, -2.0], |x, y| 0.5 * x - 0.25 * y).expect("a map");
+    assert!(plane.is_steeper_than(0.49) && !plane.is_steeper_than(0.51));
+    let along_y = map(12, 9, 0.25, [3.0, -2.0], |_, y| 0.3 * y).expect("a map");
+    assert!(along_y.is_steeper_than(0.29) && !along_y.is_steeper_than(0.31));
+    let hole = map(12, 9, 0.25, [0.0, 0.0], |x, _| if x > 1.0 && x < 1.5 { f64::NAN } else { 0.0 }).expect("a map");
+    assert!(hole.holes() > 0 && !hole.is_steeper_than(0.0));
+}

@@ -83,7 +83,8 @@ impl DriveSetup {
         let controller = known.and_then(|known| known.controller.clone());
         let simd = known.map_or_else(Simd::default, |known| known.simd);
         let (scenario, attachments) = (keys.clone(), files.clone());
-        Self { scenario, attachments, rover, planner, map, keep_out, controller, simd }
+        let leaves_slopes_out = Self::slopes_left_out(&rover, &map, known);
+        Self { scenario, attachments, rover, planner, map, leaves_slopes_out, keep_out, controller, simd }
     }
 }
 
