@@ -183,7 +183,7 @@ impl Reading {
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();
         let joints = Joints {
             name: name.into(),
-            source: Source::Untold,
+            source: source(name),
             joints: names,
             times_s: self.times,
             positions_rad: self.joints,
