@@ -158,8 +158,8 @@ fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize
     if let Some(entry) = entry {
         machine.run(entry);
     }
-    // Statements are told where they are executed. Anything else, a module that is cut short above all, leaves open what
-    // the program would have been: no controller loads it.
+    // Statements are told where they are executed. Anything else, a module that is cut short above all, leaves open
+    // what the program would have been: no controller loads it.
     for mistake in mistakes.iter().filter(|mistake| !mistake.in_routine) {
         machine.leave_open(mistake.at, &mistake.what);
     }

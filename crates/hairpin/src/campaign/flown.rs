@@ -125,9 +125,10 @@ pub enum FlownError {
 /// A limit of distance is violated for certain where a sample exceeds it by more than the standard deviation that the
 /// log claims there, in the direction in which it is off: σ² = (e_h σ_h)² + (e_v σ_v)², e the unit vector from the
 /// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
-/// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit. Bounds that
-/// the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in means that are
-/// too long ([`is_seen`]) is a doubt. Durations and attitudes are judged by the samples alone.
+/// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit.
+///
+/// Bounds that the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in
+/// means that are too long ([`is_seen`]) is a doubt. Durations and attitudes are judged by the samples alone.
 ///
 /// An obstacle that it was in by more than that standard deviation it met, whatever is limited.
 ///
@@ -344,8 +345,8 @@ impl Looked<'_> {
         self.of_distance(value, true, &|p, _| clearance(p))
     }
 
-    /// Whether it may have left its world, which no sample shows for certain: within what the log knows of its place, or
-    /// between two samples. Places are off by one standard deviation along each axis, as [`left_world`] has them.
+    /// Whether it may have left its world, which no sample shows for certain: within what the log knows of its place,
+    /// or between two samples. Places are off by one standard deviation along each axis, as [`left_world`] has them.
     fn edge(&self, setup: &Setup) -> Option<Doubt> {
         let track = &self.log.flight.track;
         let know = |i: usize| self.log.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2]);

@@ -37,8 +37,8 @@ impl Cores {
         is_new
     }
 
-    /// Puts what the vehicle flew by before other cores of `motions`. Where nobody tells it, none of the filters' counts
-    /// as the vehicle's own estimate.
+    /// Puts what the vehicle flew by before other cores of `motions`. Where nobody tells it, none of the filters'
+    /// counts as the vehicle's own estimate.
     pub(super) fn settle(&self, motions: &mut Vec<LoggedMotion>, notes: &mut Vec<String>) {
         // POS is the estimate that the vehicle took, whichever core it was of.
         if motions.iter().any(|motion| motion.name == "POS" && motion.samples.len() > 1) {
