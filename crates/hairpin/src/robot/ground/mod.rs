@@ -2,7 +2,7 @@
 //! take them for.
 //!
 //! In the plane, without slip: what a file gives becomes bounds on κ and κ′ at a speed and a response, in the numbers
-//! of a [`Rover`](crate::robot::rover::Rover) without a suspension, so that everything that drives rovers drives these.
+//! of a [`Rover`] without a suspension, so that everything that drives rovers drives these.
 
 mod car;
 mod differential_drive;
