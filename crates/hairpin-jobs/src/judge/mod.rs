@@ -145,9 +145,9 @@ pub(crate) fn judge_cases(
 ) -> Result<Judgement, Problem> {
     let (grid, told) = (Grid::of(&work.setup), work.told()?);
     // What a budget left undone is so until it was executed, whoever judges it anew.
-    let undone = |result: &CaseResult| result.is_undone(Undone::NotExecuted) || result.is_undone(Undone::NotJudged);
+    let cut = work.folder.read_results()?;
     let cut: BTreeSet<CaseNumber> =
-        work.folder.read_results()?.iter().filter(|result| undone(result)).map(|result| result.case).collect();
+        cut.iter().filter(|result| result.is_left_undone()).map(|result| result.case).collect();
     let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget, &cut)));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();

@@ -462,6 +462,11 @@ impl CaseResult {
     pub fn is_undone(&self, what: Undone) -> bool {
         self.status == Status::Inconclusive && self.ended == what.word()
     }
+
+    /// Whether a budget left anything of it undone.
+    pub fn is_left_undone(&self) -> bool {
+        [Undone::NotExecuted, Undone::NotJudged].into_iter().any(|what| self.is_undone(what))
+    }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use super::scenario::DeviationFrom;
 use super::{Case, Mistake, Setup};
 use crate::judgement::{
     self, Clearance, Close, JudgementError, Limits, Measures, Settings, Statistics, Swiftness, Violation, beyond,
-    is_seen, longest_mean, look_closely, measure, most_between,
+    is_seen, longest_mean, look_closely, measure, most_between, where_least,
 };
 use crate::trajectory::{Flight, Track};
 
@@ -435,8 +435,7 @@ impl Looked<'_> {
                 let ends = [i, i + 1].map(|k| (track.position(k), at(k, leg)));
                 most_between(&|p| turn(of(p, leg)), ends, bulge, enough)
             };
-            let legs = [self.close[i].leg, self.close[i + 1].leg];
-            let bound = if legs[0] == legs[1] { on(legs[0]) } else { on(legs[0]).min(on(legs[1])) };
+            let bound = where_least([self.close[i].leg, self.close[i + 1].leg], on);
             if bound > enough {
                 most = most.max(bound);
                 let own = self.rate(enough - values[i].max(values[i + 1]));

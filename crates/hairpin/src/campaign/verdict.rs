@@ -62,10 +62,7 @@ pub fn verdict_on(
     let undone = |what: Undone| results.iter().filter(|result| result.is_undone(what)).count();
     let undone = [undone(Undone::NotExecuted), undone(Undone::NotJudged)];
     let cut = cut_words(tally, undone, results.len());
-    let is_doubt = |result: &&CaseResult| {
-        let is_undone = result.is_undone(Undone::NotExecuted) || result.is_undone(Undone::NotJudged);
-        result.status == Status::Inconclusive && !is_undone
-    };
+    let is_doubt = |result: &&CaseResult| result.status == Status::Inconclusive && !result.is_left_undone();
     let doubt = results.iter().find(is_doubt);
     let doubt = doubt.and_then(|result| Some(format!("{}, {}", result.case, result.message.as_ref()?)));
     let searched: u64 = tally.curves.iter().map(|curve| curve.executions).sum();

@@ -120,7 +120,8 @@ pub fn most_between(
     bulge: f64,
     enough: f64,
 ) -> f64 {
-    along(value, ends, enough - bulge, 10) + bulge
+    let decided = |bound: f64, at_ends: f64| bound <= enough - bulge || at_ends > enough - bulge;
+    halved(value, ends, 10, &decided) + bulge
 }
 
 /// The largest value, at and between all samples, of a function of places and legs that changes by no more than the
@@ -135,7 +136,6 @@ pub fn most_anywhere(
     swiftness: &Swiftness,
     of: &dyn Fn(&Point3<f64>, usize) -> f64,
 ) -> f64 {
-    let at = |i: usize| (track.position(i), close[i].leg);
     let values: Vec<f64> = (0..track.len()).map(|i| of(&track.position(i), close[i].leg)).collect();
     let pairs = (0..track.len()).filter_map(|i| {
         let (_, next) = settings.neighbours(i, track.len());
@@ -150,28 +150,20 @@ pub fn most_anywhere(
     let least = values.iter().copied().chain(least).fold(f64::NEG_INFINITY, f64::max);
     let mut most = least;
     for (i, next, bulge) in pairs {
-        let ((a, own), (b, other)) = (at(i), at(next));
+        let ends = [i, next].map(|k| track.position(k));
         let on = |leg: usize| {
-            let ends = [(a, of(&a, leg)), (b, of(&b, leg))];
-            nearly(&|p| of(p, leg), ends, least - bulge, 10) + bulge
+            let near = |bound: f64, at_ends: f64| bound <= at_ends.max(least - bulge) + 1e-3;
+            halved(&|p| of(p, leg), ends.map(|p| (p, of(&p, leg))), 10, &near) + bulge
         };
-        most = most.max(if own == other { on(own) } else { on(own).min(on(other)) });
+        most = most.max(where_least([close[i].leg, close[next].leg], on));
     }
     most
 }
 
-/// A bound as [`along`] has it, which is not content with knowing that `enough` is exceeded: it comes within a
-/// millimetre of the largest value.
-fn nearly(value: &dyn Fn(&Point3<f64>) -> f64, ends: [(Point3<f64>, f64); 2], enough: f64, halvings: u32) -> f64 {
-    let [(a, at_a), (b, at_b)] = ends;
-    let bound = 0.5 * (at_a + at_b + (b - a).norm());
-    if bound <= enough.max(at_a).max(at_b) + 1e-3 || halvings == 0 {
-        return bound;
-    }
-    let middle = a + 0.5 * (b - a);
-    let middle = (middle, value(&middle));
-    let [before, after] = [[ends[0], middle], [middle, ends[1]]];
-    nearly(value, before, enough, halvings - 1).max(nearly(value, after, enough, halvings - 1))
+/// A bound for an interval that begins on one of both legs and ends on the other: the leg changes where that costs
+/// least.
+pub(crate) fn where_least([from, to]: [usize; 2], bound: impl Fn(usize) -> f64) -> f64 {
+    if from == to { bound(from) } else { bound(from).min(bound(to)) }
 }
 
 /// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and the one before; it changes by
@@ -205,16 +197,23 @@ pub fn longest_mean(track: &Track, settings: &Settings) -> f64 {
     (0..track.len()).map(over).fold(0.0, f64::max)
 }
 
-fn along(value: &dyn Fn(&Point3<f64>) -> f64, ends: [(Point3<f64>, f64); 2], enough: f64, halvings: u32) -> f64 {
+/// An upper bound of a function that changes by no more than the way, between two places with their values: half the
+/// sum of both and of the way, of halves until `is_settled` takes their bound with the larger value at their ends.
+fn halved(
+    value: &dyn Fn(&Point3<f64>) -> f64,
+    ends: [(Point3<f64>, f64); 2],
+    halvings: u32,
+    is_settled: &dyn Fn(f64, f64) -> bool,
+) -> f64 {
     let [(a, at_a), (b, at_b)] = ends;
     let bound = 0.5 * (at_a + at_b + (b - a).norm());
-    if bound <= enough || at_a.max(at_b) > enough || halvings == 0 {
+    if halvings == 0 || is_settled(bound, at_a.max(at_b)) {
         return bound;
     }
     let middle = a + 0.5 * (b - a);
     let middle = (middle, value(&middle));
-    let [before, after] = [[ends[0], middle], [middle, ends[1]]];
-    along(value, before, enough, halvings - 1).max(along(value, after, enough, halvings - 1))
+    let halves = [[ends[0], middle], [middle, ends[1]]];
+    halves.map(|half| halved(value, half, halvings - 1, is_settled)).into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
 struct End<'a> {

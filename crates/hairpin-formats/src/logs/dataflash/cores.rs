@@ -86,15 +86,12 @@ fn by_turns(
     // What was before the first word is the first one's.
     let begins = std::iter::once(f64::NEG_INFINITY).chain(changes.clone());
     let ends = changes.clone().chain([f64::INFINITY]);
-    let mut samples = Vec::new();
+    let (mut samples, mut resets, mut unfit) = (Vec::new(), Vec::new(), None);
     for ((from, to), (_, core)) in begins.zip(ends).zip(primary) {
-        let own = motions[places[core]].samples.iter();
-        samples.extend(own.filter(|sample| (from..to).contains(&sample.t_s)));
-    }
-    let (mut resets, mut unfit) = (Vec::new(), None);
-    for place in places.values() {
-        resets.clone_from(&motions[*place].resets);
-        unfit = unfit.or_else(|| motions[*place].unfit.clone());
+        let own = &motions[places[core]];
+        samples.extend(own.samples.iter().filter(|sample| (from..to).contains(&sample.t_s)));
+        resets.extend(own.resets.iter().filter(|reset| (from..to).contains(&reset.t_s)).cloned());
+        unfit = unfit.or_else(|| own.unfit.clone());
     }
     resets.extend(changes.map(|t_s| Reset { t_s, by_m: None }));
     resets.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));

@@ -37,7 +37,10 @@ fn words_mean_what_they_say() {
     // In millimetres: 0.1 m are 100 mm.
     let mm = Words::parse("x < 100.5", 1000.0).unwrap();
     assert!(mm.holds([0.1, 0.0, 0.0]) && !mm.holds([0.101, 0.0, 0.0]));
-    assert!(!words("1/x > 0 or 1/x <= 0").holds([0.0 / 1.0 * f64::NAN, 0.0, 0.0]), "nothing is true of no number");
+    for text in ["y/x > 0 or y/x <= 0", "not y/x > 0", "not (y/x <= 0 and z < 1)"] {
+        assert!(!words(text).holds([0.0; 3]), "{text}: nothing is true of no number");
+    }
+    assert!(words("not y/x > 0 or z < 1").holds([0.0; 3]), "what decides by itself decides");
 }
 
 #[test]

@@ -50,11 +50,10 @@ impl Words {
 
     /// Whether the words are true at a point, m, in floating point.
     ///
-    /// A chain of comparisons with a value that is no number is false; `not` of it is true.
+    /// A comparison with a value that is no number (0/0) is undecided, and so is `not` of it: neither holds.
     pub fn holds(&self, p: [f64; 3]) -> bool {
         self.condition.at(&p.map(|c| c * self.per_metre), &|less: f64, or_equal| {
-            // A value that does not exist (0/0) makes nothing true.
-            Some(if or_equal { less <= 0.0 } else { less < 0.0 })
+            (!less.is_nan()).then_some(if or_equal { less <= 0.0 } else { less < 0.0 })
         }) == Some(true)
     }
 

@@ -12,19 +12,22 @@ use crate::trajectory::drive::Planar;
 pub(super) struct Miss {
     /// Goal less end in (x, y, ψ, κ); ψ in [−π, π].
     pub(super) error: Vector4<f64>,
-    /// The largest of distance, |ψ| and |κ| in units of its precision.
+    /// The largest of distance, |ψ| and |κ| in units of its precision; +∞ where one is no number.
     pub(super) residual: f64,
 }
 
 /// `end` held against `goal`.
 ///
-/// x, y in the ground's own axes, m. The maximum passes over parts that are no numbers, as `f64::max` does.
+/// x, y in the ground's own axes, m.
 pub(super) fn miss(goal: &Planar, end: &Planar, precision: &Precision) -> Miss {
     let yaw = goal.yaw - end.yaw;
     let yaw = yaw - (yaw / TAU).round() * TAU;
     let error = Vector4::new(goal.x - end.x, goal.y - end.y, yaw, goal.curvature - end.curvature);
     let units = error.component_mul(&units(precision));
-    Miss { error, residual: libm::hypot(units[0], units[1]).max(units[2].abs()).max(units[3].abs()) }
+    let largest = libm::hypot(units[0], units[1]).max(units[2].abs()).max(units[3].abs());
+    // `f64::max` passes over what is no number.
+    let residual = if units.iter().any(|unit| unit.is_nan()) { f64::INFINITY } else { largest };
+    Miss { error, residual }
 }
 
 /// What brings errors into units of the precision.
