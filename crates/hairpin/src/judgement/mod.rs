@@ -40,10 +40,10 @@ pub mod verdict;
 mod tests;
 
 pub use apart::{decimals_of, told};
+pub(crate) use between::where_least;
 pub use between::{
     Close, SEEN_WITHIN_S, Swiftness, beyond, is_seen, longest_mean, look_closely, most_anywhere, most_between,
 };
-pub(crate) use between::where_least;
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};
 pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};

@@ -72,6 +72,13 @@ fn bounds_that_the_log_itself_exceeds_bound_nothing() {
     let flown = judged.found.unwrap().flown.unwrap();
     assert_eq!((flown.swiftness.speed, flown.swiftness.acceleration), (None, None));
     assert!(flown.most_between.is_infinite() && flown.exceeded.is_some_and(|exceeded| exceeded.what == "speed"));
+    // So do positions alone, whatever velocities stand beside them.
+    for v_m_s in [None, Some(Vector3::x())] {
+        let mut log = with_velocities(8.0, 0.0);
+        log.motions[0].samples.iter_mut().for_each(|sample| sample.v_m_s = v_m_s);
+        let verdict = judged_as(&log, |_, _| {}).unwrap().verdict;
+        assert!(verdict.exit_code == 5 && verdict.sentence.contains("own speed of 40.0 m/s"), "{}", verdict.sentence);
+    }
     // From one way into another within a hundredth of a second: what is left is the bound of speeds.
     let judged = judged_as(&with_velocities(1.0, 0.46), |_, _| {}).unwrap();
     let sentence = &judged.verdict.sentence;

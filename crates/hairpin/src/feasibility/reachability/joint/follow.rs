@@ -65,8 +65,7 @@ const FIRST_PIECE: [f64; 2] = [0.08, 0.3];
 /// `bodies` of `None` asks limits and singularities alone. Moves in joints are not held to singularities. Pieces are 80
 /// mm or 0.3 rad at first.
 ///
-/// The start's limits are checked; of a move in joints the end's are the caller's to see to, as pieces are judged by
-/// their middles.
+/// Of a move in joints limits are checked at both ends, between which it turns evenly.
 ///
 /// # Errors
 /// The first reason along the move.
@@ -143,6 +142,12 @@ impl Walk<'_> {
             }
         }
         let end = self.solve(1.0, &last).ok_or(Refusal::OutOfReach { at: 1.0 })?;
+        // Its pieces were judged by their middles.
+        if let Motion::Joint { end, .. } = self.motion
+            && let Some((axis, _)) = self.arm.outside_limits(end)
+        {
+            return Err(self.beyond(axis, end, 1.0));
+        }
         Ok(Followed { end, pieces, limit_margin })
     }
 

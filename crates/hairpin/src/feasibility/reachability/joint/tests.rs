@@ -169,6 +169,12 @@ fn refusals_name_axis_value_and_bound() {
     let end = [0.0, 0.0, 0.0, 170f64.to_radians(), 0.5, 0.0];
     let sentence = told(&Motion::Joint { start: home, end }, &home);
     assert!(sentence.starts_with("axis 4 at 16") && sentence.contains("° > 160.0° at 9"), "{sentence}");
+    // Beyond it on the last half piece alone; on it is not beyond.
+    let turned = |axis_4: f64| Motion::Joint { start: home, end: [0.0, 0.0, 0.0, axis_4, 0.5, 0.0] };
+    let sentence = told(&turned(161f64.to_radians()), &home);
+    assert!(sentence.starts_with("axis 4 at 161.0° > 160.0°"), "{sentence}");
+    let bound = turned(arm.limits[3].upper);
+    assert!(follow(&arm, &tool, None, &bound, &home, &FollowSettings::default(), &mut 0).is_ok());
     // Straight out beyond the reach, and through the wrist's singularity.
     let flange = arm.forward(&home);
     let mut far = flange;
