@@ -11,6 +11,7 @@ mod dataflash;
 mod detect;
 mod error;
 mod log;
+mod modes;
 mod samples;
 mod text;
 mod twice;

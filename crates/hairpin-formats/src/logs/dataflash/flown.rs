@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use super::super::log::{Event, EventKind, Progress, Reset};
+use super::super::modes::Modes;
 use super::place::{between, geodetic};
 use super::stream::Message;
 use crate::frames::Geodetic;
@@ -134,28 +135,22 @@ impl Flown {
     /// Events in the order of time, and what is to be told of them.
     pub(super) fn into_events(mut self) -> (Vec<Event>, Vec<String>) {
         let mut notes = Vec::new();
-        let (mut before, mut others): (Option<&str>, Vec<Event>) = (None, Vec::new());
+        let (mut before, mut modes) = (None, Modes::default());
         for (t_s, number) in std::mem::take(&mut self.numbers) {
             let known = self.modes.and_then(|modes| modes.iter().find(|(mode, _)| *mode == number));
             let name = known.map_or("other", |(_, name)| name);
             let words = known.map_or_else(|| format!("MODE {number}"), |(_, name)| format!("MODE {name}"));
             if before != Some(name) {
-                if before.is_some_and(|before| FLOWN.contains(&before)) {
-                    self.tell(t_s, EventKind::MissionEnds, words.clone());
-                }
-                if FLOWN.contains(&name) {
-                    self.tell(t_s, EventKind::MissionBegins, words);
-                } else if self.modes.is_some() {
-                    others.push(Event { t_s, kind: EventKind::OtherMode, words });
-                }
+                modes.change(t_s, FLOWN.contains(&name), words);
             }
             before = Some(name);
         }
         if before.is_some() && self.modes.is_none() {
             notes.push("modes are not read: no message says that this is a copter or a rover".into());
         }
-        if self.events.iter().all(|event| event.kind != EventKind::MissionBegins) {
-            self.events.extend(others);
+        // Of a vehicle whose modes nobody knows none is said to fly no mission.
+        if self.modes.is_some() {
+            self.events.extend(modes.into_events());
         }
         self.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
         (self.events, notes)

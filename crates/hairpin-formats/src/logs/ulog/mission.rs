@@ -1,6 +1,7 @@
 //! What a PX4 flew when: items of the mission, modes, failsafes, fences, the ground.
 
 use super::super::log::{Event, EventKind, Progress};
+use super::super::modes::Modes;
 use super::formats::Slot;
 use super::topic::Finder;
 use crate::frames::Geodetic;
@@ -102,8 +103,7 @@ pub(super) struct Flown {
     items: Vec<(f64, u32)>,
     targets: Vec<(f64, Geodetic)>,
     events: Vec<Event>,
-    /// Modes that are no mission's.
-    others: Vec<Event>,
+    modes: Modes,
 }
 
 impl Flown {
@@ -143,14 +143,7 @@ impl Flown {
                         Some(asked) if asked != now => format!("nav_state {}, asked for {}", mode(now), mode(asked)),
                         _ => format!("nav_state {}", mode(now)),
                     };
-                    if before.is_some_and(|before| FLOWN.contains(&before)) {
-                        self.tell(t_s, EventKind::MissionEnds, words.clone());
-                    }
-                    if FLOWN.contains(&now) {
-                        self.tell(t_s, EventKind::MissionBegins, words);
-                    } else if self.others.len() < MOST {
-                        self.others.push(Event { t_s, kind: EventKind::OtherMode, words });
-                    }
+                    self.modes.change(t_s, FLOWN.contains(&now), words);
                 }
                 *last = Some(now);
                 let fails = failsafe.as_ref().is_some_and(is);
@@ -192,11 +185,10 @@ impl Flown {
         self.items.iter().enumerate().map(one).collect()
     }
 
-    pub(super) fn into_events(mut self) -> Vec<Event> {
-        if self.events.iter().all(|event| event.kind != EventKind::MissionBegins) {
-            self.events.append(&mut self.others);
-        }
-        self.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        self.events
+    pub(super) fn into_events(self) -> Vec<Event> {
+        let mut events = self.modes.into_events();
+        events.extend(self.events);
+        events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        events
     }
 }
