@@ -10,7 +10,6 @@ import numpy as np
 from hairpin._asked import Floats, floats, wrong
 
 
-
 def columns_of(value: Any) -> list[Any] | None:
     """Names of the columns of a frame, of an Arrow table, of a structured array, or of a list of named tuples; ``None`` where there
     are none, or rising numbers alone."""
