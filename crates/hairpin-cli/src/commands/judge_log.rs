@@ -220,6 +220,7 @@ fn doubt(doubt: &Doubt) -> Value {
     let why = match doubt.why {
         Why::Between { most, rate_hz } => json!({ "between_samples": finite(most), "needed_rate_hz": rate_hz }),
         Why::Begin { before } => json!({ "begin_not_seen": true, "left_out_s": before }),
+        Why::End(after) => json!({ "end_not_seen": true, "left_out_s": after }),
         Why::Mean(span) => json!({ "mean_over_s": span }),
         Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
     };

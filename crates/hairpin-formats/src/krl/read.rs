@@ -69,6 +69,9 @@ pub fn read(src: File<'_>, dat: Option<File<'_>>) -> Result<Module, NoProgram> {
         }
     }
     let line = defined.ok_or(NoProgram::Absent)?;
+    if state != Where::After {
+        reader.reading.cut_short(&text, "END");
+    }
     let program = &mut reader.reading.program;
     program.procedure = program.name.clone();
     Ok(reader.reading.done(line))

@@ -164,6 +164,10 @@ fn what_is_not_followed_is_named_by_line() {
         assert_eq!(line.class, if clear { Class::Understood } else { Class::ChangesMotion }, "{body}");
         assert!(line.what.contains(words) && line.unmodelled == kind, "{body}: {line:?}");
     }
+    let cut = format!("{head}LIN {p}\n\n");
+    let read_cut = read(File { name: "m.src", bytes: cut.as_bytes() }, None).unwrap();
+    assert_eq!((read_cut.unclear_line, read_cut.certain), (Some(6), 2), "{:?}", read_cut.lines);
+    assert_eq!(read_cut.lines[&6].what, "the file ends before END: it was cut short");
     let bare = "DEF m ( )\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}\nEND\n";
     let bare = read(File { name: "m.src", bytes: bare.as_bytes() }, None).unwrap();
     assert!(bare.lines[&2].what.contains("$TOOL and $BASE are not both set"));

@@ -44,6 +44,13 @@ impl Reading {
         }
     }
 
+    /// The file ends before the `word` that ends what was read: what was cut off nobody knows.
+    pub(crate) fn cut_short(&mut self, text: &str, word: &str) {
+        let written = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let last = written.last().map_or(1, |(index, _)| index + 1);
+        self.mistake(last, format!("the file ends before {word}: it was cut short"));
+    }
+
     /// The line cannot be read: from here on nothing is certain.
     pub(crate) fn mistake(&mut self, line: usize, what: String) {
         self.mistakes.push(Found { at: At { line, column: 1 }, what: what.clone() });

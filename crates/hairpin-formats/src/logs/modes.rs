@@ -2,38 +2,26 @@
 
 use super::log::{Event, EventKind};
 
-/// Changes of each kind at most.
-const MOST: usize = 100_000;
-
-/// Changes of mode in the order of time.
+/// The mode that it is in.
 #[derive(Debug, Default)]
 pub(super) struct Modes {
     flies: bool,
-    missions: Vec<Event>,
-    others: Vec<Event>,
 }
 
 impl Modes {
-    /// At `t_s` it went into a mode that flies a mission, or into another: `words`.
-    pub(super) fn change(&mut self, t_s: f64, flies: bool, words: String) {
-        let event = |kind: EventKind| Event { t_s, kind, words: words.clone() };
-        if std::mem::replace(&mut self.flies, flies) {
-            push(&mut self.missions, event(EventKind::MissionEnds));
-        }
-        match flies {
-            true => push(&mut self.missions, event(EventKind::MissionBegins)),
-            false => push(&mut self.others, event(EventKind::OtherMode)),
-        }
-    }
-
-    /// Where missions begin and end; of a vehicle that flew none, what it did instead.
-    pub(super) fn into_events(self) -> Vec<Event> {
-        if self.missions.is_empty() { self.others } else { self.missions }
+    /// What it means that it goes into a mode that flies a mission, or into another.
+    pub(super) fn change(&mut self, flies: bool) -> impl Iterator<Item = EventKind> + use<> {
+        let ends = std::mem::replace(&mut self.flies, flies).then_some(EventKind::MissionEnds);
+        let begins = if flies { EventKind::MissionBegins } else { EventKind::OtherMode };
+        ends.into_iter().chain([begins])
     }
 }
 
-fn push(events: &mut Vec<Event>, event: Event) {
-    if events.len() < MOST {
-        events.push(event);
+/// Events in the order of time. Modes that flew no mission are told where none did.
+pub(super) fn in_order(mut events: Vec<Event>) -> Vec<Event> {
+    if events.iter().any(|event| event.kind == EventKind::MissionBegins) {
+        events.retain(|event| event.kind != EventKind::OtherMode);
     }
+    events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    events
 }

@@ -91,10 +91,11 @@ pub(super) const BETWEEN: &str = "max_deviation_between_m";
 type Figure = fn(&Measures) -> Option<f64>;
 
 /// The same of other limits, and the longest time that an acceleration is a mean over.
-pub(super) const BETWEEN_TOO: [(&str, Figure); 3] = [
+pub(super) const BETWEEN_TOO: [(&str, Figure); 4] = [
     ("max_overshoot_between_m", |m| m.overshoot_between),
     ("min_clearance_between_m", |m| m.clearance_between),
     ("acceleration_over_s", |m| m.acceleration_over),
+    ("min_edge_between_m", |m| m.edge_between),
 ];
 
 fn leg_source_word(source: LegSource) -> &'static str {
@@ -130,7 +131,8 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let between = optional_column(table, BETWEEN)?;
-    let [over_between, clear_between, mean_over] = BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
+    let [over_between, clear_between, mean_over, edge_between] =
+        BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
     let (over_between, clear_between, mean_over) = (over_between?, clear_between?, mean_over?);
     let no_deviation = flags(table, NO_DEVIATION)?;
     let no_acceleration = flags(table, NO_ACCELERATION)?;
@@ -161,6 +163,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 overshoot_between: over_between[row],
                 clearance_between: clear_between[row],
                 acceleration_over: mean_over[row],
+                edge_between: edge_between[row],
                 mean_deviation,
                 max_acceleration,
                 t_acceleration,

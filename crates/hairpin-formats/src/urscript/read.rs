@@ -92,6 +92,9 @@ pub fn read(file: File<'_>) -> Result<Module, NoProgram> {
         }
     }
     let (line, name) = defined.ok_or(NoProgram::Absent)?;
+    if depth > 0 {
+        reader.reading.cut_short(&text, "end");
+    }
     reader.reading.program.name.clone_from(&name);
     reader.reading.program.procedure = name;
     Ok(reader.reading.done(line))

@@ -114,6 +114,11 @@ fn what_is_written_reads_back_and_is_written_the_same() {
     assert_eq!((read.unclear_line, read.certain, &read.mistakes[..]), (None, 5, &[][..]), "{:?}", read.lines);
     assert_eq!(text(&read.program, &Settings::default(), &read.header).unwrap(), written);
     assert_eq!(read.program.procedure, "heavy_run");
+    let (kept, _) = written.rsplit_once("\nend\n").unwrap();
+    let cut = back(kept);
+    let last = kept.lines().count();
+    assert_eq!((cut.unclear_line, cut.certain), (Some(last), 5), "{:?}", cut.lines);
+    assert_eq!(cut.lines[&last].what, "the file ends before end: it was cut short");
     for (a, b) in program.moves.iter().zip(&read.program.moves) {
         let base = program.work_objects[a.work_object].base_from_object();
         for (p, q) in a.motion.poses().zip(b.motion.poses()) {

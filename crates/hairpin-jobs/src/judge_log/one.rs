@@ -95,6 +95,7 @@ pub(super) fn judge(
         let start = (case.waypoints[0], against.accept);
         let before = Before { motion, told: &told, from_s: settings.from_s, start };
         flown.doubts.extend(before.doubt(&flown, &own));
+        flown.doubts.extend(before.end(&flown, &own, settings.to_s));
         found.flown = Some(flown);
     }
     if let (None, Some(simulated)) = (&course, simulated) {

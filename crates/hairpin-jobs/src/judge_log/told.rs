@@ -171,6 +171,10 @@ fn nearest(flown: &Flown) -> Option<String> {
 /// Why a limit is open, and what would decide it.
 fn in_words(doubt: &Doubt, found: &Found) -> String {
     let value = finding(&doubt.value);
+    // A clearance that nobody limits is that of what may have been met.
+    let met = found.flown.as_ref().is_some_and(|flown| flown.limits.clearance.is_none());
+    let met = met && doubt.value.what == "clearance";
+    let value = if met { format!("it may have met an obstacle: {value}") } else { value };
     match doubt.why {
         Why::Accuracy { which, sigma } => {
             let other =
@@ -187,14 +191,16 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             match doubt.value.what.as_str() {
                 "edge" if kept => format!("{own}, so that it may have left the world; {other}"),
                 "edge" => format!("{own}; {other}"),
+                _ if met => format!("{own}; {other}"),
                 _ => format!("{own}{may}; {other} or {limit} the limit"),
             }
         }
         Why::Mean(span) => {
             let rate = found.source.rate_hz;
             format!(
-                "{value} in samples at {rate:.0} Hz, but as a mean over as much as {span:.2} s, and what is shorter was \
+                "{value} in samples at {}, but as a mean over as much as {span:.2} s, and what is shorter was \
                  not seen; log at {:.0} Hz or faster, without pauses",
+                hertz(rate),
                 (2.0 / SEEN_WITHIN_S).ceil()
             )
         }
@@ -202,8 +208,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             let bounds = found.flown.as_ref().map_or(String::new(), bounds);
             let most = apart(most, doubt.value.limit);
             format!(
-                "{value} in samples at {:.0} Hz, but {most} m may hide between two of them{bounds}; {}",
-                found.source.rate_hz,
+                "{value} in samples at {}, but {most} m may hide between two of them{bounds}; {}",
+                hertz(found.source.rate_hz),
                 log_at(rate_hz, found.source.format)
             )
         }
@@ -214,7 +220,7 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             );
             let rate = found.source.rate_hz;
             let nothing = "nothing bounds how fast the robot moves between two of them";
-            format!("{value} in samples at {rate:.0} Hz, but {nothing}{why}")
+            format!("{value} in samples at {}, but {nothing}{why}", hertz(rate))
         }
         Why::Begin { before } => {
             let why = match before {
@@ -223,7 +229,18 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             };
             format!("{value} in what was judged, but when the mission began is not seen: {why}")
         }
+        Why::End(after) => {
+            format!(
+                "{value} in what was judged, but when the mission ended is not seen: --to leaves out {after:.1} s after it"
+            )
+        }
     }
+}
+
+/// `10 Hz`, `0.02 Hz`.
+fn hertz(rate: f64) -> String {
+    let decimals = if rate >= 1.0 { 0 } else { (1..=6).find(|d| rate * 10_f64.powi(*d) >= 1.0).unwrap_or(6) };
+    format!("{rate:.d$} Hz", d = decimals as usize)
 }
 
 /// `the log's own speed of 40.0 m/s is beyond the robot's 18.0 m/s`.

@@ -61,6 +61,8 @@ pub enum Why {
         /// What was left out before the judged part, s; `None` where the log itself begins amid the motion.
         before: Option<f64>,
     },
+    /// When it ended is not seen: so many seconds of it were left out.
+    End(f64),
 }
 
 /// A limit that is open; of leaving the world the distance to its edge, `edge`, which must not fall below 0.
@@ -130,7 +132,8 @@ pub enum FlownError {
 /// Bounds that the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in
 /// means that are too long ([`is_seen`]) is a doubt. Durations and attitudes are judged by the samples alone.
 ///
-/// An obstacle that it was in by more than that standard deviation it met, whatever is limited.
+/// An obstacle that it was in by more than that standard deviation it met, whatever is limited; one that it may have
+/// been in is a doubt about a clearance of 0 m, where nobody limits that.
 ///
 /// # Errors
 /// [`FlownError`].
@@ -154,12 +157,15 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let left = flight.left_world.is_some();
     let looked = Looked { log, close: &close, waypoints: &case.waypoints, swiftness: &swiftness };
     terms.limits.contact = settings.clearance.is_some_and(|clearance| looked.touches(clearance));
+    // Whoever limits anything limits what stands in the way to not being met; met for certain is a violation already.
+    let no_contact = Some(0.0).filter(|_| terms.limits.are_given() && !terms.limits.contact);
+    let clear_by = terms.limits.clearance.or(no_contact);
     let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let mut doubts = Vec::new();
     for (what, doubt) in [
         ("deviation", looked.deviation(&measures, terms.limits.deviation)),
         ("overshoot", looked.overshoot(&measures, terms.limits.overshoot, &settings)),
-        ("clearance", looked.clearance(&measures, terms.limits.clearance, settings.clearance)),
+        ("clearance", looked.clearance(&measures, clear_by, settings.clearance)),
     ] {
         if let Some(doubt) = doubt {
             broken.retain(|violation| violation.what != what);

@@ -16,9 +16,8 @@ use crate::trajectory::Track;
 /// Measures a track and, where a program of the user's told it, what may hide between its samples: the largest
 /// deviation and overshoot, the smallest clearance, and how long its accelerations are means over.
 ///
-/// Of what nothing bounds how suddenly it turns (drives, boats) the samples are all there is of deviations, and of what
-/// stands in the way the straight line between two samples is: the robot came from one to the other. A model's top
-/// speed is no bound of another simulator's.
+/// Of what nothing bounds how suddenly it turns (drives, boats) the straight line between two samples is looked along:
+/// the robot came from one to the other. A model's top speed is no bound of another simulator's.
 pub(super) fn sampled(
     setup: &Setup,
     track: &Track,
@@ -33,10 +32,8 @@ pub(super) fn sampled(
     let acceleration = setup.swiftness().acceleration;
     let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
     let close = look_closely(track, waypoints, settings, &swiftness, 0.0)?;
-    if acceleration.is_some() {
-        let most = close.iter().filter_map(|close| close.until_next).reduce(f64::max);
-        measures.most_between = most.filter(|most| most.is_finite());
-    }
+    let most = close.iter().filter_map(|close| close.until_next).reduce(f64::max);
+    measures.most_between = most.filter(|most| most.is_finite());
     let overshoot = match settings.reference {
         // Where on a path a robot belongs between two samples nobody knows: as far as at these, and what it bulges.
         Reference::Path(_) => {
@@ -51,8 +48,24 @@ pub(super) fn sampled(
     };
     measures.clearance_between =
         settings.clearance.map(|clearance| nearest(clearance)).filter(|least| least.is_finite());
-    measures.acceleration_over = measures.acceleration().map(|_| longest_mean(track, settings));
+    measures.edge_between = nearest_edge(setup, track, &swiftness).map(|within| {
+        // As far as it is exact, so that it changes by no more than the way.
+        nearest(&|p: &Point3<f64>| setup.edge_distance(p, within).min(within))
+    });
+    let is_mean = measures.acceleration().is_some() || acceleration.is_none();
+    measures.acceleration_over = is_mean.then(|| longest_mean(track, settings));
     Ok(measures)
+}
+
+/// How far (m) a motion between two samples goes at most, where the world's edge may be as near to one.
+fn nearest_edge(setup: &Setup, track: &Track, swiftness: &Swiftness) -> Option<f64> {
+    let step = |i: usize| {
+        let chord = (track.position(i + 1) - track.position(i)).norm();
+        chord + swiftness.bulge(track.times()[i + 1] - track.times()[i], chord)
+    };
+    let most = (0..track.len().saturating_sub(1)).map(step).fold(0.0, f64::max);
+    let is_near = |i: usize| setup.edge_distance(&track.position(i), most) < most;
+    (most.is_finite() && (0..track.len()).any(is_near)).then_some(most)
 }
 
 /// Why the samples do not decide that `limits` are kept which they keep: what may hide between them, and how many would
@@ -85,7 +98,32 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
         let met = below(Some(0.0).filter(|_| limits.contact && limits.are_given()))?;
         Some(format!("it may have met an obstacle: {met}"))
     };
+    let edge = || {
+        let least = measures.edge_between.filter(|least| *least < 0.0 && limits.are_given())?;
+        let beyond = told(-least, Some(0.0), "m");
+        Some(format!(
+            "it may have left the world: between two of its poses it may be {beyond} m beyond the edge; more poses a \
+             second decide"
+        ))
+    };
+    // What nothing bounds is not known by what it does twice a second.
+    let unseen = || {
+        let span = measures.acceleration_over.filter(|span| acceleration.is_none() && !is_seen(*span))?;
+        let kept = [
+            limits.deviation.filter(|limit| measures.max_deviation <= *limit),
+            limits.overshoot.filter(|limit| measures.max_overshoot() <= *limit),
+            limits.clearance.filter(|limit| measures.min_clearance.is_some_and(|least| least >= *limit)),
+        ];
+        kept.into_iter().flatten().next()?;
+        Some(format!(
+            "its poses are as much as {:.2} s apart, and nothing bounds what it does between them; {} poses a second \
+             decide",
+            0.5 * span,
+            (2.0 / SEEN_WITHIN_S).ceil()
+        ))
+    };
     let mean = || {
+        measures.acceleration()?;
         let span = measures.acceleration_over.filter(|span| !is_seen(*span))?;
         let limit = limits.acceleration.filter(|limit| measures.max_acceleration <= *limit)?;
         let (seen, rate) = (told(measures.max_acceleration, Some(limit), "m/s²"), (2.0 / SEEN_WITHIN_S).ceil());
@@ -98,6 +136,8 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
         above("", limits.deviation, measures.max_deviation, measures.most_between),
         above("overshoot ", limits.overshoot, measures.max_overshoot(), measures.overshoot_between),
         below(limits.clearance).or_else(contact),
+        edge(),
+        unseen(),
         mean(),
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();
@@ -195,6 +235,63 @@ mod tests {
             (own.clearance_between, own.overshoot_between, own.acceleration_over, why),
             (None, None, None, None)
         );
+    }
+
+    /// 0.4 m beside the wall, on which it may be between poses that are a second apart.
+    #[test]
+    fn neither_is_the_edge_of_the_world() {
+        let along = |step: f64, limits: &Limits| {
+            let (program, wall) = (setup(Some("sim")), 0.4);
+            let times: Vec<f64> = (0..=(10.0 / step).round() as usize).map(|i| i as f64 * step).collect();
+            let poses = times.iter().map(|t| Isometry3::translation(3.0 + 2.0 * t, wall, 3.0)).collect();
+            let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
+            let track = Track::new(times, poses, vec![leg]).unwrap();
+            let way = [Point3::new(3.0, wall, 3.0), Point3::new(23.0, wall, 3.0)];
+            let measures = sampled(&program, &track, &way, &Settings::default()).unwrap();
+            let bulge = program.swiftness().acceleration.unwrap() * step * step / 8.0;
+            (measures.edge_between, wall - bulge, hidden(&program, &measures, limits))
+        };
+        let limits = Limits { total_time: Some(100.0), ..Limits::default() };
+        let (edge, least, why) = along(1.0, &limits);
+        assert!((edge.unwrap() - least).abs() < 2e-3 && least < 0.0, "{edge:?} {least}");
+        let why = why.unwrap();
+        assert!(why.starts_with("it may have left the world: between two of its poses it may be "), "{why}");
+        assert_eq!(along(1.0, &Limits::default()).2, None, "nothing is asked");
+        assert_eq!(along(0.02, &limits), (None, along(0.02, &limits).1, None), "nowhere near it");
+    }
+
+    /// What nothing bounds is looked at along the straight lines between its poses, and those may not be rare.
+    #[test]
+    fn a_drive_of_which_little_was_seen_is_no_pass() {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": "differential-drive", "execute": { "command": "sim" },
+            "world": { "terrain": { "generator": "flat", "size_m": 40.0, "cell_m": 0.5 } },
+            "task": { "start": { "x_m": 10.0, "y_m": 10.0, "yaw_deg": 0.0 }, "length": 3, "leg_m": [4.0, 12.0] },
+        }))
+        .unwrap();
+        let setup = Setup::new(scenario).unwrap();
+        assert_eq!(setup.swiftness().acceleration, None);
+        let way = [Point3::new(10.0, 10.0, 0.0), Point3::new(20.0, 10.0, 0.0), Point3::new(20.0, 20.0, 0.0)];
+        // Around the corner on the way that the mission has, a pose every `step` s: the corner itself is none of them.
+        let seen = |step: f64| {
+            let times: Vec<f64> = (0..=(19.0 / step) as usize).map(|i| i as f64 * step).collect();
+            let at = |t: &f64| match t - 9.5 {
+                before if before < 0.0 => Isometry3::translation(10.5 + t, 10.0, 0.0),
+                after => Isometry3::translation(20.0, 10.0 + after, 0.0),
+            };
+            let leg = Channel { name: "leg".into(), values: times.iter().map(|t| f64::from(*t >= 9.5)).collect() };
+            let poses = times.iter().map(at).collect();
+            let track = Track::new(times, poses, vec![leg]).unwrap();
+            let measures = sampled(&setup, &track, &way, &Settings::default()).unwrap();
+            let limits = Limits { deviation: Some(1.0), ..Limits::default() };
+            (measures.most_between.unwrap(), hidden(&setup, &measures, &limits))
+        };
+        let (most, why) = seen(4.0);
+        assert!(most > 1.0, "{most}");
+        let why = why.unwrap();
+        assert!(why.contains(" m may hide between two of them"), "{why}");
+        assert!(why.contains("its poses are as much as 4.00 s apart, and nothing bounds"), "{why}");
+        assert_eq!(seen(0.25).1, None);
     }
 
     #[test]

@@ -95,7 +95,11 @@ pub struct Measures {
     /// Smallest clearance that may hide between two samples, m; `None` as of [`Self::most_between`], and without
     /// obstacles.
     pub clearance_between: Option<f64>,
-    /// Longest time that an acceleration is a mean over, s; `None` where nobody asks for it.
+    /// Smallest distance to the world's edge that may hide between two samples, m, below 0 outside; `None` as of
+    /// [`Self::most_between`], and where that edge is farther than a motion between two samples.
+    pub edge_between: Option<f64>,
+    /// Longest time that an acceleration, or two intervals between samples of what nothing bounds, is a mean over, s;
+    /// `None` where nobody asks for it.
     pub acceleration_over: Option<f64>,
     /// Mean deviation over time, m.
     pub mean_deviation: f64,

@@ -13,6 +13,8 @@ use crate::quote::shortened;
 const MOST_SETS: usize = 16;
 /// Stamps are told in milliseconds or finer, s; twice that, for what moves may go faster in between.
 const COARSE_S: f64 = 2e-3;
+/// A recorder that was held up takes what came in as much time with one stamp, s.
+const HELD_UP_S: f64 = 0.5;
 
 /// One topic.
 #[derive(Debug)]
@@ -213,9 +215,8 @@ impl Topic {
                 rows.iter_mut().zip(received).for_each(|((t_s, sample), at)| (*t_s, sample.t_s) = (at, at));
             }
             let far = |one: &Sample, other: &Sample| places_apart(&one.p_m, &other.p_m).unwrap_or_default();
-            let (rows, twice) = rising(rows, &far);
-            let unfit =
-                twice.tell(clock, &name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
+            let (rows, twice) = rising(rows, clock, &far);
+            let unfit = twice.tell(&name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
             let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
             motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid, unfit });
@@ -227,8 +228,8 @@ impl Topic {
             let times = if clock == Clock::Receive { set.received } else { set.times };
             let name = if many { format!("{name}[{index}]") } else { name.clone() };
             let far = |one: &Vec<f64>, other: &Vec<f64>| farthest(one, other).map_or(0.0, |(_, far)| far);
-            let (rows, twice) = rising(times.into_iter().zip(set.rows).collect(), &far);
-            let unfit = twice.tell(clock, &name, &mut notes, |(t_s, one), other| {
+            let (rows, twice) = rising(times.into_iter().zip(set.rows).collect(), clock, &far);
+            let unfit = twice.tell(&name, &mut notes, |(t_s, one), other| {
                 let joint = farthest(one, other).map_or(0, |(joint, _)| joint);
                 let [one, other] = [one, other].map(|row| format!("{} rad", told(row[joint])));
                 two(*t_s, &format!("positions of the joint {}", shortened(&set.names[joint])), &one, &other)
@@ -241,20 +242,21 @@ impl Topic {
 }
 
 /// Words in names of topics that are no motions but what motions are to be.
-const ASKED: &str = "cmd command commanded commands demand demanded des desired goal goals nominal plan planned planner \
-                     plans ref reference requested setpoint setpoints target targets wanted waypoint waypoints";
+const ASKED: &str = "carrot clicked cmd command commanded commands demand demanded des desired expected fake goal goals \
+                     ideal initial lookahead nominal plan planned planner planning plans predicted prediction ref \
+                     reference requested setpoint setpoints sp target targets tgt wanted waypoint waypoints wp wps";
 /// What is written together with them: `goalpose`, `jointcmd`.
 const BODIES: [&str; 8] = ["pose", "position", "odometry", "odom", "path", "states", "state", "joint"];
 
 /// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/targetPose2`,
-/// `/set_point`.
+/// `/set_point`, and what PX4 is told (`/fmu/in/…`).
 fn is_asked(name: &str) -> bool {
     let words = words(name);
     let is = |word: &str| ASKED.split(' ').any(|asked| asked == word);
     let is_beside =
         |word: &str, body: &str| word.strip_suffix(body).is_some_and(is) || word.strip_prefix(body).is_some_and(is);
     words.iter().any(|word| is(word) || BODIES.iter().any(|body| is_beside(word, body)))
-        || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point"))
+        || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point") || pair == ["fmu", "in"])
 }
 
 /// The words of a name, in small letters: between other signs, between letters and digits, and where a large letter
@@ -293,19 +295,13 @@ struct Twice<T> {
 }
 
 impl<T> Twice<T> {
-    /// Tells of them, and gives what is wrong with them. By the recorder's clock nothing is, but when messages came.
-    fn tell(
-        self,
-        clock: Clock,
-        name: &str,
-        notes: &mut Vec<String>,
-        words: impl Fn(&(f64, T), &T) -> String,
-    ) -> Option<String> {
+    /// Tells of them, and gives what is wrong with them.
+    fn tell(self, name: &str, notes: &mut Vec<String>, words: impl Fn(&(f64, T), &T) -> String) -> Option<String> {
         if self.count > 0 {
             notes.push(format!("{name}: {} messages with a stamp that was there before", self.count));
         }
         // A stamp of zero is none.
-        let other = self.other.filter(|((t_s, _), _)| clock == Clock::Header && *t_s != 0.0);
+        let other = self.other.filter(|((t_s, _), _)| *t_s != 0.0);
         let why = other.map(|(one, other)| words(&one, &other));
         notes.extend(why.iter().map(|why| format!("{name}: {why}")));
         why
@@ -314,9 +310,10 @@ impl<T> Twice<T> {
 
 /// Rows in the order of their times, one each, and those that were left out for it; `far` says how far two are apart.
 ///
-/// Of one stamp are also messages that follow each other faster than stamps are told. So those that are no farther
-/// apart than what moves moves around that time within [`COARSE_S`] say nothing else.
-fn rising<T: Clone>(mut rows: Vec<(f64, T)>, far: &dyn Fn(&T, &T) -> f64) -> (Vec<(f64, T)>, Twice<T>) {
+/// Of one stamp are also messages that follow each other faster than stamps are told, or that a recorder took together.
+/// So those that are no farther apart than what moves moves around that time within [`COARSE_S`], by the recorder's
+/// clock within [`HELD_UP_S`], say nothing else.
+fn rising<T: Clone>(mut rows: Vec<(f64, T)>, clock: Clock, far: &dyn Fn(&T, &T) -> f64) -> (Vec<(f64, T)>, Twice<T>) {
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut kept: Vec<(f64, T)> = Vec::with_capacity(rows.len());
     let mut again: Vec<(usize, T)> = Vec::new();
@@ -330,9 +327,10 @@ fn rising<T: Clone>(mut rows: Vec<(f64, T)>, far: &dyn Fn(&T, &T) -> f64) -> (Ve
         let (Some(one), Some(other)) = (kept.get(from), kept.get(from + 1)) else { return 0.0 };
         far(&one.1, &other.1) / (other.0 - one.0)
     };
+    let coarse = if clock == Clock::Receive { HELD_UP_S } else { COARSE_S };
     let is_other = |(place, row): &&(usize, T)| {
         let speed = place.checked_sub(1).map_or(0.0, speed).max(speed(*place));
-        far(&kept[*place].1, row) > speed * COARSE_S
+        far(&kept[*place].1, row) > speed * coarse
     };
     let other = again.iter().find(is_other).map(|(place, row)| (kept[*place].clone(), row.clone()));
     (kept, Twice { count: again.len(), other })

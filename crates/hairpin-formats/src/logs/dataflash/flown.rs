@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::super::log::{Event, EventKind, Progress, Reset};
-use super::super::modes::Modes;
+use super::super::modes::{Modes, in_order};
 use super::place::{between, geodetic};
 use super::stream::Message;
 use crate::frames::Geodetic;
@@ -29,6 +29,33 @@ const COPTER: [(f64, &str); 8] = [
 ];
 const ROVER: [(f64, &str); 7] =
     [(0.0, "MANUAL"), (1.0, "ACRO"), (3.0, "STEERING"), (4.0, "HOLD"), (10.0, "AUTO"), (11.0, "RTL"), (15.0, "GUIDED")];
+const PLANE: [(f64, &str); 16] = [
+    (0.0, "MANUAL"),
+    (1.0, "CIRCLE"),
+    (2.0, "STABILIZE"),
+    (4.0, "ACRO"),
+    (5.0, "FBWA"),
+    (6.0, "FBWB"),
+    (7.0, "CRUISE"),
+    (10.0, "AUTO"),
+    (11.0, "RTL"),
+    (12.0, "LOITER"),
+    (13.0, "TAKEOFF"),
+    (15.0, "GUIDED"),
+    (17.0, "QSTABILIZE"),
+    (18.0, "QHOVER"),
+    (19.0, "QLOITER"),
+    (20.0, "QLAND"),
+];
+const SUB: [(f64, &str); 7] = [
+    (0.0, "STABILIZE"),
+    (1.0, "ACRO"),
+    (2.0, "ALT_HOLD"),
+    (3.0, "AUTO"),
+    (4.0, "GUIDED"),
+    (16.0, "POSHOLD"),
+    (19.0, "MANUAL"),
+];
 /// Modes in which what was uploaded or sent is flown.
 const FLOWN: [&str; 2] = ["AUTO", "GUIDED"];
 
@@ -74,6 +101,8 @@ impl Flown {
                 self.modes = match () {
                     () if of("ArduCopter") => Some(&COPTER),
                     () if of("ArduRover") || of("Rover") => Some(&ROVER),
+                    () if of("ArduPlane") => Some(&PLANE),
+                    () if of("ArduSub") => Some(&SUB),
                     () => self.modes,
                 };
             }
@@ -141,18 +170,15 @@ impl Flown {
             let name = known.map_or("other", |(_, name)| name);
             let words = known.map_or_else(|| format!("MODE {number}"), |(_, name)| format!("MODE {name}"));
             if before != Some(name) {
-                modes.change(t_s, FLOWN.contains(&name), words);
+                for kind in modes.change(FLOWN.contains(&name)) {
+                    self.tell(t_s, kind, words.clone());
+                }
             }
             before = Some(name);
         }
         if before.is_some() && self.modes.is_none() {
-            notes.push("modes are not read: no message says that this is a copter or a rover".into());
+            notes.push("modes are not read: no message says which vehicle's they are".into());
         }
-        // Of a vehicle whose modes nobody knows none is said to fly no mission.
-        if self.modes.is_some() {
-            self.events.extend(modes.into_events());
-        }
-        self.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        (self.events, notes)
+        (in_order(self.events), notes)
     }
 }

@@ -111,6 +111,18 @@ fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
     let read = one_more("sensor_msgs/msg/JointState", joints, 0.3);
     let why = "two positions of the joint q_b with the stamp 7.2 s, 0.2 rad and 0.3 rad: nobody knows which is true";
     assert_eq!(read.joints[0].unfit.as_deref(), Some(why));
+    // Without stamps a recorder that was held up has some of one time, but not what is metres away.
+    let unstamped = |far: f64| {
+        let message = |step: u64, x: f64| {
+            let pose = Cdr::new(true).header(0, 0, "map").numbers(&[x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).bytes();
+            ("/a", "geometry_msgs/msg/PoseStamped", 1_000_000_000 + step * 20_000_000, pose)
+        };
+        let mut messages: Vec<_> = (0..20).map(|step| message(step, 0.02 * step as f64)).collect();
+        messages.push(message(10, 0.2 + far));
+        parse(&bag(&messages, None), "a.mcap").unwrap().motions[0].unfit.clone()
+    };
+    let why = "two places with the stamp 1.2 s, (0.2, 0, 0) m and (3.2, 0, 0) m: nobody knows which is true";
+    assert_eq!((unstamped(0.4), unstamped(3.0).as_deref()), (None, Some(why)));
 }
 
 #[test]
@@ -173,10 +185,18 @@ fn names_of_what_was_asked_for_are_read_by_their_words() {
         "/goalpose",
         "/uav1/poseCmd",
         "/desired/odom",
+        "/pose_sp",
+        "/offboard/sp",
+        "/carrot",
+        "/initialpose",
+        "/fmu/in/pose",
+        "/predicted",
     ] {
         assert_eq!(of_pose(name), Source::Asked, "{name}");
     }
-    for name in ["/robot1/odom", "/commander/pose", "/vrpn/Platform2/pose", "/preferencePose", "/run_0/pose"] {
+    for name in
+        ["/fmu/out/pose", "/robot1/odom", "/commander/pose", "/vrpn/Platform2/pose", "/preferencePose", "/run_0/pose"]
+    {
         assert_eq!(of_pose(name), Source::Untold, "{name}");
     }
     for name in ["/joint_command", "/desired/joint_states", "/jointCommands", "/jointcmd"] {

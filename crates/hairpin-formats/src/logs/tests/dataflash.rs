@@ -48,6 +48,27 @@ fn a_flight_is_read_in_east_north_up() {
 }
 
 #[test]
+fn modes_are_those_of_the_vehicle_and_of_none_nobody_knows_are_missions() {
+    let of = |vehicle: &str| {
+        let mut log = flight();
+        let at = log.windows(10).position(|bytes| bytes == b"ArduCopter").unwrap();
+        log[at..at + 10].copy_from_slice(format!("{vehicle:10}").as_bytes());
+        let log = parsed(&log);
+        let of_modes = log.events.iter().filter(|event| event.words.starts_with("MODE"));
+        (of_modes.map(|event| (event.kind, event.words.clone())).collect::<Vec<_>>(), log.notes)
+    };
+    let flown = |mode: &str| {
+        vec![(EventKind::MissionBegins, "MODE AUTO".to_owned()), (EventKind::MissionEnds, mode.to_owned())]
+    };
+    let other =
+        |modes: &[&str]| modes.iter().map(|mode| (EventKind::OtherMode, (*mode).to_owned())).collect::<Vec<_>>();
+    assert_eq!(of("ArduSub"), (flown("MODE 6"), vec![]));
+    assert_eq!(of("ArduPlane"), (other(&["MODE FBWA", "MODE 3", "MODE FBWB"]), vec![]));
+    let unknown = vec!["modes are not read: no message says which vehicle's they are".to_owned()];
+    assert_eq!(of("Blimp"), (other(&["MODE 5"]), unknown));
+}
+
+#[test]
 fn what_is_cut_or_spoiled_is_told_by_its_byte() {
     let whole = flight();
     let cut = whole.len() - 12 - 20;

@@ -1,7 +1,7 @@
 //! What a PX4 flew when: items of the mission, modes, failsafes, fences, the ground.
 
 use super::super::log::{Event, EventKind, Progress};
-use super::super::modes::Modes;
+use super::super::modes::{Modes, in_order};
 use super::formats::Slot;
 use super::topic::Finder;
 use crate::frames::Geodetic;
@@ -143,7 +143,9 @@ impl Flown {
                         Some(asked) if asked != now => format!("nav_state {}, asked for {}", mode(now), mode(asked)),
                         _ => format!("nav_state {}", mode(now)),
                     };
-                    self.modes.change(t_s, FLOWN.contains(&now), words);
+                    for kind in self.modes.change(FLOWN.contains(&now)) {
+                        self.tell(t_s, kind, words.clone());
+                    }
                 }
                 *last = Some(now);
                 let fails = failsafe.as_ref().is_some_and(is);
@@ -186,9 +188,6 @@ impl Flown {
     }
 
     pub(super) fn into_events(self) -> Vec<Event> {
-        let mut events = self.modes.into_events();
-        events.extend(self.events);
-        events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        events
+        in_order(self.events)
     }
 }

@@ -71,6 +71,7 @@ fn what_may_hide_is_still_known_when_it_is_read() {
         overshoot_between: Some(0.5),
         clearance_between: Some(-0.25),
         acceleration_over: Some(0.125),
+        edge_between: Some(-0.75),
         ..measures
     };
     let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };

@@ -74,10 +74,10 @@ fn bounds_that_the_log_itself_exceeds_bound_nothing() {
     assert!(flown.most_between.is_infinite() && flown.exceeded.is_some_and(|exceeded| exceeded.what == "speed"));
     // So do positions alone, whatever velocities stand beside them.
     for v_m_s in [None, Some(Vector3::x())] {
-        let mut log = with_velocities(8.0, 0.0);
+        let mut log = with_velocities(4.0, 0.0);
         log.motions[0].samples.iter_mut().for_each(|sample| sample.v_m_s = v_m_s);
         let verdict = judged_as(&log, |_, _| {}).unwrap().verdict;
-        assert!(verdict.exit_code == 5 && verdict.sentence.contains("own speed of 40.0 m/s"), "{}", verdict.sentence);
+        assert!(verdict.exit_code == 5 && verdict.sentence.contains("own speed of 20.0 m/s"), "{}", verdict.sentence);
     }
     // From one way into another within a hundredth of a second: what is left is the bound of speeds.
     let judged = judged_as(&with_velocities(1.0, 0.46), |_, _| {}).unwrap();
@@ -122,6 +122,17 @@ fn how_long_a_mission_took_is_not_seen_in_a_part_of_it() {
     assert_eq!(within(&whole, "7.9", None).1, 1);
     let (sentence, code) = within(&whole, "7.9", Some(0.15));
     assert!(code == 5 && sentence.contains("when the mission began is not seen: --from leaves out 0.1"), "{sentence}");
+    let to = |most_s: &str| {
+        let judged = judged_as(&whole, |settings, _| {
+            settings.sets.push(("spec.total_time.max_s".into(), most_s.into()));
+            settings.to_s = Some(7.95);
+        });
+        let verdict = judged.unwrap().verdict;
+        (verdict.sentence, verdict.exit_code)
+    };
+    let (sentence, code) = to("7.97");
+    assert!(code == 5 && sentence.contains("when the mission ended is not seen: --to leaves out 0."), "{sentence}");
+    assert_eq!(to("7").1, 1);
     // What the part alone exceeds is a violation.
     assert_eq!(within(&whole, "7", Some(0.15)).1, 1);
     // A log that has no more than that.

@@ -296,8 +296,7 @@ impl Walk<'_> {
     fn record(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
         let to = m.motion.name().map(Into::into);
         let worth = Worth::of(self.arm, &self.tools[m.tool].tool, &refusal);
-        let unknown =
-            self.assumed || matches!(refusal, Refusal::UnknownConfiguration { .. } | Refusal::NotFound { .. });
+        let unknown = self.assumed || refusal.is_open();
         let (estimated, open) = (worth.in_words(self.arm), unknown || matches!(worth, Worth::Undecidable(_)));
         let (line, from) = (m.line, self.from.clone());
         self.checked.findings.push(Finding { index, line, from, to, refusal, tried, fit, estimated, open });

@@ -116,6 +116,15 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// Whether it proves nothing: a posture, a configuration or a distance to singularities that was not found out.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Self::UnknownConfiguration { .. } | Self::NotFound { .. } => true,
+            Self::Singular { margin, least, .. } => margin.value >= *least,
+            _ => false,
+        }
+    }
+
     /// Where no posture within the bounds puts the flange at `flange` (`base_from_flange`), as far as was looked: of an
     /// arm without a closed inverse that is proven of what is farther off than its lengths add up to, and of nothing
     /// else.
@@ -237,7 +246,14 @@ impl fmt::Display for InWords<'_> {
                     Singularity::Shoulder => "distance from axis 1 over length",
                     Singularity::Chain => "1/‖J⁻¹‖",
                 };
-                write!(f, "{} singularity: {measure} {:.3} < {least:.3} {}", margin.of, margin.value, percent(at))
+                let (of, value, at) = (margin.of, margin.value, percent(at));
+                if value >= least {
+                    return write!(f, "{of} singularity not excluded near {measure} {value:.3} {at}");
+                }
+                // As many decimals as tell one from the other.
+                let told = |d: &usize| [value, least].map(|number| format!("{number:.d$}", d = *d));
+                let [value, least] = told(&(3..9).find(|d| told(d)[0] != told(d)[1]).unwrap_or(9));
+                write!(f, "{of} singularity: {measure} {value} < {least} {at}")
             }
             Refusal::Collides { link, part: index, at, undecided } => {
                 let verb = if undecided { not_proven } else { meets };
