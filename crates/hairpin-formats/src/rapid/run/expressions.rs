@@ -1,7 +1,7 @@
 //! What expressions come to. Whatever depends on the cell is unknown; nothing here fails.
 
 use super::{DEEPEST, Machine};
-use crate::listing::At;
+use crate::listing::{At, Class};
 use crate::rapid::builtin::{self, Arguments};
 use crate::rapid::syntax::{Argument, Expression};
 use crate::rapid::value::{Value, single};
@@ -47,6 +47,9 @@ impl Machine<'_> {
                     self.decided += usize::from(decided);
                     let right = self.evaluate(right, at);
                     self.decided -= usize::from(decided);
+                    if matches!(*sign, "/" | "DIV" | "MOD") && right.number() == Some(0.0) && self.decided == 0 {
+                        self.mark(at, Class::ChangesMotion, format!("`{sign}` by zero stops a controller"));
+                    }
                     combine(sign, &left, &right)
                 })
             }
@@ -140,7 +143,6 @@ fn numbers(sign: &str, a: f64, b: f64) -> Value {
         ">=" => return Value::Bool(a >= b),
         _ => return Value::Unknown,
     };
-    // Division by zero stops a controller.
     if value.is_finite() { Value::Double(value) } else { Value::Unknown }
 }
 

@@ -39,8 +39,8 @@ impl Machine<'_> {
                 let value = self.evaluate(value, at);
                 match self.assign(to, value, at) {
                     Ok(()) => self.mark(at, Class::Understood, ""),
-                    // What was assigned to is unknown, which matters where it is used.
-                    Err(what) => self.mark(at, Class::Harmless, what),
+                    // No controller loads, or goes on with, what cannot be assigned.
+                    Err(what) => self.mark(at, Class::ChangesMotion, what),
                 }
             }
             What::Call { name, arguments } => return self.instruction(name, arguments, at),
@@ -66,6 +66,9 @@ impl Machine<'_> {
                 return Flow::End;
             }
             What::Connect(trap) => self.connect(trap, at),
+            What::Harmless("RAISE") => {
+                self.mark(at, Class::ChangesMotion, "RAISE goes on in an error handler, and none is followed");
+            }
             What::Harmless(keyword) => self.mark(at, Class::Harmless, *keyword),
             What::Broken(what) => self.mark(at, Class::ChangesMotion, what.clone()),
         }

@@ -87,6 +87,28 @@ fn elements_that_are_not_there_are_told() {
     super::assert_clear(&inside(&format!("VAR num a{{3}}:=[1,2,3];\nPROC main()\n{guarded}\n{go}\nENDPROC")));
 }
 
+/// So does it at what cannot be computed or assigned, and what is raised goes on elsewhere.
+#[test]
+fn what_stops_a_controller_is_told() {
+    let go = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;";
+    let of = |body: &str| inside(&format!("VAR num n:=0;\nPROC main()\n{go}\n{body}\n{go}\nENDPROC"));
+    for (body, words) in [
+        ("n:=1/0;", "`/` by zero stops a controller"),
+        ("n:=5 DIV n;", "`DIV` by zero stops a controller"),
+        ("n:=5 MOD (n*3);", "`MOD` by zero stops a controller"),
+        ("zz:=4;", "`zz` is not declared in this file"),
+        ("n:=\"abc\";", "the value for `n` "),
+        ("RAISE 5;", "RAISE goes on in an error handler, and none is followed"),
+    ] {
+        let module = of(body);
+        assert_eq!((module.unclear_line, module.certain), (Some(5), 1), "{body}: {:?}", module.lines[&5]);
+        assert!(module.lines[&5].what.contains(words), "{body}: {:?}", module.lines[&5]);
+    }
+    for body in ["reg1:=4;", "IF n>0 AND 1/n>1 n:=2;", "n:=0/5;", "IF n>0 RAISE 5;", "n:=n;"] {
+        super::assert_clear(&of(body));
+    }
+}
+
 /// Each would take years, or more memory than there is, if it were followed.
 #[test]
 fn nothing_takes_for_ever_or_too_much() {
