@@ -133,7 +133,8 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let between = optional_column(table, BETWEEN)?;
     let [over_between, clear_between, mean_over, edge_between] =
         BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
-    let (over_between, clear_between, mean_over) = (over_between?, clear_between?, mean_over?);
+    let (over_between, clear_between) = (over_between?, clear_between?);
+    let (mean_over, edge_between) = (mean_over?, edge_between?);
     let no_deviation = flags(table, NO_DEVIATION)?;
     let no_acceleration = flags(table, NO_ACCELERATION)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];

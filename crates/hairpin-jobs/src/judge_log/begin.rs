@@ -52,8 +52,8 @@ impl Before<'_> {
     pub(super) fn end(&self, flown: &Flown, own: &[Sample], to_s: Option<f64>) -> Option<Doubt> {
         let (took, limit, to_s) = (flown.measures.total_time, flown.limits.total_time?, to_s?);
         let last = own.last().filter(|_| took <= limit)?;
-        let told = self.motion.samples.iter().map(|sample| sample.t_s).filter(|t| *t <= self.told.to_s);
-        let left_out = told.last().map(|end| end - last.t_s.max(to_s)).filter(|s| *s > 0.0)?;
+        let mut told = self.motion.samples.iter().map(|sample| sample.t_s).filter(|t| *t <= self.told.to_s);
+        let left_out = told.next_back().map(|end| end - last.t_s.max(to_s)).filter(|s| *s > 0.0)?;
         let leg = flown.measures.legs.len().saturating_sub(1);
         let (what, unit) = ("total-time".into(), "s".into());
         Some(Doubt { value: Violation { what, value: took, limit, unit, at: last.t_s, leg }, why: Why::End(left_out) })
