@@ -203,7 +203,7 @@ mod tests {
         assert!(dense.most_between.unwrap() < 0.01 && why.is_none(), "{dense:?}");
         // A violation is one however it is sampled, and our own simulator is not asked.
         let limits = Limits { deviation: Some(0.5), ..Limits::default() };
-        assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, ..sparse }, &limits), None);
+        assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, edge_between: None, ..sparse }, &limits), None);
         assert_eq!(judged(&setup(None), 2.5, 0.5).0.most_between, None);
     }
 
