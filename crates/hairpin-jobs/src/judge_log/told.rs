@@ -239,8 +239,9 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
 
 /// `10 Hz`, `0.02 Hz`.
 fn hertz(rate: f64) -> String {
-    let decimals = if rate >= 1.0 { 0 } else { (1..=6).find(|d| rate * 10_f64.powi(*d) >= 1.0).unwrap_or(6) };
-    format!("{rate:.d$} Hz", d = decimals as usize)
+    let has_digit = |d: &usize| format!("{rate:.d$}", d = *d).contains(|c: char| ('1'..='9').contains(&c));
+    let decimals = if rate >= 1.0 { 0 } else { (1..6).find(has_digit).unwrap_or(6) };
+    format!("{rate:.decimals$} Hz")
 }
 
 /// `the log's own speed of 40.0 m/s is beyond the robot's 18.0 m/s`.

@@ -199,11 +199,11 @@ const ROOM_M_S: f64 = 0.5;
 
 /// What bounds the robot, without what the log itself shows not to, and what that is.
 ///
-/// A larger speed than the model has says that its speed bounds nothing: of logged velocities, or what positions come to
-/// over a second ([`over_seconds`]). The bound of accelerations counts drag at that speed, at most the square of it: as
-/// far as [`FASTER`] it grows so; beyond, and where velocities change faster than by a h + [`ROOM_M_S`], the model does
-/// not bound this robot at all. Of a log without velocities steps are told that are longer than the speed allows; each
-/// is without its bound already ([`Swiftness::bulge`]).
+/// A larger speed than the model has says that its speed bounds nothing: of logged velocities, or what positions come
+/// to over a second ([`over_seconds`]). The bound of accelerations counts drag at that speed, at most the square of it:
+/// as far as [`FASTER`] it grows so; beyond, and where velocities change faster than by a h + [`ROOM_M_S`], the model
+/// does not bound this robot at all. Of a log without velocities steps are told that are longer than the speed allows;
+/// each is without its bound already ([`Swiftness::bulge`]).
 fn refuted(swiftness: Swiftness, log: &Log) -> (Swiftness, Option<Exceeded>) {
     let track = &log.flight.track;
     let span = |i: usize| track.times()[i + 1] - track.times()[i];
