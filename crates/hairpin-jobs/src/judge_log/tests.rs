@@ -390,8 +390,10 @@ fn obstacles_need_not_have_been_there() {
 /// What no limit asks for counts as in simulation: an obstacle is in the way whatever is judged.
 #[test]
 fn what_is_in_an_obstacle_has_met_it() {
-    let judge = |off: f64| {
-        let judged = judged_as(&log(100.0, off), |settings, here| {
+    let judge = |rate: f64, off: f64, accuracy_m: Option<[f64; 2]>| {
+        let mut log = log(rate, off);
+        log.motions[0].samples.iter_mut().for_each(|sample| sample.accuracy_m = accuracy_m);
+        let judged = judged_as(&log, |settings, here| {
             let world = here.join("w.toml");
             let ball = "[[obstacles]]\nname = \"ball\"\nsphere = { center_m = [14, 6, 5], radius_m = 0.5 }\n";
             fs::write(&world, format!("size_m = [30, 30, 30]\n{ball}")).unwrap();
@@ -401,10 +403,20 @@ fn what_is_in_an_obstacle_has_met_it() {
         let verdict = judged.unwrap().verdict;
         (verdict.sentence, verdict.exit_code)
     };
-    let (sentence, code) = judge(0.0);
-    assert_eq!(code, 0, "{sentence}");
-    let (sentence, code) = judge(1.8);
+    for off in [0.0, 1.0] {
+        let (sentence, code) = judge(100.0, off, None);
+        assert_eq!(code, 0, "{sentence}");
+    }
+    let (sentence, code) = judge(100.0, 1.8, None);
     assert!(code == 1 && sentence.contains("): met an obstacle: clearance -0."), "{sentence}");
+    // Between two samples, and within what the log knows of its place, it may have.
+    let (sentence, code) = judge(2.0, 1.0, None);
+    assert!(code == 5 && sentence.contains("it may have met an obstacle: clearance "), "{sentence}");
+    for off in [1.0, 1.8] {
+        let (sentence, code) = judge(100.0, off, Some([1.0, 1.0]));
+        assert!(code == 5 && sentence.contains("it may have met an obstacle: clearance "), "{sentence}");
+        assert!(sentence.contains("but the log's own eph is 1.0 m") && !sentence.contains("the limit"), "{sentence}");
+    }
 }
 
 #[test]
