@@ -162,7 +162,7 @@ fn every_family_of_controls_and_speeds_joins_legs() {
     let at = folder.path();
     let few = [
         "--set",
-        "generate.search={ score = \"speed+reversals\", waypoints = 14, cases = 1 }",
+        "generate.search={ score = \"speed+reversals\", waypoints = 8, cases = 1 }",
         "--set",
         "task.length=4",
     ];

@@ -116,6 +116,8 @@ pub(super) struct Home {
 pub(super) struct Declaration {
     pub(super) at: At,
     pub(super) home: Home,
+    /// CONST: nothing else is ever assigned.
+    pub(super) constant: bool,
     pub(super) kind: String,
     pub(super) name: String,
     /// Extents of an array, innermost last; empty for a single one.

@@ -33,6 +33,8 @@ pub(super) struct Variable {
     pub(super) value: Value,
     /// Whether it holds what it was declared with.
     pub(super) untouched: bool,
+    /// Why no program that assigns to it is loaded, in words that follow its name.
+    pub(super) fixed: Option<&'static str>,
     /// Whether an interrupt may change it at any time: what it holds is never known.
     pub(super) volatile: bool,
 }
@@ -40,7 +42,7 @@ pub(super) struct Variable {
 impl Variable {
     /// One that nothing is known of but its kind.
     pub(super) fn unknown(name: &str, kind: Option<DataKind>) -> Self {
-        Self { name: name.into(), kind, value: Value::Unknown, untouched: false, volatile: false }
+        Self { name: name.into(), kind, value: Value::Unknown, untouched: false, fixed: None, volatile: false }
     }
 }
 

@@ -32,8 +32,8 @@ impl Before<'_> {
     /// What lies before them in the log, and was left out because the mission had not begun by then, shows that it
     /// began there; what `--from` leaves out does not.
     pub(super) fn doubt(&self, flown: &Flown, own: &[Sample]) -> Option<Doubt> {
-        let (took, limit) = (flown.measures.total_time, flown.limits.total_time?);
-        let first = own.first().filter(|_| took <= limit)?;
+        let value = within(flown, own)?;
+        let first = own.first()?;
         let span = self.told.from_s..=self.told.to_s;
         let told_first = self.motion.samples.iter().map(|sample| sample.t_s).find(|t| span.contains(t));
         let left_out = self.from_s.zip(told_first).map(|(from, first)| from - first).filter(|s| *s > 0.0);
@@ -42,21 +42,15 @@ impl Before<'_> {
         if shown || (left_out.is_none() && !self.is_amid(own, first)) {
             return None;
         }
-        let last = flown.measures.legs.len().saturating_sub(1);
-        let (what, unit) = ("total-time".into(), "s".into());
-        let value = Violation { what, value: took, limit, unit, at: own.last().map_or(0.0, |s| s.t_s), leg: last };
         Some(Doubt { value, why: Why::Begin { before: left_out } })
     }
 
     /// The same where `--to`, `to_s`, left out the end of it.
     pub(super) fn end(&self, flown: &Flown, own: &[Sample], to_s: Option<f64>) -> Option<Doubt> {
-        let (took, limit, to_s) = (flown.measures.total_time, flown.limits.total_time?, to_s?);
-        let last = own.last().filter(|_| took <= limit)?;
+        let (value, to_s) = (within(flown, own)?, to_s?);
         let mut told = self.motion.samples.iter().map(|sample| sample.t_s).filter(|t| *t <= self.told.to_s);
-        let left_out = told.next_back().map(|end| end - last.t_s.max(to_s)).filter(|s| *s > 0.0)?;
-        let leg = flown.measures.legs.len().saturating_sub(1);
-        let (what, unit) = ("total-time".into(), "s".into());
-        Some(Doubt { value: Violation { what, value: took, limit, unit, at: last.t_s, leg }, why: Why::End(left_out) })
+        let left_out = told.next_back().map(|end| end - value.at.max(to_s)).filter(|s| *s > 0.0)?;
+        Some(Doubt { value, why: Why::End(left_out) })
     }
 
     /// Whether it moves away from waypoint 0 when the log begins, and is not there, or is nowhere near it.
@@ -67,4 +61,12 @@ impl Before<'_> {
         let away = far(later) - far(first) > STANDS_M_S * (later.t_s - first.t_s);
         far(first) > *accept || (far(first) > THERE_M && away)
     }
+}
+
+/// How long the samples of `own` took, beside a limit that they keep; nothing where there is none, or they break it.
+fn within(flown: &Flown, own: &[Sample]) -> Option<Violation> {
+    let (value, limit) = (flown.measures.total_time, flown.limits.total_time?);
+    let at = own.last().filter(|_| value <= limit)?.t_s;
+    let leg = flown.measures.legs.len().saturating_sub(1);
+    Some(Violation { what: "total-time".into(), value, limit, unit: "s".into(), at, leg })
 }

@@ -8,6 +8,7 @@ use hairpin::judgement::{
     AccelerationSource, SEEN_WITHIN_S, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated,
     within_spec,
 };
+use hairpin::math::decimals::that_differ;
 use hairpin_formats::quote::shortened;
 
 use super::cut::Cut;
@@ -247,8 +248,7 @@ fn hertz(rate: f64) -> String {
 /// `the log's own speed of 40.0 m/s is beyond the robot's 18.0 m/s`.
 fn in_numbers(exceeded: &Exceeded) -> String {
     let Exceeded { what, seen, bound, unit } = *exceeded;
-    // As many decimals as tell one from the other.
-    let decimals = (1..=6).find(|d| format!("{seen:.d$}", d = *d) != format!("{bound:.d$}", d = *d)).unwrap_or(6);
+    let decimals = that_differ(seen, bound, 1..=6);
     format!("the log's own {what} of {seen:.decimals$} {unit} is beyond the robot's {bound:.decimals$} {unit}")
 }
 
@@ -262,7 +262,7 @@ fn bounds(flown: &Flown) -> String {
 
 /// A number with as many decimals as it takes to tell it from its limit.
 fn apart(value: f64, limit: f64) -> String {
-    let decimals = (2..=6).find(|d| format!("{value:.d$}", d = *d) != format!("{limit:.d$}", d = *d)).unwrap_or(6);
+    let decimals = that_differ(value, limit, 2..=6);
     format!("{value:.decimals$}")
 }
 

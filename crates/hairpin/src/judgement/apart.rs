@@ -2,6 +2,8 @@
 //!
 //! A verdict never says "0.50 m > 0.50 m".
 
+use crate::math::decimals::that_differ;
+
 /// What is nearer to nothing is nothing to whoever reads: 5 µm.
 const NOTHING: f64 = 5e-6;
 
@@ -26,13 +28,12 @@ pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
     // Of −0 too: what is nothing has no sign. How far below zero is always told, for a bound may be there.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
     let least = if value > -1e-12 && value < NOTHING { least } else { two_digits(value, least) };
-    for decimals in least..12 {
-        let pair = (format!("{value:.decimals$}"), format!("{limit:.decimals$}"));
-        if pair.0 != pair.1 || value == limit {
-            return pair;
-        }
+    let decimals = if value == limit { least } else { that_differ(value, limit, least..=12) };
+    if decimals < 12 {
+        (format!("{value:.decimals$}"), format!("{limit:.decimals$}"))
+    } else {
+        (value.to_string(), limit.to_string())
     }
-    (value.to_string(), limit.to_string())
 }
 
 /// `least` decimals, or where these show nothing of `value` the first two digits that it has.

@@ -21,6 +21,7 @@
 //! | [`ridge`] | polynomial ridge regression, cross-validated | learned scores |
 //! | [`output_error`] | min −2 log L of a simulation's outputs, and how far it can rise | fits to logs |
 //! | [`imitation`] | min (s − μ)ᵀ Σ⁻¹ (s − μ) of signs of a simulation by chance | fits to logs of loops that swing |
+//! | [`decimals`] | the fewest that two numbers differ by | sentences |
 //! | [`random`] | named streams | everything that draws |
 //! | [`simd`] | which compiled version of a kernel runs | kernels |
 //!
@@ -31,6 +32,7 @@
 
 pub mod circular;
 pub mod convex;
+pub mod decimals;
 pub mod enclosing;
 pub mod fresnel;
 pub mod imitation;

@@ -6,6 +6,7 @@ use crate::rapid::syntax::{Declaration, Parameter};
 impl Parser {
     /// `CONST robtarget p10 := […];`, with `VAR` or `PERS`, `{n, m}` behind the name.
     pub(super) fn declaration(&mut self) -> Parsed<Declaration> {
+        let constant = self.is_keyword("CONST");
         self.advance();
         let at = self.at();
         let kind = self.expect_name()?.to_ascii_lowercase();
@@ -20,7 +21,7 @@ impl Parser {
         }
         let value = if self.take_sign(":=") { Some(self.expression()?) } else { None };
         self.expect_sign(";")?;
-        Ok(Declaration { at, home: self.home, kind, name, extents, value })
+        Ok(Declaration { at, home: self.home, constant, kind, name, extents, value })
     }
 
     /// `(num a, \switch fast | num slow, INOUT robtarget p{*})`

@@ -48,7 +48,7 @@ impl Machine<'_> {
         let value = if name == "clear" { Value::Num(0.0) } else { combine("+", &values[0], &by) };
         match self.assign(path, value, at) {
             Ok(()) => self.mark(at, Class::Understood, ""),
-            Err(what) => self.mark(at, Class::Harmless, what),
+            Err(what) => self.mark(at, Class::ChangesMotion, what),
         }
     }
 }

@@ -51,7 +51,8 @@ impl Machine<'_> {
                 Value::Unknown
             }
         };
-        let variable = Variable { value, untouched: true, ..Variable::unknown(&declaration.name, kind) };
+        let fixed = declaration.constant.then_some("is CONST");
+        let variable = Variable { value, untouched: true, fixed, ..Variable::unknown(&declaration.name, kind) };
         let name = declaration.name.to_ascii_lowercase();
         match self.frames.last_mut() {
             Some(frame) => drop(frame.variables.insert(name, variable)),
@@ -111,6 +112,10 @@ impl Machine<'_> {
         let Some(variable) = self.find_mut(&path.name) else {
             return Err(format!("`{}` is not declared in this file", path.name));
         };
+        if let Some(why) = variable.fixed {
+            variable.value = Value::Unknown;
+            return Err(format!("`{}` {why}, and is not assigned to", path.name));
+        }
         variable.untouched = false;
         let beyond = steps.as_ref().and_then(|steps| beyond(&variable.value, steps));
         if let Some(what) = beyond {
@@ -156,7 +161,8 @@ impl Machine<'_> {
 
     /// Sets the counter of a loop.
     pub(super) fn hold(&mut self, name: &str, value: f64) {
-        let variable = Variable { value: Value::Num(value), ..Variable::unknown(name, Some(DataKind::Num)) };
+        let (value, fixed) = (Value::Num(value), Some("counts a loop"));
+        let variable = Variable { value, fixed, ..Variable::unknown(name, Some(DataKind::Num)) };
         if let Some(frame) = self.frames.last_mut() {
             frame.variables.insert(name.to_ascii_lowercase(), variable);
         }

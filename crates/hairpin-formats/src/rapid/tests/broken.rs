@@ -91,20 +91,24 @@ fn elements_that_are_not_there_are_told() {
 #[test]
 fn what_stops_a_controller_is_told() {
     let go = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;";
-    let of = |body: &str| inside(&format!("VAR num n:=0;\nPROC main()\n{go}\n{body}\n{go}\nENDPROC"));
+    let of =
+        |body: &str| inside(&format!("VAR num n:=0; CONST num c{{2}}:=[1,2];\nPROC main()\n{go}\n{body}\n{go}\nENDPROC"));
     for (body, words) in [
         ("n:=1/0;", "`/` by zero stops a controller"),
         ("n:=5 DIV n;", "`DIV` by zero stops a controller"),
         ("n:=5 MOD (n*3);", "`MOD` by zero stops a controller"),
         ("zz:=4;", "`zz` is not declared in this file"),
         ("n:=\"abc\";", "the value for `n` "),
+        ("c{1}:=3;", "`c` is CONST, and is not assigned to"),
+        ("Incr c{1};", "`c` is CONST, and is not assigned to"),
+        ("FOR n FROM 1 TO 2 DO n:=2; ENDFOR", "`n` counts a loop, and is not assigned to"),
         ("RAISE 5;", "RAISE goes on in an error handler, and none is followed"),
     ] {
         let module = of(body);
         assert_eq!((module.unclear_line, module.certain), (Some(5), 1), "{body}: {:?}", module.lines[&5]);
         assert!(module.lines[&5].what.contains(words), "{body}: {:?}", module.lines[&5]);
     }
-    for body in ["reg1:=4;", "IF n>0 AND 1/n>1 n:=2;", "n:=0/5;", "IF n>0 RAISE 5;", "n:=n;"] {
+    for body in ["reg1:=4;", "IF n>0 AND 1/n>1 n:=2;", "n:=0/5;", "IF n>0 RAISE 5;", "n:=n;", "n:=c{2};"] {
         super::assert_clear(&of(body));
     }
 }

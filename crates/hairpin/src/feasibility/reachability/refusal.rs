@@ -5,6 +5,7 @@ use std::fmt;
 use nalgebra::Isometry3;
 
 use super::joint::CircleError;
+use crate::math::decimals::that_differ;
 use crate::robot::arm::{Arm, Margin, Singularity, body_name};
 
 /// Why a move between two points is not possible.
@@ -209,8 +210,9 @@ pub struct InWords<'r> {
 
 /// Two angles with as many decimals as tell them apart, 1 to 9.
 fn degrees(a: f64, b: f64) -> [String; 2] {
-    let told = |decimals: usize| [a, b].map(|angle| format!("{:.decimals$}°", angle.to_degrees()));
-    (1..9).map(told).find(|[a, b]| a != b).unwrap_or_else(|| told(9))
+    let [a, b] = [a, b].map(f64::to_degrees);
+    let decimals = that_differ(a, b, 1..=9);
+    [a, b].map(|angle| format!("{angle:.decimals$}°"))
 }
 
 impl fmt::Display for InWords<'_> {
@@ -250,10 +252,8 @@ impl fmt::Display for InWords<'_> {
                 if value >= least {
                     return write!(f, "{of} singularity not excluded near {measure} {value:.3} {at}");
                 }
-                // As many decimals as tell one from the other.
-                let told = |d: &usize| [value, least].map(|number| format!("{number:.d$}", d = *d));
-                let [value, least] = told(&(3..9).find(|d| told(d)[0] != told(d)[1]).unwrap_or(9));
-                write!(f, "{of} singularity: {measure} {value} < {least} {at}")
+                let decimals = that_differ(value, least, 3..=9);
+                write!(f, "{of} singularity: {measure} {value:.decimals$} < {least:.decimals$} {at}")
             }
             Refusal::Collides { link, part: index, at, undecided } => {
                 let verb = if undecided { not_proven } else { meets };

@@ -1,0 +1,218 @@
+//! Limits that a log leaves open: what may hide between its samples, and what its own accuracy does not tell.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Log;
+use crate::judgement::{
+    self, Clearance, Close, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between, where_least,
+};
+
+/// Why a limit that the samples keep, or break, is open.
+///
+/// The verdict names it, with what would decide.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Why {
+    /// Between two samples it may have been broken.
+    Between {
+        /// What may have been, in the unit of the limit; infinite where nothing bounds it.
+        most: f64,
+        /// Samples a second that would decide, 1/s; `None` where none do.
+        rate_hz: Option<f64>,
+    },
+    /// It is a mean over as long a time, s, and what is shorter was not seen.
+    Mean(f64),
+    /// The log itself does not know its place any better.
+    Accuracy {
+        /// `eph` or `epv`.
+        which: &'static str,
+        /// Its standard deviation, m.
+        sigma: f64,
+    },
+    /// When the mission began is not seen: it took longer than the log shows.
+    Begin {
+        /// What was left out before the judged part, s; `None` where the log itself begins amid the motion.
+        before: Option<f64>,
+    },
+    /// When it ended is not seen: so many seconds of it were left out.
+    End(f64),
+}
+
+/// A limit that is open; of leaving the world the distance to its edge, `edge`, which must not fall below 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// What the samples came to.
+    pub value: Violation,
+    /// Why that does not decide.
+    pub why: Why,
+}
+
+/// A log, with each of its samples looked at.
+pub(super) struct Looked<'a> {
+    pub(super) log: &'a Log,
+    pub(super) close: &'a [Close],
+    pub(super) waypoints: &'a [Point3<f64>],
+    pub(super) swiftness: &'a Swiftness,
+}
+
+/// A standard deviation (m) and which of the log's two it is mostly.
+#[derive(Clone, Copy)]
+struct Sigma {
+    along: f64,
+    which: &'static str,
+    claimed: f64,
+}
+
+impl Looked<'_> {
+    /// Of sample `i` in the direction `off`, or in whichever is worse.
+    fn sigma(&self, i: usize, off: Option<Vector3<f64>>) -> Sigma {
+        let [across, up] = self.log.sigma(i);
+        let [own_across, own_up] = match off.and_then(|off| off.try_normalize(0.0)) {
+            Some(way) => [across * libm::hypot(way.x, way.y), up * way.z.abs()],
+            None => [across, up],
+        };
+        let along = if off.is_some() { libm::hypot(own_across, own_up) } else { across.max(up) };
+        let (which, claimed) = if own_up > own_across { ("epv", up) } else { ("eph", across) };
+        Sigma { along, which, claimed }
+    }
+
+    /// The interval after sample `i`, s, and how far (m) the motion may bulge out of it; `None` before a break.
+    pub(super) fn after(&self, i: usize) -> Option<(f64, f64)> {
+        let track = &self.log.flight.track;
+        let next = (i + 1 < track.len() && self.log.breaks.binary_search(&(i + 1)).is_err()).then_some(i + 1)?;
+        let span = track.times()[next] - track.times()[i];
+        Some((span, self.swiftness.bulge(span, (track.position(next) - track.position(i)).norm())))
+    }
+
+    /// Samples a second with which `margin` m are not exceeded between them.
+    ///
+    /// f = min(√(a / 8m), v / 2m): between samples a motion bulges by a Δt²/8 under acceleration a, and by v Δt/2 at
+    /// speed v.
+    pub(super) fn rate(&self, margin: f64) -> Option<f64> {
+        let by_acceleration = self.swiftness.acceleration.map(|a| (a / (8.0 * margin)).sqrt());
+        let by_speed = self.swiftness.speed.map(|v| v / (2.0 * margin));
+        let least = by_acceleration.into_iter().chain(by_speed).fold(f64::INFINITY, f64::min);
+        (margin > 0.0 && least.is_finite()).then_some(least)
+    }
+
+    pub(super) fn deviation(&self, measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
+        let limit = limit?;
+        let samples = || {
+            let all = self.close.iter().enumerate();
+            all.filter_map(|(i, close)| Some((i, close.off?.norm(), self.sigma(i, close.off))))
+        };
+        let value = |at: f64, value: f64, leg: usize| violation("deviation", value, limit, at, leg);
+        let worst = value(measures.t_worst, measures.max_deviation, measures.leg_worst);
+        let times = self.log.flight.track.times();
+        if measures.max_deviation > limit {
+            let certain = samples().any(|(_, off, sigma)| off - sigma.along > limit);
+            let (_, _, sigma) = samples().find(|(i, ..)| times[*i] == measures.t_worst)?;
+            return (!certain).then_some(Doubt { value: worst, why: sigma.doubt() });
+        }
+        let unsure = samples().filter(|(_, off, sigma)| off + sigma.along > limit);
+        if let Some((i, off, sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
+            return Some(Doubt { value: value(times[i], off, self.close[i].leg), why: sigma.doubt() });
+        }
+        let (mut most, mut rate, mut at) = (0.0, Some(0.0_f64), 0);
+        for (i, close) in self.close.iter().enumerate() {
+            let Some(bound) = close.until_next.map(|bound| bound + self.sigma(i, close.off).along) else { continue };
+            if bound > limit {
+                let ends =
+                    [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
+                let own = self.rate(limit - ends[0].max(ends[1]));
+                rate = rate.and_then(|rate| Some(rate.max(own?)));
+                if bound > most {
+                    (most, at) = (bound, i);
+                }
+            }
+        }
+        let off = self.close[at].off.map_or(0.0, |off| off.norm());
+        let value = value(times[at], off, self.close[at].leg);
+        (most > limit).then_some(Doubt { value, why: Why::Between { most, rate_hz: rate } })
+    }
+
+    pub(super) fn overshoot(&self, measures: &Measures, limit: Option<f64>, settings: &Settings) -> Option<Doubt> {
+        let limit = limit?;
+        let legs = measures.legs.iter().enumerate();
+        let leg = legs.max_by(|a, b| a.1.overshoot.total_cmp(&b.1.overshoot)).map_or(0, |(leg, _)| leg);
+        let value = violation("overshoot", measures.max_overshoot(), limit, measures.t_overshoot, leg);
+        // Against a path overshoot is measured from the samples' places on it, which between samples nobody knows.
+        let by_leg = !matches!(settings.reference, judgement::Reference::Path(_));
+        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { beyond(self.waypoints, p, leg) } else { 0.0 };
+        self.of_distance(value, false, &beyond)
+    }
+
+    pub(super) fn clearance(
+        &self,
+        measures: &Measures,
+        limit: Option<f64>,
+        clearance: Option<&Clearance<'_>>,
+    ) -> Option<Doubt> {
+        let (limit, clearance, least) = (limit?, clearance?, measures.min_clearance?);
+        let legs = measures.legs.iter().enumerate();
+        let of = |leg: &judgement::LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
+        let leg = legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg);
+        let value = violation("clearance", least, limit, measures.t_clearance, leg);
+        self.of_distance(value, true, &|p, _| clearance(p))
+    }
+
+    /// Whether a sample is in an obstacle with all that lies within its accuracy.
+    pub(super) fn touches(&self, clearance: &Clearance<'_>) -> bool {
+        let track = &self.log.flight.track;
+        (0..track.len()).any(|i| clearance(&track.position(i)) + self.sigma(i, None).along < 0.0)
+    }
+
+    /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one
+    /// that must not fall short. Where the leg changes between two samples it changes where that is least.
+    fn of_distance(&self, value: Violation, lower: bool, of: &dyn Fn(&Point3<f64>, usize) -> f64) -> Option<Doubt> {
+        // Falling short is exceeding, the other way round.
+        let turn = |x: f64| if lower { -x } else { x };
+        let (track, limit) = (&self.log.flight.track, turn(value.limit));
+        let at = |i: usize, leg: usize| turn(of(&track.position(i), leg));
+        let values: Vec<f64> = (0..track.len()).map(|i| at(i, self.close[i].leg)).collect();
+        let sigma = |i: usize| self.sigma(i, None);
+        let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+        if turn(value.value) > limit {
+            let certain = (0..values.len()).any(|i| values[i] - sigma(i).along > limit);
+            return (!certain && sigma(worst).along > 0.0).then(|| Doubt { value, why: sigma(worst).doubt() });
+        }
+        if let Some(i) = (0..values.len()).find(|i| values[*i] + sigma(*i).along > limit) {
+            return Some(Doubt { value, why: sigma(i).doubt() });
+        }
+        let (mut most, mut rate) = (f64::NEG_INFINITY, Some(0.0_f64));
+        for i in 0..values.len() {
+            let Some((_, bulge)) = self.after(i) else { continue };
+            let enough = limit - sigma(i).along;
+            let on = |leg: usize| {
+                let ends = [i, i + 1].map(|k| (track.position(k), at(k, leg)));
+                most_between(&|p| turn(of(p, leg)), ends, bulge, enough)
+            };
+            let bound = where_least([self.close[i].leg, self.close[i + 1].leg], on);
+            if bound > enough {
+                most = most.max(bound);
+                let own = self.rate(enough - values[i].max(values[i + 1]));
+                rate = rate.and_then(|rate| Some(rate.max(own?)));
+            }
+        }
+        (most > f64::NEG_INFINITY).then(|| Doubt { value, why: Why::Between { most: turn(most), rate_hz: rate } })
+    }
+}
+
+impl Sigma {
+    fn doubt(self) -> Why {
+        Why::Accuracy { which: self.which, sigma: self.claimed }
+    }
+}
+
+/// Why an acceleration within its `limit` is open: it is a mean over `span` s.
+pub(super) fn mean(measures: &Measures, limit: Option<f64>, span: f64) -> Option<Doubt> {
+    let (limit, value) = (limit?, measures.acceleration()?);
+    let legs = measures.legs.iter().enumerate();
+    let leg = legs.max_by(|a, b| a.1.max_acceleration.total_cmp(&b.1.max_acceleration)).map_or(0, |(leg, _)| leg);
+    let value =
+        Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
+    (value.value <= limit && !is_seen(span)).then_some(Doubt { value, why: Why::Mean(span) })
+}
+
+pub(super) fn violation(what: &str, value: f64, limit: f64, at: f64, leg: usize) -> Violation {
+    Violation { what: what.into(), value, limit, unit: "m".into(), at, leg }
+}
