@@ -91,8 +91,9 @@ fn elements_that_are_not_there_are_told() {
 #[test]
 fn what_stops_a_controller_is_told() {
     let go = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,fine,tool0;";
-    let of =
-        |body: &str| inside(&format!("VAR num n:=0; CONST num c{{2}}:=[1,2];\nPROC main()\n{go}\n{body}\n{go}\nENDPROC"));
+    let of = |body: &str| {
+        inside(&format!("VAR num n:=0; CONST num c{{2}}:=[1,2];\nPROC main()\n{go}\n{body}\n{go}\nENDPROC"))
+    };
     for (body, words) in [
         ("n:=1/0;", "`/` by zero stops a controller"),
         ("n:=5 DIV n;", "`DIV` by zero stops a controller"),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Log;
+use super::log::Log;
 use crate::judgement::{
     self, Clearance, Close, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between, where_least,
 };

@@ -3,7 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::doubts::{Doubt, Looked, Why, violation};
-use super::{Log, Setup};
+use super::log::Log;
+use crate::campaign::Setup;
 use crate::judgement::most_between;
 
 /// From a place to itself and to its six neighbours at one standard deviation along the axes, across and up.

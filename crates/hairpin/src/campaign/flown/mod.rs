@@ -6,17 +6,16 @@
 
 mod doubts;
 mod edge;
+mod log;
 mod refuted;
 
 use std::borrow::Cow;
 
 use thiserror::Error;
 
-pub use self::doubts::{Doubt, Why};
 use self::doubts::{Looked, mean};
 use self::edge::left_world;
 use self::refuted::refuted;
-
 use super::judge::{reference, settings};
 use super::scenario::DeviationFrom;
 use super::{Case, Mistake, Setup};
@@ -24,31 +23,11 @@ use crate::judgement::{
     self, JudgementError, Limits, Measures, Settings, Statistics, Swiftness, Violation, longest_mean, look_closely,
     measure,
 };
-use crate::trajectory::{Flight, Track};
+use crate::trajectory::Track;
 
-/// What of a log is judged.
-///
-/// SI units, world frame: the door has turned frames and stamps, and says what it cut out.
-#[derive(Debug, Clone)]
-pub struct Log {
-    /// What was flown, world frame, with the channel `leg`; [`judge_flown`] looks for the moment it left the world.
-    pub flight: Flight,
-    /// Samples before which something was cut out.
-    /// Rising indices of samples; nothing is concluded over a break.
-    pub breaks: Vec<usize>,
-    /// Horizontal and vertical standard deviation of every sample's position, m; empty where nothing is said of any.
-    /// As the estimator claims (`eph`, `epv`); `None` where it claims nothing, which counts as exact.
-    pub accuracy: Vec<Option<[f64; 2]>>,
-    /// Whether the world is known that it moved in: where it is not, neither obstacles nor bounds are judged.
-    pub in_world: bool,
-}
-
-impl Log {
-    /// Horizontal and vertical standard deviation of the position of sample `i`, m; 0 where nothing is claimed.
-    fn sigma(&self, i: usize) -> [f64; 2] {
-        self.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2])
-    }
-}
+pub use self::doubts::{Doubt, Why};
+pub use self::log::Log;
+pub use self::refuted::Exceeded;
 
 /// What a log came to.
 ///
@@ -72,19 +51,6 @@ pub struct Flown {
     pub swiftness: Swiftness,
     /// What of the robot's bounds the log itself exceeds.
     pub exceeded: Option<Exceeded>,
-}
-
-/// A bound of the robot's that a log of it exceeds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Exceeded {
-    /// `speed` or `acceleration`.
-    pub what: &'static str,
-    /// The largest that the log has, in `unit`.
-    pub seen: f64,
-    /// The robot's, in `unit`.
-    pub bound: f64,
-    /// `m/s` or `m/s²`.
-    pub unit: &'static str,
 }
 
 /// Why a log cannot be judged.

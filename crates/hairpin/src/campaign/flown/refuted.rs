@@ -2,8 +2,21 @@
 
 use nalgebra::Vector3;
 
-use super::{Exceeded, Log};
+use super::log::Log;
 use crate::judgement::Swiftness;
+
+/// A bound of the robot's that a log of it exceeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exceeded {
+    /// `speed` or `acceleration`.
+    pub what: &'static str,
+    /// The largest that the log has, in `unit`.
+    pub seen: f64,
+    /// The robot's, in `unit`.
+    pub bound: f64,
+    /// `m/s` or `m/s²`.
+    pub unit: &'static str,
+}
 
 /// So many times its largest speed is what noise and wind explain.
 const FASTER: f64 = 1.1;
