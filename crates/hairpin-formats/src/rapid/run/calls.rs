@@ -103,7 +103,9 @@ impl<'a> Machine<'a> {
                         }
                         (_, None) => evaluated,
                     };
-                    if let (true, Expression::Path(path)) = (parameter.returned, expression) {
+                    if parameter.returned {
+                        let path = self.returns_to(expression);
+                        let path = path.map_err(|why| format!("`{}` of `{}` {why}", parameter.name, routine.name))?;
                         bound.back.push((parameter.name.clone(), path));
                     }
                 }
@@ -114,6 +116,16 @@ impl<'a> Machine<'a> {
         match placed.next() {
             Some(_) => Err(format!("`{}` takes fewer arguments", routine.name)),
             None => Ok(bound),
+        }
+    }
+
+    /// Where what a parameter that gives back holds in the end goes; or why no controller loads such a call, in words
+    /// that follow the parameter.
+    fn returns_to<'b>(&self, given: &'b Expression) -> Result<&'b Path, String> {
+        let Expression::Path(path) = given else { return Err("gives back, and is no data".into()) };
+        match self.find(&path.name).and_then(|variable| variable.fixed) {
+            Some(why) => Err(format!("gives back, and `{}` {why}", path.name)),
+            None => Ok(path),
         }
     }
 

@@ -109,6 +109,15 @@ fn what_stops_a_controller_is_told() {
         assert_eq!((module.unclear_line, module.certain), (Some(5), 1), "{body}: {:?}", module.lines[&5]);
         assert!(module.lines[&5].what.contains(words), "{body}: {:?}", module.lines[&5]);
     }
+    let gives = |body: &str| {
+        let module = inside(&format!(
+            "CONST num c:=1;\nPROC give(INOUT num x)\nENDPROC\nPROC main()\nVAR num n:=0;\n{go}\n{body}\n{go}\nENDPROC"
+        ));
+        module.unclear().map(|(_, line)| line.what.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(gives("give c;"), ["`x` of `give` gives back, and `c` is CONST"]);
+    assert_eq!(gives("give 4;"), ["`x` of `give` gives back, and is no data"]);
+    assert!(gives("give n;").is_empty());
     for body in ["reg1:=4;", "IF n>0 AND 1/n>1 n:=2;", "n:=0/5;", "IF n>0 RAISE 5;", "n:=n;", "n:=c{2};"] {
         super::assert_clear(&of(body));
     }
