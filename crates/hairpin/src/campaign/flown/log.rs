@@ -7,7 +7,8 @@ use crate::trajectory::Flight;
 /// SI units, world frame: the door has turned frames and stamps, and says what it cut out.
 #[derive(Debug, Clone)]
 pub struct Log {
-    /// What was flown, world frame, with the channel `leg`; [`judge_flown`] looks for the moment it left the world.
+    /// What was flown, world frame, with the channel `leg`; [`judge_flown`](super::judge_flown) looks for the
+    /// moment it left the world.
     pub flight: Flight,
     /// Samples before which something was cut out.
     /// Rising indices of samples; nothing is concluded over a break.
