@@ -72,7 +72,8 @@ pub enum FlownError {
 /// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit.
 ///
 /// Bounds that the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in
-/// means that are too long ([`is_seen`](crate::judgement::is_seen)) is a doubt. Durations and attitudes are judged by the samples alone.
+/// means that are too long ([`is_seen`](judgement::is_seen)) is a doubt. Durations and attitudes are judged by the
+/// samples alone.
 ///
 /// An obstacle that it was in by more than that standard deviation it met, whatever is limited; one that it may have
 /// been in is a doubt about a clearance of 0 m, where nobody limits that.
