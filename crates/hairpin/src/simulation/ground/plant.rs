@@ -48,31 +48,6 @@ const GAP: f64 = 1e-4;
 /// Speeds below this are none, m/s and rad/s.
 const STILL: f64 = 1e-9;
 
-/// What a lag takes of the way to its target: 1 − e^(−h/T), and 1 where T is 0.
-///
-/// Most steps are as long as the one before, and ask for the same.
-#[derive(Debug, Clone)]
-struct Lag {
-    /// T, s.
-    time_constant: f64,
-    /// Of the last step, s.
-    step: f64,
-    share: f64,
-}
-
-impl Lag {
-    fn of(time_constant: f64) -> Self {
-        Self { time_constant, step: f64::NAN, share: 1.0 }
-    }
-
-    fn over(&mut self, step: f64) -> f64 {
-        if self.time_constant > 0.0 && step != self.step {
-            (self.step, self.share) = (step, -libm::expm1(-step / self.time_constant));
-        }
-        self.share
-    }
-}
-
 /// State of a driving vehicle:
 /// ẋ, ẏ, ψ̇ by [`Rover::rates`] of the wheels' speed v and κ = tan(δ)/L;
 /// T δ̇ = atan(κ_c L) − δ with |δ̇| and |κ| bounded; the direction of travel is what is commanded, as in plans; v and
@@ -104,12 +79,6 @@ pub(super) struct Plant<'a> {
     pub(super) turn_rate: f64,
     /// δ, rad.
     steering: f64,
-    /// tan(δ)/L, 1/m.
-    bend: f64,
-    /// The last commanded curvature, 1/m, and the angle that it asks of the wheels, rad.
-    asked: (f64, f64),
-    /// Of the steering, and of the speeds.
-    lags: [Lag; 2],
     /// How the body stands.
     pub(super) pose: Settled,
     gradient: Gradient,
@@ -136,14 +105,10 @@ impl<'a> Plant<'a> {
             yaw: start.yaw,
             speed: 0.0,
             turn_rate: 0.0,
-            steering: 0.0,
-            bend: 0.0,
-            asked: (0.0, 0.0),
-            lags: [vehicle.response.steering_time_constant, vehicle.response.speed_time_constant].map(Lag::of),
+            steering: libm::atan(start.curvature * vehicle.response.steered_axle),
             pose: Settled::default(),
             gradient: Gradient::default(),
         };
-        plant.steer_at_once(start.curvature);
         (plant.pose, plant.gradient) = plant.rest_from_nothing()?;
         Ok(plant)
     }
@@ -157,25 +122,20 @@ impl<'a> Plant<'a> {
     fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
         if self.vehicle.suspension == Suspension::Level {
             // A point needs no wheels to stand, but it does need ground.
-            let z = self.terrain.height(self.x, self.y)?;
-            return Ok((Settled { z, ..Settled::default() }, Gradient::default()));
+            let ground = self.terrain.patch(self.x, self.y)?;
+            return Ok((Settled { z: ground.height, ..Settled::default() }, Gradient::default()));
         }
         self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(Lost::from)
     }
 
     /// κ of the wheels as they are steered, 1/m.
     pub(super) fn curvature(&self) -> f64 {
-        self.bend
+        libm::tan(self.steering) / self.vehicle.response.steered_axle
     }
 
     /// Swings the wheels, as a standing vehicle can, 1/m.
     pub(super) fn steer_at_once(&mut self, curvature: f64) {
-        self.put_wheels(libm::atan(curvature * self.vehicle.response.steered_axle));
-    }
-
-    fn put_wheels(&mut self, steering: f64) {
-        self.steering = steering;
-        self.bend = libm::tan(steering) / self.vehicle.response.steered_axle;
+        self.steering = libm::atan(curvature * self.vehicle.response.steered_axle);
     }
 
     /// Goes on for `time` s under `command`.
@@ -247,16 +207,12 @@ impl<'a> Plant<'a> {
     /// δ ← δ + clamp((1 − e^(−h/T)) (δ* − δ), ±δ̇_max h), δ* = atan(clamp(κ*, ±κ_max) L): the lag exactly.
     fn steer(&mut self, curvature: f64, h: f64) {
         let response = &self.vehicle.response;
-        if curvature.to_bits() != self.asked.0.to_bits() {
-            let most = self.vehicle.limits.curvature;
-            self.asked = (curvature, libm::atan(curvature.clamp(-most, most) * response.steered_axle));
-        }
-        let share = self.lags[0].over(h);
+        let most = self.vehicle.limits.curvature;
+        let wanted = libm::atan(curvature.clamp(-most, most) * response.steered_axle);
+        let lag = response.steering_time_constant;
+        let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };
         let fastest = response.steering_rate * h;
-        let steering = self.steering + (share * (self.asked.1 - self.steering)).clamp(-fastest, fastest);
-        if steering.to_bits() != self.steering.to_bits() {
-            self.put_wheels(steering);
-        }
+        self.steering += (share * (wanted - self.steering)).clamp(-fastest, fastest);
     }
 
     /// Brings the speeds towards their commands; the way and the angle gone meanwhile.
@@ -266,7 +222,7 @@ impl<'a> Plant<'a> {
     fn accelerate(&mut self, command: &DriveCommand, h: f64) -> (f64, f64) {
         let most = self.vehicle.limits.acceleration * h;
         let lag = self.vehicle.response.speed_time_constant;
-        let share = self.lags[1].over(h);
+        let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };
         let stands = |wanted: f64, now: f64| lag > 0.0 && wanted == 0.0 && now.abs() < HELD;
         let wanted = if command.turn_rate == 0.0 { self.bounded_speed(command) } else { 0.0 };
         let before = self.speed;
@@ -367,7 +323,7 @@ impl<'a> Plant<'a> {
     /// `world_from_body`. A point without wheels lies on the ground.
     pub(super) fn world_from_body(&self) -> Isometry3<f64> {
         let z = match self.vehicle.suspension {
-            Suspension::Level => self.terrain.height(self.x, self.y).unwrap_or(0.0),
+            Suspension::Level => self.terrain.patch(self.x, self.y).map_or(0.0, |ground| ground.height),
             _ => self.pose.z,
         };
         let attitude = unit_quaternion(&quaternion_from_euler(self.pose.roll, self.pose.pitch, self.yaw));
