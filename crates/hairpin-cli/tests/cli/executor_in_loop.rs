@@ -46,7 +46,7 @@ fn threads_and_processes_change_nothing_and_what_is_found_flies_again() {
     ] {
         fs::write(here.join("q.toml"), scenario(search, score, "")).unwrap();
         let mut first = None;
-        for (threads, processes) in [("1", "1"), ("1", "3"), ("2", "3")] {
+        for (threads, processes) in [("1", "1"), ("1", "3"), ("2", "1"), ("2", "3")] {
             let out = format!("{name}-{threads}-{processes}");
             let processes = format!("execute.processes={processes}");
             let told = json(here, &["stress", "q.toml", "--out", &out, "--threads", threads, "--set", &processes]);

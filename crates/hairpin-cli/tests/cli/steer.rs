@@ -115,7 +115,7 @@ fn hard_queries_are_all_answered_within_the_bounds() {
     let mut next = uniform(5);
     let mut goals = Vec::new();
     let mut text = String::from("id,x,y,yaw,k0,kf\r\n");
-    for id in 0..60 {
+    for id in 0..120 {
         let goal = [4.0 * next(), 4.0 * next(), 3.2 * next(), if id % 3 == 0 { next() } else { 0.0 }];
         text += &format!(
             "{id},{},{},{},{},{}\r\n",
