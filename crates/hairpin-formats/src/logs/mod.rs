@@ -12,6 +12,7 @@ mod detect;
 mod error;
 mod log;
 mod modes;
+mod planned;
 mod samples;
 mod text;
 mod twice;
@@ -23,7 +24,7 @@ use std::path::Path;
 pub use error::{LogError, MOST_SAMPLES, Place};
 pub use log::{Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span};
 
-pub use text::is_planned;
+pub use planned::is_planned;
 
 use crate::bounds;
 use detect::Format;

@@ -8,6 +8,7 @@
 //!
 //! Logs of arms go their own way, by their programs: `arm`.
 
+mod accuracy;
 mod against;
 mod arm;
 mod aside;

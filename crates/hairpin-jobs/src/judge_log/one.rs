@@ -8,6 +8,7 @@ use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
 
+use super::accuracy::accuracies;
 use super::against::{Of, Ready};
 use super::asks::Asks;
 use super::begin::Before;
@@ -70,6 +71,8 @@ pub(super) fn judge(
     if !logged.progress.is_empty() && course.is_none() {
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
+    let (accuracy, untold) = accuracies(&left.samples);
+    notes.extend(untold);
     let mut found = Found {
         case: name,
         matched,
@@ -87,7 +90,7 @@ pub(super) fn judge(
         notes,
     };
     let whole = against.whole(case)?;
-    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, &whole)?) } else { None };
+    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, accuracy, &whole)?) } else { None };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
@@ -221,7 +224,7 @@ impl Judging<'_> {
     }
 
     /// What is left as a log to be judged, of the case with its plan.
-    fn to_judge(&self, left: &Left, whole: &Case) -> Result<Log, Problem> {
+    fn to_judge(&self, left: &Left, accuracy: Vec<Option<[f64; 2]>>, whole: &Case) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),
@@ -248,11 +251,6 @@ impl Judging<'_> {
             channels.push(self.assigned(&track, whole, &left.breaks)?);
             track = of(channels)?;
         }
-        let accuracy = if samples.iter().any(|sample| sample.accuracy_m.is_some()) {
-            samples.iter().map(|sample| sample.accuracy_m).collect()
-        } else {
-            Vec::new()
-        };
         let reached = vec![Some(0.0); self.case.waypoints.len()];
         let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
         Ok(Log { flight, breaks: left.breaks.clone(), accuracy, in_world: self.against.in_world })

@@ -29,14 +29,21 @@ pub struct SourceTold {
 /// The motion that is judged: the one of the topic asked for, else the only one of the best rank ([`best`]).
 ///
 /// # Errors
-/// There is none, none of that name, none that is known to be what moved, or that one is at two places at one moment.
+/// There is none, none of that name or several, none that is known to be what moved, or that one is at two places at
+/// one moment.
 pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a LoggedMotion, SourceTold), Problem> {
     let motion = match asked {
         Some(topic) => {
-            let named = logged.motions.iter().find(|motion| motion.name == topic).ok_or_else(|| {
+            let mut all = logged.motions.iter().filter(|motion| motion.name == topic);
+            let named = all.next().ok_or_else(|| {
                 let names = names(&logged.motions);
                 Problem::input(format!("--source {topic}: the log has no poses of that topic; it has {names}"))
             })?;
+            if all.next().is_some() {
+                return Err(Problem::input(format!(
+                    "--source {topic}: the log has several channels of that topic, and nothing tells which of them moved"
+                )));
+            }
             fit(named).map_err(Problem::input)?
         }
         None => best(logged, &Asks::JUDGE).map_err(Problem::input)?,

@@ -222,6 +222,28 @@ fn a_log_that_does_not_know_its_place_decides_nothing() {
     assert!(asked.verdict.sentence.contains("EKF2 estimate): 0.65 m"), "{}", asked.verdict.sentence);
     let none = judged_as(&both, |settings, _| settings.source = Some("gps".into())).unwrap_err();
     assert!(none.contains("--source gps") && none.contains("vehicle_mocap_odometry"), "{none}");
+    both.motions.push(motion("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.0)));
+    let two = judged_as(&both, |settings, _| settings.source = Some("vehicle_mocap_odometry".into())).unwrap_err();
+    assert!(two.contains("--source vehicle_mocap_odometry: the log has several channels of that topic"), "{two}");
+}
+
+#[test]
+fn a_sample_that_tells_no_accuracy_counts_as_the_least_accurate() {
+    let of = |off: f64| {
+        let mut log = log(100.0, off);
+        for (i, sample) in log.motions[0].samples.iter_mut().enumerate() {
+            // Where it is farthest off it says nothing.
+            sample.accuracy_m = (!(150..250).contains(&i)).then_some(if i == 700 { [0.2, 0.1] } else { [0.05, 0.3] });
+        }
+        judged_as(&log, |_, _| {}).unwrap()
+    };
+    let judged = of(0.41);
+    let sentence = &judged.verdict.sentence;
+    assert!(judged.verdict.exit_code == 5 && sentence.contains("the log's own eph is 0.2 m"), "{sentence}");
+    let note =
+        "100 of 801 samples tell no accuracy: they count as the least accurate that do, 0.20 m across and 0.30 m up";
+    assert_eq!(judged.found.unwrap().notes, [note]);
+    assert_eq!(of(0.2).verdict.exit_code, 0);
 }
 
 fn event(t_s: f64, kind: EventKind, words: &str) -> Event {

@@ -4,6 +4,7 @@
 //! A dynamic program over samples × pieces, as in dynamic time warping (Sakoe and Chiba, IEEE ASSP 26(1), 1978) with
 //! pieces that may be skipped. The nearest leg would be wrong wherever a path crosses itself, and a stressful one does.
 
+mod lanes;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,8 @@ use nalgebra::Point3;
 use super::narrow::narrowed;
 use crate::math::power::square;
 use crate::math::segment::point_distance;
+use crate::math::simd::Simd;
+use lanes::Lanes;
 
 /// A straight part of a path, and what it belongs to.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +54,7 @@ pub(super) fn leg_pieces(waypoints: &[Point3<f64>]) -> Vec<Piece> {
 pub(super) fn monotone(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) -> Vec<usize> {
     let mut assigned = vec![0; samples.len()];
     if !pieces.is_empty() {
-        let problem = Problem { samples, weights, pieces };
+        let problem = Problem { samples, weights, pieces, lanes: &Lanes::of(pieces) };
         let whole = std::iter::repeat_n(0..pieces.len(), samples.len());
         let windows = narrowed(whole, |sample, piece| problem.cost(sample, piece));
         match windows.iter().map(Range::len).sum::<usize>() {
@@ -74,6 +77,8 @@ struct Problem<'a> {
     samples: &'a [Point3<f64>],
     weights: &'a [f64],
     pieces: &'a [Piece],
+    /// The same pieces, to be compared with a sample side by side.
+    lanes: &'a Lanes,
 }
 
 /// Least costs of assigning some samples in order, by how far they may go: those of the pieces from `first` on. Beyond
@@ -95,7 +100,7 @@ impl Problem<'_> {
         let stride = self.samples.len().div_ceil(FIRST);
         let samples: Vec<_> = self.samples.iter().copied().step_by(stride).collect();
         let weights: Vec<f64> = self.weights.chunks(stride).map(|block| block.iter().sum()).collect();
-        let first = Problem { samples: &samples, weights: &weights, pieces: self.pieces };
+        let first = Problem { samples: &samples, weights: &weights, ..*self };
         let few: Vec<_> = windows.iter().cloned().step_by(stride).collect();
         let mut near = vec![0; samples.len()];
         first.split(0, &few, 0..self.pieces.len(), &mut near);
@@ -153,28 +158,44 @@ impl Problem<'_> {
 
     /// Of samples in order, each within its window.
     fn least(&self, samples: impl Iterator<Item = (usize, Range<usize>)>) -> Costs {
-        by_rows(samples, |sample, piece| self.cost(sample, piece))
+        by_rows(samples, |sample, window, row| self.costs(sample, window, row))
     }
 
     /// Of samples from the last one back, pieces counted from `end` backwards.
     fn mirrored_least(&self, end: usize, samples: impl Iterator<Item = (usize, Range<usize>)>) -> Costs {
-        by_rows(samples, |sample, piece| self.cost(sample, end - 1 - piece))
+        by_rows(samples, |sample, window, row| {
+            self.costs(sample, end - window.end..end - window.start, row);
+            row.reverse();
+        })
+    }
+
+    /// [`Self::cost`] of the pieces of `window`, to the same bits.
+    fn costs(&self, sample: usize, window: Range<usize>, row: &mut [f64]) {
+        self.lanes.squares(Simd::Widest, &self.samples[sample], window, row);
+        row.iter_mut().for_each(|square| *square *= self.weights[sample]);
     }
 }
 
-/// Least costs of assigning all samples in order to pieces no later than each, sample by sample.
-fn by_rows(samples: impl Iterator<Item = (usize, Range<usize>)>, cost: impl Fn(usize, usize) -> f64) -> Costs {
+/// Least costs of assigning all samples in order to pieces no later than each, sample by sample; `costs_of` fills in
+/// those of a sample with the pieces of its window.
+fn by_rows(
+    samples: impl Iterator<Item = (usize, Range<usize>)>,
+    costs_of: impl Fn(usize, Range<usize>, &mut [f64]),
+) -> Costs {
     let mut costs = Costs { first: 0, of: vec![0.0] };
-    let mut next = Vec::new();
+    let mut row = Vec::new();
     for (sample, window) in samples {
+        row.clear();
+        row.resize(window.len(), 0.0);
+        costs_of(sample, window.clone(), &mut row);
+        costs.add_to(&mut row, window.start);
         let mut least = f64::INFINITY;
-        next.clear();
-        for piece in window.clone() {
-            least = least.min(costs.at(piece) + cost(sample, piece));
-            next.push(least);
+        for cost in &mut row {
+            least = if *cost < least { *cost } else { least };
+            *cost = least;
         }
         costs.first = window.start;
-        std::mem::swap(&mut costs.of, &mut next);
+        std::mem::swap(&mut costs.of, &mut row);
     }
     costs
 }
@@ -183,6 +204,15 @@ impl Costs {
     /// Of ending by a piece that is not before the first.
     fn at(&self, piece: usize) -> f64 {
         self.of[(piece - self.first).min(self.of.len() - 1)]
+    }
+
+    /// Adds [`Self::at`] to a row of the pieces from `first` on.
+    fn add_to(&self, row: &mut [f64], first: usize) {
+        let last = self.of.len() - 1;
+        let own = &self.of[(first - self.first).min(last)..];
+        let (among, beyond) = row.split_at_mut(own.len().min(row.len()));
+        among.iter_mut().zip(own).for_each(|(cost, before)| *cost += before);
+        beyond.iter_mut().for_each(|cost| *cost += self.of[last]);
     }
 }
 

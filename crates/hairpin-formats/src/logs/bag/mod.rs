@@ -3,6 +3,7 @@
 mod cdr;
 mod messages;
 mod records;
+mod rising;
 mod topics;
 
 use std::collections::BTreeMap;

@@ -3,18 +3,16 @@
 use super::super::accuracy::half;
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LoggedMotion, Sample, Source};
+use super::super::planned::is_asked;
 use super::super::samples::Budget;
 use super::super::twice::{apart, places_apart, told, two, two_places};
 use super::cdr::{Cdr, NoMessage};
 use super::messages::{Kind, Pose, joints, odometry, path, pose};
+use super::rising::rising;
 use crate::quote::shortened;
 
 /// Sets of joints that one topic may tell of, by turns.
 const MOST_SETS: usize = 16;
-/// Stamps are told in milliseconds or finer, s; twice that, for what moves may go faster in between.
-const COARSE_S: f64 = 2e-3;
-/// A recorder that was held up takes what came in as much time with one stamp, s.
-const HELD_UP_S: f64 = 0.5;
 
 /// One topic.
 #[derive(Debug)]
@@ -241,97 +239,9 @@ impl Topic {
     }
 }
 
-/// Words in names of topics that are no motions but what motions are to be.
-const ASKED: &str = "carrot clicked cmd command commanded commands demand demanded des desired expected fake goal goals \
-                     ideal initial lookahead nominal plan planned planner planning plans predicted prediction ref \
-                     reference requested setpoint setpoints sp target targets tgt wanted waypoint waypoints wp wps";
-/// What is written together with them: `goalpose`, `jointcmd`.
-const BODIES: [&str; 8] = ["pose", "position", "odometry", "odom", "path", "states", "state", "joint"];
-
-/// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/targetPose2`,
-/// `/set_point`, and what PX4 is told (`/fmu/in/…`).
-fn is_asked(name: &str) -> bool {
-    let words = words(name);
-    let is = |word: &str| ASKED.split(' ').any(|asked| asked == word);
-    let is_beside =
-        |word: &str, body: &str| word.strip_suffix(body).is_some_and(is) || word.strip_prefix(body).is_some_and(is);
-    words.iter().any(|word| is(word) || BODIES.iter().any(|body| is_beside(word, body)))
-        || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point") || pair == ["fmu", "in"])
-}
-
-/// The words of a name, in small letters: between other signs, between letters and digits, and where a large letter
-/// begins one (`goalPose`, `CMDPose`).
-fn words(name: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let characters: Vec<char> = name.chars().collect();
-    for (i, c) in characters.iter().enumerate() {
-        let before = i.checked_sub(1).map_or('/', |before| characters[before]);
-        let then_small = characters.get(i + 1).is_some_and(|next| next.is_lowercase());
-        let begins = c.is_numeric() != before.is_numeric()
-            || c.is_uppercase() && (before.is_lowercase() || before.is_uppercase() && then_small);
-        if begins || !c.is_alphanumeric() {
-            words.push(String::new());
-        }
-        if let Some(word) = words.last_mut().filter(|_| c.is_alphanumeric()) {
-            word.extend(c.to_lowercase());
-        }
-    }
-    words
-}
-
 /// The joint that is farthest from itself in two rows of the same joints, and how far, rad.
 fn farthest(one: &[f64], other: &[f64]) -> Option<(usize, f64)> {
     let joints = one.iter().zip(other).enumerate();
     let far = joints.filter_map(|(joint, (one, other))| Some((joint, apart(*one, *other)?)));
     far.max_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-/// Rows whose stamp was there before.
-struct Twice<T> {
-    /// How many.
-    count: usize,
-    /// The first that says something else than the row before it: both.
-    other: Option<((f64, T), T)>,
-}
-
-impl<T> Twice<T> {
-    /// Tells of them, and gives what is wrong with them.
-    fn tell(self, name: &str, notes: &mut Vec<String>, words: impl Fn(&(f64, T), &T) -> String) -> Option<String> {
-        if self.count > 0 {
-            notes.push(format!("{name}: {} messages with a stamp that was there before", self.count));
-        }
-        // A stamp of zero is none.
-        let other = self.other.filter(|((t_s, _), _)| *t_s != 0.0);
-        let why = other.map(|(one, other)| words(&one, &other));
-        notes.extend(why.iter().map(|why| format!("{name}: {why}")));
-        why
-    }
-}
-
-/// Rows in the order of their times, one each, and those that were left out for it; `far` says how far two are apart.
-///
-/// Of one stamp are also messages that follow each other faster than stamps are told, or that a recorder took together.
-/// So those that are no farther apart than what moves moves around that time within [`COARSE_S`], by the recorder's
-/// clock within [`HELD_UP_S`], say nothing else.
-fn rising<T: Clone>(mut rows: Vec<(f64, T)>, clock: Clock, far: &dyn Fn(&T, &T) -> f64) -> (Vec<(f64, T)>, Twice<T>) {
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut kept: Vec<(f64, T)> = Vec::with_capacity(rows.len());
-    let mut again: Vec<(usize, T)> = Vec::new();
-    for (t_s, row) in rows {
-        match kept.last() {
-            Some((last, _)) if t_s <= *last => again.push((kept.len() - 1, row)),
-            _ => kept.push((t_s, row)),
-        }
-    }
-    let speed = |from: usize| {
-        let (Some(one), Some(other)) = (kept.get(from), kept.get(from + 1)) else { return 0.0 };
-        far(&one.1, &other.1) / (other.0 - one.0)
-    };
-    let coarse = if clock == Clock::Receive { HELD_UP_S } else { COARSE_S };
-    let is_other = |(place, row): &&(usize, T)| {
-        let speed = place.checked_sub(1).map_or(0.0, speed).max(speed(*place));
-        far(&kept[*place].1, row) > speed * coarse
-    };
-    let other = again.iter().find(is_other).map(|(place, row)| (kept[*place].clone(), row.clone()));
-    (kept, Twice { count: again.len(), other })
 }

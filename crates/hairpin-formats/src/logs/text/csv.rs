@@ -6,10 +6,10 @@ use nalgebra::{Point3, Vector3};
 use super::super::accuracy::both;
 use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample};
+use super::super::planned::source;
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude};
 use super::columns::{Column, Columns};
-use super::planned::source;
 use crate::delimited::{Cut, Row, Table};
 use crate::quote;
 

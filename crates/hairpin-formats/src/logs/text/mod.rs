@@ -3,10 +3,8 @@
 mod checks;
 mod columns;
 mod csv;
-mod planned;
 mod tum;
 
 pub(super) use checks::decode;
 pub(super) use csv::read_csv;
-pub use planned::is_planned;
 pub(super) use tum::read_tum;

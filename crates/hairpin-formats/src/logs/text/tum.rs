@@ -4,9 +4,9 @@ use nalgebra::Point3;
 
 use super::super::error::Fault;
 use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample};
+use super::super::planned::source;
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude};
-use super::planned::source;
 use crate::quote;
 
 const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];

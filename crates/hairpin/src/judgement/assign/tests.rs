@@ -20,8 +20,35 @@ fn by_enumeration(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) ->
 /// Without looking for what can be left out.
 fn in_full(samples: &[Point3<f64>], weights: &[f64], pieces: &[Piece]) -> Vec<usize> {
     let (mut assigned, whole) = (vec![0; samples.len()], vec![0..pieces.len(); samples.len()]);
-    Problem { samples, weights, pieces }.split(0, &whole, 0..pieces.len(), &mut assigned);
+    Problem { samples, weights, pieces, lanes: &Lanes::of(pieces) }.split(0, &whole, 0..pieces.len(), &mut assigned);
     assigned
+}
+
+/// Of pieces anywhere, among them some without a length and neighbours that share an end, at every level.
+#[test]
+fn lanes_have_the_bits_of_one_distance_at_a_time() {
+    let mut random = stream(3);
+    let mut draw = |most: f64| Point3::from([(); 3].map(|_| random.random_range(-most..most)));
+    let mut corners = vec![Point3::origin()];
+    while corners.len() < 200 {
+        let last = corners[corners.len() - 1];
+        corners.push(if corners.len() % 7 == 3 { last } else { last + draw(1.0).coords });
+    }
+    let pieces: Vec<Piece> =
+        corners.windows(2).enumerate().map(|(owner, ends)| Piece { from: ends[0], to: ends[1], owner }).collect();
+    let lanes = Lanes::of(&pieces);
+    for (i, corner) in corners.iter().enumerate() {
+        let p = if i % 3 == 0 { *corner } else { corner + draw(2.0).coords };
+        let window = i / 3..pieces.len() - i / 5;
+        for simd in [Simd::Widest, Simd::Portable] {
+            let mut row = vec![f64::NAN; window.len()];
+            lanes.squares(simd, &p, window.clone(), &mut row);
+            for (square_of, piece) in row.iter().zip(&pieces[window.clone()]) {
+                let alone = square(point_distance(&p, &piece.from, &piece.to));
+                assert_eq!(square_of.to_bits(), alone.to_bits(), "{i} {simd:?}: {square_of} {alone}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -45,7 +72,8 @@ fn the_band_around_a_coarse_assignment_holds_the_best() {
             })
             .collect();
         let weights = vec![0.01; samples.len()];
-        let problem = Problem { samples: &samples, weights: &weights, pieces: &pieces };
+        let lanes = Lanes::of(&pieces);
+        let problem = Problem { samples: &samples, weights: &weights, pieces: &pieces, lanes: &lanes };
         let sum = |assigned: &[usize]| assigned.iter().enumerate().map(|(i, j)| problem.cost(i, *j)).sum::<f64>();
         let (band, full) = (monotone(&samples, &weights, &pieces), in_full(&samples, &weights, &pieces));
         assert!(sum(&band) <= sum(&full) * (1.0 + 1e-9), "{seed}: {} {}", sum(&band), sum(&full));

@@ -22,7 +22,7 @@ const LEAST: f64 = 0.05;
 /// ẋ = cosψ · ahead − sinψ · left, ẏ = sinψ · ahead + cosψ · left.
 ///
 /// Pure numbers ahead and left; 1/m for `yaw` (of a turn in place: m/rad, m/rad, rad/rad).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Rates {
     /// Over the ground along the heading.
     pub ahead: f64,
@@ -58,7 +58,9 @@ struct Lean {
 
 impl Lean {
     fn of(pose: &Settled) -> Self {
-        let ((sf, cf), (st, ct)) = (libm::sincos(pose.roll), libm::sincos(pose.pitch));
+        // A vehicle without a suspension is level at every step.
+        let of = |angle: f64| if angle == 0.0 { (angle, 1.0) } else { libm::sincos(angle) };
+        let ((sf, cf), (st, ct)) = (of(pose.roll), of(pose.pitch));
         Self { sf, cf, st, ct }
     }
 

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::command::DriveCommand;
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
-use crate::robot::rover::{Effort, Gradient, Response, Rover, Settled, Suspension, Unsettled, slip_share};
+use crate::robot::rover::{Effort, Gradient, Rates, Response, Rover, Settled, Suspension, Unsettled, slip_share};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, NoGround, Terrain};
 
@@ -79,6 +79,8 @@ pub(super) struct Plant<'a> {
     pub(super) turn_rate: f64,
     /// δ, rad.
     steering: f64,
+    /// tan(δ)/L, 1/m.
+    bend: f64,
     /// How the body stands.
     pub(super) pose: Settled,
     gradient: Gradient,
@@ -105,10 +107,12 @@ impl<'a> Plant<'a> {
             yaw: start.yaw,
             speed: 0.0,
             turn_rate: 0.0,
-            steering: libm::atan(start.curvature * vehicle.response.steered_axle),
+            steering: 0.0,
+            bend: 0.0,
             pose: Settled::default(),
             gradient: Gradient::default(),
         };
+        plant.steer_at_once(start.curvature);
         (plant.pose, plant.gradient) = plant.rest_from_nothing()?;
         Ok(plant)
     }
@@ -122,20 +126,25 @@ impl<'a> Plant<'a> {
     fn rest_from_nothing(&self) -> Result<(Settled, Gradient), Lost> {
         if self.vehicle.suspension == Suspension::Level {
             // A point needs no wheels to stand, but it does need ground.
-            let ground = self.terrain.patch(self.x, self.y)?;
-            return Ok((Settled { z: ground.height, ..Settled::default() }, Gradient::default()));
+            let z = self.terrain.height(self.x, self.y)?;
+            return Ok((Settled { z, ..Settled::default() }, Gradient::default()));
         }
         self.vehicle.suspension.settle_cold(self.terrain, self.place()).map_err(Lost::from)
     }
 
     /// κ of the wheels as they are steered, 1/m.
     pub(super) fn curvature(&self) -> f64 {
-        libm::tan(self.steering) / self.vehicle.response.steered_axle
+        self.bend
     }
 
     /// Swings the wheels, as a standing vehicle can, 1/m.
     pub(super) fn steer_at_once(&mut self, curvature: f64) {
-        self.steering = libm::atan(curvature * self.vehicle.response.steered_axle);
+        self.put_wheels(libm::atan(curvature * self.vehicle.response.steered_axle));
+    }
+
+    fn put_wheels(&mut self, steering: f64) {
+        self.steering = steering;
+        self.bend = libm::tan(steering) / self.vehicle.response.steered_axle;
     }
 
     /// Goes on for `time` s under `command`.
@@ -196,7 +205,10 @@ impl<'a> Plant<'a> {
         let (way, bend, turn) = (speed_scale * way, turn_scale * bend, speed_scale * turn_scale * turn);
         let pull = self.pulled(stands.0, yaw);
         let driven = self.vehicle.rates_under(stands, yaw, self.travels, (sign, bend), [pull.x, pull.y]);
-        let turned = self.vehicle.turning(stands, yaw);
+        let turned = match turn == 0.0 {
+            true => Rates::default(),
+            false => self.vehicle.turning(stands, yaw),
+        };
         let way = way.abs();
         let (ahead, left) = (way * driven.ahead + turn * turned.ahead, way * driven.left + turn * turned.left);
         [cos * ahead - sin * left, sin * ahead + cos * left, way * driven.yaw + turn * turned.yaw]
@@ -212,7 +224,11 @@ impl<'a> Plant<'a> {
         let lag = response.steering_time_constant;
         let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };
         let fastest = response.steering_rate * h;
-        self.steering += (share * (wanted - self.steering)).clamp(-fastest, fastest);
+        let steering = self.steering + (share * (wanted - self.steering)).clamp(-fastest, fastest);
+        // On a straight and on an arc they stay as they are.
+        if steering != self.steering {
+            self.put_wheels(steering);
+        }
     }
 
     /// Brings the speeds towards their commands; the way and the angle gone meanwhile.
@@ -323,7 +339,7 @@ impl<'a> Plant<'a> {
     /// `world_from_body`. A point without wheels lies on the ground.
     pub(super) fn world_from_body(&self) -> Isometry3<f64> {
         let z = match self.vehicle.suspension {
-            Suspension::Level => self.terrain.patch(self.x, self.y).map_or(0.0, |ground| ground.height),
+            Suspension::Level => self.terrain.height(self.x, self.y).unwrap_or(0.0),
             _ => self.pose.z,
         };
         let attitude = unit_quaternion(&quaternion_from_euler(self.pose.roll, self.pose.pitch, self.yaw));

@@ -68,7 +68,7 @@ pub enum MapError {
     },
     /// Cells without data where none may be.
     #[error(
-        "{count} cells without data, the first in row {row}, column {column} (rows from the north, both from 0): no_data = \"keep-out\" or \"fill\" accepts them"
+        "{count} cells without data, the first in row {row}, column {column} (rows from the north, both from 0): no_data = \"keep-out\" or \"fill\" accepts them (`steer`: --no-data)"
     )]
     Holes {
         /// How many.

@@ -1,0 +1,22 @@
+//! How well each sample of a log knows its place.
+
+use hairpin_formats::logs::Sample;
+
+/// Horizontal and vertical standard deviation of each sample, m, and what is to be told of it; none of a log that tells
+/// nothing of any.
+///
+/// A log that tells how good it is, and not of every sample, does not know those better than the others: they count as
+/// the least accurate that tells, across and up each by itself.
+pub(super) fn accuracies(samples: &[Sample]) -> (Vec<Option<[f64; 2]>>, Option<String>) {
+    let told = || samples.iter().filter_map(|sample| sample.accuracy_m);
+    let Some(least) = told().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]) else { return (Vec::new(), None) };
+    let untold = samples.len() - told().count();
+    let note = format!(
+        "{untold} of {} samples tell no accuracy: they count as the least accurate that do, {:.2} m across and {:.2} m up",
+        samples.len(),
+        least[0],
+        least[1]
+    );
+    let all = samples.iter().map(|sample| sample.accuracy_m.or(Some(least))).collect();
+    (all, (untold > 0).then_some(note))
+}
