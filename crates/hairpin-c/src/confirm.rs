@@ -6,7 +6,7 @@ use hairpin::trajectory::drive::Planar;
 
 use crate::asked::{seen, wrapped};
 use crate::drive::{Drive, HAIRPIN_BLOCKED, HAIRPIN_INFEASIBLE, HAIRPIN_NOT_CONVERGED};
-use crate::ground::no_ground;
+use crate::ground::{no_ground, over_limits};
 use crate::refusal::Refused;
 use crate::steer::SteerHandle;
 
@@ -30,8 +30,8 @@ impl SteerHandle {
         // Curvatures as they were commanded, errors as the ground has them.
         let mut told = flat;
         (told.error, told.error_curvature) = (ground.error, ground.error_curvature);
-        let tilt = ground.max_tilt - self.rover.limits.tilt;
-        let limit = broken(&told, &self.bounds, &precision).or((tilt > 0.0).then_some(("tilt_rad", Some(tilt))));
+        let limit = broken(&told, &self.bounds, &precision)
+            .or_else(|| over_limits(&self.rover, ground.max_tilt, ground.max_joint));
         Ok(Drive { tilt_rad: ground.max_tilt, ..found }.held_to(told.error, told.error_curvature, limit))
     }
 }
@@ -53,7 +53,9 @@ impl Drive {
         let told = Self { miss_m: libm::hypot(x, y), miss_yaw_rad: yaw.abs(), miss_curvature_1_m: bend.abs(), ..self };
         match limit {
             None => told,
-            Some(("tilt_rad", excess)) => Self { status: HAIRPIN_INFEASIBLE, ..told }.over("tilt_rad", excess),
+            Some((limit @ ("tilt_rad" | "joint_rad"), excess)) => {
+                Self { status: HAIRPIN_INFEASIBLE, ..told }.over(limit, excess)
+            }
             Some((limit, excess)) => Self { status: HAIRPIN_NOT_CONVERGED, ..told }.over(limit, excess),
         }
     }

@@ -1,11 +1,11 @@
 //! The value that means no data, as tools write it.
 
-/// Heights below this are the −3.4e38 of tools that forget to say so.
-const LOWEST: f64 = -1e30;
+/// Heights farther than this from 0 are the ±3.4e38 and 1.7e38 (Surfer) of tools that forget to say so.
+const FARTHEST: f64 = 1e30;
 
 /// Whether a value is no height, whatever else the file says of it.
 pub(super) fn is_none(value: f64) -> bool {
-    !value.is_finite() || value < LOWEST
+    !value.is_finite() || value.abs() > FARTHEST
 }
 
 /// A number in any spelling: `-9999`, `nan`, `NaN`, `-nan`, `-1.#QNAN` of older Windows.
@@ -22,9 +22,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_far_below_all_ground_is_no_height() {
-        assert!([f64::NAN, f64::INFINITY, -3.4e38, -1.1e30].into_iter().all(is_none));
-        assert!(![-11_000.0, 0.0, -9999.0].into_iter().any(is_none));
+    fn what_is_far_from_all_ground_is_no_height() {
+        assert!([f64::NAN, f64::INFINITY, -3.4e38, -1.1e30, 1.70141e38, 3.4e38].into_iter().all(is_none));
+        assert!(![-11_000.0, 0.0, -9999.0, 9e5].into_iter().any(is_none));
     }
 
     #[test]

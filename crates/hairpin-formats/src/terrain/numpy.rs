@@ -1,4 +1,4 @@
-//! NumPy arrays: two dimensions of floats in metres, rows from the north, NaN or values below −1e30 where
+//! NumPy arrays: two dimensions of floats in metres, rows from the north, NaN or values beyond ±1e30 where
 //! there is no data.
 //!
 //! The header is a dictionary of three values (numpy.lib.format, versions 1 to 3). It is read as just that: a general

@@ -106,14 +106,16 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         return stopped(no_ground(map, &goal, place), *after_m);
     }
     let drive = Some((solution, replay));
-    let over_tilt = ground.max_tilt - task.rover.limits.tilt;
+    let limits = &task.rover.limits;
+    let stood = [("tilt_rad", ground.max_tilt - limits.tilt), ("joint_rad", ground.max_joint - limits.joint)];
+    let over = stood.into_iter().find(|(_, over)| *over > 0.0);
     if let Some(near) = near {
         return too_near(near, drive);
     }
     match (status, broken(&replay, &bounds, &task.precision)) {
         _ if ran_out => answered(Status::TimeLimit, None, drive),
-        (Found::Ok, None) if over_tilt > 0.0 => {
-            answered(Status::Infeasible, Some(("tilt_rad", Some(over_tilt))), drive)
+        (Found::Ok, None) if over.is_some() => {
+            answered(Status::Infeasible, over.map(|(limit, over)| (limit, Some(over))), drive)
         }
         (Found::Ok, None) if along.is_some() => {
             let over = along.and_then(|along| along.steeper_by());

@@ -331,6 +331,35 @@ fn rows_beyond_what_can_be_planned_are_told_and_queries_are_kept() {
     assert!(refused.contains("--out") && fs::read_to_string(&path).unwrap() == text, "{refused}");
 }
 
+/// A rocker-bogie whose joints may turn by `joint` degrees.
+fn rocker_bogie(joint: f64) -> String {
+    format!(
+        "kind = \"rover\"\nname = \"joints\"\nspeed_m_s = 0.3\n[suspension]\nkind = \"rocker-bogie\"\n\
+         wheel_radius_m = 0.13\npivot_m = [0.2415, 0.40, 0.21]\nrocker_wheel_m = [0.576, 0.0, -0.25]\n\
+         bogie_joint_m = [-0.2416, 0.0, -0.21]\nbogie_wheels_m = [[0.138, 0.0, -0.04], [-0.138, 0.0, -0.04]]\n\
+         [limits]\ncurvature_1_m = 1.0\ncurvature_rate_1_m2 = 1.0\njoint_deg = {joint}\n"
+    )
+}
+
+/// Over a bump the bogies turn, by more than one of both vehicles can.
+#[test]
+fn joints_are_held_to_their_limit() {
+    let bump = |x: f64| if (6.0..7.0).contains(&x) { 0.15 } else { 0.0 };
+    let folder = tempfile::tempdir().unwrap();
+    let of = |joint: f64| {
+        let file = folder.path().join(format!("{joint}.toml"));
+        fs::write(&file, rocker_bogie(joint)).unwrap();
+        let asked = Question { from: Some([3.0, 7.0, 0.0, 0.0]), to: [10.0, 7.0, 0.0, 0.0], ..Question::default() };
+        let answered = on_map(file.to_str().unwrap(), bump).answer(&asked.asked());
+        (answered.status, answered.limit)
+    };
+    assert_eq!(of(60.0), (Status::Ok, None));
+    let (status, limit) = of(1.0);
+    let (limit, over) = limit.unwrap();
+    assert_eq!((status, limit), (Status::Infeasible, "joint_rad"));
+    assert!((0.05..0.8).contains(&over.unwrap()), "{over:?}");
+}
+
 /// `rover` on a map of 15 m by 15 m from (0, 0) on, in cells of 0.25 m, whose heights along x (m) are `height`.
 fn on_map(rover: &str, height: fn(f64) -> f64) -> Vehicle {
     let folder = tempfile::tempdir().unwrap();

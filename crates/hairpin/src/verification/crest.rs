@@ -5,7 +5,7 @@
 //! from look to look: an estimate, not a bound. Torques are asked of rests that are interpolated between looks, at
 //! about 2000 places a drive, and the body is looked at once where that is largest.
 
-use super::stand::{Rest, tilt};
+use super::stand::{Rest, joint, tilt};
 use super::stride::{FELL, Look, Pose, Stretch, Taken, foreseen};
 use crate::world::terrain::Terrain;
 
@@ -14,6 +14,8 @@ use crate::world::terrain::Terrain;
 pub(super) struct Followed {
     /// Largest angle of the body's z axis from the vertical, rad.
     pub(super) max_tilt: f64,
+    /// Largest |angle| of a joint, rad.
+    pub(super) max_joint: f64,
     /// Largest |torque| of each wheel, N·m.
     pub(super) max_torque: f64,
     /// Strides taken.
@@ -40,6 +42,7 @@ impl<T: Terrain> Stretch<'_, T> {
     pub(super) fn add_peaks(&self, looks: &[Look], taken: &[Taken], followed: &mut Followed) {
         let tilts: Vec<f64> = looks.iter().map(|look| tilt(&look.rest)).collect();
         followed.max_tilt = tilts.iter().fold(followed.max_tilt, |most, tilt| most.max(*tilt));
+        followed.max_joint = looks.iter().map(|look| joint(&look.rest)).fold(followed.max_joint, f64::max);
         // A rest that is walked with and is not the looks'.
         let mut apart: Option<Rest> = None;
         for (i, pair) in looks.windows(2).enumerate() {
@@ -90,6 +93,7 @@ impl<T: Terrain> Stretch<'_, T> {
             let s = from.s + (to.s - from.s) * i as f64 / count as f64;
             rest.carry_on(&self.course.vehicle.stand, self.terrain, pose_at(taken, s)?).ok()?;
             followed.max_tilt = followed.max_tilt.max(tilt(&rest));
+            followed.max_joint = followed.max_joint.max(joint(&rest));
         }
         (rest.apart(&to.rest) > SAME).then_some(rest)
     }

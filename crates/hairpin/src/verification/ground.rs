@@ -19,6 +19,8 @@ pub struct GroundReplay {
     ///
     /// acos(cos φ cos θ).
     pub max_tilt: f64,
+    /// Largest |angle| of rocker and bogies where the body was looked at, rad; 0 without joints.
+    pub max_joint: f64,
     /// Largest |torque| of each wheel while driving, N·m; 0 without a haul.
     pub max_torque: f64,
     /// Strides of the integrator, each a panel of three looks at the ground and more.
@@ -139,11 +141,12 @@ pub(super) fn follow_ground<T: Terrain>(
         last_curvature = libm::tan(angle) / vehicle.steered_axle_m;
     }
     let [x, y, yaw] = [0, 1, 2].map(|i| at.0[i] - claim.end[i]);
-    let Followed { max_tilt, max_torque, strides, left_out } = followed;
+    let Followed { max_tilt, max_joint, max_torque, strides, left_out } = followed;
     Ok(GroundReplay {
         error: [x, y, libm::atan2(libm::sin(yaw), libm::cos(yaw))],
         error_curvature: last_curvature - claim.end_curvature,
         max_tilt,
+        max_joint,
         max_torque,
         steps: strides,
         left_out,

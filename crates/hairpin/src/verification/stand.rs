@@ -363,6 +363,11 @@ fn pseudo_inverse(stand: &Stand, jacobian: &SMatrix<f64, 6, 6>) -> Option<SMatri
     Some(whole)
 }
 
+/// Largest |angle| of rocker and bogies, rad; 0 without joints.
+pub(super) fn joint(rest: &Rest) -> f64 {
+    rest.unknowns.iter().skip(3).fold(0.0, |most, angle| most.max(angle.abs()))
+}
+
 /// Angle of the body's z axis from the vertical, rad.
 pub(super) fn tilt(rest: &Rest) -> f64 {
     libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0))
