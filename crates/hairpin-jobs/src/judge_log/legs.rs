@@ -111,14 +111,15 @@ impl Course {
         self.steps[step].1.checked_sub(1)
     }
 
-    /// Whether it flew to all of `waypoints`.
-    pub(super) fn is_whole(&self, waypoints: usize) -> bool {
-        self.steps.last().is_some_and(|(_, last)| last + 1 == waypoints)
+    /// Whether by `t` it had flown to all of `waypoints`: what the log tells later is another matter.
+    pub(super) fn is_whole(&self, waypoints: usize, t: f64) -> bool {
+        let step = self.steps.partition_point(|(from, _)| *from <= t).checked_sub(1);
+        step.is_some_and(|step| self.steps[step].1 + 1 == waypoints)
     }
 
-    /// Whether it went on behind the last waypoint.
-    pub(super) fn is_done(&self) -> bool {
-        self.done_s.is_some()
+    /// Whether by `t` it had gone on behind the last waypoint.
+    pub(super) fn is_done(&self, t: f64) -> bool {
+        self.done_s.is_some_and(|done| done <= t)
     }
 }
 

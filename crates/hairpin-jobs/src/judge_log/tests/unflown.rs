@@ -100,6 +100,64 @@ fn a_mission_state_that_stops_at_its_first_leg_is_no_whole_mission() {
     assert!(code == 5 && sentence.contains("the log ends, on leg 0→1 of 5 waypoints"), "{sentence}");
 }
 
+/// What `through` flew of `mission` at 100 Hz, with the moments at which an autopilot says it flies to which waypoint.
+fn by_autopilot(flown: &[[f64; 3]], mission: &[[f64; 3]], times: &[f64]) -> Logged {
+    let mut log = Logged { format: "PX4 ULog", ..through(flown) };
+    let step = |(k, t_s): (usize, &f64)| Progress {
+        t_s: *t_s,
+        item: k as u32,
+        target_m: mission.get(k).map(|place| Point3::from(*place)),
+    };
+    log.progress = times.iter().enumerate().map(step).collect();
+    log.events = vec![event(0.0, EventKind::MissionBegins, "nav_state AUTO_MISSION")];
+    log
+}
+
+#[test]
+fn what_an_autopilot_flies_after_the_judged_part_is_not_flown_in_it() {
+    let log = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    let (sentence, code, found) = over(&log, &SQUARE);
+    assert!(code == 0 && found.finished && found.missed.is_none(), "{sentence}");
+    // The mission ends where it begins, near which it is left and taken up again.
+    let mut left = log.clone();
+    left.events.push(event(2.1, EventKind::MissionEnds, "nav_state POSCTL"));
+    left.events.push(event(2.4, EventKind::MissionBegins, "nav_state AUTO_MISSION"));
+    let (sentence, code, found) = over(&left, &SQUARE);
+    assert!(code == 5 && !found.finished && sentence.starts_with("INCONCLUSIVE m"), "{sentence}");
+    assert!(sentence.contains("nav_state POSCTL at t = 2.1 s, on leg 0→1 of 5 waypoints"), "{sentence}");
+    // It says that it has finished, and flies on.
+    let mut early = log;
+    early.events.push(event(4.0, EventKind::MissionEnds, "mission_result finished"));
+    let (sentence, code, found) = over(&early, &SQUARE);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("mission_result finished at t = 4.0 s, on leg 0→1 of 5 waypoints"), "{sentence}");
+}
+
+#[test]
+fn an_autopilots_word_is_held_against_its_positions() {
+    // There and back, and to the side.
+    let mission = [SQUARE[0], SQUARE[1], SQUARE[0], SQUARE[3]];
+    let turned = |x: f64| {
+        let flown = [mission[0], [x, 4.0, 5.0], mission[2], mission[3]];
+        let way_s = (x - 4.0) / SPEED;
+        over(&by_autopilot(&flown, &mission, &[0.0, 2.0, 2.0 + way_s, 2.0 + 2.0 * way_s]), &mission)
+    };
+    let (sentence, code, found) = turned(17.0);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    let words = "waypoint 1 of 0 to 3 was never reached: 7.00 m at the nearest, 3 m accepted";
+    assert!(sentence.contains(words), "{sentence}");
+    assert_eq!(found.missed.map(|missed| missed.waypoint), Some(1));
+    // Its own radius may be wider than the scenario's.
+    let (sentence, _, found) = turned(22.0);
+    assert!(found.finished && found.missed.is_none(), "{sentence}");
+    // It says that it has finished, 15 m before the last waypoint.
+    let mut short = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    short.events.push(event(15.0, EventKind::MissionEnds, "mission_result finished"));
+    let (sentence, code, found) = over(&short, &SQUARE);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("waypoint 4 of 0 to 4 was never reached: "), "{sentence}");
+}
+
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
     let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
