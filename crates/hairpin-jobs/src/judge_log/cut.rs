@@ -13,6 +13,9 @@ const GAP: f64 = 5.0;
 /// … and where the logger says that it lost something, so many times.
 const GAP_OF_DROPOUT: f64 = 1.5;
 
+/// A topic's first message may be told with a stamp of before the log began, which others are not, s.
+const STALE_S: f64 = 1.0;
+
 /// What was cut out of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
@@ -45,8 +48,13 @@ pub(crate) struct Left {
     pub(crate) cuts: Vec<Cut>,
 }
 
-/// Cuts `samples`, a part of `motion` in the world's frame that rises in time.
-pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], swiftness: &Swiftness) -> Left {
+/// Cuts `samples`, a part of `motion` in the world's frame that rises in time and is `due` from when to when.
+pub(crate) fn cut(
+    samples: &[Sample],
+    (motion, due): (&LoggedMotion, Span),
+    dropouts: &[Span],
+    swiftness: &Swiftness,
+) -> Left {
     let mut cuts = Vec::new();
     let (start, end) = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => (first.t_s, last.t_s),
@@ -64,6 +72,13 @@ pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
     let invalid = |t: f64| motion.invalid.iter().find(|span| (span.from_s..=span.to_s).contains(&t));
     let middle = middle_interval(samples);
     let mut left = Left { samples: Vec::new(), breaks: Vec::new(), cuts: Vec::new() };
+    let gap = |from: f64, to: f64, which: &str| {
+        let lost_s = to - from;
+        Cut { t_s: from, words: format!("gap ({which}) of {lost_s:.1} s"), lost_s, to_the_end: false }
+    };
+    if due.from_s.is_finite() && start - due.from_s > (GAP * middle).max(STALE_S) {
+        cuts.push(gap(due.from_s, start, "the mission begins before the positions do"));
+    }
     let mut broken: Option<(f64, &str)> = None;
     for sample in samples.iter().filter(|sample| sample.t_s < until) {
         if invalid(sample.t_s).is_some() {
@@ -90,6 +105,9 @@ pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
     if let Some((from, words)) = broken {
         let lost_s = end.min(until) - from;
         cuts.push(Cut { t_s: from, words: format!("{words} of {lost_s:.1} s"), lost_s, to_the_end: false });
+    }
+    if first.is_none() && due.to_s.is_finite() && due.to_s - end > GAP * middle {
+        cuts.push(gap(end, due.to_s, "the positions end before the mission does"));
     }
     if let Some((t_s, words)) = first {
         cuts.push(Cut { t_s, words, lost_s: end - t_s, to_the_end: true });

@@ -13,6 +13,7 @@ use super::against::{Of, Ready};
 use super::asks::Asks;
 use super::begin::Before;
 use super::cut::{Left, cut};
+use super::due::due;
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
@@ -68,8 +69,14 @@ pub(super) fn judge(
     let course = course(logged, &progress, &case.waypoints, against.accept);
     let (by_earth, is_part) = (frame.told.by_earth, settings.from_s.is_some());
     let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth, is_part };
+    let seen_s = samples.first().map(|sample| sample.t_s);
     let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };
-    let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
+    let mut due = due(logged, &span, course.as_ref());
+    if course.is_none() && own.first().map(|sample| sample.t_s) != seen_s {
+        // On its way to the first waypoint it is at none of the legs.
+        due.from_s = f64::NEG_INFINITY;
+    }
+    let left = cut(&own, (motion, due), &logged.dropouts, &against.swiftness);
     let (missed, finished) = judged.end(&own, &left);
     let name = against.name_of(case);
     let simulated = against.simulated.iter().find(|result| result.case == case.number);

@@ -158,6 +158,39 @@ fn an_autopilots_word_is_held_against_its_positions() {
     assert!(sentence.contains("waypoint 4 of 0 to 4 was never reached: "), "{sentence}");
 }
 
+#[test]
+fn positions_that_the_mission_outlasts_are_a_gap() {
+    let with = |from_s: f64, to_s: f64, finished: Option<f64>| {
+        let mut log = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+        log.motions[0].samples.retain(|sample| (from_s..=to_s).contains(&sample.t_s));
+        log.events.extend(finished.map(|t_s| event(t_s, EventKind::MissionEnds, "mission_result finished")));
+        log
+    };
+    let (end, begin) = ("the positions end before the mission does", "the mission begins before the positions do");
+    for (log, which, at) in [
+        (with(0.0, 12.0, Some(18.0)), end, "of 6.0 s at t = 12.0 s"),
+        (with(0.0, 12.0, None), end, "of 2.0 s at t = 12.0 s"),
+        (with(8.0, 18.0, None), begin, "of 6.0 s at t = 2.0 s"),
+    ] {
+        let words = format!("gap ({which}) {at} not judged");
+        let (sentence, code, found) = over(&log, &SQUARE);
+        assert!(code == 5 && sentence.starts_with("INVALID m") && sentence.contains(&words), "{sentence}");
+        assert_eq!(found.cuts.len(), 1, "{sentence}");
+        // Without a mission beside it, too.
+        let anything = hairpin::judgement::Swiftness { speed: None, acceleration: None };
+        let motion = &log.motions[0];
+        assert_eq!(cut(&motion.samples, (motion, due_alone(&log)), &[], &anything).cuts.len(), 1);
+    }
+    // Samples are not where words are, and a first word may be from before the log began.
+    let (sentence, _, found) = over(&with(2.5, 18.0, Some(18.03)), &SQUARE);
+    assert!(found.cuts.is_empty() && found.finished, "{sentence}");
+    // What its user types is not the log's word.
+    let mut late = log(100.0, 0.3);
+    late.motions[0].samples.iter_mut().for_each(|sample| sample.t_s += 5.0);
+    let judged = judged_as(&late, |settings, _| settings.from_s = Some(0.0)).unwrap();
+    assert_eq!(judged.verdict.exit_code, 0, "{}", judged.verdict.sentence);
+}
+
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
     let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
