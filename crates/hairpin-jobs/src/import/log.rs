@@ -6,7 +6,7 @@ use hairpin::judgement::Swiftness;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged};
 
 use crate::Problem;
-use crate::judge_log::{Cut, SourceTold, clock_words, cut};
+use crate::judge_log::{Cut, SourceTold, clock_words, cut, due_alone};
 
 /// A log that was read.
 #[derive(Debug)]
@@ -39,12 +39,13 @@ impl ReadLog {
     pub(super) fn of(file: &Path) -> Result<Self, Problem> {
         let logged = logs::read(file).map_err(Problem::input)?;
         let anything = Swiftness { speed: None, acceleration: None };
+        let due = due_alone(&logged);
         let mut motions: Vec<_> = logged.motions.iter().collect();
         motions.sort_by_key(|motion| (motion.samples.len() < 2, motion.source));
         let motions = motions.into_iter().map(|motion| ReadMotion {
             source: SourceTold::of(&logged, motion),
             span_s: [motion.samples.first(), motion.samples.last()].map(|end| end.map_or(0.0, |sample| sample.t_s)),
-            cuts: cut(&motion.samples, motion, &logged.dropouts, &anything).cuts,
+            cuts: cut(&motion.samples, (motion, due), &logged.dropouts, &anything).cuts,
         });
         let motions = motions.collect();
         let frame = match &logged.frame {

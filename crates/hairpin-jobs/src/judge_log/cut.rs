@@ -13,6 +13,14 @@ const GAP: f64 = 5.0;
 /// … and where the logger says that it lost something, so many times.
 const GAP_OF_DROPOUT: f64 = 1.5;
 
+/// A topic's first message may be told with a stamp of before the log began, which others are not, s.
+const STALE_S: f64 = 1.0;
+
+/// So many cuts are told one by one, at most.
+const TOLD_EACH: usize = 5;
+/// What is shorter is told in ms, s.
+const SHORT_S: f64 = 0.05;
+
 /// What was cut out of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
@@ -32,7 +40,23 @@ impl Cut {
         let (t, lost) = (self.t_s, self.lost_s);
         match self.to_the_end {
             true => format!("{} at t = {t:.1} s; {lost:.1} s after it not judged", self.words),
+            false if lost < SHORT_S => format!("{} at t = {t:.3} s not judged", self.words),
             false => format!("{} at t = {t:.1} s not judged", self.words),
+        }
+    }
+
+    /// All of `cuts` as they stand in the sentence: where they are many, how many, the longest, and what ends it.
+    pub fn all_in_words(cuts: &[Self]) -> Vec<String> {
+        let (ends, parts): (Vec<&Self>, Vec<&Self>) = cuts.iter().partition(|cut| cut.to_the_end);
+        let longest = parts.iter().max_by(|a, b| a.lost_s.total_cmp(&b.lost_s));
+        match longest {
+            Some(longest) if parts.len() > TOLD_EACH => {
+                let lost_s = parts.iter().map(|cut| cut.lost_s).sum();
+                let (count, lost) = (parts.len(), seconds(lost_s));
+                let told = format!("{count} parts of {lost} in all not judged, the longest: {}", longest.in_words());
+                [told].into_iter().chain(ends.iter().map(|cut| cut.in_words())).collect()
+            }
+            _ => cuts.iter().map(Self::in_words).collect(),
         }
     }
 }
@@ -45,8 +69,13 @@ pub(crate) struct Left {
     pub(crate) cuts: Vec<Cut>,
 }
 
-/// Cuts `samples`, a part of `motion` in the world's frame that rises in time.
-pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], swiftness: &Swiftness) -> Left {
+/// Cuts `samples`, a part of `motion` in the world's frame that rises in time and is `due` from when to when.
+pub(crate) fn cut(
+    samples: &[Sample],
+    (motion, due): (&LoggedMotion, Span),
+    dropouts: &[Span],
+    swiftness: &Swiftness,
+) -> Left {
     let mut cuts = Vec::new();
     let (start, end) = match (samples.first(), samples.last()) {
         (Some(first), Some(last)) => (first.t_s, last.t_s),
@@ -64,6 +93,13 @@ pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
     let invalid = |t: f64| motion.invalid.iter().find(|span| (span.from_s..=span.to_s).contains(&t));
     let middle = middle_interval(samples);
     let mut left = Left { samples: Vec::new(), breaks: Vec::new(), cuts: Vec::new() };
+    let gap = |from: f64, to: f64, which: &str| {
+        let lost_s = to - from;
+        Cut { t_s: from, words: format!("gap ({which}) of {}", seconds(lost_s)), lost_s, to_the_end: false }
+    };
+    if due.from_s.is_finite() && start - due.from_s > (GAP * middle).max(STALE_S) {
+        cuts.push(gap(due.from_s, start, "the mission begins before the positions do"));
+    }
     let mut broken: Option<(f64, &str)> = None;
     for sample in samples.iter().filter(|sample| sample.t_s < until) {
         if invalid(sample.t_s).is_some() {
@@ -80,7 +116,7 @@ pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
         });
         if let Some((from, words)) = broken.take().or(gap) {
             let lost_s = sample.t_s - from;
-            cuts.push(Cut { t_s: from, words: format!("{words} of {lost_s:.1} s"), lost_s, to_the_end: false });
+            cuts.push(Cut { t_s: from, words: format!("{words} of {}", seconds(lost_s)), lost_s, to_the_end: false });
             if !left.samples.is_empty() {
                 left.breaks.push(left.samples.len());
             }
@@ -89,7 +125,10 @@ pub(crate) fn cut(samples: &[Sample], motion: &LoggedMotion, dropouts: &[Span], 
     }
     if let Some((from, words)) = broken {
         let lost_s = end.min(until) - from;
-        cuts.push(Cut { t_s: from, words: format!("{words} of {lost_s:.1} s"), lost_s, to_the_end: false });
+        cuts.push(Cut { t_s: from, words: format!("{words} of {}", seconds(lost_s)), lost_s, to_the_end: false });
+    }
+    if first.is_none() && due.to_s.is_finite() && due.to_s - end > GAP * middle {
+        cuts.push(gap(end, due.to_s, "the positions end before the mission does"));
     }
     if let Some((t_s, words)) = first {
         cuts.push(Cut { t_s, words, lost_s: end - t_s, to_the_end: true });
@@ -134,6 +173,12 @@ fn middle_interval(samples: &[Sample]) -> f64 {
     let mut spans: Vec<f64> = samples.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
     spans.sort_unstable_by(f64::total_cmp);
     spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY)
+}
+
+/// `0.7 s`, `12 ms`.
+fn seconds(s: f64) -> String {
+    let decimals = usize::from(s < 0.01);
+    if s < SHORT_S { format!("{:.decimals$} ms", 1e3 * s) } else { format!("{s:.1} s") }
 }
 
 fn length(metres: f64) -> String {

@@ -90,7 +90,8 @@ pub struct Found {
     pub ended: Option<String>,
     /// Whether the whole mission was flown: every waypoint reached, in order, up to the last.
     pub finished: bool,
-    /// The first waypoint that was not; `None` where an autopilot itself tells which it flew to.
+    /// The first waypoint that was not; where an autopilot itself tells which it flew to, the first that it says it was
+    /// at and was nowhere near.
     pub missed: Option<Missed>,
     /// The log's modes, where it tells them and none of them flies a mission: nothing of it is judged then.
     pub never_began: Option<String>,

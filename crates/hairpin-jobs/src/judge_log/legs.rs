@@ -39,6 +39,8 @@ impl LegsBy {
 pub(super) struct Mission {
     pub(super) from_s: f64,
     pub(super) to_s: f64,
+    /// When its mode says that it began, s.
+    pub(super) begins_s: Option<f64>,
     /// What ended it.
     pub(super) ended: Option<String>,
     /// Whether the log itself says when it began.
@@ -85,6 +87,7 @@ pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Miss
     let end = end.filter(|end| to_s.is_none_or(|to| end.t_s <= to));
     Mission {
         from_s: from,
+        begins_s: begins,
         to_s: end.map_or(to_s.unwrap_or(f64::INFINITY), |end| end.t_s),
         ended: end.map(|end| format!("{} at t = {:.1} s", end.words, end.t_s)),
         is_told: begins.is_some() || !logged.progress.is_empty(),
@@ -111,14 +114,25 @@ impl Course {
         self.steps[step].1.checked_sub(1)
     }
 
-    /// Whether it flew to all of `waypoints`.
-    pub(super) fn is_whole(&self, waypoints: usize) -> bool {
-        self.steps.last().is_some_and(|(_, last)| last + 1 == waypoints)
+    /// When it left the first waypoint, s.
+    pub(super) fn begins_s(&self) -> Option<f64> {
+        self.steps.iter().find(|(_, waypoint)| *waypoint > 0).map(|(t_s, _)| *t_s)
     }
 
-    /// Whether it went on behind the last waypoint.
-    pub(super) fn is_done(&self) -> bool {
-        self.done_s.is_some()
+    /// When it went on behind the last waypoint, s.
+    pub(super) fn done_s(&self) -> Option<f64> {
+        self.done_s
+    }
+
+    /// Whether by `t` it had flown to all of `waypoints`: what the log tells later is another matter.
+    pub(super) fn is_whole(&self, waypoints: usize, t: f64) -> bool {
+        let step = self.steps.partition_point(|(from, _)| *from <= t).checked_sub(1);
+        step.is_some_and(|step| self.steps[step].1 + 1 == waypoints)
+    }
+
+    /// Whether by `t` it had gone on behind the last waypoint.
+    pub(super) fn is_done(&self, t: f64) -> bool {
+        self.done_s.is_some_and(|done| done <= t)
     }
 }
 

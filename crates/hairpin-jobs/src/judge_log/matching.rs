@@ -61,7 +61,7 @@ pub(crate) fn matched<'a>(
     by_distance.sort_by(|a, b| a.0.total_cmp(&b.0));
     let named = |case: &&Case| {
         course(logged, progress, &case.waypoints, accept)
-            .is_some_and(|course| course.by == LegsBy::Targets && course.is_whole(case.waypoints.len()))
+            .is_some_and(|course| course.by == LegsBy::Targets && course.is_whole(case.waypoints.len(), f64::INFINITY))
     };
     let named: Vec<&Case> = cases.iter().filter(named).collect();
     let told = |best: &Case, mean_m: f64, by_targets: bool, ranked: &[(f64, &Case)]| {

@@ -13,14 +13,20 @@ use super::against::{Of, Ready};
 use super::asks::Asks;
 use super::begin::Before;
 use super::cut::{Left, cut};
+use super::due::due;
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
-use super::reached::{Missed, missed};
+use super::reached::{Missed, missed, untrue};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
 use crate::Problem;
 use crate::execute::run_with_motion;
+
+/// An autopilot was nowhere near a waypoint at so many times what counts as reached …
+const NOWHERE: f64 = 3.0;
+/// … and no nearer than this, m: its own radius is not the scenario's, 2 m across and less in height unless it is set.
+const OWN_RADIUS_M: f64 = 2.5;
 
 /// Judges the log in `file`.
 ///
@@ -61,9 +67,16 @@ pub(super) fn judge(
     };
     check_column(logged, case.waypoints.len()).map_err(Problem::input)?;
     let course = course(logged, &progress, &case.waypoints, against.accept);
-    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth: frame.told.by_earth };
+    let (by_earth, is_part) = (frame.told.by_earth, settings.from_s.is_some());
+    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth, is_part };
+    let seen_s = samples.first().map(|sample| sample.t_s);
     let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };
-    let left = cut(&own, motion, &logged.dropouts, &against.swiftness);
+    let mut due = due(logged, &span, course.as_ref());
+    if course.is_none() && own.first().map(|sample| sample.t_s) != seen_s {
+        // On its way to the first waypoint it is at none of the legs.
+        due.from_s = f64::NEG_INFINITY;
+    }
+    let left = cut(&own, (motion, due), &logged.dropouts, &against.swiftness);
     let (missed, finished) = judged.end(&own, &left);
     let name = against.name_of(case);
     let simulated = against.simulated.iter().find(|result| result.case == case.number);
@@ -122,6 +135,8 @@ struct Judging<'a> {
     case: &'a Case,
     /// Whether its place is known by the Earth's.
     by_earth: bool,
+    /// Whether its user asked for less than all of it.
+    is_part: bool,
 }
 
 impl Judging<'_> {
@@ -162,20 +177,29 @@ impl Judging<'_> {
 
     /// The first waypoint that it was never at, and whether it flew the whole mission.
     ///
-    /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's. Of
-    /// all others ending at the last waypoint is not enough: a mission may lead back to its start, or cross itself.
+    /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's, but
+    /// not as if anything were: what it says it was at it was near. What it says after the judged part has ended is of
+    /// what is not judged. Of all others ending at the last waypoint is not enough: a mission may lead back to its
+    /// start, or cross itself.
     fn end(&self, own: &[Sample], left: &Left) -> (Option<Missed>, bool) {
         let waypoints = &self.case.waypoints[..];
         let accept = self.against.setup.scenario.deviation_limit().unwrap_or(0.0).max(self.against.accept);
-        let by_autopilot = self.course.filter(|_| self.logged.format != "CSV");
-        let missed = by_autopilot.is_none().then(|| missed(&left.samples, waypoints, accept)).flatten();
+        let (last, to_s) = (waypoints.len() - 1, self.span.to_s);
+        let flew = self.course.is_none_or(|course| course.is_whole(waypoints.len(), to_s));
+        let near_last = own.last().is_some_and(|sample| (sample.p_m - waypoints[last]).norm() <= self.against.accept);
+        let Some(course) = self.course.filter(|_| self.logged.format != "CSV") else {
+            let missed = missed(&left.samples, waypoints, accept);
+            return (missed, flew && near_last && missed.is_none());
+        };
         let says_so = self.span.ended.as_ref().is_some_and(|words| words.starts_with("mission_result finished"));
-        let near_last = own
-            .last()
-            .is_some_and(|sample| (sample.p_m - waypoints[waypoints.len() - 1]).norm() <= self.against.accept);
-        let is_there = near_last || (says_so && by_autopilot.is_some());
-        let is_whole = self.course.is_none_or(|course| course.is_whole(waypoints.len())) && missed.is_none();
-        (missed, self.course.is_some_and(Course::is_done) || (is_whole && is_there))
+        let is_over = flew && (says_so || course.is_done(to_s));
+        let leg = |sample: Option<&Sample>| course.leg_at(sample?.t_s);
+        let (Some(begins), Some(ends)) = (leg(own.first()), leg(own.last())) else { return (None, false) };
+        // Where it was when it left a waypoint that --from leaves out is not seen.
+        let first = if begins == 0 && !self.is_part { 0 } else { begins + 1 };
+        let told = first..=if is_over { last } else { ends };
+        let missed = untrue(own, (course, told), waypoints, (NOWHERE * accept).max(OWN_RADIUS_M));
+        (missed, flew && missed.is_none() && (is_over || near_last))
     }
 
     /// Why a log whose frame is only taken for the world's is refused.

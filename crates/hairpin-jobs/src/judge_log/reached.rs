@@ -1,9 +1,13 @@
 //! Whether what moved was at every waypoint, one after the other: a log that ends where its mission does may have left
-//! out all that lies between.
+//! out all that lies between, and what an autopilot says of itself is held against its positions.
+
+use std::ops::RangeInclusive;
 
 use hairpin::math::segment::point_distance;
 use hairpin_formats::logs::Sample;
 use nalgebra::Point3;
+
+use super::legs::Course;
 
 /// The first waypoint that a log was never at, after those before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +48,26 @@ pub(super) fn missed(samples: &[Sample], waypoints: &[Point3<f64>], accept_m: f6
         from = to;
     }
     (reached < waypoints.len()).then_some(Missed { waypoint: reached, of: waypoints.len(), nearest_m, accept_m })
+}
+
+/// The first of the waypoints `which` that an autopilot says it was at, and that `samples` are not within `accept_m` m
+/// of, straight from each to the next, on either leg beside it.
+pub(super) fn untrue(
+    samples: &[Sample],
+    (course, which): (&Course, RangeInclusive<usize>),
+    waypoints: &[Point3<f64>],
+    accept_m: f64,
+) -> Option<Missed> {
+    let mut nearest = vec![f64::INFINITY; waypoints.len()];
+    for pair in samples.windows(2) {
+        let [Some(first), Some(last)] = [&pair[0], &pair[1]].map(|sample| course.leg_at(sample.t_s)) else { continue };
+        // Between two samples it may have been on several legs.
+        for (nearest, waypoint) in nearest.iter_mut().zip(waypoints).take(last + 2).skip(first) {
+            *nearest = nearest.min(point_distance(waypoint, &pair[0].p_m, &pair[1].p_m));
+        }
+    }
+    let far = nearest.iter().enumerate().find(|(waypoint, far)| which.contains(waypoint) && **far > accept_m);
+    far.map(|(waypoint, far)| Missed { waypoint, of: waypoints.len(), nearest_m: *far, accept_m })
 }
 
 /// Where the segment first is within `radius` of `centre`.

@@ -194,6 +194,22 @@ fn gaps_and_spans_without_a_position_are_cut_out_and_told() {
 }
 
 #[test]
+fn many_gaps_are_counted_and_the_longest_is_told() {
+    // Bursts of ten samples at 1 kHz, 20 ms apart, and half a second once.
+    let mut bursts = log(1000.0, 0.3);
+    bursts.motions[0].samples.retain(|s| (s.t_s * 1000.0).round() as u32 % 30 < 10 && !(3.01..3.5).contains(&s.t_s));
+    let judged = judged_as(&bursts, |_, _| {}).unwrap();
+    let (sentence, found) = (&judged.verdict.sentence, judged.found.as_ref().unwrap());
+    assert!(judged.verdict.exit_code == 5 && found.cuts.len() > 200 && sentence.len() < 300, "{sentence}");
+    let count =
+        format!("INVALID m (flown, log_24.ulg, EKF2 estimate without accuracy): {} parts of ", found.cuts.len());
+    let longest = " in all not judged, the longest: gap of 0.5 s at t = 3.0 s not judged";
+    assert!(sentence.starts_with(&count) && sentence.contains(longest), "{sentence}");
+    assert_eq!(found.cuts[0].in_words(), "gap of 21 ms at t = 0.009 s not judged");
+    assert_eq!(found.lines().iter().filter(|[label, _]| label == "cut out").count(), 1);
+}
+
+#[test]
 fn a_log_that_does_not_know_its_place_decides_nothing() {
     let with = |off: f64, accuracy: [f64; 2]| {
         let mut log = log(100.0, off);

@@ -67,7 +67,7 @@ pub(super) fn left_out(planned: &[PathBuf]) -> Option<String> {
 
 fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
     let case = &found.case;
-    let cuts: Vec<String> = found.cuts.iter().map(Cut::in_words).collect();
+    let cuts = Cut::all_in_words(&found.cuts);
     let with = |mut sentence: String, more: &[String]| {
         more.iter().for_each(|part| sentence.push_str(&format!("; {part}")));
         sentence
@@ -308,9 +308,7 @@ impl Found {
         let span = self.span_s.map_or("nothing".into(), |[from, to]| format!("t = {from:.1} … {to:.1} s"));
         let ended = self.ended.as_ref().map_or(String::new(), |ended| format!("; ended by {ended}"));
         line("judged", format!("{span}{ended}; legs by {}", self.legs_by.words()));
-        for cut in &self.cuts {
-            line("cut out", cut.in_words());
-        }
+        Cut::all_in_words(&self.cuts).into_iter().for_each(|cut| line("cut out", cut));
         if let Some(flown) = &self.flown {
             if let Some(s) = flown.statistics {
                 line(

@@ -6,6 +6,7 @@ use hairpin_formats::missions::Mission;
 use hairpin_formats::quote::shell_word;
 use hairpin_jobs::check::frame_in_words;
 use hairpin_jobs::import::{ReadLog, ReadMotion};
+use hairpin_jobs::judge_log::Cut;
 use serde_json::{Value, json};
 
 use crate::console;
@@ -48,7 +49,7 @@ fn tell_motion(motion: &ReadMotion) {
     let [from, to] = motion.span_s;
     let (topic, words, samples, rate) = (&source.topic, source.words, source.samples, source.rate_hz);
     console::say(&format!("motion {topic}: {words}, {samples} samples at {rate:.1} Hz, t = {from:.1} … {to:.1} s"));
-    motion.cuts.iter().for_each(|cut| console::say(&format!("  {}", cut.in_words())));
+    Cut::all_in_words(&motion.cuts).iter().for_each(|cut| console::say(&format!("  {cut}")));
 }
 
 fn log_object(file: &Path, log: &ReadLog, code: u8) -> Value {

@@ -100,6 +100,97 @@ fn a_mission_state_that_stops_at_its_first_leg_is_no_whole_mission() {
     assert!(code == 5 && sentence.contains("the log ends, on leg 0→1 of 5 waypoints"), "{sentence}");
 }
 
+/// What `through` flew of `mission` at 100 Hz, with the moments at which an autopilot says it flies to which waypoint.
+fn by_autopilot(flown: &[[f64; 3]], mission: &[[f64; 3]], times: &[f64]) -> Logged {
+    let mut log = Logged { format: "PX4 ULog", ..through(flown) };
+    let step = |(k, t_s): (usize, &f64)| Progress {
+        t_s: *t_s,
+        item: k as u32,
+        target_m: mission.get(k).map(|place| Point3::from(*place)),
+    };
+    log.progress = times.iter().enumerate().map(step).collect();
+    log.events = vec![event(0.0, EventKind::MissionBegins, "nav_state AUTO_MISSION")];
+    log
+}
+
+#[test]
+fn what_an_autopilot_flies_after_the_judged_part_is_not_flown_in_it() {
+    let log = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    let (sentence, code, found) = over(&log, &SQUARE);
+    assert!(code == 0 && found.finished && found.missed.is_none(), "{sentence}");
+    // The mission ends where it begins, near which it is left and taken up again.
+    let mut left = log.clone();
+    left.events.push(event(2.1, EventKind::MissionEnds, "nav_state POSCTL"));
+    left.events.push(event(2.4, EventKind::MissionBegins, "nav_state AUTO_MISSION"));
+    let (sentence, code, found) = over(&left, &SQUARE);
+    assert!(code == 5 && !found.finished && sentence.starts_with("INCONCLUSIVE m"), "{sentence}");
+    assert!(sentence.contains("nav_state POSCTL at t = 2.1 s, on leg 0→1 of 5 waypoints"), "{sentence}");
+    // It says that it has finished, and flies on.
+    let mut early = log;
+    early.events.push(event(4.0, EventKind::MissionEnds, "mission_result finished"));
+    let (sentence, code, found) = over(&early, &SQUARE);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("mission_result finished at t = 4.0 s, on leg 0→1 of 5 waypoints"), "{sentence}");
+}
+
+#[test]
+fn an_autopilots_word_is_held_against_its_positions() {
+    // There and back, and to the side.
+    let mission = [SQUARE[0], SQUARE[1], SQUARE[0], SQUARE[3]];
+    let turned = |x: f64| {
+        let flown = [mission[0], [x, 4.0, 5.0], mission[2], mission[3]];
+        let way_s = (x - 4.0) / SPEED;
+        over(&by_autopilot(&flown, &mission, &[0.0, 2.0, 2.0 + way_s, 2.0 + 2.0 * way_s]), &mission)
+    };
+    let (sentence, code, found) = turned(17.0);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    let words = "waypoint 1 of 0 to 3 was never reached: 7.00 m at the nearest, 3 m accepted";
+    assert!(sentence.contains(words), "{sentence}");
+    assert_eq!(found.missed.map(|missed| missed.waypoint), Some(1));
+    // Its own radius may be wider than the scenario's.
+    let (sentence, _, found) = turned(22.0);
+    assert!(found.finished && found.missed.is_none(), "{sentence}");
+    // It says that it has finished, 15 m before the last waypoint.
+    let mut short = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    short.events.push(event(15.0, EventKind::MissionEnds, "mission_result finished"));
+    let (sentence, code, found) = over(&short, &SQUARE);
+    assert!(code == 5 && !found.finished, "{sentence}");
+    assert!(sentence.contains("waypoint 4 of 0 to 4 was never reached: "), "{sentence}");
+}
+
+#[test]
+fn positions_that_the_mission_outlasts_are_a_gap() {
+    let with = |from_s: f64, to_s: f64, finished: Option<f64>| {
+        let mut log = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+        log.motions[0].samples.retain(|sample| (from_s..=to_s).contains(&sample.t_s));
+        log.events.extend(finished.map(|t_s| event(t_s, EventKind::MissionEnds, "mission_result finished")));
+        log
+    };
+    let (end, begin) = ("the positions end before the mission does", "the mission begins before the positions do");
+    for (log, which, at) in [
+        (with(0.0, 12.0, Some(18.0)), end, "of 6.0 s at t = 12.0 s"),
+        (with(0.0, 12.0, None), end, "of 2.0 s at t = 12.0 s"),
+        (with(8.0, 18.0, None), begin, "of 6.0 s at t = 2.0 s"),
+    ] {
+        let words = format!("gap ({which}) {at} not judged");
+        let (sentence, code, found) = over(&log, &SQUARE);
+        assert!(code == 5 && sentence.starts_with("INVALID m") && sentence.contains(&words), "{sentence}");
+        assert_eq!(found.cuts.len(), 1, "{sentence}");
+        // Without a mission beside it, too.
+        let anything = hairpin::judgement::Swiftness { speed: None, acceleration: None };
+        let motion = &log.motions[0];
+        assert_eq!(cut(&motion.samples, (motion, due_alone(&log)), &[], &anything).cuts.len(), 1);
+    }
+    // Samples are not where words are, and a first word may be from before the log began.
+    let (sentence, _, found) = over(&with(2.5, 18.0, Some(18.03)), &SQUARE);
+    assert!(found.cuts.is_empty() && found.finished, "{sentence}");
+    // What its user types is not the log's word.
+    let mut late = log(100.0, 0.3);
+    late.motions[0].samples.iter_mut().for_each(|sample| sample.t_s += 5.0);
+    let judged = judged_as(&late, |settings, _| settings.from_s = Some(0.0)).unwrap();
+    assert_eq!(judged.verdict.exit_code, 0, "{}", judged.verdict.sentence);
+}
+
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
     let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
