@@ -10,6 +10,7 @@ mod bag;
 mod dataflash;
 mod detect;
 mod error;
+mod late;
 mod log;
 mod modes;
 mod planned;

@@ -8,11 +8,12 @@ mod stream;
 use std::collections::BTreeMap;
 
 use hairpin::math::rotation::from_rotation_vector;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 use super::attitude::Attitudes;
 use super::axes::{enu_attitude, enu_vector};
 use super::error::Fault;
+use super::late::set_back;
 use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
 use super::samples::Budget;
 use super::twice::two;
@@ -46,9 +47,12 @@ struct Series {
 }
 
 impl Series {
-    /// What is wrong where it is elsewhere than at `place` with the same stamp.
+    /// What is wrong where it is elsewhere than at `place` with the same stamp, or its clock was set back.
     fn contradiction(&self, t_s: f64, place: &Geodetic) -> Option<String> {
-        let before = self.samples.binary_search_by(|(at, ..)| at.total_cmp(&t_s)).ok()?;
+        let Ok(before) = self.samples.binary_search_by(|(at, ..)| at.total_cmp(&t_s)) else {
+            let about = |i: usize| Point3::from(between(place, &self.samples[i].1));
+            return set_back((t_s, &Point3::origin()), self.samples.len(), |i| self.samples[i].0, about);
+        };
         let before = self.samples[before].1;
         let words = |p: &Geodetic| format!("{:.7}°, {:.7}°, {:.2} m", p.lat_deg, p.lon_deg, p.alt_amsl_m);
         let is_other = between(&before, place).norm() > SAME_M;

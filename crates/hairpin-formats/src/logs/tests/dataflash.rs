@@ -111,6 +111,12 @@ fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
                nobody knows which is true";
     assert_eq!(other.motions[0].unfit.as_deref(), Some(why));
     assert!(other.notes.contains(&format!("POS: {why}")), "{:?}", other.notes);
+    // One that was overtaken, and a clock that was set back.
+    let still: Vec<(u64, i32)> = (1..50).map(|step| (100_000 * step, 0)).collect();
+    assert_eq!(positions(&[&still[..], &[(4_750_000, 1)]].concat()).motions[0].unfit, None);
+    let set_back = positions(&[&still[..], &[(2_750_000, 0)]].concat());
+    let why = "stamps go back from 4.9 s to 2.75 s: nobody knows what was when";
+    assert_eq!(set_back.motions[0].unfit.as_deref(), Some(why));
 }
 
 /// Ten positions of each of `cores`, a metre east of each other a core, and from when on (steps) which is the primary.

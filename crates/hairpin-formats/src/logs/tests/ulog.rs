@@ -182,12 +182,46 @@ fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
         parsed(&log.0).motions.remove(0)
     };
     // Loggers write samples again, and go back where they lost some.
-    let again = of(&[step(3), step(2), at(150_000, [9.0; 3]), step(4)]);
+    let again = of(&[step(3), step(2), at(150_000, [1.4, 0.0, -2.0]), step(4)]);
     assert_eq!((again.samples.len(), again.unfit), (4, None));
+    let far = "a sample with the stamp 0.15 s, after 0.3 s, is 15.84 m from those of that time";
+    assert_eq!(of(&[at(150_000, [9.0; 3])]).unfit.as_deref(), Some(far));
     // What is not valid says nothing.
     assert_eq!(of(&[Position { valid: false, ..at(200_000, [9.0; 3]) }]).unfit, None);
     let why = "two places with the stamp 0.2 s, (0, 2, 2) m and (0, 2, 5) m: nobody knows which is true";
     assert_eq!(of(&[at(200_000, [2.0, 0.0, -5.0])]).unfit.as_deref(), Some(why));
+}
+
+#[test]
+fn a_clock_that_was_set_back_is_not_fit_to_be_judged() {
+    let log = |back_us: u64| {
+        // Away and back again, with stamps of the time before if the clock was set back.
+        let of = |step: u64| {
+            let (t_us, aside) = (20_000 * step, if (60..80).contains(&step) { 2.0 } else { 0.0 });
+            at(t_us + 10_000_000 - if step < 50 { 0 } else { back_us }, [aside, 0.0, -2.0])
+        };
+        parsed(&positions(&(0..100).map(of).collect::<Vec<_>>()).0)
+    };
+    assert_eq!(log(0).motions[0].unfit, None);
+    let set_back = log(997_000);
+    let why = "stamps go back from 10.98 s to 10.003 s: nobody knows what was when";
+    assert_eq!(set_back.motions[0].unfit.as_deref(), Some(why));
+    assert!(set_back.notes.contains(&format!("vehicle_local_position: {why}")), "{:?}", set_back.notes);
+}
+
+#[test]
+fn where_the_odometry_says_that_it_failed_it_is_not_valid() {
+    let mut log = Ulog::new();
+    let format = b"vehicle_visual_odometry:uint64_t timestamp;float[3] position;uint8_t pose_frame;int8_t quality;";
+    log.message(b'F', format);
+    log.subscribe(0, 0, "vehicle_visual_odometry");
+    for (t_us, quality) in (1_u64..).zip([0_i8, 100, -1, -1, 1, -1]).map(|(step, of)| (100_000 * step, of)) {
+        log.data(0, &[&t_us.to_le_bytes(), &singles([1.0, 2.0, 3.0]), &[1], &quality.to_le_bytes()]);
+    }
+    let motion = parsed(&log.0).motions.remove(0);
+    assert_eq!((motion.samples.len(), motion.unfit), (6, None));
+    let spans: Vec<_> = motion.invalid.iter().map(|span| [span.from_s, span.to_s]).collect();
+    assert_eq!(spans, [[0.3, 0.5], [0.6, 0.6]]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_attitude, enu_point, enu_vector};
 use super::super::error::Fault;
-use super::super::log::{LoggedMotion, Reset, Sample, Source};
+use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
 use super::super::samples::Budget;
 use super::formats::Slot;
 use super::position::contradiction;
@@ -35,11 +35,16 @@ pub(super) struct Odometry {
     pose_frame: Option<Slot>,
     velocity_frame: Option<Slot>,
     counter: Option<Slot>,
+    /// Percent, 0 where it is not told, and −1 where the odometry has failed.
+    quality: Option<Slot>,
     /// Frames are numbered from 1 since `pose_frame` is there (PX4 1.14), before from 0 (`local_frame`).
     first: f64,
     samples: Vec<Sample>,
     resets: Vec<Reset>,
     count: Option<f64>,
+    invalid: Vec<Span>,
+    /// Since when it has failed.
+    since: Option<f64>,
     /// Poses in axes that nobody knows.
     unknown: usize,
     skipped: usize,
@@ -60,10 +65,13 @@ impl Odometry {
             pose_frame: new.or_else(|| finder.slot("local_frame")),
             velocity_frame: finder.slot("velocity_frame"),
             counter: finder.slot("reset_counter"),
+            quality: finder.slot("quality"),
             first: if new.is_some() { 1.0 } else { 0.0 },
             samples: Vec::new(),
             resets: Vec::new(),
             count: None,
+            invalid: Vec::new(),
+            since: None,
             unknown: 0,
             skipped: 0,
             frd: false,
@@ -93,9 +101,10 @@ impl Odometry {
         let ned = self.p.map(read);
         let rises = self.samples.last().is_none_or(|last| last.t_s < t_s);
         let is_number = ned.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M);
+        let failed = self.quality.map(read).is_some_and(|quality| quality < 0.0);
         if !rises || !is_number {
             self.skipped += 1;
-            if is_number && self.unfit.is_none() {
+            if is_number && !failed && self.unfit.is_none() {
                 self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
             }
             return Ok(());
@@ -120,6 +129,14 @@ impl Odometry {
         }
         self.count = count;
         self.samples.push(Sample { t_s, p_m: enu_point(ned), attitude, v_m_s, accuracy_m });
+        match (self.since, failed) {
+            (None, true) => self.since = Some(t_s),
+            (Some(from_s), false) => {
+                self.invalid.push(Span { from_s, to_s: t_s });
+                self.since = None;
+            }
+            _ => {}
+        }
         Ok(())
     }
 
@@ -132,7 +149,7 @@ impl Odometry {
         self.frd
     }
 
-    pub(super) fn motion(self, name: &str, source: Source) -> (Option<LoggedMotion>, Vec<String>) {
+    pub(super) fn motion(mut self, name: &str, source: Source) -> (Option<LoggedMotion>, Vec<String>) {
         let mut notes = Vec::new();
         if self.unknown > 0 {
             notes.push(format!("{name}: {} poses in a frame that is not told are not read", self.unknown));
@@ -143,10 +160,13 @@ impl Odometry {
         if self.frd {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
-        let Self { samples, resets, halves, unfit, .. } = self;
+        if let (Some(from_s), Some(last)) = (self.since, self.samples.last()) {
+            self.invalid.push(Span { from_s, to_s: last.t_s });
+        }
+        let Self { samples, resets, invalid, halves, unfit, .. } = self;
         notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
-        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid: Vec::new(), unfit };
+        let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit };
         ((!motion.samples.is_empty()).then_some(motion), notes)
     }
 }

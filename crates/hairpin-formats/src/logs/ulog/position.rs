@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_point, enu_vector};
 use super::super::error::Fault;
+use super::super::late::set_back;
 use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
 use super::super::samples::Budget;
 use super::super::twice::{places_apart, two_places};
@@ -241,10 +242,12 @@ impl Positions {
     }
 }
 
-/// What is wrong where a sample at another place than `p` has the stamp `t_s` already. Loggers write samples again, and
-/// go back where they lost some: the same place once more is none.
+/// What is wrong with a sample whose stamp does not rise: another place than `p` has the stamp `t_s` already, or the
+/// clock was set back. Loggers write samples again: the same place once more is nothing.
 pub(super) fn contradiction(samples: &[Sample], t_s: f64, p: &Point3<f64>) -> Option<String> {
-    let before = samples.binary_search_by(|sample| sample.t_s.total_cmp(&t_s)).ok()?;
+    let Ok(before) = samples.binary_search_by(|sample| sample.t_s.total_cmp(&t_s)) else {
+        return set_back((t_s, p), samples.len(), |i| samples[i].t_s, |i| samples[i].p_m);
+    };
     let before = samples[before].p_m;
     places_apart(&before, p).map(|_| two_places(t_s, &before, p))
 }
