@@ -8,7 +8,7 @@ use super::lines::{POSITIONS, first_word, is_declaration, name_of, without_comme
 use super::state::{Reader, named};
 use super::{CONVENTIONS, JOINT_MOVES};
 use crate::banner::NOTICE;
-use crate::listing::{Class, Declared, File, Module, Part, Unmodelled, decode};
+use crate::listing::{Class, Declared, File, Module, Part, Unmodelled, calls, decode};
 
 /// Why a file is no program.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -95,6 +95,49 @@ const HARMLESS: [&str; 11] =
 /// System data that has nothing to do with motion.
 const HARMLESS_DATA: [&str; 6] = ["$OUT", "$ADVANCE", "$ANOUT", "$TIMER", "$FLAG", "$CYCFLAG"];
 
+/// Functions that give a value and do nothing, and words that may stand before brackets.
+const VALUES: [&str; 32] = [
+    "ABS",
+    "ACOS",
+    "AND",
+    "ATAN2",
+    "B_AND",
+    "B_EXOR",
+    "B_NOT",
+    "B_OR",
+    "COS",
+    "DELAY",
+    "EXOR",
+    "FOR",
+    "FORWARD",
+    "INVERSE",
+    "MAXIMUM",
+    "MINIMUM",
+    "NOT",
+    "ON",
+    "OR",
+    "ROUND",
+    "SEC",
+    "SIN",
+    "SQRT",
+    "STRADD",
+    "STRCLEAR",
+    "STRCOMP",
+    "STRCOPY",
+    "STRDECLLEN",
+    "STRFIND",
+    "STRLEN",
+    "TAN",
+    "VARSTATE",
+];
+
+/// What a statement calls that is not known to give a value alone.
+fn called<'s>(word: &str, statement: &'s str) -> Option<&'s str> {
+    // Behind the statement's own word, and behind system data, brackets are its arguments.
+    let is_quiet = |name: &&str| [word].iter().chain(&VALUES).any(|known| name.eq_ignore_ascii_case(known));
+    calls(statement).into_iter().find(|name| !is_quiet(name))
+}
+
 impl Reader {
     fn head(&mut self, comment: &str) {
         let comment = comment.strip_prefix(' ').unwrap_or(comment).trim_end();
@@ -150,8 +193,16 @@ impl Reader {
             }
             "BAS" => self.basics(line, statement),
             _ if word.starts_with('$') && statement.contains('=') => self.set(line, statement),
-            _ if HARMLESS.contains(&word) => self.reading.mark(line, Class::Harmless, ""),
+            _ if HARMLESS.contains(&word) => self.aside(line, word, statement),
             _ => self.reading.doubt(line, (None, format!("`{}` is not followed", word.escape_default()))),
+        }
+    }
+
+    /// What has nothing to do with motion, unless something in it is called that has.
+    fn aside(&mut self, line: usize, word: &str, statement: &str) {
+        match called(word, statement) {
+            None => self.reading.mark(line, Class::Harmless, ""),
+            Some(name) => self.reading.doubt(line, (None, format!("`{}` is not followed", name.escape_default()))),
         }
     }
 
@@ -178,7 +229,7 @@ impl Reader {
             "$APO.CDIS" => above_zero(value).map(|near| self.near = Some(near / 1000.0)),
             "$LOAD" => return self.reading.doubt(line, (Some(Unmodelled::Payload), "$LOAD is not followed".into())),
             _ if HARMLESS_DATA.iter().any(|known| name.starts_with(known)) => {
-                return self.reading.mark(line, Class::Harmless, "");
+                return self.aside(line, "", statement);
             }
             _ if ["$VEL", "$ACC", "$OV_PRO"].iter().any(|known| name.starts_with(known)) => {
                 let doubt = (Some(Unmodelled::Speeds), format!("{} is not followed", name.escape_default()));

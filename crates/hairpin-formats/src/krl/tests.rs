@@ -151,6 +151,9 @@ fn what_is_not_followed_is_named_by_line() {
         ("TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE".into(), Some(Unmodelled::Triggers), "TRIGGER"),
         ("BAS (#VEL_CP,0.5)".into(), Some(Unmodelled::Speeds), "#VEL_CP"),
         ("IF $IN[1] THEN".into(), None, "`IF` is not followed"),
+        ("WAIT FOR far(2)".into(), None, "`far` is not followed"),
+        ("PULSE ($OUT[5],TRUE,far())".into(), None, "`far` is not followed"),
+        ("$OUT[1]=far ()".into(), None, "`far` is not followed"),
         ("LIN XP9".into(), None, "`XP9` is not declared"),
         ("LIN {X 1,Y 2}".into(), None, "Z is missing"),
         (format!("LIN {}", p.replace("C 0", "C 0,X 900")), None, "`X` stands there twice"),
@@ -163,6 +166,18 @@ fn what_is_not_followed_is_named_by_line() {
         assert_eq!((read.unclear_line, read.certain), if clear { (None, 3) } else { (Some(6), 1) }, "{body}: {line:?}");
         assert_eq!(line.class, if clear { Class::Understood } else { Class::ChangesMotion }, "{body}");
         assert!(line.what.contains(words) && line.unmodelled == kind, "{body}: {line:?}");
+    }
+    for body in [
+        "WAIT FOR NOT ($IN[1]) AND ($IN[2])",
+        "WAIT SEC (0.5)",
+        "PULSE ($OUT[5],TRUE,ABS(-0.5))",
+        "$OUT[1]=($IN[2] OR (NOT $IN[3]))",
+        "MsgNotify(\"far(1)\")",
+    ] {
+        let text = format!("{head}{body}\nLIN {p}\nEND\n");
+        let read = read(File { name: "m.src", bytes: text.as_bytes() }, None).unwrap();
+        assert_eq!((read.unclear_line, read.certain), (None, 2), "{body}: {:?}", read.lines);
+        assert_eq!(read.lines[&6].class, Class::Harmless, "{body}");
     }
     let cut = format!("{head}LIN {p}\n\n");
     let read_cut = read(File { name: "m.src", bytes: cut.as_bytes() }, None).unwrap();

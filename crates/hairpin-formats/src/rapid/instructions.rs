@@ -10,7 +10,7 @@ pub(super) enum Effect {
     Move(MoveKind),
     /// Sets something that is followed here.
     Followed,
-    /// Has nothing to do with motion.
+    /// Has nothing to do with motion, and writes at most into what [`super::outputs`] names.
     Harmless,
     /// Has nothing to do with motion, but writes into its arguments.
     Writes,
@@ -30,9 +30,8 @@ pub(super) enum MoveKind {
 const FOLLOWED: [&str; 11] =
     ["accset", "add", "clear", "confj", "confl", "decr", "gripload", "incr", "singarea", "softdeact", "velset"];
 
-const HARMLESS: [&str; 112] = [
+const HARMLESS: [&str; 109] = [
     "aliasio",
-    "bookerrno",
     "break",
     "cancelload",
     "checkprogref",
@@ -65,7 +64,6 @@ const HARMLESS: [&str; 112] = [
     "isignalgo",
     "isleep",
     "itimer",
-    "ivarvalue",
     "iwatch",
     "load",
     "makedir",
@@ -136,7 +134,6 @@ const HARMLESS: [&str; 112] = [
     "waitload",
     "waitrob",
     "waitsynctask",
-    "waittestandset",
     "waittime",
     "write",
     "writecfgdata",
@@ -145,13 +142,15 @@ const HARMLESS: [&str; 112] = [
     "writevar",
 ];
 
-const WRITES: [&str; 20] = [
+const WRITES: [&str; 23] = [
     "bitclear",
     "bitset",
+    "bookerrno",
     "copyrawbytes",
     "getdataval",
     "getsysdata",
     "gettrapdata",
+    "ivarvalue",
     "packrawbytes",
     "readanybin",
     "readcfgdata",
@@ -163,6 +162,7 @@ const WRITES: [&str; 20] = [
     "tpreadfk",
     "tpreadnum",
     "unpackrawbytes",
+    "waittestandset",
     "waituntil",
     "writeanybin",
     "writebin",

@@ -9,6 +9,7 @@ mod instructions;
 mod kinds;
 mod lex;
 mod names;
+mod outputs;
 mod parse;
 mod predefined;
 mod program_file;

@@ -70,7 +70,10 @@ pub(super) enum What {
         arguments: Vec<Argument>,
     },
     /// `%"name"%` and the like.
-    LateCall(Expression),
+    LateCall {
+        name: Expression,
+        arguments: Vec<Argument>,
+    },
     If {
         branches: Vec<(Expression, Vec<Statement>)>,
         otherwise: Vec<Statement>,

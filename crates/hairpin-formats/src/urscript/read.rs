@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::CONVENTIONS;
 use super::arguments::{Arguments, Value};
 use crate::banner::NOTICE;
-use crate::listing::{Class, Doubt, File, Module, Part, Reading, Unmodelled, decode};
+use crate::listing::{Class, Doubt, File, Module, Part, Reading, Unmodelled, calls, decode};
 
 /// Why a file is no program.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -34,6 +34,54 @@ const HARMLESS: [&str; 14] = [
     "textmsg",
     "write_output_boolean_register",
 ];
+
+/// Functions that give a value and do nothing, beside [`READING`], and words that may stand before brackets.
+const VALUES: [&str; 41] = [
+    "abs",
+    "acos",
+    "and",
+    "asin",
+    "atan",
+    "atan2",
+    "binary_list_to_integer",
+    "ceil",
+    "cos",
+    "d2r",
+    "floor",
+    "force",
+    "integer_to_binary_list",
+    "interpolate_pose",
+    "inv",
+    "length",
+    "log",
+    "norm",
+    "normalize",
+    "not",
+    "or",
+    "point_dist",
+    "pose_add",
+    "pose_dist",
+    "pose_inv",
+    "pose_sub",
+    "pose_trans",
+    "pow",
+    "r2d",
+    "random",
+    "rotvec2rpy",
+    "rpy2rotvec",
+    "sin",
+    "size",
+    "socket_get_var",
+    "sqrt",
+    "tan",
+    "time",
+    "transpose",
+    "wrench_trans",
+    "xor",
+];
+
+/// What the names of functions begin with that read.
+const READING: [&str; 7] = ["get_", "is_", "modbus_get_", "read_", "socket_read_", "str_", "to_"];
 
 /// Functions that change motion in ways that no model here has, by what their names begin with.
 const CHANGES: [(Unmodelled, &[&str]); 8] = [
@@ -122,6 +170,9 @@ impl Reader {
         let fresh = std::mem::take(&mut self.fresh);
         let call = statement.split_once('(').and_then(|(name, rest)| Some((name.trim(), rest.strip_suffix(')')?)));
         let Some((name, inside)) = call else { return self.reading.doubt(line, not_followed(statement)) };
+        if let Some(within) = calls(inside).into_iter().find(|within| !is_quiet(within)) {
+            return self.reading.doubt(line, not_followed(within));
+        }
         let done = match name {
             "set_tcp" => self.set_tcp(line, inside),
             "set_target_payload" if fresh => self.weigh(line, inside),
@@ -228,6 +279,11 @@ impl Reader {
         self.reading.go(line, m, doubts);
         Ok(())
     }
+}
+
+/// Whether a call amid others neither moves the arm nor changes how it moves.
+fn is_quiet(name: &str) -> bool {
+    VALUES.contains(&name) || HARMLESS.contains(&name) || READING.iter().any(|begin| name.starts_with(begin))
 }
 
 /// As fast as the arm can, but for the tool's centre point.

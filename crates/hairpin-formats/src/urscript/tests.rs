@@ -138,6 +138,12 @@ fn what_is_not_followed_is_named_by_line() {
         ("movel(p[0.4,0,0.3,0,3.1,0], a=1.2, v=0.2, r=0)", None, ""),
         ("movel(p[0.4,0,0.3,0,3.1,0], 1.2, 0.2)", None, ""),
         ("sleep(0.5)", None, ""),
+        ("sleep(2*(0.5+get_steptime()))", None, ""),
+        ("textmsg(\"movel(p)\", to_str(get_actual_tcp_pose()))", None, ""),
+        ("sleep(movel(p[9,0,0.4,0,3.1,0]))", None, "`movel` is not followed"),
+        ("textmsg(\"at\", movel (p[9,0,0.4,0,3.1,0]))", None, "`movel` is not followed"),
+        ("set_digital_out(1, mine())", None, "`mine` is not followed"),
+        ("sleep(servoj([0,0,0,0,0,0]))", Some(Unmodelled::Guidance), "`servoj` is not followed"),
         ("set_payload(3.0)", Some(Unmodelled::Payload), "`set_payload` is not followed"),
         ("set_target_payload(3.0, [0,0,0])", Some(Unmodelled::Payload), "set_target_payload"),
         (

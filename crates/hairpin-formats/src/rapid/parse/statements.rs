@@ -37,9 +37,9 @@ impl Parser {
         if self.take_sign("%") {
             let name = self.expression()?;
             self.expect_sign("%")?;
-            self.arguments(";")?;
+            let arguments = self.arguments(";")?;
             self.expect_sign(";")?;
-            return Ok(What::LateCall(name));
+            return Ok(What::LateCall { name, arguments });
         }
         if let Some(keyword) = self.keyword_of(&["IF", "WHILE", "FOR", "TEST"]) {
             self.advance();

@@ -3,6 +3,7 @@
 use super::{DEEPEST, Flow, Frame, Machine, twice};
 use crate::listing::{At, Class};
 use crate::rapid::kinds::DataKind;
+use crate::rapid::predefined;
 use crate::rapid::syntax::{Argument, Expression, Path, Routine};
 use crate::rapid::value::{Value, Variable};
 
@@ -104,7 +105,7 @@ impl<'a> Machine<'a> {
                         (_, None) => evaluated,
                     };
                     if parameter.returned {
-                        let path = self.returns_to(expression);
+                        let path = self.returns_to(expression, kind);
                         let path = path.map_err(|why| format!("`{}` of `{}` {why}", parameter.name, routine.name))?;
                         bound.back.push((parameter.name.clone(), path));
                     }
@@ -121,12 +122,26 @@ impl<'a> Machine<'a> {
 
     /// Where what a parameter that gives back holds in the end goes; or why no controller loads such a call, in words
     /// that follow the parameter.
-    fn returns_to<'b>(&self, given: &'b Expression) -> Result<&'b Path, String> {
+    fn returns_to<'b>(&self, given: &'b Expression, kind: Option<DataKind>) -> Result<&'b Path, String> {
         let Expression::Path(path) = given else { return Err("gives back, and is no data".into()) };
-        match self.find(&path.name).and_then(|variable| variable.fixed) {
-            Some(why) => Err(format!("gives back, and `{}` {why}", path.name)),
-            None => Ok(path),
+        match self.find(&path.name) {
+            Some(Variable { fixed: Some(why), .. }) => Err(format!("gives back, and `{}` {why}", path.name)),
+            // Signals, mechanical units and their like stand in no module.
+            None if kind.is_some() && !self.is_of_controller(&path.name) => {
+                Err(format!("gives back, and `{}` is not declared in this file", path.name))
+            }
+            _ => Ok(path),
         }
+    }
+
+    /// Whether a name that no module declares is data all the same.
+    fn is_of_controller(&self, name: &str) -> bool {
+        let lower = name.to_ascii_lowercase();
+        let tools = self.known.tools.iter().map(|tool| &tool.name);
+        let objects = self.known.work_objects.iter().map(|object| &object.name);
+        predefined::value(&lower).is_some()
+            || ["errno", "intno"].contains(&lower.as_str())
+            || tools.chain(objects).any(|known| known.eq_ignore_ascii_case(name))
     }
 
     /// Whether the caller gave this optional parameter of the routine that is being executed.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::{DEEPEST, Machine};
 use crate::listing::At;
 use crate::rapid::instructions::{self, Effect};
+use crate::rapid::outputs;
 use crate::rapid::syntax::{Argument, Expression, Path, Routine, Statement, Step, What, inner};
 
 /// What a block might do.
@@ -24,12 +25,30 @@ pub(super) struct Effects {
 
 /// Variables handed over as they are.
 pub(super) fn paths(arguments: &[Argument]) -> impl Iterator<Item = &Path> {
-    arguments.iter().filter_map(|argument| match argument {
-        Argument::Placed(Expression::Path(path)) | Argument::Named { value: Some(Expression::Path(path)), .. } => {
-            Some(path)
-        }
+    arguments.iter().filter_map(path)
+}
+
+fn path(argument: &Argument) -> Option<&Path> {
+    match argument {
+        Argument::Placed(Expression::Path(path))
+        | Argument::Named { value: Some(Expression::Path(path)), .. }
+        | Argument::IfGiven { parameter: Expression::Path(path), .. } => Some(path),
         _ => None,
-    })
+    }
+}
+
+/// Those of them that are outputs wherever ABB's instructions and functions have them.
+pub(super) fn outputs(arguments: &[Argument]) -> impl Iterator<Item = &Path> {
+    let is_output = |argument: &&Argument| match argument {
+        Argument::Named { name, .. } | Argument::IfGiven { name, .. } => outputs::is_output(name),
+        Argument::Placed(_) => false,
+    };
+    arguments.iter().filter(is_output).filter_map(path)
+}
+
+/// What a function of ABB's (lower case) may write into; one that is not known to read may write into whatever it gets.
+pub(super) fn written<'b>(function: &str, arguments: &'b [Argument]) -> Vec<&'b Path> {
+    if outputs::only_reads(function) { outputs(arguments).collect() } else { paths(arguments).collect() }
 }
 
 /// Whether the expression is the same whatever happens.
@@ -54,14 +73,17 @@ impl Machine<'_> {
     /// What the routine might do, whenever it is executed.
     pub(super) fn effects_of(&mut self, routine: &Routine) -> Effects {
         let here = std::mem::replace(&mut self.module, routine.home.module);
-        let effects = self.effects(&[&routine.body]);
+        let effects = self.effects(&[&routine.body], &[]);
         self.module = here;
         effects
     }
 
-    /// What any of the blocks might do, with all that they call.
-    pub(super) fn effects(&mut self, blocks: &[&[Statement]]) -> Effects {
+    /// What any of the blocks might do, and evaluating any of the values, with all that they call.
+    pub(super) fn effects(&mut self, blocks: &[&[Statement]], values: &[&Expression]) -> Effects {
         let mut effects = Effects::default();
+        for value in values {
+            self.in_expression(value, &mut effects);
+        }
         for block in blocks {
             self.collect(block, &mut effects);
         }
@@ -79,14 +101,23 @@ impl Machine<'_> {
                     self.in_expression(value, effects);
                 }
                 What::Call { name, arguments } => self.in_call(name, arguments, effects),
-                What::LateCall(_) | What::Broken(_) => effects.moves = true,
-                What::Return(_) | What::Exit | What::Goto(_) => effects.leaves = true,
+                What::LateCall { .. } | What::Broken(_) => effects.moves = true,
+                What::Return(value) => {
+                    value.iter().for_each(|value| self.in_expression(value, effects));
+                    effects.leaves = true;
+                }
+                What::Exit | What::Goto(_) => effects.leaves = true,
                 What::If { branches, .. } => {
                     branches.iter().for_each(|(condition, _)| self.in_expression(condition, effects));
                 }
                 What::While { condition, .. } => self.in_expression(condition, effects),
-                What::For { bounds, .. } => bounds.iter().for_each(|bound| self.in_expression(bound, effects)),
-                What::Test { of, .. } => self.in_expression(of, effects),
+                What::For { bounds, step, .. } => {
+                    bounds.iter().chain(step).for_each(|bound| self.in_expression(bound, effects));
+                }
+                What::Test { of, cases, .. } => {
+                    let values = cases.iter().flat_map(|(values, _)| values);
+                    std::iter::once(of).chain(values).for_each(|value| self.in_expression(value, effects));
+                }
                 What::Label | What::Harmless(_) | What::Connect(_) => {}
             }
             for block in inner(statement) {
@@ -126,7 +157,9 @@ impl Machine<'_> {
             return;
         }
         match instructions::effect(&lower) {
-            Some(Effect::Harmless) => {}
+            Some(Effect::Harmless) => {
+                effects.assigned.extend(outputs(arguments).map(|path| (module, path.name.clone())));
+            }
             Some(Effect::Writes) => effects.assigned.extend(given()),
             Some(Effect::Followed) if ["incr", "decr", "add", "clear"].contains(&lower.as_str()) => {
                 effects.assigned.extend(given());
@@ -134,6 +167,12 @@ impl Machine<'_> {
             Some(Effect::Followed) if self.changes_no_load(&lower, arguments) => {}
             Some(Effect::Move(_) | Effect::Followed | Effect::Changes(_)) | None => effects.moves = true,
         }
+    }
+
+    /// Whether the modules have nothing under that name that could be written into.
+    fn is_fixed(&self, name: &str) -> bool {
+        let data = self.globals.get(self.module, &name.to_ascii_lowercase());
+        data.is_some_and(|variable| variable.fixed.is_some())
     }
 
     fn in_path(&mut self, path: &Path, effects: &mut Effects) {
@@ -158,7 +197,12 @@ impl Machine<'_> {
             Expression::Call { name, arguments } if self.routine(&name.to_ascii_lowercase()).is_some() => {
                 self.in_call(name, arguments, effects);
             }
-            Expression::Call { arguments, .. } => {
+            Expression::Call { name, arguments } => {
+                let written = written(&name.to_ascii_lowercase(), arguments).into_iter();
+                let module = self.module;
+                effects
+                    .assigned
+                    .extend(written.filter(|path| !self.is_fixed(&path.name)).map(|path| (module, path.name.clone())));
                 for argument in arguments {
                     if let Argument::Placed(value) | Argument::Named { value: Some(value), .. } = argument {
                         self.in_expression(value, effects);

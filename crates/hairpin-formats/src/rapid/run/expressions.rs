@@ -64,6 +64,7 @@ impl Machine<'_> {
         if lower == "present" {
             return self.present(arguments);
         }
+        let mut passed_on = false;
         let mut evaluated = Arguments { placed: Vec::new(), named: Vec::new() };
         for argument in arguments {
             match argument {
@@ -72,10 +73,47 @@ impl Machine<'_> {
                     let value = value.as_ref().map_or(Value::Bool(true), |value| self.evaluate(value, at));
                     evaluated.named.push((name.clone(), value));
                 }
-                Argument::IfGiven { .. } => return Value::Unknown,
+                // What stands behind it is evaluated all the same.
+                Argument::IfGiven { .. } => passed_on = true,
             }
         }
-        builtin::call(&lower, &evaluated)
+        for path in super::effects::written(&lower, arguments) {
+            // What is CONST no controller lets a function write into.
+            if self.find(&path.name).is_some_and(|variable| variable.fixed.is_none()) {
+                self.forget(&path.name);
+            }
+        }
+        if passed_on { Value::Unknown } else { builtin::call(&lower, &evaluated) }
+    }
+
+    /// Evaluates what is handed to an instruction that needs no values, for what is called there.
+    pub(super) fn heed(&mut self, arguments: &[Argument], at: At) {
+        for argument in arguments {
+            match argument {
+                // Nothing happens where a variable is looked at; outputs are such.
+                Argument::Placed(Expression::Path(path))
+                | Argument::Named { value: Some(Expression::Path(path)), .. }
+                    if path.steps.is_empty() => {}
+                Argument::Placed(value) | Argument::Named { value: Some(value), .. } => drop(self.evaluate(value, at)),
+                Argument::Named { value: None, .. } | Argument::IfGiven { .. } => {}
+            }
+        }
+    }
+
+    /// `WaitUntil`: its condition is evaluated until it holds.
+    pub(super) fn poll(&mut self, arguments: &[Argument], at: At) {
+        let mut condition = None;
+        for argument in arguments {
+            match argument {
+                Argument::Placed(value) if condition.is_none() => condition = Some((value, self.evaluate(value, at))),
+                _ => self.heed(std::slice::from_ref(argument), at),
+            }
+        }
+        if let Some((condition, value)) = condition
+            && value.truth() != Some(true)
+        {
+            self.depends(&[], &[condition], at);
+        }
     }
 
     /// `Present(parameter)`.

@@ -11,6 +11,7 @@ impl Machine<'_> {
     pub(super) fn follow(&mut self, name: &str, arguments: &[Argument], at: At) {
         let (placed, named) = self.sort(arguments);
         let values: Vec<Value> = placed.iter().map(|value| self.evaluate(value, at)).collect();
+        named.values().flatten().for_each(|value| drop(self.evaluate(value, at)));
         let numbers: Vec<Option<f64>> = values.iter().map(Value::number).collect();
         match name {
             "confl" | "confj" => {
@@ -31,21 +32,22 @@ impl Machine<'_> {
                 self.mark_unmodelled(at, Unmodelled::SoftServos, "SoftDeact: servos get stiff again");
             }
             "softdeact" => self.mark(at, Class::Harmless, ""),
-            _ => self.adjust(name, &placed, &values, at),
+            _ => self.adjust(name, &placed, values.get(1), at),
         }
     }
 
-    fn adjust(&mut self, name: &str, placed: &[&Expression], values: &[Value], at: At) {
+    fn adjust(&mut self, name: &str, placed: &[&Expression], by: Option<&Value>, at: At) {
         let Some(Expression::Path(path)) = placed.first() else {
             return self.mark(at, Class::Harmless, "no variable");
         };
         let by = match name {
             "incr" => Value::Num(1.0),
             "decr" => Value::Num(-1.0),
-            "add" => values.get(1).cloned().unwrap_or(Value::Unknown),
+            "add" => by.cloned().unwrap_or(Value::Unknown),
             _ => Value::Unknown,
         };
-        let value = if name == "clear" { Value::Num(0.0) } else { combine("+", &values[0], &by) };
+        // What is called in the other argument may have changed it.
+        let value = if name == "clear" { Value::Num(0.0) } else { combine("+", &self.look(path, at), &by) };
         match self.assign(path, value, at) {
             Ok(()) => self.mark(at, Class::Understood, ""),
             Err(what) => self.mark(at, Class::ChangesMotion, what),

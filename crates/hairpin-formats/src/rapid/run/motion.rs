@@ -44,6 +44,12 @@ impl Machine<'_> {
         let (placed, named) = self.sort(arguments);
         match self.movement(kind, &placed, &named, at) {
             Ok((m, mut doubts)) => {
+                // Of what the path does not need, calls alone matter: outputs and their values, `\Inpos`.
+                let aside = placed.iter().skip(least(kind) + usize::from(calls)).copied();
+                let named = named.iter().filter(|(name, _)| !HEEDED.contains(*name)).filter_map(|(_, value)| *value);
+                for value in aside.chain(named) {
+                    self.evaluate(value, at);
+                }
                 if calls {
                     let name = placed.get(least(kind));
                     self.in_corner(name.copied(), at, &mut doubts);

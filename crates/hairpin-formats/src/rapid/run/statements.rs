@@ -44,7 +44,7 @@ impl Machine<'_> {
                 }
             }
             What::Call { name, arguments } => return self.instruction(name, arguments, at),
-            What::LateCall(name) => return self.late(name, at),
+            What::LateCall { name, arguments } => return self.late(name, arguments, at),
             What::If { branches, otherwise } => return self.branches(branches, otherwise, at),
             What::While { condition, body } => return self.repeat(condition, body, at),
             What::For { variable, bounds, step, body } => {
@@ -85,11 +85,26 @@ impl Machine<'_> {
         match instructions::effect(&lower) {
             Some(Effect::Move(kind)) => self.go(kind, lower.ends_with("sync"), arguments, at),
             Some(Effect::Followed) => self.follow(&lower, arguments, at),
-            Some(Effect::Harmless) => self.mark(at, Class::Harmless, ""),
+            Some(Effect::Harmless) => {
+                self.mark(at, Class::Harmless, "");
+                self.heed(arguments, at);
+                for path in super::effects::outputs(arguments) {
+                    self.forget(&path.name);
+                }
+            }
             Some(Effect::Writes) => {
                 self.mark(at, Class::Harmless, "");
+                if lower == "waituntil" {
+                    self.poll(arguments, at);
+                } else {
+                    self.heed(arguments, at);
+                }
                 for path in super::effects::paths(arguments) {
                     self.forget(&path.name);
+                    if lower == "ivarvalue" {
+                        // The sensor writes on, whenever it likes.
+                        self.make_volatile(self.module, &path.name);
+                    }
                 }
             }
             Some(Effect::Changes(unmodelled)) => {
@@ -119,11 +134,11 @@ impl Machine<'_> {
         }
     }
 
-    /// `%"name"%`: followed where the name is known and nothing is handed over.
-    fn late(&mut self, name: &Expression, at: At) -> Flow {
+    /// `%"name"%`: followed where the name is known.
+    fn late(&mut self, name: &Expression, arguments: &[Argument], at: At) -> Flow {
         if let Value::Text(name) = self.evaluate(name, at) {
             let name = name.rsplit(':').next().unwrap_or_default().to_owned();
-            return self.instruction(&name, &[], at);
+            return self.instruction(&name, arguments, at);
         }
         self.mark(at, Class::ChangesMotion, "which procedure is called depends on the cell");
         Flow::Next
@@ -139,7 +154,8 @@ impl Machine<'_> {
                 Some(false) => {}
                 None => {
                     let rest = branches[index..].iter().map(|(_, body)| body.as_slice()).chain([otherwise]);
-                    self.depends(&rest.collect::<Blocks<'_>>(), at);
+                    let later: Vec<_> = branches[index + 1..].iter().map(|(condition, _)| condition).collect();
+                    self.depends(&rest.collect::<Blocks<'_>>(), &later, at);
                     return Flow::Next;
                 }
             }
@@ -160,7 +176,8 @@ impl Machine<'_> {
             for value in values {
                 let Some(same) = of.same(&self.evaluate(value, at)) else {
                     let rest = cases[index..].iter().map(|(_, body)| body.as_slice()).chain([otherwise]);
-                    self.depends(&rest.collect::<Blocks<'_>>(), at);
+                    let later: Vec<_> = cases[index..].iter().flat_map(|(values, _)| values).collect();
+                    self.depends(&rest.collect::<Blocks<'_>>(), &later, at);
                     return Flow::Next;
                 };
                 if same {
@@ -184,7 +201,8 @@ impl Machine<'_> {
                     return Flow::Next;
                 }
                 None => {
-                    self.depends(&[body], at);
+                    // It is evaluated again after each round.
+                    self.depends(&[body], &[condition], at);
                     return Flow::Next;
                 }
             }
@@ -211,7 +229,7 @@ impl Machine<'_> {
             None => from.zip(to).map(|(from, to)| if from <= to { 1.0 } else { -1.0 }),
         };
         let (Some(from), Some(to), Some(by)) = (from, to, by.filter(|by| *by != 0.0)) else {
-            self.depends(&[body], at);
+            self.depends(&[body], &[], at);
             return Flow::Next;
         };
         self.mark(at, Class::Understood, "");
@@ -235,8 +253,8 @@ impl Machine<'_> {
     }
 
     /// What comes next depends on the cell: told where it matters to motion, and whatever it assigns is unknown.
-    fn depends(&mut self, blocks: &[&[Statement]], at: At) {
-        let effects = self.effects(blocks);
+    pub(super) fn depends(&mut self, blocks: &[&[Statement]], values: &[&Expression], at: At) {
+        let effects = self.effects(blocks, values);
         if effects.moves || effects.leaves {
             self.mark(at, Class::ChangesMotion, "whether this moves the arm depends on the cell");
         } else {

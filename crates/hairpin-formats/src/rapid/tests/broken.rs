@@ -117,6 +117,7 @@ fn what_stops_a_controller_is_told() {
     };
     assert_eq!(gives("give c;"), ["`x` of `give` gives back, and `c` is CONST"]);
     assert_eq!(gives("give 4;"), ["`x` of `give` gives back, and is no data"]);
+    assert_eq!(gives("give gone;"), ["`x` of `give` gives back, and `gone` is not declared in this file"]);
     assert!(gives("give n;").is_empty());
     for body in ["reg1:=4;", "IF n>0 AND 1/n>1 n:=2;", "n:=0/5;", "IF n>0 RAISE 5;", "n:=n;", "n:=c{2};"] {
         super::assert_clear(&of(body));

@@ -1,5 +1,6 @@
 //! Modules as cells have them, programs as they are written, both ways, and what is no program at all.
 
+mod arguments;
 mod broken;
 mod cells;
 mod clocks;

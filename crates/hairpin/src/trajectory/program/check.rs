@@ -220,7 +220,7 @@ impl Check<'_> {
             }
         };
         let (speed, zone) = (&self.m.speed, &self.m.zone);
-        hold(speed.tcp >= 0.0, "tcp speed", speed.tcp, "a number, at least 0 m/s");
+        hold(speed.tcp > 0.0, "tcp speed", speed.tcp, "a number, more than 0 m/s");
         for (field, value) in [
             ("orientation speed", speed.orientation),
             ("speed of linear external axes", speed.linear_external),
