@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{self, Attachments, Case, CaseResult, Run, Setup, Status};
 use hairpin::judgement::Verdict;
+use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::quote::on_one_line;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
@@ -25,8 +26,8 @@ pub struct Replayed {
 }
 
 /// Runs the repro files of `named`, or of the folder `campaign` where none is named, as robot, `execute` and `spec` of
-/// `setup` now are, in the conditions in which they were saved; and tells the watch of them. Nothing in `campaign`
-/// changes.
+/// `setup` now are, in the conditions in which they were saved; and tells the watch of them. Those that are `left_out`
+/// are not run. Nothing in `campaign` changes.
 ///
 /// # Errors
 /// A folder that is named and has none; a file that is no repro file or, in a folder that is named, of another kind of
@@ -34,11 +35,12 @@ pub struct Replayed {
 pub(crate) fn replay_saved(
     setup: &Setup,
     campaign: &Path,
-    named: Option<&Path>,
+    (named, left_out): (Option<&Path>, &[PathBuf]),
     watch: &dyn Watch,
 ) -> Result<Vec<Replayed>, Problem> {
     let own = campaign.join("repro");
-    let files = files(named.unwrap_or(&own));
+    let mut files = files(named.unwrap_or(&own));
+    files.retain(|file| !left_out.contains(file));
     if let Some(folder) = named {
         let refuse = |why: &str| Err(Problem::input(format!("--repro {}: {why}", folder.display())));
         if files.is_empty() {
@@ -77,6 +79,25 @@ pub(crate) fn replay_saved(
         tell(&replayed, watch);
     }
     Ok(replayed)
+}
+
+/// Repro files of the folder `campaign` that it wrote of its own violations when it was judged last, as it wrote them:
+/// what is still to be said of them its own cases say. Where the folder cannot be read there are none.
+pub(crate) fn written_by(setup: &Setup, campaign: &Path) -> Vec<PathBuf> {
+    let Ok(folder) = CampaignFolder::open(campaign) else { return Vec::new() };
+    let (Ok(cases), Ok(results)) = (folder.read_cases(), folder.read_results()) else { return Vec::new() };
+    let is_own = |file: &PathBuf| {
+        let saved = Repro::read(file).ok()?;
+        let violates = |result: &&CaseResult| result.case.to_string() == saved.case && result.status == Status::Fail;
+        let result = results.iter().find(violates)?;
+        let case = cases.iter().find(|case| case.number == result.case)?;
+        let has_its_name = file.file_stem().is_some_and(|name| name.to_str() == Some(&saved.case));
+        // What was seen is nothing that it is run with.
+        let written = Repro { expected: saved.expected.clone(), ..Repro::of(setup, case, result) };
+        let as_read: Repro = serde_json::from_value(serde_json::to_value(written).ok()?).ok()?;
+        (has_its_name && as_read == saved).then_some(())
+    };
+    files(&campaign.join("repro")).into_iter().filter(|file| is_own(file).is_some()).collect()
 }
 
 /// `*.json` in `folder`, by name.
@@ -243,7 +264,7 @@ mod tests {
         settings.sets.extend(sets.map(|(key, value)| (key.to_owned(), value.to_owned())));
         let setup = crate::work::plan(&settings, &crate::Unwatched).unwrap().setup;
         let allowed = |named| {
-            let replayed = replay_saved(&setup, &folder, named, &crate::Unwatched).unwrap();
+            let replayed = replay_saved(&setup, &folder, (named, &[]), &crate::Unwatched).unwrap();
             replayed.iter().map(|one| (one.result.status, one.allowed)).collect::<Vec<_>>()
         };
         assert_eq!(allowed(None), [(Status::Fail, true); 2]);

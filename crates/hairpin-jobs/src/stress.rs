@@ -12,7 +12,7 @@ use crate::generate::find_cases;
 use crate::judge::{Judgement, judge_cases};
 use crate::missions::{self, adopt, cases_of};
 use crate::report::write_report;
-use crate::saved::{Replayed, replay_saved, with_saved};
+use crate::saved::{Replayed, replay_saved, with_saved, written_by};
 use crate::work::{CampaignSettings, Planned, Work, plan};
 use crate::{Budget, Problem, Spent, Watch};
 
@@ -90,8 +90,11 @@ fn replay(
     budget: &Budget,
     watch: &dyn Watch,
 ) -> Result<Vec<Replayed>, Problem> {
-    let replayed =
-        budget.within(Part::Search, watch, |watch| replay_saved(&planned.setup, &planned.path, repro, watch))?;
+    // What a campaign that is gone on with saved itself is told by its own cases, as if it had not been stopped.
+    let of_its_own = repro.is_none() && planned.resumes();
+    let own = if of_its_own { written_by(&planned.setup, &planned.path) } else { Vec::new() };
+    let replay = |watch: &dyn Watch| replay_saved(&planned.setup, &planned.path, (repro, &own), watch);
+    let replayed = budget.within(Part::Search, watch, replay)?;
     if replayed.is_none() {
         budget.leave_undone("saved cases were not run");
     }
@@ -153,9 +156,12 @@ fn judged(
 
 #[cfg(test)]
 mod tests {
+    use hairpin_formats::repro::Repro;
+
     use super::*;
     use crate::Unwatched;
     use crate::testing::small;
+    use crate::work::IfThere;
 
     #[test]
     fn a_campaign_runs_from_its_scenario_to_its_report() {
@@ -167,6 +173,34 @@ mod tests {
         for name in ["scenario.toml", "results.parquet", "junit.xml", "report.html", "repro/0000.json"] {
             assert!(stressed.work.folder.file(name).is_file(), "{name}");
         }
+    }
+
+    /// To go on with a campaign that is finished changes nothing: what it saved itself counts no second time. What was
+    /// changed since, or is another's, is run first, and so is all in a later run.
+    #[test]
+    fn a_finished_campaign_that_is_gone_on_with_comes_to_the_same() {
+        let place = tempfile::tempdir().unwrap();
+        let mut settings = small(&place);
+        settings.sets.push(("spec.deviation.max_m".into(), "0.0001".into()));
+        let first = stress(&settings, None, &Unwatched).unwrap();
+        let suites = || {
+            let text = std::fs::read_to_string(place.path().join("out/junit.xml")).unwrap();
+            text.matches("<testsuite ").count()
+        };
+        assert_eq!((first.verdict.exit_code, suites()), (1, 1));
+        let with = |if_there| {
+            let stressed = stress(&CampaignSettings { if_there, ..settings.clone() }, None, &Unwatched).unwrap();
+            let names = stressed.replayed.iter().map(|one| one.named().0);
+            (stressed.verdict.sentence.clone(), names.collect::<Vec<_>>())
+        };
+        let resumed = with(IfThere::Resume);
+        assert_eq!((resumed, suites()), ((first.verdict.sentence.clone(), Vec::new()), 1));
+        let repro = place.path().join("out/repro");
+        std::fs::copy(repro.join("0000.json"), repro.join("mine.json")).unwrap();
+        let changed = Repro::read(&repro.join("0001.json")).unwrap();
+        Repro { seed: changed.seed + 1, ..changed }.write(&repro.join("0001.json")).unwrap();
+        assert_eq!(with(IfThere::Resume).1, ["0001", "mine"]);
+        assert_eq!(with(IfThere::Replace).1, ["0000", "0001", "mine"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use hairpin::campaign::scenario::Asked;
-use hairpin::campaign::{CallersCode, PassedOver, Scenario, Setup, Tally, vary};
+use hairpin::campaign::{CallersCode, PassedOver, Scenario, Setup, Tally, UserCode, vary};
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
@@ -119,15 +119,28 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
         watch.warn(&format!("`{key}` = {value} is passed over: {why}"));
     }
     may_make(&path, &setup, settings.if_there)?;
-    for (key, user) in setup.user_code().into_iter().chain(setup.steering_code()) {
-        let deadline = Deadline::after(settings.time_limit_s);
+    let code = setup.user_code().into_iter().chain(setup.steering_code());
+    try_out(code, Deadline::after(settings.time_limit_s), watch)?;
+    Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })
+}
+
+/// Whether the user's own code loads: before anything that it is to take the place of is removed.
+///
+/// # Errors
+/// The first of it that does not; it was asked to stop.
+pub(crate) fn try_out<'c>(
+    code: impl IntoIterator<Item = (&'static str, &'c dyn UserCode)>,
+    deadline: Deadline,
+    watch: &dyn Watch,
+) -> Result<(), Problem> {
+    for (key, user) in code {
         let tried = not_waiting_for(&[(key, user)], watch, deadline, || user.try_out());
         tried.map_err(|why| match watch.stopped() {
             true => Problem::Interrupted(format!("stopped before the file of `{key}` was loaded")),
             false => Problem::input(format!("`{key}` = {why}")),
         })?;
     }
-    Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })
+    Ok(())
 }
 
 impl Planned {
@@ -210,10 +223,7 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
 
 /// Whether the campaign in `old` was begun as `setup` would begin it.
 fn may_resume(old: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
-    let before = resolve(old, &[])?;
-    let files = || before.attachments.files().into_iter().zip(setup.attachments.files());
-    let file = || files().find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
-    if let Some(key) = differences(&before.scenario, &setup.scenario).into_iter().next().or_else(file) {
+    if let Some(key) = first_difference(&resolve(old, &[])?, setup) {
         return Err(Problem::input(format!(
             "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
             old.path().display()
@@ -294,9 +304,17 @@ pub(crate) fn keep_changes(work: &Work) -> Result<(), Problem> {
     Ok(work.folder.keep_scenario(&work.setup, level)?)
 }
 
-/// The first key of the folder's scenario that `sets` change.
+/// The first key of the folder's scenario that `sets` change, or else the first of its files: one of the same name may
+/// say something else.
 pub(crate) fn changed_by(folder: &CampaignFolder, sets: &[Set]) -> Result<Option<String>, Problem> {
-    Ok(differences(&resolve(folder, &[])?.scenario, &resolve(folder, sets)?.scenario).into_iter().next())
+    Ok(first_difference(&resolve(folder, &[])?, &resolve(folder, sets)?))
+}
+
+/// The first key that differs, or else the first file.
+fn first_difference(before: &Setup, now: &Setup) -> Option<String> {
+    let mut files = before.attachments.files().into_iter().zip(now.attachments.files());
+    let file = || files.find(|(before, now)| before != now).map(|((name, _), _)| name.to_owned());
+    differences(&before.scenario, &now.scenario).into_iter().next().or_else(file)
 }
 
 /// Opens a campaign folder to read it.
@@ -385,8 +403,8 @@ fn default_folder(scenario: &str) -> PathBuf {
 mod tests {
     use std::sync::Arc;
 
+    use hairpin::campaign::LegScorer;
     use hairpin::campaign::user_score::LegFacts;
-    use hairpin::campaign::{LegScorer, UserCode};
 
     use super::*;
     use crate::Unwatched;

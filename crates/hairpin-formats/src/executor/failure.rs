@@ -114,6 +114,16 @@ pub enum Failure {
         /// Its beginning.
         line: String,
     },
+    /// A message that says what cannot be.
+    #[error("line {number} of its stdout is a message that is not understood: {cause}; it reads `{line}`")]
+    NotUnderstood {
+        /// Counted from 1 since the process started.
+        number: u64,
+        /// What is wrong.
+        cause: String,
+        /// Its beginning.
+        line: String,
+    },
     /// A line without end.
     #[error("line {number} of its stdout is longer than {limit} bytes")]
     TooLong {

@@ -28,6 +28,11 @@ pub struct Greeting {
 }
 
 impl Greeting {
+    /// Whether it is that of the same version of the same program, by their own words.
+    pub fn is_of_same(&self, other: &Self) -> bool {
+        (&self.name, &self.version) == (&other.name, &other.version)
+    }
+
     /// That of its `ready`, in `protocol`.
     pub(super) fn of(ready: &ReadyMessage, protocol: u64) -> Self {
         let version = ready.version.as_ref().map(|version| match version {

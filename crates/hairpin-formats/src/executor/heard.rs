@@ -4,12 +4,14 @@
 use std::borrow::Cow;
 use std::str::FromStr;
 
-use serde::de::{Error as _, SeqAccess, Visitor};
+use serde::de::{Error, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 /// The values of `type`.
 const KINDS: [&str; 5] = ["ready", "pose", "poses", "end", "error"];
+/// The largest whole number up to which all are floating-point numbers, too.
+const MOST_WHOLE: f64 = 9_007_199_254_740_992.0;
 /// Columns of a row of `poses`.
 const COLUMNS: usize = 12;
 
@@ -33,6 +35,7 @@ pub enum FromExecutor {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct ReadyMessage {
     /// Version of the protocol it speaks.
+    #[serde(default, deserialize_with = "whole")]
     pub protocol: Option<u64>,
     /// What it calls itself.
     #[serde(default)]
@@ -62,6 +65,7 @@ pub struct PoseMessage {
     pub v_m_s: Option<[f64; 3]>,
     /// The leg being flown, numbered by its first waypoint: in all poses, never falling, or in none; then it is
     /// assigned along the path.
+    #[serde(default, deserialize_with = "whole")]
     pub leg: Option<u64>,
     /// Of which case.
     pub case: Option<Value>,
@@ -120,6 +124,37 @@ pub struct ErrorMessage {
     pub case: Option<Value>,
     /// Of which run.
     pub run: Option<Value>,
+}
+
+/// `value` where it is whole: languages that have but one kind of number write `1.0` for 1.
+pub(super) fn as_whole(value: f64) -> Option<u64> {
+    ((0.0..=MOST_WHOLE).contains(&value) && value.fract() == 0.0).then_some(value as u64)
+}
+
+fn whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u64>, D::Error> {
+    struct Whole;
+
+    impl Visitor<'_> for Whole {
+        type Value = Option<u64>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+            write!(f, "a whole number from 0")
+        }
+
+        fn visit_unit<E: Error>(self) -> Result<Option<u64>, E> {
+            Ok(None)
+        }
+
+        fn visit_u64<E: Error>(self, value: u64) -> Result<Option<u64>, E> {
+            Ok(Some(value))
+        }
+
+        fn visit_f64<E: Error>(self, value: f64) -> Result<Option<u64>, E> {
+            as_whole(value).map(Some).ok_or_else(|| E::invalid_type(Unexpected::Float(value), &self))
+        }
+    }
+
+    deserializer.deserialize_any(Whole)
 }
 
 impl FromStr for FromExecutor {
@@ -248,6 +283,7 @@ mod tests {
             r#" { "type" : "pose", "t_s": 1.0, "p_m": [1, 2, 3], "leg": 4, "message": 7, "poses": {}, "reason": null }"#,
             r#"{"leg":4,"reason":{"a":[1]},"p_m":[1,2,3],"t_s":1e0,"type":"pose"}"#,
             r#"{"t_s":1,"p_m":[1,2,3],"leg":4,"\u0074ype":"p\u006fse"}"#,
+            r#"{"type":"pose","t_s":1,"p_m":[1,2,3],"leg":4.0}"#,
         ] {
             assert_eq!(pose(text), (1.0, [1.0, 2.0, 3.0], Some(4)));
         }
@@ -257,6 +293,13 @@ mod tests {
             (r#"{"type":"pose","t_s":1}"#, "missing field `p_m`"),
             (r#"{"type":"pose","t_s":1,"p_m":[1,2]}"#, "invalid length 2"),
             (r#"{"type":"poses","poses":[[1,"2"]]}"#, "expected f64"),
+            (
+                r#"{"type":"pose","t_s":1,"p_m":[1,2,3],"leg":4.5}"#,
+                "floating point `4.5`, expected a whole number from 0",
+            ),
+            (r#"{"type":"pose","t_s":1,"p_m":[1,2,3],"leg":-4}"#, "integer `-4`, expected a whole number from 0"),
+            (r#"{"type":"pose","t_s":1,"p_m":[1,2,3],"leg":-1.0}"#, "floating point `-1.0`, expected a whole number"),
+            (r#"{"type":"pose","t_s":1,"p_m":[1,2,3],"leg":"4"}"#, "string \"4\", expected a whole number from 0"),
             (r#"{"type":"end","reason":"done"} {}"#, "trailing characters"),
         ] {
             let error = text.parse::<FromExecutor>().unwrap_err().to_string();

@@ -5,10 +5,14 @@ use super::heard::FromExecutor;
 
 /// The message in line number `number`.
 pub(super) fn parse(bytes: &[u8], number: u64) -> Result<FromExecutor, Failure> {
-    let garbage =
-        |cause: String| Failure::Garbage { number, cause, line: excerpt(&String::from_utf8_lossy(bytes), 120) };
+    let line = || excerpt(&String::from_utf8_lossy(bytes), 120);
+    let garbage = |cause: String| Failure::Garbage { number, cause, line: line() };
     let text = std::str::from_utf8(bytes).map_err(|error| garbage(format!("not UTF-8: {error}")))?;
     text.parse().map_err(|error: serde_json::Error| {
+        // Whole as a table, and so meant for us; a banner is none.
+        if error.is_data() && text.trim_start().starts_with('{') {
+            return Failure::NotUnderstood { number, cause: error.to_string(), line: line() };
+        }
         // Python's json writes these; they are no JSON.
         let infinite = ["NaN", "Infinity"].into_iter().find(|word| text.contains(word));
         garbage(infinite.map_or_else(|| error.to_string(), |word| format!("{word} is no JSON number: must be finite")))

@@ -72,7 +72,7 @@ pub(crate) use lines::{Line, Lines, Tail};
 pub use message::{ToExecutor, mission_message};
 pub use process::kill_all;
 pub(crate) use process::{end, start};
-pub use queue::fly_all;
+pub use queue::{fly_all, fly_all_if};
 pub use recording::{PoseError, Recording};
 pub use velocities::{Disagreement, Misread};
 pub use wire::{Said, Speaker, Transcript, Wire};

@@ -151,6 +151,10 @@ impl Pilot {
                 protocol.store(worker.protocol, Ordering::Relaxed);
                 program.greeting.get_or_init(|| worker.greeting().clone());
                 self.misses.clear();
+                // What it says of itself may be why it is to fly nothing: then it is told of no mission.
+                if cancelled() {
+                    return Err(Failed { failure: Failure::Cancelled, stderr: String::new() });
+                }
             }
             // Whoever is stopped has not missed.
             Err(Failed { failure: Failure::Cancelled, .. }) => {}

@@ -34,9 +34,23 @@ pub fn fly_all(
     landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Greeting> {
+    fly_all_if((command, limits), &|_| true, workers, count, mission, landed, cancelled)
+}
+
+/// The same where the program `is_wanted` by what it says of itself; of one that is not, nothing lands.
+pub fn fly_all_if(
+    (command, limits): (&Command, Limits),
+    is_wanted: &(dyn Fn(&Greeting) -> bool + Sync),
+    workers: usize,
+    count: usize,
+    mission: &(dyn Fn(usize) -> Result<Mission, String> + Sync),
+    landed: &(dyn Fn(usize, Result<Flight, Failed>) + Sync),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Greeting> {
     let workers = workers.clamp(1, count.max(1));
     let (next, patience) = (AtomicUsize::new(0), Patience::new(count));
     let pool = Pool::new(command, limits, workers, false);
+    let cancelled = || cancelled() || pool.program.greeting().is_some_and(|greeting| !is_wanted(greeting));
     let stop = || cancelled() || patience.is_over();
     thread::scope(|scope| {
         for _ in 0..workers {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use hairpin::campaign::scenario::{CONTROLLER_KEY, Executor, UserSteering};
+use hairpin::campaign::scenario::{CONTROLLER_KEY, Executor, PYTHON, UserSteering};
 use hairpin::campaign::user_controller::NAME;
 use hairpin::campaign::{UserController, user_score, user_target};
 
@@ -51,7 +51,14 @@ pub(super) fn read(
     };
     // What is no time, or no rate, is refused with the keys that say it.
     let limit = Duration::try_from_secs_f64(terms.timeout).unwrap_or(Duration::MAX);
-    let steersman = Arc::new(Steersman::new(source, steering.word(), terms.rate.recip(), limit));
+    // Whoever reads that a file does not load looks for it under the name that it has there.
+    let name = match &source {
+        Source::Python { path, .. } => {
+            format!("{PYTHON}{}", path.file_name().unwrap_or_default().to_string_lossy())
+        }
+        Source::Command(_) => steering.word().to_owned(),
+    };
+    let steersman = Arc::new(Steersman::new(source, &name, terms.rate.recip(), limit));
     Ok(Arc::new(UserController { word: steering.word().to_owned(), given, code: steersman, file }))
 }
 
@@ -67,6 +74,19 @@ fn copy_of(file: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_that_does_not_load_is_told_by_its_own_name() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("bom ü.py");
+        std::fs::write(&file, "def control(t, s, r) return {}\n").unwrap();
+        let set = ("execute.controller".to_owned(), format!("'python:{}'", file.display()));
+        let setup = crate::scenario::setup_for("demo-quadrotor", &[set]).unwrap();
+        let user = setup.user_controller().unwrap();
+        assert_eq!(user.file.as_ref().unwrap().0, NAME, "the copy's name is plain");
+        let told = user.code.try_out().unwrap_err();
+        assert!(told.starts_with("python:bom ü.py: ") && told.contains("SyntaxError"), "{told}");
+    }
 
     #[test]
     fn copies_keep_their_names_where_they_can() {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::{Case, Run, Setup, Status, at_full_rate, execute_run, judge, mission};
-use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all};
+use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all, fly_all_if};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
@@ -14,18 +14,23 @@ use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
 use crate::{Deadline, Problem, Seen, Watch};
 
+/// Whether a program is the one that executed what is there.
+type IsSame<'a> = &'a (dyn Fn(&Greeting) -> bool + Sync);
+
 /// Where runs land.
 pub(super) struct Landing<'f, 'k> {
     /// How many there are once all have landed.
     pub(super) of: usize,
     pub(super) writer: RunWriter<'f>,
+    /// What the program that executed those that are there said of itself.
+    pub(super) before: Option<Greeting>,
     /// Whether the motion of one, with what was measured of it, is kept.
     pub(super) keeps: &'k (dyn Fn(&Run) -> bool + Sync),
 }
 
 /// Flies `missing`, the rest of those that land there.
 pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watch) -> Result<(), Problem> {
-    let Landing { of, writer, keeps } = there;
+    let Landing { of, writer, before, keeps } = there;
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, mut run: Run| {
@@ -46,6 +51,8 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
     };
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || watch.stopped() || broken();
+    let is_same = |now: &Greeting| before.as_ref().is_none_or(|before| before.is_of_same(now));
+    let mut another = None;
     match command_of(&work.setup)? {
         None => {
             let fly = |job: &Job| {
@@ -59,12 +66,10 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
             let parts = missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number));
             while_wanted(&work.setup, watch, || parts.for_each(|part| part.par_iter().for_each(fly)));
         }
-        Some((command, limits)) => {
-            let greeting = fly_with(work, missing, (&command, limits), &landed, &stop, watch);
-            if let Some(greeting) = greeting {
-                work.folder.write_executor(&greeting)?;
-            }
-        }
+        Some((command, limits)) => match fly_with(work, missing, (&command, limits, &is_same), &landed, &stop, watch) {
+            Some(greeting) if is_same(&greeting) => work.folder.write_executor(&greeting)?,
+            greeting => another = greeting,
+        },
     }
     drop(steps);
     let kept = writer.finish();
@@ -72,10 +77,27 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
         return Err(error.into());
     }
     kept?;
+    if let (Some(before), Some(now)) = (&before, &another) {
+        return Err(another_program(before, now));
+    }
     if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
+}
+
+/// All runs of a campaign are one program's, or what is told of it would be told of another.
+fn another_program(before: &Greeting, now: &Greeting) -> Problem {
+    let words = |greeting: &Greeting, version: &str| match &greeting.version {
+        Some(told) => format!("`{}`, {version}`{told}`", greeting.name),
+        None => format!("`{}` without a version", greeting.name),
+    };
+    Problem::input(format!(
+        "--resume: the program says of itself {}; what is kept was executed by {}: go on with that one, or fly all anew \
+         without --resume",
+        words(now, "version "),
+        words(before, "")
+    ))
 }
 
 /// What `run` came to, where it was measured as it landed.
@@ -102,7 +124,7 @@ pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String
 fn fly_with(
     work: &Work,
     missing: &[Job],
-    (command, limits): (&Command, Limits),
+    (command, limits, is_same): (&Command, Limits, IsSame),
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
@@ -130,7 +152,7 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    let greeting = fly_all(command, limits, processes, missing.len(), &make, &counted, stop);
+    let greeting = fly_all_if((command, limits), is_same, processes, missing.len(), &make, &counted, stop);
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
     greeting
 }

@@ -23,8 +23,10 @@ use crate::consent::{Consent, Wish};
 use crate::missions::{self, adopt};
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
-use crate::work::{IfThere, Work, changed_by, check_tables, keep_changes, open_to_change, open_to_read, tell_share};
-use crate::{Problem, Watch};
+use crate::work::{
+    IfThere, Work, changed, changed_by, check_tables, keep_changes, open_to_change, open_to_read, tell_share, try_out,
+};
+use crate::{Deadline, Problem, Watch};
 use beside::beside;
 pub(crate) use by_case::fly_by_case;
 use fly::first_trouble;
@@ -99,6 +101,13 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
             // What is in `out` makes room only for what can take its place.
             missions::of_files(&open_to_read(folder)?.setup, missions)?;
         }
+        if !sets.is_empty() {
+            let setup = changed(&CampaignFolder::open(folder)?, sets)?.answered_by(&settings.consent.code)?;
+            // What is typed runs anyway: what does not load makes no room.
+            if Wish::of_execution(&setup).iter().all(|wish| wish.is_typed(sets)) {
+                try_out(setup.steering_code(), Deadline::after(None), watch)?;
+            }
+        }
         beside((folder, sets), path, if_there, &settings.consent)?;
     }
     if settings.resume && !sets.is_empty() {
@@ -120,7 +129,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
     // Whatever can be refused is refused before anything is lost.
-    let replayed = replay_saved(&work.setup, work.folder.path(), settings.repro.as_deref(), watch)?;
+    try_out(work.setup.steering_code(), Deadline::after(None), watch)?;
+    let replayed = replay_saved(&work.setup, work.folder.path(), (settings.repro.as_deref(), &[]), watch)?;
     check_recordings(&work, kept.as_deref().unwrap_or_default())?;
     if !sets.is_empty() {
         keep_changes(&work)?;
@@ -135,6 +145,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
             work.folder.read_cases()?
         }
     };
+    let before = if settings.resume { count_flown(&work, &cases).ok() } else { None };
+    let judged = if before.is_some() { work.folder.read_results()? } else { Vec::new() };
     // What was judged was judged on other runs, or on fewer. Where this cannot be written, the runs stay with it.
     work.folder.write_results(&cases, &[])?;
     if !settings.resume {
@@ -143,7 +155,12 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     if let Some((cases, results)) = searched {
         work.folder.write_searched(&cases, &results)?;
     }
-    let flown = fly_missing(&work, &cases, watch)?;
+    let flown = fly_missing(&work, &cases, watch).inspect_err(|_| {
+        // Where nothing has landed, what was judged is what it was; where that cannot be written it is judged anew.
+        if before.is_some() && before == count_flown(&work, &cases).ok() {
+            drop(work.folder.write_results(&cases, &judged));
+        }
+    })?;
     let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
     fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
@@ -202,6 +219,92 @@ mod tests {
         let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
         let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
         assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
+    }
+
+    fn set(key: &str, value: &str) -> Set {
+        (key.to_owned(), format!("\"{value}\""))
+    }
+
+    fn refusal(settings: &ExecuteSettings) -> String {
+        execute(settings, &Unwatched).map(drop).unwrap_err().to_string()
+    }
+
+    /// A controller's file of the same name that says something else is another controller; what does not load makes no
+    /// room for itself.
+    #[test]
+    fn files_of_one_name_are_told_apart_and_loaded_before_anything_goes() {
+        let (place, folder) = generated();
+        let file = |name: &str, text: &str| {
+            let file = place.path().join(name);
+            std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+            std::fs::write(&file, text).unwrap();
+            vec![
+                set("execute.controller", &format!("python:{}", file.display())),
+                ("execute.time_limit_s".to_owned(), "1.0".to_owned()),
+            ]
+        };
+        let steers = |speed: &str| format!("def control(t, s, r):\n    return {{'v_m_s': [0.0, 0.0, {speed}]}}\n");
+        let of = |sets| ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        let own = file("own/fly.py", &steers("0.1"));
+        assert_eq!(execute(&of(own), &Unwatched).unwrap().flown.failed, 0);
+        let other = ExecuteSettings { resume: true, ..of(file("new/fly.py", &steers("-0.5"))) };
+        let refused = refusal(&other);
+        assert!(refused.starts_with("--resume: `fly.py` is not what it was"), "{refused}");
+        assert_eq!(std::fs::read_to_string(folder.join("fly.py")).unwrap(), steers("0.1"), "it is not overwritten");
+        let copy = ExecuteSettings { resume: true, ..of(file("copy/fly.py", &steers("0.1"))) };
+        assert_eq!(execute(&copy, &Unwatched).unwrap().flown.runs, 2);
+        let broken = of(file("broken/fly.py", "def control(t, s, r) return {}\n"));
+        let out = place.path().join("beside");
+        let beside = ExecuteSettings { out: Some(out.clone()), ..of(file("own/fly.py", &steers("0.1"))) };
+        execute(&beside, &Unwatched).unwrap();
+        let over = ExecuteSettings { out: Some(out.clone()), replaces: true, ..broken.clone() };
+        for settings in [broken, over] {
+            let refused = refusal(&settings);
+            assert!(refused.contains("`execute.controller` = ") && refused.contains("SyntaxError"), "{refused}");
+        }
+        for kept in [folder, out] {
+            let kept = CampaignFolder::open(&kept).unwrap();
+            assert!(kept.read_cases().unwrap().iter().all(|case| kept.has_valid_run(case.number, 0)));
+        }
+    }
+
+    /// Another version of a program goes on with nothing that the one before has executed, and nothing is lost.
+    #[test]
+    fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+        let minimal = std::fs::read_to_string(minimal).unwrap();
+        let named = |name: &str| {
+            let text = minimal.replace("name=\"minimal executor\"", name);
+            assert_ne!(text, minimal);
+            std::fs::write(&file, text).unwrap();
+        };
+        let sets = vec![set("execute.command", &format!("python3 '{}'", file.display()))];
+        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        named("name=\"sim 1\", version=1");
+        execute(&settings, &Unwatched).unwrap();
+        crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
+        let resumed = ExecuteSettings { resume: true, ..settings.clone() };
+        named("name=\"sim 2\", version=\"2\"");
+        assert_eq!(execute(&resumed, &Unwatched).unwrap().flown.runs, 2, "none is missing, and it is not asked");
+        crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
+        // As where it was stopped before they landed.
+        for part in ["runs", "executions"] {
+            std::fs::remove_dir_all(folder.join(part)).unwrap();
+        }
+        let refused = refusal(&resumed);
+        let told =
+            "--resume: the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, `1`";
+        assert!(refused.starts_with(told), "{refused}");
+        let kept = CampaignFolder::open(&folder).unwrap();
+        assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
+        assert_eq!(kept.read_results().unwrap().len(), 2, "what was judged stays");
+        named("name=\"sim 1\", version=1");
+        assert_eq!(execute(&resumed, &Unwatched).unwrap().flown, Flown { runs: 2, failed: 0, attitude_unknown: 0 });
+        named("name=\"sim 2\"");
+        execute(&settings, &Unwatched).unwrap();
+        assert_eq!(CampaignFolder::open(&folder).unwrap().read_executor().unwrap().unwrap().name, "sim 2");
     }
 
     /// What `export` writes in degrees is the same cases again, with their plans and evidence.

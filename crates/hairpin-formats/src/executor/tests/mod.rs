@@ -195,6 +195,11 @@ fn every_broken_promise_has_its_sentence() {
         ("pose(0, [1, 1])", "invalid length 2"),
         ("say(type='pose', p_m=[1, 1, 1], q_wxyz=[1, 0, 0, 0])", "missing field `t_s`"),
         ("pose(0, [1, 1, 1], 0.5)", "floating point `0.5`"),
+        (
+            "pose(0, [1, 1, 1], '0')",
+            "line 2 of its stdout is a message that is not understood: invalid type: string \"0\", expected a whole number",
+        ),
+        ("print(42, flush=True)", "line 2 of its stdout is no message: invalid type: integer `42`"),
         ("say(type='poes')", "unknown variant `poes`"),
         ("say(type='ready', protocol=1)", "sent \"ready\" where \"pose\" was due"),
         ("pose(0.5, [1, 1, 1])", "its first pose has t_s = 0.5: must be 0"),

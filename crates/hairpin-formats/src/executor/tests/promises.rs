@@ -143,6 +143,27 @@ fn programs_are_known_by_what_they_say_of_themselves() {
     assert_eq!(greeting(&"hairpin-no-such-program".parse().unwrap()), None);
 }
 
+/// Of a program that is another than the one that flew before nothing lands, and none of its missions counts as failed.
+#[test]
+fn nothing_lands_of_a_program_that_is_not_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = folder.path().join("asked");
+    let body = format!("open({:?}, 'a').write(m['case'])\ngood(m)", asked.to_str().unwrap());
+    let command = speaks_2(folder.path(), &body);
+    let landed = std::sync::atomic::AtomicUsize::new(0);
+    let land = |_, flight: Result<_, _>| {
+        flight.map(drop).unwrap();
+        landed.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    };
+    for (name, flown) in [("first", 0), ("second", 3)] {
+        let is_wanted = |greeting: &Greeting| greeting.name == name;
+        let (program, make) = ((&command, limits()), |i| Ok(mission(i)));
+        let greeting = super::super::fly_all_if(program, &is_wanted, 2, 3, &make, &land, &|| false);
+        assert_eq!(greeting.map(|greeting| greeting.name).as_deref(), Some("second"));
+        assert_eq!((landed.load(std::sync::atomic::Ordering::Relaxed), asked.exists()), (flown, flown > 0), "{name}");
+    }
+}
+
 #[test]
 fn failures_end_with_the_last_line_of_stderr() {
     let folder = tempfile::tempdir().unwrap();
