@@ -94,7 +94,7 @@ pub(crate) enum Command {
     Judge(Box<Judge>),
     /// Learn a score from the flights of campaign folders: learn OUT --out MODEL, then score = "learned:MODEL"
     Learn(Learn),
-    /// Integrate every control witness of a campaign by independent code
+    /// Integrate every control witness of a campaign by independent code, and hold its planned motions to them
     Verify(Verify),
     /// Fly a violating case again, from its repro file
     Replay(Replay),

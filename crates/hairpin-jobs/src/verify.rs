@@ -1,10 +1,10 @@
-//! Every witness integrated by independent code.
+//! Every witness integrated by independent code, and the planned motions that are kept held to the witnesses.
 
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{GraphAgain, graph_of};
-use hairpin::campaign::{self, Case, CaseNumber, Evidence};
+use hairpin::campaign::{self, Case, CaseNumber, Evidence, PlannedRows};
 use hairpin::verification::Finding;
 use rayon::prelude::*;
 
@@ -38,6 +38,9 @@ pub enum Answer {
         case: CaseNumber,
         /// Whether it has a witness.
         witness: bool,
+        /// Whether the rows of its planned motion were held to the witness: where the folder has them, and the witness
+        /// holds.
+        planned: bool,
         /// The largest end error over its legs, m.
         position_m: f64,
         /// What does not hold.
@@ -106,6 +109,12 @@ impl Verified {
         [witnesses.clone().count(), witnesses.filter(|answer| answer.fine()).count()]
     }
 
+    /// Planned motions whose rows were held to a witness, and those of them that are its motion.
+    pub fn planned(&self) -> [usize; 2] {
+        let planned = self.answers.iter().filter(|answer| matches!(answer, Answer::Checked { planned: true, .. }));
+        [planned.clone().count(), planned.filter(|answer| answer.fine()).count()]
+    }
+
     /// The worst case that was checked: one with findings before one without, then the one that ends farthest from its
     /// waypoints.
     pub fn worst(&self) -> Option<&Answer> {
@@ -122,8 +131,13 @@ impl Verified {
 }
 
 fn check(work: &Work, case: &Case) -> Answer {
-    let finding =
-        |what: String| Answer::Checked { case: case.number, witness: true, position_m: f64::MAX, findings: vec![what] };
+    let finding = |what: String| Answer::Checked {
+        case: case.number,
+        witness: true,
+        planned: false,
+        position_m: f64::MAX,
+        findings: vec![what],
+    };
     let mut case = case.clone();
     if let Err(error) = work.folder.read_witness(&mut case) {
         return finding(error.to_string());
@@ -135,13 +149,31 @@ fn check(work: &Work, case: &Case) -> Answer {
     }
     let verified = campaign::verify(&work.setup, &case);
     match verified.proof {
-        Some(proof) if witness || !claims => Answer::Checked {
-            case: case.number,
-            witness,
-            position_m: proof.position.value,
-            findings: proof.findings.iter().map(words).collect(),
-        },
+        Some(proof) if witness || !claims => {
+            let mut findings: Vec<String> = proof.findings.iter().map(words).collect();
+            // Rows are held to what was proven.
+            let planned = if witness && findings.is_empty() { of_rows(work, &case) } else { None };
+            findings.extend(planned.iter().flatten().cloned());
+            Answer::Checked {
+                case: case.number,
+                witness,
+                planned: planned.is_some(),
+                position_m: proof.position.value,
+                findings,
+            }
+        }
         _ => finding("its profile is missing".into()),
+    }
+}
+
+/// What does not hold of the rows of its planned motion; `None` in a folder that keeps none.
+fn of_rows(work: &Work, case: &Case) -> Option<Vec<String>> {
+    match work.folder.read_planned_rows(case.number) {
+        Ok(kept) => kept.map(|(rows, period)| {
+            let kept = PlannedRows { rows: &rows, period };
+            campaign::verify_planned(&work.setup, case, &kept).iter().map(words).collect()
+        }),
+        Err(error) => Some(vec![error.to_string()]),
     }
 }
 
@@ -152,8 +184,18 @@ fn words(finding: &Finding) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use hairpin::trajectory::{Channel, Track};
+    use hairpin_formats::parquet::track;
+    use nalgebra::Translation3;
+    use tempfile::TempDir;
+
     use super::*;
+    use crate::Unwatched;
+    use crate::generate::generate;
     use crate::testing::generated;
+    use crate::work::CampaignSettings;
 
     #[test]
     fn witnesses_hold_and_broken_ones_are_findings() {
@@ -164,5 +206,107 @@ mod tests {
         let broken = verify(&folder).unwrap();
         assert_eq!((broken.checked(), broken.failed().count(), broken.witnesses()), (2, 2, [2, 0]));
         assert_eq!(broken.worst(), broken.failed().next());
+        assert_eq!(broken.planned(), [0, 0], "rows are held to what holds");
+    }
+
+    fn made(place: &TempDir, scenario: &str, sets: &[(&str, &str)]) -> PathBuf {
+        let settings = CampaignSettings {
+            scenario: scenario.into(),
+            out: Some(place.path().join("out")),
+            sets: sets.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect(),
+            ..CampaignSettings::default()
+        };
+        generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned()
+    }
+
+    /// `track` with the row in its middle `way_m` farther along x, and as much faster as `more_m_s`.
+    fn changed(track: &Track, way_m: f64, more_m_s: f64) -> Track {
+        let middle = track.len() / 2;
+        let mut poses = track.poses().to_vec();
+        poses[middle] = Translation3::new(way_m, 0.0, 0.0) * poses[middle];
+        let mut channels: Vec<Channel> = track.channels().to_vec();
+        for channel in channels.iter_mut().filter(|channel| channel.name == "vx_m_s") {
+            channel.values[middle] += more_m_s;
+        }
+        Track::new(track.times().to_vec(), poses, channels).unwrap()
+    }
+
+    /// All planned motions in `folder` hold; the last one no more once one of its rows is elsewhere or at another speed,
+    /// and none is missed where none is kept.
+    fn rows_are_held_to_their_witness(folder: &Path) {
+        let sound = verify(folder).unwrap();
+        let [all, _] = sound.witnesses();
+        assert!(all > 0 && !sound.has_findings(), "{sound:?}");
+        assert_eq!(sound.planned(), [all; 2]);
+        let kept = open_to_read(folder).unwrap().folder;
+        let last = kept.read_cases_without_profiles().unwrap().last().unwrap().number;
+        let (rows, _) = kept.read_planned_rows(last).unwrap().unwrap();
+        for (way_m, more_m_s, field) in [(3.0, 0.0, "planned.position"), (0.0, 0.5, "planned.velocity")] {
+            let piece = track::planned(last, &changed(&rows, way_m, more_m_s)).unwrap();
+            kept.write_planned(vec![(last, piece)]).unwrap();
+            let found = verify(folder).unwrap();
+            let failed: Vec<&Answer> = found.failed().collect();
+            let [Answer::Checked { case, findings, .. }] = failed[..] else { panic!("{found:?}") };
+            assert_eq!(*case, last);
+            let told = findings.join("; ");
+            assert!(told.contains(field) && told.contains(", bound ") && told.contains(", t = "), "{told}");
+            assert_eq!((found.planned(), found.has_findings()), ([all, all - 1], true));
+        }
+        drop(kept);
+        std::fs::remove_dir_all(folder.join("trajectories")).unwrap();
+        let without = verify(folder).unwrap();
+        assert_eq!((without.planned(), without.witnesses(), without.has_findings()), ([0, 0], [all; 2], false));
+    }
+
+    #[test]
+    fn planned_motions_of_flights_are_held_to_their_polynomials() {
+        let (_place, folder) = generated();
+        rows_are_held_to_their_witness(&folder);
+    }
+
+    #[test]
+    fn planned_motions_of_drives_are_held_to_their_commands() {
+        let place = tempfile::tempdir().unwrap();
+        let sets = [
+            ("task.length", "4"),
+            ("generate.manoeuvres", "[\"forward\"]"),
+            ("generate.search", "{ score = \"slope+slip\", waypoints = 24, cases = 2 }"),
+            ("world.terrain", "{ generator = \"craters\", size_m = 60, cell_m = 0.2 }"),
+        ];
+        rows_are_held_to_their_witness(&made(&place, "rover", &sets));
+    }
+
+    #[test]
+    fn planned_motions_of_boats_are_held_to_their_polynomials() {
+        let place = tempfile::tempdir().unwrap();
+        let text = r#"
+hairpin = 1
+robot = "cybership-ii"
+seed = 5
+[world]
+size_m = [60, 60]
+[task]
+start_m = [27, 27]
+end_m = [33, 33]
+length = 2
+[generate]
+leg_time_s = [60, 300]
+search = { method = "beam", waypoints = 30, cases = 2 }
+[execute]
+repeat = 1
+time_limit_s = 400
+[spec]
+deviation = { max_m = 0.1 }
+"#;
+        let file = place.path().join("waters.toml");
+        std::fs::write(&file, text).unwrap();
+        rows_are_held_to_their_witness(&made(&place, &file.to_string_lossy(), &[]));
+    }
+
+    #[test]
+    fn planned_motions_of_arms_are_held_to_their_programs() {
+        let place = tempfile::tempdir().unwrap();
+        let sets = [("task.points.count", "8"), ("generate.search.programs", "2")];
+        rows_are_held_to_their_witness(&made(&place, "arm", &sets));
     }
 }

@@ -1,4 +1,4 @@
-//! `hairpin verify`: every witness integrated by independent code.
+//! `hairpin verify`: every witness integrated by independent code, and the planned motions held to them.
 
 use hairpin::campaign::arm::GraphAgain;
 use hairpin_jobs::Problem;
@@ -24,6 +24,7 @@ pub(crate) fn run(asked: &Verify) -> Result<u8, Problem> {
 
 /// What machines get.
 pub fn object(verified: &Verified, code: u8) -> Value {
+    let [planned, theirs] = verified.planned();
     json!({
         "checked": verified.checked(), "failed": verified.failed().count(),
         "worst": verified.worst().map(of_case), "exit_code": code,
@@ -31,7 +32,7 @@ pub fn object(verified: &Verified, code: u8) -> Value {
             "verified": optimum.findings.is_empty(), "steps": optimum.steps, "findings": optimum.findings,
         })),
         "graph": verified.graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
-        "unknown": verified.unknown,
+        "planned": { "checked": planned, "failed": planned - theirs }, "unknown": verified.unknown,
     })
 }
 
@@ -61,6 +62,10 @@ fn in_words(verified: &Verified) {
         }
         _ => String::new(),
     };
+    let planned = match verified.planned() {
+        [0, _] => String::new(),
+        [all, theirs] => format!("; {theirs}/{all} planned motions in trajectories/ are those of their witnesses"),
+    };
     let optimal = match &verified.optimum {
         None => String::new(),
         Some(optimum) if optimum.findings.is_empty() => "; no program is heavier than case 0000's".into(),
@@ -81,6 +86,6 @@ fn in_words(verified: &Verified) {
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
     let [witnesses, fine] = verified.witnesses();
     console::say(&format!(
-        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{optimal}{environments}{free}{unknown}"
+        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{planned}{optimal}{environments}{free}{unknown}"
     ));
 }

@@ -1,12 +1,13 @@
 //! The cases of a campaign folder: what `generate` writes, and every later part reads.
 
-use std::io;
+use std::path::Path;
+use std::{fs, io};
 
 use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
-use super::parts::{CASES_PER_PART, PROFILES, PROGRAMS, TRAJECTORIES};
+use super::parts::{CASES_PER_PART, PROFILES, PROGRAMS, TRAJECTORIES, parts_of};
 use super::{CampaignFolder, FolderError, RESULTS, WAYPOINTS};
 use crate::atomic::WriteError;
 use crate::bounds::{self, MOST_TEXT_BYTES};
@@ -185,6 +186,20 @@ impl CampaignFolder {
         Ok(track::sampled(&rows, period)?)
     }
 
+    /// The rows that are kept of the planned motion of a case, as they are, and the time between the samples that they
+    /// stand for where not all are there; `None` in a folder that keeps no planned motions.
+    ///
+    /// # Errors
+    /// The file is broken, or has those of other cases alone.
+    pub fn read_planned_rows(&self, case: CaseNumber) -> Result<Option<(Track, Option<f64>)>, FolderError> {
+        let path = self.path.join(TRAJECTORIES);
+        match self.read_rows_of(TRAJECTORIES, case)? {
+            Some((rows, period)) => Ok(Some((track::from_table(&rows)?, period))),
+            None if parts_of(&self.path, TRAJECTORIES).is_empty() && is_empty(&path) => Ok(None),
+            None => Err(FolderError::Contradiction { path, case, what: "has no planned motion" }),
+        }
+    }
+
     /// The rows of a case in `table` and, where only some are there, the time between its samples; from a file of its
     /// own in folders that have one per case.
     fn read_rows_of(&self, table: &str, case: CaseNumber) -> Result<Option<(Table, Option<f64>)>, FolderError> {
@@ -195,4 +210,9 @@ impl CampaignFolder {
         let Some(part) = self.part_with(table, case)? else { return Ok(None) };
         Ok(part.table((case, 0))?.map(|rows| (rows, part.period())))
     }
+}
+
+/// Whether there is nothing in `folder`, or no such folder.
+fn is_empty(folder: &Path) -> bool {
+    fs::read_dir(folder).map_or(true, |mut entries| entries.next().is_none())
 }

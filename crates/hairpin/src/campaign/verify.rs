@@ -2,8 +2,9 @@
 //!
 //! Verification shares no code with what made the claim; this file only says with which scenario a case was searched.
 
-use super::kind::Verified;
+use super::kind::{PlannedRows, Verified};
 use super::{Case, Setup, vary};
+use crate::verification::Finding;
 
 /// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of
 /// drives.
@@ -17,4 +18,10 @@ pub fn verify(setup: &Setup, case: &Case) -> Verified {
     });
     let (proof, with_lag) = setup.kind().verify(case, drawn.as_ref().unwrap_or(&setup.scenario));
     Verified { case: case.number, proof, with_lag }
+}
+
+/// What does not hold of the rows that are kept of the planned motion of `case`, whose witness holds ([`verify`]): of
+/// each quantity that is off the row that is off the most. Nothing for a case without a witness.
+pub fn verify_planned(setup: &Setup, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+    setup.kind().verify_planned(case, kept)
 }

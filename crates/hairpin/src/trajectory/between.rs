@@ -68,6 +68,17 @@ impl Track {
         Self::new(of(self.times()), poses, channels.collect()).expect("rows of a track are a track")
     }
 
+    /// Pose and channels at `t` (s) on the motion that the rows stand for; before the first row and after the last one
+    /// as there, `None` without rows. A leg lasts until the next row.
+    pub fn at(&self, t: f64) -> Option<(Isometry3<f64>, Vec<f64>)> {
+        if self.len() < 2 {
+            let values = self.channels().iter().filter_map(|channel| channel.values.first().copied());
+            return self.poses().first().map(|pose| (*pose, values.collect()));
+        }
+        let next = self.times().partition_point(|time| *time <= t);
+        Some(Between::of(self).at(next.clamp(1, self.len() - 1) - 1, t))
+    }
+
     /// The motion that the rows stand for, every `period` s from the first row on, and at the last. A row that stands
     /// at such a stamp comes back as it is; a leg lasts until the next row.
     pub fn at_period(&self, period: f64) -> Self {

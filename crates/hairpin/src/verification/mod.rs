@@ -17,6 +17,7 @@
 //! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |
 //! | a drive keeps off discs | [`verify_clear_ground`] | chords and what leaves them |
 //! | an arm's program or graph holds | [`verify_arm_program`], [`verify_arm_graph`] | bounds, margins, cell, targets |
+//! | rows of a table are the witness's motion | [`verify_rows`], [`verify_flight_rows`] | place, attitude, velocity |
 //! | no path is heavier | [`verify_heaviest`], [`verify_walk`], [`verify_triples`] | every bound, or its own search |
 //!
 //! Each takes plain numbers, as files hold them, and gives findings; none panics on what a file may hold unless it says
@@ -51,6 +52,7 @@ mod quadrature;
 mod replay;
 mod rims;
 mod rotors;
+mod rows;
 mod stand;
 mod stretch;
 mod stride;
@@ -81,5 +83,6 @@ pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClai
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
 pub use proof::{open_loop_with_lag, verify};
 pub use rims::{RimBreach, WheelRims, rim_breaches};
+pub use rows::{PlannedRow, PlannedState, RowTolerances, verify_flight_rows, verify_rows};
 pub use stand::Stand;
 pub use walk::{SplitClaim, WalkClaim, WalkStepClaim, verify_walk};

@@ -9,11 +9,11 @@ use serde_json::{Value, json};
 use super::solve::BoatSolver;
 use super::{BoatSetup, knobs, losses, passes, plan, through, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::kind::{Claim, Knobs, PlanError, PlannedRows, Replanner, Same, Solver};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
-use crate::verification::{EndError, Proof};
+use crate::verification::{EndError, Finding, Proof};
 
 impl Claim for BoatSetup {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
@@ -42,6 +42,10 @@ impl Claim for BoatSetup {
 
     fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
         verify::verify(self, case)
+    }
+
+    fn verify_planned(&self, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+        verify::verify_planned(case, kept)
     }
 
     fn passes(&self, asked: &Demands) -> Result<Passage, String> {

@@ -2,9 +2,13 @@
 
 use super::BoatSetup;
 use crate::campaign::Case;
+use crate::campaign::kind::PlannedRows;
 use crate::robot::boat::Boat;
-use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, BoatPlace, boat_with_lag, verify_boat};
-use crate::verification::{Collector, EndError, Proof, Tolerances};
+use crate::trajectory::Profile;
+use crate::verification::boat::{
+    BoatClaim, BoatHull, BoatLeg, BoatPlace, boat_with_lag, verify_boat, verify_boat_rows,
+};
+use crate::verification::{Collector, EndError, Finding, Proof, Tolerances};
 use crate::world::terrain::KeepOutShape;
 
 /// Error of the integrated state, SI: damping has bends, which no order makes smooth.
@@ -25,14 +29,24 @@ pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<E
     (proof, with_lag.flatten())
 }
 
+/// Holds the rows that are kept of the planned motion of `case` to its polynomials by independent code; nothing for a case
+/// that claims no witness.
+pub(super) fn verify_planned(case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+    let Some(profile) = case.profile() else { return Vec::new() };
+    verify_boat_rows(&legs_of(profile), &kept.with_middles())
+}
+
+fn legs_of(profile: &Profile) -> Vec<BoatLeg> {
+    profile.legs.iter().map(|leg| BoatLeg { duration: leg.duration, coefficients: leg.coefficients }).collect()
+}
+
 /// Beside what the verification room finds: the case's leg times are the witness's to 10⁻⁹ of each, and all waypoints
 /// lie in z = 0.
 fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let (generate, world) = (&setup.scenario.generate, &setup.scenario.world);
     let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
-    let legs: Vec<BoatLeg> =
-        profile.legs.iter().map(|leg| BoatLeg { duration: leg.duration, coefficients: leg.coefficients }).collect();
+    let legs = legs_of(profile);
     let place = |shape: &KeepOutShape| match shape {
         KeepOutShape::Circle { center_m, radius_m } => BoatPlace::Disc(*center_m, *radius_m),
         KeepOutShape::Polygon { points_m } => BoatPlace::Polygon(points_m.clone()),

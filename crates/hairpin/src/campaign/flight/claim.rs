@@ -7,12 +7,12 @@ use super::fly::own_curve;
 use super::solve::FlightSolver;
 use super::{FlightSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::kind::{Claim, Knobs, PlanError, PlannedRows, Replanner, Same, Solver};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
-use crate::verification::{EndError, Proof};
+use crate::verification::{EndError, Finding, Proof};
 
 /// Rate of the timed reference that executors get, Hz.
 /// Trackers interpolate; the polynomials themselves are in the folder.
@@ -58,6 +58,10 @@ impl Claim for FlightSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, with_lag.flatten())
+    }
+
+    fn verify_planned(&self, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+        verify::verify_planned(&self.robot, case, kept)
     }
 
     fn passes(&self, asked: &Demands) -> Result<Passage, String> {

@@ -4,11 +4,13 @@
 //! but by copy.
 
 use crate::campaign::Case;
+use crate::campaign::kind::PlannedRows;
 use crate::campaign::scenario::EnvironmentSection;
 use crate::robot::quadrotor::Quadrotor;
+use crate::trajectory::Profile;
 use crate::verification::{
     self, Body, Claim, ClearClaim, ClearSolid, Collector, EndError, Finding, Leg, Proof, RotorPlace, Tolerances,
-    verify_clear,
+    verify_clear, verify_flight_rows,
 };
 
 use super::FlightSetup;
@@ -21,11 +23,21 @@ pub(super) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<En
     let profile = case.profile()?;
     let body = body_of(robot);
     let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
-    let legs: Vec<Leg> =
-        profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect();
+    let legs = legs_of(profile);
     let claim = Claim { waypoints: &waypoints, legs: &legs };
     let proof = verification::verify(&body, &claim, &Tolerances::default());
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
+}
+
+/// Holds the rows that are kept of the planned motion of `case` to its polynomials and the attitudes that they demand, by
+/// independent code; nothing for a case that claims no witness.
+pub(super) fn verify_planned(robot: &Quadrotor, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+    let Some(profile) = case.profile() else { return Vec::new() };
+    verify_flight_rows(&body_of(robot), &legs_of(profile), &kept.with_middles())
+}
+
+fn legs_of(profile: &Profile) -> Vec<Leg> {
+    profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect()
 }
 
 /// The seam between claim and proof: numbers alone. SI; rotor speeds in rad/s, spins ± 1.
@@ -127,9 +139,7 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
         found.unless(fine, "discrete_gust.duration_s", gust.duration_s, lasts, "s");
     }
     let legs = match case.profile() {
-        Some(profile) => {
-            profile.legs.iter().map(|leg| Leg { duration: leg.duration, coefficients: leg.coefficients }).collect()
-        }
+        Some(profile) => legs_of(profile),
         None => straight(case),
     };
     findings.extend(verify_clear(&ClearClaim {

@@ -6,14 +6,14 @@ use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::{Knobs, Same};
+use super::{Knobs, PlannedRows, Same};
 use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
 use crate::math::random::Stream;
 use crate::simulation::SimulationError;
 use crate::trajectory::{Track, TrackError};
-use crate::verification::{EndError, Proof};
+use crate::verification::{Collector, EndError, Finding, Proof, RowTolerances};
 
 /// Why a case has no planned motion.
 ///
@@ -101,6 +101,28 @@ pub(in crate::campaign) trait Claim {
     /// `None` where nothing is claimed. The environment's numbers (wind, gusts, obstacles) are held to the bounds
     /// that `drawn` gave the search.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
+
+    /// Holds the rows of its planned motion that are kept to the witness of `case`, which itself holds: to the polynomials
+    /// by independent code, where a witness is polynomials, or else to the motion that the witness is planned as once
+    /// more. Nothing for a case that claims none.
+    fn verify_planned(&self, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
+        if case.witness.is_none() {
+            return Vec::new();
+        }
+        match self.planned(case) {
+            Ok(planned) => kept.against(&planned, &self.row_tolerances()),
+            Err(error) => {
+                let mut findings = Vec::new();
+                Collector::about(&mut findings, "planned").refuse(format!("its motion cannot be planned: {error}"));
+                findings
+            }
+        }
+    }
+
+    /// What rows may be off the motion that their witness is planned as once more.
+    fn row_tolerances(&self) -> RowTolerances {
+        RowTolerances::default()
+    }
 
     /// What is claimed of waypoints that somebody else chose: a witness, or what breaks, leg by leg.
     ///

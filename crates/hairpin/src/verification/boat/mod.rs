@@ -16,9 +16,11 @@ mod knots;
 mod places;
 mod proof;
 mod replay;
+mod rows;
 mod series;
 #[cfg(test)]
 mod tests;
 
 pub use claim::{BoatClaim, BoatHull, BoatLeg, BoatPlace};
 pub use proof::{boat_with_lag, verify_boat};
+pub use rows::verify_boat_rows;
