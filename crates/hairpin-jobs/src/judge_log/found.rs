@@ -93,6 +93,8 @@ pub struct Found {
     /// The first waypoint that was not; where an autopilot itself tells which it flew to, the first that it says it was
     /// at and was nowhere near.
     pub missed: Option<Missed>,
+    /// When the mission is flown once more, which is not judged, s; `None` where a part was asked for.
+    pub again_s: Option<f64>,
     /// The log's modes, where it tells them and none of them flies a mission: nothing of it is judged then.
     pub never_began: Option<String>,
     /// What it was measured to be; `None` where nothing is left to measure.

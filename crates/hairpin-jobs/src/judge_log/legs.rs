@@ -41,6 +41,8 @@ pub(super) struct Mission {
     pub(super) to_s: f64,
     /// When its mode says that it began, s.
     pub(super) begins_s: Option<f64>,
+    /// When the flight before it ended, of a mission that is flown more than once, s.
+    pub(super) since_s: Option<f64>,
     /// What ended it.
     pub(super) ended: Option<String>,
     /// Whether the log itself says when it began.
@@ -69,11 +71,27 @@ fn never_began(logged: &Logged) -> Option<String> {
     (!named.is_empty()).then(|| named.join(", "))
 }
 
+fn times(logged: &Logged, kind: EventKind) -> impl Iterator<Item = f64> {
+    logged.events.iter().filter(move |event| event.kind == kind).map(|event| event.t_s)
+}
+
+/// When the flight of the mission begins that is judged from `asked` to `to`: the one that is under way by then, else
+/// the next.
+fn begins(logged: &Logged, asked: f64, to: f64) -> Option<f64> {
+    let under_way = times(logged, EventKind::MissionBegins).take_while(|t| *t <= asked).last();
+    let next = times(logged, EventKind::MissionBegins).find(|t| *t > asked && *t < to);
+    let is_over = |begun: f64| times(logged, EventKind::MissionEnds).any(|t| t > begun && t <= asked);
+    if under_way.is_none_or(is_over) { next.or(under_way) } else { under_way }
+}
+
 /// From where on the autopilot flies the mission until it no longer does: return, hold, landing, a pilot, a failsafe, a
 /// fence. What comes after the first end is another matter, even where the mission is taken up again.
 pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Mission {
-    let begins = logged.events.iter().find(|event| event.kind == EventKind::MissionBegins).map(|event| event.t_s);
     let asked = from_s.unwrap_or(f64::NEG_INFINITY);
+    let begins = begins(logged, asked, to_s.unwrap_or(f64::INFINITY));
+    let first = times(logged, EventKind::MissionBegins).next();
+    let again = begins.filter(|_| begins != first);
+    let before = again.and_then(|begins| times(logged, EventKind::MissionEnds).take_while(|t| *t <= begins).last());
     let from = begins.unwrap_or(f64::NEG_INFINITY).max(asked);
     let takes_off = |after: f64| logged.events.iter().any(|e| e.kind == EventKind::TookOff && e.t_s >= after);
     let flew = |before: f64| logged.events.iter().any(|e| e.kind == EventKind::TookOff && e.t_s < before);
@@ -88,6 +106,7 @@ pub(super) fn mission(logged: &Logged, [from_s, to_s]: [Option<f64>; 2]) -> Miss
     Mission {
         from_s: from,
         begins_s: begins,
+        since_s: before,
         to_s: end.map_or(to_s.unwrap_or(f64::INFINITY), |end| end.t_s),
         ended: end.map(|end| format!("{} at t = {:.1} s", end.words, end.t_s)),
         is_told: begins.is_some() || !logged.progress.is_empty(),

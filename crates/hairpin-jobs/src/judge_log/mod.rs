@@ -9,6 +9,7 @@
 //! Logs of arms go their own way, by their programs: `arm`.
 
 mod accuracy;
+mod again;
 mod against;
 mod arm;
 mod aside;

@@ -9,6 +9,7 @@ use hairpin_formats::logs::{self, Logged, Progress, Sample};
 use nalgebra::Isometry3;
 
 use super::accuracy::accuracies;
+use super::again::{again, of_flight};
 use super::against::{Of, Ready};
 use super::asks::Asks;
 use super::begin::Before;
@@ -57,6 +58,7 @@ pub(super) fn judge(
     let samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
     let progress =
         logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
+    let progress = of_flight(progress, &span, (logged, &against.cases, against.accept));
     let (case, matched) = match &against.cases[..] {
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
@@ -78,12 +80,16 @@ pub(super) fn judge(
     }
     let left = cut(&own, (motion, due), &logged.dropouts, &against.swiftness);
     let (missed, finished) = judged.end(&own, &left);
+    let is_asked = settings.from_s.or(settings.to_s).is_some();
+    let behind = |near_m| again(logged, &span, (&frame, motion), (&case.waypoints, near_m));
+    let again_s = if is_asked { None } else { behind(judged.near_m())? };
     let name = against.name_of(case);
     let simulated = against.simulated.iter().find(|result| result.case == case.number);
     let mut notes = logged.notes.clone();
     if !logged.progress.is_empty() && course.is_none() {
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
+    notes.extend(again_s.map(told::again));
     let (accuracy, untold) = accuracies(&left.samples);
     notes.extend(untold);
     let mut found = Found {
@@ -97,6 +103,7 @@ pub(super) fn judge(
         ended: span.ended.clone(),
         finished,
         missed,
+        again_s,
         never_began: span.never_began.clone(),
         flown: None,
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
@@ -107,7 +114,7 @@ pub(super) fn judge(
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
-        let told = mission(logged, [None; 2]);
+        let told = mission(logged, [span.since_s, None]);
         let start = (case.waypoints[0], against.accept);
         let before = Before { motion, told: &told, from_s: settings.from_s, start };
         flown.doubts.extend(before.doubt(&flown, &own));
@@ -175,6 +182,16 @@ impl Judging<'_> {
         }
     }
 
+    /// Within how much a waypoint counts as reached, m.
+    fn accept_m(&self) -> f64 {
+        self.against.setup.scenario.deviation_limit().unwrap_or(0.0).max(self.against.accept)
+    }
+
+    /// Beyond how much nobody was anywhere near it, m.
+    fn near_m(&self) -> f64 {
+        (NOWHERE * self.accept_m()).max(OWN_RADIUS_M)
+    }
+
     /// The first waypoint that it was never at, and whether it flew the whole mission.
     ///
     /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's, but
@@ -183,7 +200,7 @@ impl Judging<'_> {
     /// start, or cross itself.
     fn end(&self, own: &[Sample], left: &Left) -> (Option<Missed>, bool) {
         let waypoints = &self.case.waypoints[..];
-        let accept = self.against.setup.scenario.deviation_limit().unwrap_or(0.0).max(self.against.accept);
+        let accept = self.accept_m();
         let (last, to_s) = (waypoints.len() - 1, self.span.to_s);
         let flew = self.course.is_none_or(|course| course.is_whole(waypoints.len(), to_s));
         let near_last = own.last().is_some_and(|sample| (sample.p_m - waypoints[last]).norm() <= self.against.accept);
@@ -198,7 +215,7 @@ impl Judging<'_> {
         // Where it was when it left a waypoint that --from leaves out is not seen.
         let first = if begins == 0 && !self.is_part { 0 } else { begins + 1 };
         let told = first..=if is_over { last } else { ends };
-        let missed = untrue(own, (course, told), waypoints, (NOWHERE * accept).max(OWN_RADIUS_M));
+        let missed = untrue(own, (course, told), waypoints, self.near_m());
         (missed, flew && missed.is_none() && (is_over || near_last))
     }
 

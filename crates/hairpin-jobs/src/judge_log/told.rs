@@ -105,6 +105,10 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         );
         return (Outcome::Unjudged, unjudged(case, how, &worst));
     }
+    if let Some(again_s) = found.again_s {
+        let best = nearest(flown).into_iter().collect::<Vec<_>>();
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(again(again_s), &best)));
+    }
     if let Some(why) = flown.limits.open(&flown.measures) {
         let why = format!("{why}; --set can ask a log for less (docs/judging-logs.md)");
         let best = nearest(flown).into_iter().collect::<Vec<_>>();
@@ -113,6 +117,13 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
     let between = flown.limits.deviation.map(|_| format!("at most {:.2} m between samples", flown.most_between));
     let best = nearest(flown).unwrap_or_else(|| "within all limits".into());
     (Outcome::Pass, within_spec(case, how, &with(best, &between.into_iter().collect::<Vec<_>>())))
+}
+
+/// That a mission is flown once more.
+pub(super) fn again(t_s: f64) -> String {
+    format!(
+        "the mission is flown again from t = {t_s:.1} s, which is not judged: --from S and --to S choose one flight"
+    )
 }
 
 /// Why what was flown is not the whole mission: where it ends, or what it left out.

@@ -191,6 +191,40 @@ fn positions_that_the_mission_outlasts_are_a_gap() {
     assert_eq!(judged.verdict.exit_code, 0, "{}", judged.verdict.sentence);
 }
 
+#[test]
+fn a_mission_that_is_flown_twice_is_judged_by_the_flight_that_is_chosen() {
+    let first = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    let with = |mut log: Logged, again: f64| {
+        log.events.push(event(17.9, EventKind::MissionEnds, "mission_result finished"));
+        log.events.push(event(again, EventKind::MissionBegins, "nav_state AUTO_MISSION"));
+        log
+    };
+    // Its mode alone is no flight.
+    let (sentence, code, found) = over(&with(first.clone(), 17.95), &SQUARE);
+    assert!(code == 0 && found.again_s.is_none(), "{sentence}");
+    let around: Vec<[f64; 3]> = SQUARE.iter().chain(&SQUARE[1..]).copied().collect();
+    let mut twice = with(by_autopilot(&around, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]), 18.0);
+    let second = first.progress.iter().zip([17.95, 18.0, 22.0, 26.0, 30.0]);
+    twice.progress.extend(second.map(|(step, t_s)| Progress { t_s, ..*step }));
+    let (sentence, code, found) = over(&twice, &SQUARE);
+    assert!(code == 5 && found.finished && found.again_s == Some(18.0), "{sentence}");
+    let words =
+        "the mission is flown again from t = 18.0 s, which is not judged: --from S and --to S choose one flight";
+    assert!(sentence.contains(words) && found.notes.iter().any(|note| note == words), "{sentence}");
+    let chosen = |from_s: Option<f64>, to_s: Option<f64>| {
+        let judged = judged_as(&twice, |settings, here| {
+            let rows = SQUARE.map(|[x, y, z]| format!("{x},{y},{z}\n")).concat();
+            fs::write(here.join("m.csv"), format!("x_m,y_m,z_m\n{rows}")).unwrap();
+            (settings.from_s, settings.to_s) = (from_s, to_s);
+        });
+        let judged = judged.unwrap();
+        assert_eq!(judged.verdict.exit_code, 0, "{}", judged.verdict.sentence);
+        judged.found.unwrap().span_s.unwrap()
+    };
+    assert_eq!(chosen(None, Some(17.9)), [2.0, 17.9]);
+    assert_eq!(chosen(Some(17.92), None)[0], 18.0);
+}
+
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
     let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
