@@ -6,9 +6,9 @@ use hairpin_formats::missions::Mission;
 use nalgebra::{Point2, Vector2};
 
 /// `MAV_AUTOPILOT` of PX4, which demands to be in any of the fences that keep in.
-const PX4: u64 = 12;
+pub(crate) const PX4: u64 = 12;
 /// `MAV_AUTOPILOT` of ArduPilot, which demands to be in all of them, unless `FENCE_OPTIONS` says otherwise.
-const ARDUPILOT: u64 = 3;
+pub(crate) const ARDUPILOT: u64 = 3;
 
 /// Adds to `passage` the first waypoint or leg that crosses a fence of `mission`: of each that keeps out, and of those
 /// that keep in as the mission's autopilot takes several of them.

@@ -11,6 +11,7 @@ use hairpin_formats::missions::{Frame, Mission};
 
 use crate::{Problem, Watch};
 
+pub(crate) use fences::{ARDUPILOT, PX4};
 pub use settings::CheckSettings;
 pub(crate) use vehicle::same_vehicle;
 pub(crate) use world::open_around;

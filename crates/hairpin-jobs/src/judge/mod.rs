@@ -21,8 +21,8 @@ use rayon::prelude::*;
 use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
-use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge};
-use crate::missions::{Compared, compare, doubt, read_told, with_compared};
+use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge, runs_with_motion};
+use crate::missions::{Compared, compare, doubt, fences_of, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
@@ -155,8 +155,11 @@ pub(crate) fn judge_cases(
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
     let missions_told = read_told(work)?;
-    for mut case in judged {
+    for (mut case, own) in judged.into_iter().zip(cases) {
         doubt(missions_told.as_ref(), &mut case.result);
+        if let Some(fences) = fences_of(missions_told.as_ref(), &case.result).filter(|_| case.flown > 0) {
+            fences.hold(&told, own, &runs_with_motion(work, own)?, &mut case.result);
+        }
         results.push(case.result);
         deviations.extend(case.deviations);
         met.push(case.met);

@@ -3,6 +3,7 @@
 
 mod asked;
 mod compared;
+mod fenced;
 mod leg;
 mod told;
 
@@ -19,9 +20,10 @@ use crate::work::Work;
 use crate::{Problem, Watch};
 pub use compared::{Compared, Ranked};
 pub(crate) use compared::{compare, with_compared};
+pub use fenced::FencesTold;
 pub(crate) use leg::Leg;
 pub use told::{MissionTold, MissionsTold};
-pub(crate) use told::{doubt, read_told};
+pub(crate) use told::{doubt, fences_of, read_told};
 
 /// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///

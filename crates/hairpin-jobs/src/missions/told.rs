@@ -3,6 +3,7 @@
 use hairpin::campaign::{CaseResult, Status};
 use serde::{Deserialize, Serialize};
 
+use super::fenced::FencesTold;
 use super::leg::Leg;
 use crate::Problem;
 use crate::check::{certainty_word, frame_in_words};
@@ -42,6 +43,9 @@ pub struct MissionTold {
     /// What the mission asks that is not what was executed: its case is inconclusive.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unmet: Vec<String>,
+    /// Its own fences, which what is executed is held against.
+    #[serde(skip_serializing_if = "FencesTold::is_empty")]
+    pub fences: FencesTold,
 }
 
 impl MissionsTold {
@@ -66,6 +70,7 @@ impl MissionsTold {
                 check: checked.map_or("not checked".into(), |checked| checked.verdict.sentence.clone()),
                 notes: leg.mission.notes.clone(),
                 unmet: leg.unmet.clone(),
+                fences: FencesTold::of(&leg.mission),
             }
         };
         Self { missions: legs.iter().map(one).collect() }
@@ -86,6 +91,12 @@ pub(crate) fn doubt(told: Option<&MissionsTold>, result: &mut CaseResult) {
         result.violations.clear();
         result.message = Some(unmet.join("; "));
     }
+}
+
+/// The fences that what was executed of the case of `result` is held against: of a mission that was executed as it asks.
+pub(crate) fn fences_of<'t>(told: Option<&'t MissionsTold>, result: &CaseResult) -> Option<&'t FencesTold> {
+    let one = told?.missions.get(result.case.0)?;
+    (one.unmet.is_empty() && !one.fences.is_empty()).then_some(&one.fences)
 }
 
 /// What the folder of `work` keeps of its missions; `None` where its cases are none.
