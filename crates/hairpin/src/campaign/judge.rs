@@ -17,6 +17,7 @@ use std::cell::OnceCell;
 use super::gravity::Gravity;
 use super::hidden::{hidden, sampled};
 use super::influence::RunDeviation;
+use super::missed::missed;
 use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
@@ -197,7 +198,9 @@ fn judge_run(
         }
         let hidden = || hidden(&own, &measures, &terms.limits);
         let unmeasured = || terms.limits.open(&measures);
-        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(hidden).or_else(unmeasured);
+        // What violates has an answer.
+        let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
+        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }
