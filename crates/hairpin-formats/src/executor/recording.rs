@@ -4,6 +4,7 @@
 use hairpin::campaign::Mission;
 // Beyond it a simulation has diverged.
 use hairpin::campaign::bounds::{FARTHEST_ON_EARTH_M, SHORTEST_STEP_S};
+use hairpin::math::segment::point_distance;
 use hairpin::trajectory::{Channel, Ended, Flight, Track, TrackError};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
@@ -174,6 +175,19 @@ impl<'a> Recording<'a> {
         }
     }
 
+    /// Whether it came, on the legs before and after a waypoint, within acceptance or the limit of deviation of it,
+    /// straight from pose to pose: an executor may have a radius of its own, but its word alone is no place.
+    fn was_near(&self, legs: &[u64], number: u64, waypoint: &Point3<f64>) -> bool {
+        let within = self.mission.accept.max(self.mission.setup.scenario.deviation_limit().unwrap_or(0.0));
+        let place = |i: usize| Point3::from(self.poses[i].translation.vector);
+        (0..self.poses.len()).any(|i| {
+            let before = i.saturating_sub(1);
+            let is_about = legs[i] + 1 >= number && legs[before] <= number;
+            let is_near = || point_distance(waypoint, &place(before), &place(i)) <= within;
+            is_about && (self.is_at(&place(i), waypoint) || is_near())
+        })
+    }
+
     fn last_leg(&self) -> u64 {
         self.mission.waypoints.len().saturating_sub(2) as u64
     }
@@ -212,8 +226,8 @@ impl<'a> Recording<'a> {
         Ok(Flight { track: Track::new(self.times, self.poses, channels)?, ended, left_world, reached })
     }
 
-    /// When each waypoint was reached: where the executor tells the leg, when that leg was over; otherwise, and for the
-    /// last waypoint, when the robot was first within acceptance, one waypoint after the other. One that was
+    /// When each waypoint was reached: where the executor tells the leg, when that leg was over, if it was near it at all;
+    /// otherwise, and for the last waypoint, when the robot was first within acceptance, one waypoint after the other. One that was
     /// missed does not hide those after it; but the last counts only on the last leg or, without legs, after another
     /// one: paths cross, and a robot that never left a start near the end has flown nothing.
     fn reached(&self) -> Vec<Option<f64>> {
@@ -225,6 +239,7 @@ impl<'a> Recording<'a> {
             let mut later = from..self.poses.len();
             let found = match &self.legs {
                 _ if number == 0 => Some(0),
+                Some(legs) if number < last && !self.was_near(legs, number as u64, waypoint) => None,
                 Some(legs) if number < last => later.find(|&i| legs[i] >= number as u64),
                 Some(legs) => later.find(|i| legs[*i] == self.last_leg() && inside(i)),
                 None if number == last && last > 1 && reached[1..].iter().all(Option::is_none) => None,

@@ -71,6 +71,9 @@ pub(super) fn columns(rows: &[Option<&Measures>]) -> Vec<(&'static str, ArrayRef
             all.push((name, number(&value)));
         }
     }
+    if rows.iter().flatten().any(|measures| !measures.waypoints_within.is_empty()) {
+        all.push((WITHIN, list(&|m| m.waypoints_within.iter().copied().map(Some).collect())));
+    }
     if rows.iter().flatten().any(|measures| measures.missing != Missing::default()) {
         let flag = |of: fn(&Missing) -> bool| -> ArrayRef {
             Arc::new(rows.iter().map(|row| row.map(|m| of(&m.missing))).collect::<BooleanArray>())
@@ -87,6 +90,9 @@ const NO_ACCELERATION: &str = "acceleration_missing";
 
 /// Column: what may hide between samples, of runs of which that is asked.
 pub(super) const BETWEEN: &str = "max_deviation_between_m";
+
+/// Column: how near each waypoint was come to, of runs of which that is asked.
+const WITHIN: &str = "waypoints_within_m";
 
 type Figure = fn(&Measures) -> Option<f64>;
 
@@ -143,6 +149,10 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let sources = [AccelerationSource::Velocity, AccelerationSource::Position];
     let acceleration_source = words(table, "acceleration_source", sources, acceleration_source_word)?;
     let overshoots = complete_lists(table, "overshoots_m")?;
+    let within = match table.has(WITHIN) {
+        true => complete_lists(table, WITHIN)?,
+        false => vec![Vec::new(); table.rows()],
+    };
     let legs = read_legs(table)?;
     (0..table.rows())
         .map(|row| {
@@ -165,6 +175,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 clearance_between: clear_between[row],
                 acceleration_over: mean_over[row],
                 edge_between: edge_between[row],
+                waypoints_within: within[row].clone(),
                 mean_deviation,
                 max_acceleration,
                 t_acceleration,

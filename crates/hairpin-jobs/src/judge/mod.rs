@@ -40,8 +40,12 @@ pub struct Judgement {
     pub influences: Vec<Influence>,
     /// Cases of which a flight came without attitudes.
     pub attitude_unknown: usize,
-    /// Cases that are measured otherwise than when they were executed: of the rows that are kept.
+    /// Cases whose deviations are measured otherwise than when they were executed.
+    pub otherwise: usize,
+    /// Runs of those that are measured of the rows that are kept.
     pub from_rows: usize,
+    /// Runs of those whose motion was not kept, so that they were flown anew.
+    pub flown_anew: usize,
     /// Of arms: what every run did on every move.
     pub moves: Moves,
     /// Of arms with a baseline.
@@ -91,15 +95,25 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
     if told.is_empty() {
         told.extend(missing(&work, &tally, &judgement.results)?);
     }
-    if judgement.from_rows > 0 {
-        told.push(format!(
-            "{} of {} cases were executed with another reference of deviations: they are measured of the rows that are kept, \
-             0.1 mm from what was flown",
-            judgement.from_rows,
-            cases.len()
-        ));
-    }
+    told.extend(measured_anew(&judgement, cases.len()));
     Ok(Judged { work, cases, tally, judgement, told })
+}
+
+/// What was done for cases that were executed with another reference of deviations; `None` where there are none.
+fn measured_anew(judgement: &Judgement, cases: usize) -> Option<String> {
+    let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
+    let (rows, anew) = (judgement.from_rows, judgement.flown_anew);
+    let of_rows = format!(
+        "deviations and overshoots of {} are measured of the rows that are kept, 0.1 mm from what was flown",
+        runs(rows)
+    );
+    let by_flight = format!("{}, whose motion was not kept, flown anew", runs(anew));
+    let done: Vec<String> =
+        [(rows, of_rows), (anew, by_flight)].into_iter().filter(|(n, _)| *n > 0).map(|d| d.1).collect();
+    (!done.is_empty()).then(|| {
+        let done = done.join("; ");
+        format!("{} of {cases} cases were executed with another reference of deviations: {done}", judgement.otherwise)
+    })
 }
 
 /// Whether deviations are measured from another reference in `now` than `before`: what was measured of flights that are
@@ -122,8 +136,10 @@ struct JudgedCase {
     met: BTreeSet<usize>,
     /// Whether a flight came without attitudes.
     lacks_attitude: bool,
-    /// Whether it was measured of the rows that are kept.
-    from_rows: bool,
+    /// Runs that were measured of the rows that are kept, for another reference of deviations.
+    from_rows: usize,
+    /// Runs that were flown anew for that.
+    flown_anew: usize,
     /// Runs that came to a flight.
     flown: usize,
 }
@@ -131,7 +147,15 @@ struct JudgedCase {
 impl JudgedCase {
     fn undone(case: &Case, what: Undone) -> Self {
         let result = CaseResult::undone(case.number, what);
-        Self { result, deviations: Vec::new(), met: BTreeSet::new(), lacks_attitude: false, from_rows: false, flown: 0 }
+        Self {
+            result,
+            deviations: Vec::new(),
+            met: BTreeSet::new(),
+            lacks_attitude: false,
+            from_rows: 0,
+            flown_anew: 0,
+            flown: 0,
+        }
     }
 }
 
@@ -151,7 +175,9 @@ pub(crate) fn judge_cases(
     let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget, &cut)));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
-    let from_rows = judged.iter().filter(|case| case.from_rows).count();
+    let otherwise = judged.iter().filter(|case| case.from_rows + case.flown_anew > 0).count();
+    let (from_rows, flown_anew) =
+        judged.iter().fold((0, 0), |(rows, anew), case| (rows + case.from_rows, anew + case.flown_anew));
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
     let missions_told = read_told(work)?;
@@ -181,7 +207,19 @@ pub(crate) fn judge_cases(
     write_repros(work, cases, &results)?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
-    Ok(Judgement { results, verdict, influences, attitude_unknown, from_rows, moves, regression, baseline, missions })
+    Ok(Judgement {
+        results,
+        verdict,
+        influences,
+        attitude_unknown,
+        otherwise,
+        from_rows,
+        flown_anew,
+        moves,
+        regression,
+        baseline,
+        missions,
+    })
 }
 
 fn judge_case(
@@ -193,7 +231,7 @@ fn judge_case(
     if budget.is_some_and(|budget| budget.end(Part::Judgement).passed()) {
         return Ok(JudgedCase::undone(case, Undone::NotJudged));
     }
-    let ToJudge { runs, from_rows } = runs_to_judge(work, case)?;
+    let ToJudge { runs, from_rows, flown_anew } = runs_to_judge(work, case)?;
     let is_cut = || cut.contains(&case.number) || budget.is_some_and(|budget| budget.end(Part::Search).passed());
     if runs.is_empty() && is_cut() {
         return Ok(JudgedCase::undone(case, Undone::NotExecuted));
@@ -222,7 +260,8 @@ fn judge_case(
     }
     let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
     let flown = runs.iter().filter(|run| run.outcome.is_ok()).count();
-    Ok(JudgedCase { result, deviations, met, lacks_attitude: runs.iter().any(attitude_unknown), from_rows, flown })
+    let lacks_attitude = runs.iter().any(attitude_unknown);
+    Ok(JudgedCase { result, deviations, met, lacks_attitude, from_rows, flown_anew, flown })
 }
 
 /// How often the violation of `case` came again; `None` where it was not run again.
@@ -363,6 +402,50 @@ mod tests {
         let again = ExecuteSettings { folder: folder.clone(), resume: true, ..ExecuteSettings::default() };
         execute(&again, &Unwatched).unwrap();
         assert_eq!(std::fs::read(&file).unwrap(), std::fs::read(&aside).unwrap());
+    }
+
+    /// Only deviations and overshoots have a reference; the rest stands as it was measured of all rows.
+    #[test]
+    fn another_reference_leaves_what_has_none() {
+        let (_place, folder) = executed();
+        let set = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let before = judge(&folder, &[set("spec.deviation.max_m", "50")]).unwrap().judgement;
+        let sets = [set("spec.deviation", "{ max_m = 50, from = \"leg\", corner_m = 0.25 }")];
+        let after = judge(&folder, &sets).unwrap();
+        let of_all =
+            "2 of 2 cases were executed with another reference of deviations: deviations and overshoots of 2 runs are";
+        assert!(
+            matches!(&after.told[..], [told] if told.starts_with(of_all) && !told.contains("anew")),
+            "{:?}",
+            after.told
+        );
+        for (before, after) in before.results.iter().zip(&after.judgement.results) {
+            let (before, after) = (before.measures.clone().unwrap(), after.measures.clone().unwrap());
+            let free = |m: &hairpin::judgement::Measures| {
+                let moments = (m.t_acceleration, m.t_tilt, m.t_clearance);
+                (m.max_acceleration, m.max_tilt, m.min_clearance, m.total_time, m.saturation_share, moments)
+            };
+            assert_eq!(free(&before), free(&after));
+            assert_ne!(before.mean_deviation.to_bits(), after.mean_deviation.to_bits());
+        }
+    }
+
+    /// Where no rows are kept, none are measured.
+    #[test]
+    fn runs_that_are_flown_anew_for_another_reference_are_told() {
+        let place = tempfile::tempdir().unwrap();
+        let set = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let mut settings = small(&place);
+        settings.sets.push(set("execute.record", "none"));
+        let folder = settings.out.clone().unwrap();
+        generate(&settings, &Unwatched).unwrap();
+        execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        let sets = [set("spec.deviation", "{ max_m = 50, from = \"leg\", corner_m = 0.25 }")];
+        let told = judge(&folder, &sets).unwrap().told;
+        assert!(
+            matches!(&told[..], [told] if told.ends_with(": 2 runs, whose motion was not kept, flown anew")),
+            "{told:?}"
+        );
     }
 
     #[test]

@@ -3,34 +3,12 @@
 
 use std::ops::RangeInclusive;
 
+pub use hairpin::campaign::missed::Missed;
 use hairpin::math::segment::point_distance;
 use hairpin_formats::logs::Sample;
 use nalgebra::Point3;
 
 use super::legs::Course;
-
-/// The first waypoint that a log was never at, after those before it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Missed {
-    /// The waypoint, from 0.
-    pub waypoint: usize,
-    /// Waypoints of the mission.
-    pub of: usize,
-    /// How near the log comes to it from where it was at the one before, m.
-    pub nearest_m: f64,
-    /// Within how much it would have counted as reached, m.
-    pub accept_m: f64,
-}
-
-impl Missed {
-    /// `waypoint 2 of 0 to 4 was never reached: 3.10 m at the nearest, 1 m accepted`.
-    pub fn in_words(&self) -> String {
-        let Self { waypoint, of, nearest_m, accept_m } = self;
-        let last = of.saturating_sub(1);
-        let near = format!("{nearest_m:.2} m at the nearest, {accept_m} m accepted");
-        format!("waypoint {waypoint} of 0 to {last} was never reached: {near}")
-    }
-}
 
 /// The first of `waypoints` that `samples` do not come to within `accept_m` m, in order; straight from each sample to
 /// the next, and by the earliest moment at which each is reached.

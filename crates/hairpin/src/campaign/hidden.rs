@@ -7,6 +7,7 @@
 use nalgebra::Point3;
 
 use super::Setup;
+use super::missed::radii;
 use crate::judgement::{
     JudgementError, Limits, Measures, Reference, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen, longest_mean,
     look_closely, measure, most_anywhere, told,
@@ -14,7 +15,8 @@ use crate::judgement::{
 use crate::trajectory::Track;
 
 /// Measures a track and, where a program of the user's told it, what may hide between its samples: the largest
-/// deviation and overshoot, the smallest clearance, and how long its accelerations are means over.
+/// deviation and overshoot, the smallest clearance, and how long its accelerations are means over; and how near it came
+/// to each waypoint.
 ///
 /// Of what nothing bounds how suddenly it turns (drives, boats) the straight line between two samples is looked along:
 /// the robot came from one to the other. A model's top speed is no bound of another simulator's.
@@ -29,6 +31,7 @@ pub(super) fn sampled(
     if setup.program().is_none() || setup.has_programs() {
         return Ok(measures);
     }
+    measures.waypoints_within = radii(track, waypoints);
     let acceleration = setup.swiftness().acceleration;
     let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
     let close = look_closely(track, waypoints, settings, &swiftness, 0.0)?;

@@ -17,6 +17,7 @@ use std::cell::OnceCell;
 use super::gravity::Gravity;
 use super::hidden::{hidden, sampled};
 use super::influence::RunDeviation;
+use super::missed::missed;
 use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
@@ -167,8 +168,8 @@ fn judge_run(
     let setup = around.as_ref();
     let Drawn { own, terms } = Drawn::of(setup, run)?;
     let programmed = plan.programmed.get_or_init(|| setup.kind().programs()?.programmed(case)).as_ref();
-    // Rows may have been left out since it was measured so; what is asked for otherwise is measured of those that
-    // stand.
+    // Rows may have been left out since it was measured so; deviations that are asked for otherwise are measured of
+    // those that stand.
     let known = run.full_rate.as_ref().filter(|known| known.is_by(&terms));
     let path = match terms.from {
         DeviationFrom::Path if known.is_none() => {
@@ -181,7 +182,11 @@ fn judge_run(
         None => {
             let clearance = own.kind().clearance();
             let settings = settings(&terms, path, clearance.as_deref());
-            sampled(&own, &flight.track, &case.waypoints, &settings)
+            let rows = sampled(&own, &flight.track, &case.waypoints, &settings);
+            rows.map(|rows| match &run.full_rate {
+                Some(by_others) => by_others.beside(rows),
+                None => rows,
+            })
         }
     };
     Ok(measured.map(|mut measures| {
@@ -197,7 +202,9 @@ fn judge_run(
         }
         let hidden = || hidden(&own, &measures, &terms.limits);
         let unmeasured = || terms.limits.open(&measures);
-        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(hidden).or_else(unmeasured);
+        // What violates has an answer.
+        let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
+        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }

@@ -59,6 +59,7 @@ pub mod judge;
 pub mod kind;
 pub mod landed;
 pub mod learn;
+pub mod missed;
 pub mod mission;
 pub mod own_controller;
 pub mod passage;

@@ -101,6 +101,9 @@ pub struct Measures {
     /// Longest time that an acceleration, or two intervals between samples of what nothing bounds, is a mean over, s;
     /// `None` where nobody asks for it.
     pub acceleration_over: Option<f64>,
+    /// The least radius for each waypoint within which the run was at it and at all before it, m; empty where nobody
+    /// asks for it.
+    pub waypoints_within: Vec<f64>,
     /// Mean deviation over time, m.
     pub mean_deviation: f64,
     /// Largest ‖dv/dt‖, m/s².

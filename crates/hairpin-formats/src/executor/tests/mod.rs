@@ -281,6 +281,13 @@ fn flights_are_not_refused_for_how_they_were_flown() {
             [Some(0.0), Some(1.0), None],
             vec!["leg", ATTITUDE_UNKNOWN],
         ),
+        // Its word alone, 4 m from waypoint 1, is no place; but passing it between two poses is.
+        ("pose(0, [1, 1, 1]); pose(1, [1, 3, 1], 1); pose(2, [1, 5, 1], 1)", [Some(0.0), None, Some(2.0)], vec!["leg"]),
+        (
+            "pose(0, [1, 1, 1]); pose(1, [7, 1, 1], 1); pose(2, [1, 5, 1], 1)",
+            [Some(0.0), Some(1.0), Some(2.0)],
+            vec!["leg"],
+        ),
         // A missed waypoint does not hide the end; but the end alone is not a flight.
         ("pose(0, [1, 1, 1], None); pose(1, [1, 5, 1], None)", [Some(0.0), None, None], vec![]),
     ] {

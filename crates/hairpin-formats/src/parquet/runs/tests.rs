@@ -72,6 +72,7 @@ fn what_may_hide_is_still_known_when_it_is_read() {
         clearance_between: Some(-0.25),
         acceleration_over: Some(0.125),
         edge_between: Some(-0.75),
+        waypoints_within: vec![0.0, 0.25, 6.5],
         ..measures
     };
     let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };

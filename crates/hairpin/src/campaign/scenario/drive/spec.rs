@@ -21,7 +21,8 @@ pub struct SpecLimits {
     /// Smallest angle that is left before the vehicle tips over.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_over_margin_deg: Option<f64>,
-    /// Smallest distance of the robot's outline from places to keep out of.
+    /// Smallest distance from places to keep out of of the circle about the robot's reference point that holds its
+    /// outline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_m: Option<f64>,
     /// Longest duration of a run.
