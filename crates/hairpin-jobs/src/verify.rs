@@ -179,7 +179,12 @@ fn of_rows(work: &Work, case: &Case) -> Option<Vec<String>> {
 
 fn words(finding: &Finding) -> String {
     let Finding { field, value, bound, unit, at, leg } = finding;
-    format!("{field} = {value:.6e} {unit}, bound {bound:.6e} {unit}, leg {leg}→{}, t = {at:.3} s", leg + 1)
+    // What is refused in words alone has neither.
+    let numbers = match bound.is_nan() {
+        true => String::new(),
+        false => format!(" = {value:.6e} {unit}, bound {bound:.6e} {unit}"),
+    };
+    format!("{field}{numbers}, leg {leg}→{}, t = {at:.3} s", leg + 1)
 }
 
 #[cfg(test)]
@@ -196,6 +201,14 @@ mod tests {
     use crate::generate::generate;
     use crate::testing::generated;
     use crate::work::CampaignSettings;
+
+    #[test]
+    fn what_has_no_number_is_told_in_words() {
+        let finding = Finding { field: "it stops".into(), value: f64::NAN, bound: f64::NAN, unit: "", leg: 1, at: 0.5 };
+        assert_eq!(words(&finding), "it stops, leg 1→2, t = 0.500 s");
+        let finding = Finding { field: "end".into(), value: 2.0, bound: 1.0, unit: "m", ..finding };
+        assert_eq!(words(&finding), "end = 2.000000e0 m, bound 1.000000e0 m, leg 1→2, t = 0.500 s");
+    }
 
     #[test]
     fn witnesses_hold_and_broken_ones_are_findings() {

@@ -163,7 +163,7 @@ impl Built {
                 }
             }
             if let Some(inertial) = child(link, "inertial").filter(|_| stand.of > 0) {
-                self.mass(stand, &inertial)?;
+                self.mass(name, stand, &inertial)?;
             }
         }
         let bare = |link: usize| !with_body[link] && !known.contains(&link);
@@ -242,8 +242,8 @@ impl Built {
         self.places.insert(key.to_owned(), node.range());
     }
 
-    fn mass(&mut self, stand: &Stand, inertial: &Node) -> Result<(), UrdfError> {
-        if let Some(index) = self.masses.add(stand, inertial)? {
+    fn mass(&mut self, name: &str, stand: &Stand, inertial: &Node) -> Result<(), UrdfError> {
+        if let Some(index) = self.masses.add(name, stand, inertial)? {
             self.place(&format!("masses[{index}]"), inertial);
         }
         Ok(())

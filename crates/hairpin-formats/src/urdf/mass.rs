@@ -4,7 +4,7 @@ use hairpin::robot::arm::MassDescription;
 use nalgebra::{Matrix3, Vector3};
 use roxmltree::Node;
 
-use super::element::{UrdfError, child, number, origin};
+use super::element::{UrdfError, at_attribute, child, number, origin, told};
 use super::stand::Stand;
 use super::tip::AXES;
 
@@ -17,13 +17,18 @@ pub(super) struct Masses {
 impl Masses {
     /// Joins the mass of `inertial` with what its link already has: I = Σ (R I Rᵀ + m (d² − d dᵀ)) about the common
     /// centre. Which entry is new, if one is.
-    pub(super) fn add(&mut self, stand: &Stand, inertial: &Node) -> Result<Option<usize>, UrdfError> {
+    ///
+    /// Each is held to what masses can be before it is joined: what it is joined to would hide it. `name` is its link's.
+    pub(super) fn add(&mut self, name: &str, stand: &Stand, inertial: &Node) -> Result<Option<usize>, UrdfError> {
         let link = stand.of;
-        let mass = child(inertial, "mass").map_or(Ok(0.0), |node| number(&node, "value"))?;
+        let mass = match child(inertial, "mass") {
+            Some(node) => not_negative(&node, name, "value", "mass, kg")?,
+            None => 0.0,
+        };
         let link_from_inertial = stand.pose * origin(inertial)?;
         let centre = link_from_inertial.translation.vector * 1e3;
         let turn = link_from_inertial.rotation.to_rotation_matrix();
-        let own = child(inertial, "inertia").map_or(Ok(Matrix3::zeros()), |node| tensor(&node))?;
+        let own = child(inertial, "inertia").map_or(Ok(Matrix3::zeros()), |node| tensor(&node, name))?;
         let own = turn.matrix() * own * turn.matrix().transpose();
         let Some(known) = self.all.iter_mut().find(|known| known.link == link) else {
             self.all.push(described(link, mass, centre, &own));
@@ -49,10 +54,21 @@ impl Masses {
     }
 }
 
-/// Products may be left out.
-fn tensor(node: &Node) -> Result<Matrix3<f64>, UrdfError> {
+/// Of link `name`, at least 0.
+fn not_negative(node: &Node, name: &str, attribute: &str, what: &str) -> Result<f64, UrdfError> {
+    let value = number(node, attribute)?;
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    let what = format!("link `{}`: {attribute} = {value}: must be a {what}, of at least 0", told(name));
+    Err(at_attribute(node, attribute, &what))
+}
+
+/// Products may be left out. Moments alone are held to their bound: many a file's products are rounded.
+fn tensor(node: &Node, name: &str) -> Result<Matrix3<f64>, UrdfError> {
+    let moment = |attribute: &str| not_negative(node, name, attribute, "moment of inertia, kg m²");
     let product = |name: &str| node.attribute(name).map_or(Ok(0.0), |_| number(node, name));
-    let (xx, yy, zz) = (number(node, "ixx")?, number(node, "iyy")?, number(node, "izz")?);
+    let (xx, yy, zz) = (moment("ixx")?, moment("iyy")?, moment("izz")?);
     let (xy, xz, yz) = (product("ixy")?, product("ixz")?, product("iyz")?);
     Ok(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }

@@ -294,6 +294,28 @@ fn masses_of_joined_links_are_joined() {
     assert!((last.inertia_kg_m2[2] - 0.2 - 4.0 * 0.036 * 0.036).abs() < 1e-12);
 }
 
+/// What is joined to a link hides nothing: each link's mass and moments are held to their bounds.
+#[test]
+fn negative_masses_are_refused_where_they_stand() {
+    let inertial = |kg: f64, moment: f64| {
+        format!("<inertial><mass value='{kg}'/><inertia ixx='0.1' iyy='{moment}' izz='0.1'/></inertial>")
+    };
+    let told_of = |kg: f64, moment: f64| {
+        let mut text = irb120();
+        for k in 1..=6 {
+            let link = format!("<link name='link_{k}'/>");
+            text = text.replace(&link, &format!("<link name='link_{k}'>{}</link>", inertial(2.0, 0.1)));
+        }
+        let last = format!("<link name='tool0'>{}</link>", inertial(kg, moment));
+        read(&text.replace("<link name='tool0'/>", &last)).err().map(|error| error.to_string())
+    };
+    assert_eq!(told_of(0.0, 0.0), None);
+    let error = told_of(-1.5, 0.1).unwrap();
+    assert!(error.contains("link `tool0`: value = -1.5: must be a mass, kg, of at least 0"), "{error}");
+    let error = told_of(1.0, -0.05).unwrap();
+    assert!(error.contains("link `tool0`: iyy = -0.05: must be a moment of inertia"), "{error}");
+}
+
 #[test]
 fn many_joints_take_time_in_proportion() {
     let started = std::time::Instant::now();

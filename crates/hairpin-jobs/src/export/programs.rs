@@ -116,7 +116,7 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     let arm = arm_of(work)?;
     Ok(match language {
         Language::Urscript => {
-            let text = urscript::text(program, &urscript::Settings::default(), &header);
+            let text = urscript::text(&arm.with_angles(program)?, &urscript::Settings::default(), &header);
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {
@@ -126,7 +126,7 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.joint_trajectory.json"), text)]
         }
         Language::Krl => {
-            let program = Program { moves: program.moves.clone(), ..arm.for_controller(program) };
+            let program = Program { moves: arm.with_angles(program)?.moves, ..arm.for_controller(program) };
             let files = krl::files(&program, &krl::Settings::default(), &header).map_err(|error| error.to_string())?;
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }

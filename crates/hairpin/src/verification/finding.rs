@@ -164,10 +164,10 @@ impl<'a> Collector<'a> {
 
     /// What does not hold, in words alone.
     ///
-    /// The words are the whole field; value NaN, bound 0, no unit.
+    /// The words are the whole field; value and bound NaN, no unit.
     pub fn refuse(&mut self, what: String) {
         let Self { into, leg, at, .. } = self;
-        into.push(Finding { field: what, value: f64::NAN, bound: 0.0, unit: "", leg: *leg, at: *at });
+        into.push(Finding { field: what, value: f64::NAN, bound: f64::NAN, unit: "", leg: *leg, at: *at });
     }
 
     /// A finding if `value` is above `bound`, or no number.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use super::cell::cell_of;
 use super::check::check;
@@ -51,7 +51,9 @@ fn same_station(a: &ArmScenario, b: &ArmScenario) -> bool {
 /// # Errors
 /// The key whose value makes no arm, tool, work object, obstacle or point.
 fn station_of(scenario: &ArmScenario, files: &Attachments) -> Result<Station, Mistake> {
-    let arm = scenario.robot.resolved()?.build().map_err(|error| mistake("robot", error))?;
+    let mut arm = scenario.robot.resolved()?.build().map_err(|error| mistake("robot", error))?;
+    // Gravity is the world's.
+    arm.up = scenario.world_from_base()?.rotation.inverse() * Vector3::z();
     let (tool, work_object) = (scenario.tool()?, scenario.work_object()?);
     let cell = cell_of(&scenario.world)?;
     let home = scenario.task.home_deg.map(f64::to_radians);

@@ -3,11 +3,18 @@
 //! Inside, a program is in the base frame, and a target's configuration tells this arm's postures apart. A controller
 //! takes user frames as seen from the world, and counts cfx from wrist, elbow and shoulder.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
 use super::graph::configuration;
+use crate::campaign::scenario::ArmMode;
+use crate::robot::arm::{AXES, Joints};
 use crate::trajectory::program::{JointTarget, Motion, Move, PoseTarget, Program, WorkObject};
+
+/// Angles that are nearer than this on every axis are one posture, rad.
+const SAME: f64 = 1e-3;
 
 impl ArmSetup {
     /// `world_from_base`, m.
@@ -44,10 +51,65 @@ impl ArmSetup {
         }
     }
 
+    /// `program` for a language that knows no configurations: moves in joints whose posture is not the nearest one go to
+    /// its joint angles.
+    ///
+    /// Nearest to where the move begins: by the largest turn of an axis and by the sum of all, over whole turns within
+    /// the bounds. Of arms without a closed inverse others may be nearer that nobody knows, and all go to angles. Moves
+    /// without a configuration are left.
+    ///
+    /// # Errors
+    /// A target in a configuration that the arm has not, in a sentence's part, where joints are what is proven.
+    pub fn with_angles(&self, program: &Program) -> Result<Program, String> {
+        let mut handed = program.clone();
+        let (mut here, mut named) = (None, BTreeMap::new());
+        for one in &mut handed.moves {
+            let object = &program.work_objects[one.work_object];
+            let joined = matches!(one.motion, Motion::Joint(_));
+            let to = match &one.motion {
+                Motion::AbsoluteJoint(to) => {
+                    here = Some(to.joints);
+                    continue;
+                }
+                Motion::Joint(to) | Motion::Linear(to) | Motion::Circular { to, .. } => to,
+            };
+            let target = self.joints_at(object, to);
+            let asked = to.configuration.filter(|_| joined);
+            if let (Some(numbers), None, ArmMode::Joint) = (asked, &target, self.scenario.generate.mode) {
+                let name = to.name.as_deref().unwrap_or("a target");
+                return Err(format!(
+                    "{name} is to be met in configuration {numbers:?}, which the arm does not have there"
+                ));
+            }
+            if let (Some(_), Some(mut target)) = (asked, target.clone()) {
+                let flange = self.station.flange(&(object.base_from_object() * to.pose));
+                if !here.is_some_and(|here| self.is_nearest(&flange, &here, &target.joints)) {
+                    // One name has one value: a point may be met in several postures.
+                    let known = target.name.clone().map(|name| *named.entry(name).or_insert(target.joints));
+                    target.name = target.name.filter(|_| known == Some(target.joints));
+                    one.motion = Motion::AbsoluteJoint(target);
+                }
+            }
+            here = target.map(|target| target.joints);
+        }
+        Ok(handed)
+    }
+
+    /// Whether no other posture with the flange at `flange` is as near to `here` as `joints`, all in rad.
+    fn is_nearest(&self, flange: &Isometry3<f64>, here: &Joints, joints: &Joints) -> bool {
+        let arm = &self.station.arm;
+        let apart = |a: &Joints, b: &Joints| std::array::from_fn::<f64, AXES, _>(|axis| (a[axis] - b[axis]).abs());
+        let largest = |q: &Joints| apart(here, q).into_iter().fold(0.0, f64::max);
+        let sum = |q: &Joints| apart(here, q).into_iter().sum::<f64>();
+        let all = arm.inverse(flange, here).into_iter().flat_map(|q| arm.turns_of(&q));
+        let mut others = all.filter(|q| apart(joints, q).into_iter().any(|turn| turn > SAME));
+        arm.has_closed_inverse() && others.all(|q| largest(joints) < largest(&q) && sum(joints) < sum(&q))
+    }
+
     /// The joint angles at a target, under the name that its pose has with another first letter.
     ///
-    /// rad, the first turn of all axes within the bounds whose configuration is the target's; `None` where the target
-    /// tells none or the arm has no such posture.
+    /// rad, the turn of all axes nearest to home whose configuration is the target's, as in the graph; `None` where the
+    /// target tells none or the arm has no such posture.
     pub(super) fn joints_at(&self, object: &WorkObject, to: &PoseTarget) -> Option<JointTarget> {
         let wanted = to.configuration.and_then(configuration)?;
         let joints = self.posture(&(object.base_from_object() * to.pose), &wanted)?;
@@ -73,11 +135,17 @@ impl ArmSetup {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+    use std::sync::Arc;
+
     use serde_json::{Value, json};
 
     use super::*;
+    use crate::campaign::arm::Station;
     use crate::campaign::arm::program::Met;
+    use crate::campaign::scenario::MoveName;
     use crate::campaign::{Scenario, Setup};
+    use crate::simulation::arm::Target;
     use crate::trajectory::program::{Speed, Zone};
 
     /// The IRB 120's joints one after the other, its base a metre aside and turned by a quarter.
@@ -105,6 +173,87 @@ mod tests {
         }))
         .unwrap();
         Setup::build(scenario.into()).unwrap()
+    }
+
+    /// A configuration does not tell the turns of axes 2, 3 and 5: they are those nearest to home, as in the graph.
+    #[test]
+    fn a_chain_is_handed_over_on_the_turns_of_its_graph() {
+        let setup = aside();
+        let mut arm: ArmSetup = setup.own::<ArmSetup>().unwrap().clone();
+        let mut station = Station::clone(&arm.station);
+        for axis in [1, 2, 4] {
+            let limit = &mut station.arm.limits[axis];
+            (limit.lower, limit.upper) = (-10.0, 10.0);
+        }
+        let (pose, home) = (station.points[0].pose, station.home);
+        let q = station.arm.inverse(&station.flange(&pose), &home)[0];
+        arm.station = Arc::new(station);
+        Arc::make_mut(&mut arm.scenario).generate.moves.kind = MoveName::Joint;
+        let (configuration, speed) = (Some(arm.station.arm.configuration(&q)), Speed::predefined("v200").unwrap());
+        let met = Met { row: 0, configuration, speed, zone: Zone::stop(), passed: false };
+        let program = arm.program(&[met], 0, |_, _| false);
+        let handed = arm.for_controller(&program);
+        let Motion::AbsoluteJoint(to) = &handed.moves[1].motion else { panic!("{:?}", handed.moves[1]) };
+        for axis in [1, 2, 4] {
+            let turned = (to.joints[axis] - home[axis]).abs();
+            assert!(turned < PI + 1e-9, "axis {} turns by {turned}", axis + 1);
+        }
+        // And what is simulated goes there too.
+        let simulated = arm.orders(&program).unwrap().remove(0).target;
+        assert!(matches!(simulated, Target::Joints(joints) if joints == to.joints), "{simulated:?}");
+    }
+
+    /// A shipped arm, and a point before it.
+    fn before() -> Setup {
+        let path = format!("{}/../../data/robots/arm/irb120.toml", env!("CARGO_MANIFEST_DIR"));
+        let robot: Value = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": robot,
+            "task": { "points": [[350, 40, 400]], "home_deg": [0, 0, 0, 0, 30, 0] },
+            "spec": { "path": { "max_mm": 5 } },
+        }))
+        .unwrap();
+        Setup::build(scenario.into()).unwrap()
+    }
+
+    /// Where a language tells no configuration, a posture that is not the nearest one is told by its angles.
+    #[test]
+    fn postures_that_are_not_the_nearest_are_handed_over_by_angles() {
+        let setup = before();
+        let arm: &ArmSetup = setup.own().unwrap();
+        let (six, home) = (&arm.station.arm, arm.station.home);
+        let flange = arm.station.flange(&arm.station.points[0].pose);
+        let all: Vec<Joints> = six.inverse(&flange, &home).iter().flat_map(|q| six.turns_of(q)).collect();
+        let speed = Speed::predefined("v200").unwrap();
+        let by_angles = |arm: &ArmSetup, q: &Joints| {
+            let configuration = Some(arm.station.arm.configuration(q));
+            let met = Met { row: 0, configuration, speed: speed.clone(), zone: Zone::stop(), passed: false };
+            let program = arm.program(&[met], 0, |_, _| false);
+            let handed = arm.with_angles(&program).unwrap();
+            assert_eq!(
+                (handed.moves.len(), &handed.moves[0], &handed.moves[2]),
+                (3, &program.moves[0], &program.moves[2])
+            );
+            match &handed.moves[1].motion {
+                Motion::AbsoluteJoint(to) => {
+                    assert!(to.joints.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-9), "{to:?}, not {q:?}");
+                    true
+                }
+                motion => {
+                    assert_eq!(motion, &program.moves[1].motion);
+                    false
+                }
+            }
+        };
+        let largest = |q: &Joints| q.iter().zip(&home).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let nearest = all.iter().min_by(|a, b| largest(a).total_cmp(&largest(b))).unwrap();
+        let to_poses: Vec<&Joints> = all.iter().filter(|q| !by_angles(arm, q)).collect();
+        assert!(all.len() > 1 && to_poses == [nearest], "{} of {}", to_poses.len(), all.len());
+        // Of an arm without a closed inverse nobody knows the nearest.
+        let setup = aside();
+        let arm: &ArmSetup = setup.own().unwrap();
+        let flange = arm.station.flange(&arm.station.points[0].pose);
+        assert!(by_angles(arm, &arm.station.arm.inverse(&flange, &arm.station.home)[0]));
     }
 
     #[test]

@@ -66,7 +66,7 @@ impl Programs for ArmSetup {
     }
 
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {
-        let orders = program_of(case).and_then(|program| self.orders(program)).unwrap_or_default();
+        let orders = program_of(case).and_then(Self::as_written).unwrap_or_default();
         (0..orders.len()).map(|index| self.seen_of(&orders, index)).collect()
     }
 

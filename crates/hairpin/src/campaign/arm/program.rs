@@ -10,7 +10,7 @@ use crate::campaign::scenario::MoveName;
 use crate::math::random::{Stream, unit};
 use crate::robot::arm::Configuration;
 use crate::simulation::SimulationError;
-use crate::simulation::arm::Order;
+use crate::simulation::arm::{Order, Target};
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
@@ -138,9 +138,29 @@ impl ArmSetup {
     /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base
     /// coordinates.
     ///
+    /// Where moves between points are in joints, those of an arm whose configurations tell no controller the turns of
+    /// its axes go to the angles that are proven and handed over: on the turn nearest to home, not to the move before.
+    ///
     /// # Errors
     /// As [`Order::all_of`].
     pub(super) fn orders(&self, program: &Program) -> Result<Vec<Order>, SimulationError> {
+        let mut orders = Self::as_written(program)?;
+        if self.scenario.generate.moves.kind == MoveName::Joint && !self.tells_configurations() {
+            for order in &mut orders {
+                let Target::Joint(pose, Some(wanted)) = &order.target else { continue };
+                if let Some(joints) = self.posture(pose, wanted) {
+                    order.target = Target::Joints(joints);
+                }
+            }
+        }
+        Ok(orders)
+    }
+
+    /// The same moves with poses wherever the program has them.
+    ///
+    /// # Errors
+    /// As [`Order::all_of`].
+    pub(super) fn as_written(program: &Program) -> Result<Vec<Order>, SimulationError> {
         Ok(Order::all_of(program)?.split_off(program.moves.len().min(1)))
     }
 }

@@ -1,5 +1,7 @@
 //! What the search saw of the moves of a program, and what a learned model expects of those of a graph.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use nalgebra::Isometry3;
 
 use super::ArmSetup;
@@ -7,6 +9,9 @@ use crate::campaign::learn::{MoveFeatures, ScoreModel};
 use crate::robot::arm::{Configuration, Joints};
 use crate::simulation::arm::{Order, Target};
 use crate::trajectory::program::Speed;
+
+/// Angles so near (rad) to a border of quadrants are on both sides of it.
+const BORDER: f64 = 1e-6;
 
 impl ArmSetup {
     /// The features of move number `index` of a program; `None` of those from and to home, on arcs, and between points
@@ -36,12 +41,21 @@ impl ArmSetup {
 
     /// Angles with the tool at `pose` in a configuration.
     ///
-    /// The first in the inverse's order, among all turns of all axes within the bounds; `None` where the arm cannot
-    /// stand so. For arms without a closed inverse the search begins at home.
+    /// Those nearest to home by Σ |q_k − home_k|, among all turns of all axes within the bounds, as the graph's are: a
+    /// configuration does not tell the turns of axes 2, 3 and 5. `None` where the arm cannot stand so. For arms without
+    /// a closed inverse the search begins at home.
     pub(super) fn posture(&self, pose: &Isometry3<f64>, wanted: &Configuration) -> Option<Joints> {
         let (station, flange) = (&self.station, self.station.flange(pose));
         let turned = station.arm.inverse(&flange, &station.home).into_iter().flat_map(|q| station.arm.turns_of(&q));
-        turned.into_iter().find(|q| station.arm.configuration(q) == *wanted)
+        // An angle on the border of two quadrants is in both: rounding decides which it is said to be in.
+        let within =
+            |angle: f64, quadrant: i32| (angle - (f64::from(quadrant) + 0.5) * FRAC_PI_2).abs() <= FRAC_PI_4 + BORDER;
+        let fitting = turned.filter(|q| {
+            let quadrants = within(q[0], wanted.cf1) && within(q[3], wanted.cf4) && within(q[5], wanted.cf6);
+            quadrants && station.arm.configuration(q).cfx == wanted.cfx
+        });
+        let distance = |q: &Joints| -> f64 { q.iter().zip(&station.home).map(|(a, b)| (a - b).abs()).sum() };
+        fitting.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// What `model` expects of the move from row to row with these angles at both ends, in millionths of its unit: the

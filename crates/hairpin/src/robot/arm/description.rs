@@ -283,6 +283,7 @@ impl ArmDescription {
             name: self.name.clone(),
             caveat: self.caveat.clone(),
             source: self.source.clone(),
+            up: Vector3::z(),
             chain,
             kinematics,
             limits,

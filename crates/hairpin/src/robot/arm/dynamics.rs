@@ -16,7 +16,7 @@ impl Arm {
         self.links[1..].iter().all(|link| link.mass.is_some())
     }
 
-    /// Torques (N m) that the motion q, q̇, q̈ takes with `tool` on the flange, gravity along −z of the base:
+    /// Torques (N m) that the motion q, q̇, q̈ takes with `tool` on the flange, gravity against [`Arm::up`]:
     /// τ = M(q) q̈ + C(q, q̇) q̇ + g(q), without friction and motors' inertia. `None` without masses.
     ///
     /// Outwards velocities and accelerations of the links, inwards forces and moments; O(n). (Luh, Walker, Paul,
@@ -27,7 +27,7 @@ impl Arm {
     ///
     /// ```text
     /// outwards   α_k = α_(k−1) + a_k q̈_k + ω_(k−1) × a_k q̇_k,   ω_k = ω_(k−1) + a_k q̇_k
-    ///            ẍ_k = ẍ_(k−1) + α × r + ω × (ω × r),   ẍ_0 = (0, 0, g)
+    ///            ẍ_k = ẍ_(k−1) + α × r + ω × (ω × r),   ẍ_0 = g · up
     ///            f_k = m_k ẍ_centre,   n_k = I_k α_k + ω_k × I_k ω_k
     /// inwards    τ_k = a_k · Σ_{j ≥ k} [n_j + (c_j − o_k) × f_j],   the tool's force as one more
     /// ```
@@ -39,7 +39,7 @@ impl Arm {
         let axes = self.chain.axes(&frames);
         // All vectors in the base; the base accelerates upwards instead of everything being pulled down.
         let (mut spin, mut turning, mut origin, mut linear) =
-            (Vector3::zeros(), Vector3::zeros(), Point3::origin(), Vector3::new(0.0, 0.0, GRAVITY));
+            (Vector3::zeros(), Vector3::zeros(), Point3::origin(), self.up * GRAVITY);
         let mut forces = [Vector3::zeros(); AXES];
         let mut moments = [Vector3::zeros(); AXES];
         let mut centres = [Point3::origin(); AXES];
@@ -150,6 +150,13 @@ mod tests {
         let still = [0.0; AXES];
         let torques = arm.torques(&tool, &[0.3, 0.4, 0.1, 0.0, 0.2, 0.0], &still, &still).unwrap();
         assert!(torques[0].abs() < 1e-12 && torques[1] < -5.0, "{torques:?}");
+        // From the ceiling it pulls the other way; on a wall axis 1 holds it too.
+        let hanging = Arm { up: -Vector3::z(), ..arm.clone() };
+        let turned = hanging.torques(&tool, &[0.3, 0.4, 0.1, 0.0, 0.2, 0.0], &still, &still).unwrap();
+        assert!(turned.iter().zip(&torques).all(|(a, b)| (a + b).abs() < 1e-12), "{turned:?}");
+        let aside = Arm { up: Vector3::y(), ..arm.clone() };
+        let turned = aside.torques(&tool, &[0.3, 0.4, 0.1, 0.0, 0.2, 0.0], &still, &still).unwrap();
+        assert!(turned[0].abs() > 5.0, "{turned:?}");
         let weightless = Arm { links: Default::default(), ..arm };
         assert!(weightless.torques(&tool, &still, &still, &still).is_none() && !weightless.has_masses());
     }

@@ -51,7 +51,7 @@ pub use tool::{Tool, WorkObject, unit_quaternion_of};
 
 use std::f64::consts::TAU;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 /// How an arm's inverse is found.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,6 +91,8 @@ pub struct Arm {
     pub caveat: String,
     /// Where the numbers come from.
     pub source: String,
+    /// Where up is in the base frame, of length 1: along z unless the arm hangs.
+    pub up: Vector3<f64>,
     /// The joints one after the other.
     pub chain: Chain,
     /// How the inverse is found.

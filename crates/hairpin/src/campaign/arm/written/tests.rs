@@ -27,6 +27,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         name: "small".into(),
         caveat: String::new(),
         source: String::new(),
+        up: Vector3::z(),
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(limit),

@@ -39,6 +39,7 @@ fn arm() -> Arm {
         name: "small".into(),
         caveat: String::new(),
         source: String::new(),
+        up: Vector3::z(),
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(|[lower, upper, speed]| JointLimit {
