@@ -192,6 +192,7 @@ mod tests {
     use std::path::PathBuf;
 
     use hairpin::trajectory::{Channel, Track};
+    use hairpin_formats::folder::CampaignFolder;
     use hairpin_formats::parquet::track;
     use nalgebra::Translation3;
     use tempfile::TempDir;
@@ -244,8 +245,8 @@ mod tests {
         Track::new(track.times().to_vec(), poses, channels).unwrap()
     }
 
-    /// All planned motions in `folder` hold; the last one no more once one of its rows is elsewhere or at another speed,
-    /// and none is missed where none is kept.
+    /// All planned motions in `folder` hold; the last one no more once one of its rows is elsewhere or at another
+    /// speed, and none is missed where none is kept.
     fn rows_are_held_to_their_witness(folder: &Path) {
         let sound = verify(folder).unwrap();
         let [all, _] = sound.witnesses();
@@ -256,7 +257,7 @@ mod tests {
         let (rows, _) = kept.read_planned_rows(last).unwrap().unwrap();
         for (way_m, more_m_s, field) in [(3.0, 0.0, "planned.position"), (0.0, 0.5, "planned.velocity")] {
             let piece = track::planned(last, &changed(&rows, way_m, more_m_s)).unwrap();
-            kept.write_planned(vec![(last, piece)]).unwrap();
+            CampaignFolder::open_to_write(folder).unwrap().write_planned(vec![(last, piece)]).unwrap();
             let found = verify(folder).unwrap();
             let failed: Vec<&Answer> = found.failed().collect();
             let [Answer::Checked { case, findings, .. }] = failed[..] else { panic!("{found:?}") };

@@ -86,6 +86,7 @@ fn in_words(verified: &Verified) {
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
     let [witnesses, fine] = verified.witnesses();
     console::say(&format!(
-        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{planned}{optimal}{environments}{free}{unknown}"
+        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{planned}{optimal}{environments}\
+         {free}{unknown}"
     ));
 }

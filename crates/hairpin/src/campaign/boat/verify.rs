@@ -29,8 +29,8 @@ pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<E
     (proof, with_lag.flatten())
 }
 
-/// Holds the rows that are kept of the planned motion of `case` to its polynomials by independent code; nothing for a case
-/// that claims no witness.
+/// Holds the rows that are kept of the planned motion of `case` to its polynomials by independent code; nothing for a
+/// case that claims no witness.
 pub(super) fn verify_planned(case: &Case, kept: &PlannedRows) -> Vec<Finding> {
     let Some(profile) = case.profile() else { return Vec::new() };
     verify_boat_rows(&legs_of(profile), &kept.with_middles())

@@ -29,8 +29,8 @@ pub(super) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<En
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
 }
 
-/// Holds the rows that are kept of the planned motion of `case` to its polynomials and the attitudes that they demand, by
-/// independent code; nothing for a case that claims no witness.
+/// Holds the rows that are kept of the planned motion of `case` to its polynomials and the attitudes that they demand,
+/// by independent code; nothing for a case that claims no witness.
 pub(super) fn verify_planned(robot: &Quadrotor, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
     let Some(profile) = case.profile() else { return Vec::new() };
     verify_flight_rows(&body_of(robot), &legs_of(profile), &kept.with_middles())

@@ -102,9 +102,9 @@ pub(in crate::campaign) trait Claim {
     /// that `drawn` gave the search.
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
 
-    /// Holds the rows of its planned motion that are kept to the witness of `case`, which itself holds: to the polynomials
-    /// by independent code, where a witness is polynomials, or else to the motion that the witness is planned as once
-    /// more. Nothing for a case that claims none.
+    /// Holds the rows of its planned motion that are kept to the witness of `case`, which itself holds: to the
+    /// polynomials by independent code, where a witness is polynomials, or else to the motion that the witness is
+    /// planned as once more. Nothing for a case that claims none.
     fn verify_planned(&self, case: &Case, kept: &PlannedRows) -> Vec<Finding> {
         if case.witness.is_none() {
             return Vec::new();

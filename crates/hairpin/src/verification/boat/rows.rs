@@ -4,8 +4,8 @@ use super::claim::BoatLeg;
 use crate::verification::finding::Finding;
 use crate::verification::rows::{Clock, PlannedRow, PlannedState, RowTolerances, verify_rows};
 
-/// Holds the rows of a planned motion to the polynomials of `legs`, which are those of a claim that holds: x, y and ψ in
-/// the plane z = 0.
+/// Holds the rows of a planned motion to the polynomials of `legs`, which are those of a claim that holds: x, y and ψ
+/// in the plane z = 0.
 ///
 /// As [`verify_rows`] tells it. Without legs nothing is claimed, and nothing found.
 pub fn verify_boat_rows(legs: &[BoatLeg], rows: &[PlannedRow]) -> Vec<Finding> {
