@@ -181,8 +181,9 @@ pub(crate) fn judge_cases(
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
     let missions_told = read_told(work)?;
+    let total_time = work.setup.scenario.head().terms.limits.total_time;
     for (mut case, own) in judged.into_iter().zip(cases) {
-        doubt(missions_told.as_ref(), &mut case.result);
+        doubt(missions_told.as_ref(), total_time, &mut case.result);
         if let Some(fences) = fences_of(missions_told.as_ref(), &case.result).filter(|_| case.flown > 0) {
             fences.hold(&told, own, &runs_with_motion(work, own)?, &mut case.result);
         }

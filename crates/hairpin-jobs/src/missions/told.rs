@@ -40,6 +40,9 @@ pub struct MissionTold {
     pub check: String,
     /// What of the file changes nothing that is judged.
     pub notes: Vec<String>,
+    /// Whether it is what lies between two stops, and not all of a mission.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub part: bool,
     /// What the mission asks that is not what was executed: its case is inconclusive.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unmet: Vec<String>,
@@ -69,6 +72,7 @@ impl MissionsTold {
                 evidence: evidence.into(),
                 check: checked.map_or("not checked".into(), |checked| checked.verdict.sentence.clone()),
                 notes: leg.mission.notes.clone(),
+                part: !leg.mission.stops.is_empty(),
                 unmet: leg.unmet.clone(),
                 fences: FencesTold::of(&leg.mission),
             }
@@ -83,13 +87,23 @@ impl MissionsTold {
     }
 }
 
-/// A case whose mission asks for something else than what was executed says nothing of it, neither way.
-pub(crate) fn doubt(told: Option<&MissionsTold>, result: &mut CaseResult) {
-    let unmet = told.and_then(|told| told.missions.get(result.case.0)).map_or(&[][..], |one| &one.unmet);
-    if !unmet.is_empty() && matches!(result.status, Status::Pass | Status::Fail | Status::Unjudged) {
+/// A case whose mission asks for something else than what was executed says nothing of it, neither way; one between two
+/// stops does not say that the mission keeps a limit of `total_time` s: it takes all of its parts, and stands between
+/// them.
+pub(crate) fn doubt(told: Option<&MissionsTold>, total_time: Option<f64>, result: &mut CaseResult) {
+    let Some(one) = told.and_then(|told| told.missions.get(result.case.0)) else { return };
+    let open = |result: &mut CaseResult, why: String| {
         result.status = Status::Inconclusive;
         result.violations.clear();
-        result.message = Some(unmet.join("; "));
+        result.message = Some(why);
+    };
+    if !one.unmet.is_empty() && matches!(result.status, Status::Pass | Status::Fail | Status::Unjudged) {
+        open(result, one.unmet.join("; "));
+    } else if let Some(most) = total_time.filter(|_| one.part && result.status == Status::Pass) {
+        open(
+            result,
+            format!("total-time: {most} s are for all of the mission, and this is what lies between two stops"),
+        );
     }
 }
 
@@ -112,20 +126,28 @@ mod tests {
 
     #[test]
     fn what_was_not_executed_as_asked_says_nothing() {
-        let told = |unmet: &[&str]| {
+        let of = |unmet: &[&str], part: bool| {
             let unmet = unmet.iter().map(|words| (*words).to_owned()).collect();
-            MissionsTold { missions: vec![MissionTold { unmet, ..MissionTold::default() }] }
+            MissionsTold { missions: vec![MissionTold { unmet, part, ..MissionTold::default() }] }
         };
-        let judged = |status: Status, told: &MissionsTold| {
+        let told = |unmet: &[&str]| of(unmet, false);
+        let within = |total_time: Option<f64>, status: Status, told: &MissionsTold| {
             let mut result =
                 CaseResult { status, message: None, ..CaseResult::undone(CaseNumber(0), Undone::NotJudged) };
-            doubt(Some(told), &mut result);
+            doubt(Some(told), total_time, &mut result);
             (result.status, result.message)
         };
+        let judged = |status: Status, told: &MissionsTold| within(Some(15.0), status, told);
         for status in [Status::Pass, Status::Fail, Status::Unjudged] {
             assert_eq!(judged(status, &told(&[])), (status, None));
             assert_eq!(judged(status, &told(&["a", "b"])), (Status::Inconclusive, Some("a; b".into())));
         }
         assert_eq!(judged(Status::ExecutorFailed, &told(&["a"])), (Status::ExecutorFailed, None));
+        // A part that takes too long does so of the whole, and one that does not says nothing.
+        let part = of(&[], true);
+        assert_eq!(judged(Status::Fail, &part), (Status::Fail, None));
+        assert_eq!(within(None, Status::Pass, &part), (Status::Pass, None));
+        let why = "total-time: 15 s are for all of the mission, and this is what lies between two stops";
+        assert_eq!(judged(Status::Pass, &part), (Status::Inconclusive, Some(why.into())));
     }
 }
