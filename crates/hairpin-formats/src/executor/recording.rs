@@ -226,10 +226,10 @@ impl<'a> Recording<'a> {
         Ok(Flight { track: Track::new(self.times, self.poses, channels)?, ended, left_world, reached })
     }
 
-    /// When each waypoint was reached: where the executor tells the leg, when that leg was over, if it was near it at all;
-    /// otherwise, and for the last waypoint, when the robot was first within acceptance, one waypoint after the other. One that was
-    /// missed does not hide those after it; but the last counts only on the last leg or, without legs, after another
-    /// one: paths cross, and a robot that never left a start near the end has flown nothing.
+    /// When each waypoint was reached: where the executor tells the leg, when that leg was over, if it was near it at
+    /// all; otherwise, and for the last waypoint, when the robot was first within acceptance, one waypoint after the
+    /// other. One that was missed does not hide those after it; but the last counts only on the last leg or, without
+    /// legs, after another one: paths cross, and a robot that never left a start near the end has flown nothing.
     fn reached(&self) -> Vec<Option<f64>> {
         let last = self.mission.waypoints.len().saturating_sub(1);
         let mut from = 0;

@@ -82,7 +82,8 @@ pub struct LoggedMotion {
     pub resets: Vec<Reset>,
     /// Spans in which the source says that it is not valid, or is dead reckoning.
     pub invalid: Vec<Span>,
-    /// Why nothing is to be judged by it, where that is so: it is at two places at one moment, or its clock was set back.
+    /// Why nothing is to be judged by it, where that is so: it is at two places at one moment, or its clock was set
+    /// back.
     pub unfit: Option<String>,
 }
 

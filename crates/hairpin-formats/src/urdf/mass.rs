@@ -18,7 +18,8 @@ impl Masses {
     /// Joins the mass of `inertial` with what its link already has: I = Σ (R I Rᵀ + m (d² − d dᵀ)) about the common
     /// centre. Which entry is new, if one is.
     ///
-    /// Each is held to what masses can be before it is joined: what it is joined to would hide it. `name` is its link's.
+    /// Each is held to what masses can be before it is joined: what it is joined to would hide it. `name` is its
+    /// link's.
     pub(super) fn add(&mut self, name: &str, stand: &Stand, inertial: &Node) -> Result<Option<usize>, UrdfError> {
         let link = stand.of;
         let mass = match child(inertial, "mass") {

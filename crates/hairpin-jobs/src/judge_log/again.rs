@@ -22,8 +22,8 @@ pub(super) fn of_flight(
     if is_anew { flight } else { progress }
 }
 
-/// When the mission is flown once more behind the end of `span`, s: its mode is on again, and it comes within `near_m` m
-/// of the first of `waypoints` and of the second.
+/// When the mission is flown once more behind the end of `span`, s: its mode is on again, and it comes within `near_m`
+/// m of the first of `waypoints` and of the second.
 ///
 /// # Errors
 /// The motion is not to be had in the world's frame.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Flown, Status};
 use hairpin::judgement::Verdict;
 
@@ -10,7 +11,6 @@ use super::cut::Cut;
 use super::frame::FrameTold;
 use super::legs::LegsBy;
 use super::matching::Matched;
-use super::reached::Missed;
 use super::sheet::Sheet;
 use super::source::SourceTold;
 

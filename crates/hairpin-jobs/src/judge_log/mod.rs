@@ -53,7 +53,6 @@ pub use legs::LegsBy;
 pub(crate) use legs::course;
 pub use matching::Matched;
 pub(crate) use matching::matched;
-pub use reached::Missed;
 pub use settings::{Against, LogSettings};
 pub use sheet::Sheet;
 pub use source::SourceTold;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
 use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
@@ -18,7 +19,7 @@ use super::due::due;
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
 use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
-use super::reached::{Missed, missed, untrue};
+use super::reached::{missed, untrue};
 use super::settings::LogSettings;
 use super::{matching, over, source, told};
 use crate::Problem;

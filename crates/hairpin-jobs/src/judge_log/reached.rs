@@ -3,7 +3,7 @@
 
 use std::ops::RangeInclusive;
 
-pub use hairpin::campaign::missed::Missed;
+use hairpin::campaign::missed::Missed;
 use hairpin::math::segment::point_distance;
 use hairpin_formats::logs::Sample;
 use nalgebra::Point3;

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::campaign::missed::Missed;
 use hairpin::campaign::scenario::Asked;
 use hairpin::campaign::{Doubt, Exceeded, Flown, Setup, Why};
 use hairpin::judgement::{
@@ -13,7 +14,6 @@ use hairpin_formats::quote::shortened;
 
 use super::cut::Cut;
 use super::found::{Found, JudgedLog, Outcome};
-use super::reached::Missed;
 use super::remedy::log_at;
 use crate::Problem;
 

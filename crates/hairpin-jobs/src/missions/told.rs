@@ -107,7 +107,8 @@ pub(crate) fn doubt(told: Option<&MissionsTold>, total_time: Option<f64>, result
     }
 }
 
-/// The fences that what was executed of the case of `result` is held against: of a mission that was executed as it asks.
+/// The fences that what was executed of the case of `result` is held against: of a mission that was executed as it
+/// asks.
 pub(crate) fn fences_of<'t>(told: Option<&'t MissionsTold>, result: &CaseResult) -> Option<&'t FencesTold> {
     let one = told?.missions.get(result.case.0)?;
     (one.unmet.is_empty() && !one.fences.is_empty()).then_some(&one.fences)

@@ -5,6 +5,7 @@
 //! pieces that may be skipped. The nearest leg would be wrong wherever a path crosses itself, and a stressful one does.
 
 mod lanes;
+mod piece;
 #[cfg(test)]
 mod tests;
 
@@ -17,34 +18,7 @@ use crate::math::power::square;
 use crate::math::segment::point_distance;
 use crate::math::simd::Simd;
 use lanes::Lanes;
-
-/// A straight part of a path, and what it belongs to.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
-    /// First end.
-    pub(super) from: Point3<f64>,
-    /// Other end.
-    pub(super) to: Point3<f64>,
-    /// The leg, or the first segment of the path, that it stands for.
-    pub(super) owner: usize,
-}
-
-/// Parts that legs are cut into in all, at least: progress along a leg must be monotone too, or a path that goes back
-/// and forth could not be told from one that stays.
-const PIECES: f64 = 256.0;
-
-/// The legs between `waypoints`, cut into parts of about equal length.
-pub(super) fn leg_pieces(waypoints: &[Point3<f64>]) -> Vec<Piece> {
-    let total: f64 = waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum();
-    let mut pieces = Vec::new();
-    for (owner, leg) in waypoints.windows(2).enumerate() {
-        let share = if total > 0.0 { (leg[1] - leg[0]).norm() / total } else { 0.0 };
-        let parts = (PIECES * share).ceil().max(1.0);
-        let at = |k: usize| leg[0] + (leg[1] - leg[0]) * (k as f64 / parts);
-        pieces.extend((0..parts as usize).map(|k| Piece { from: at(k), to: at(k + 1), owner }));
-    }
-    pieces
-}
+pub(super) use piece::{Piece, leg_pieces};
 
 /// The rising sequence of pieces j(0) ≤ j(1) ≤ … that minimises Σ weight_i · distance(sample_i, piece_j(i))²; among
 /// equals the one that stays behind longest. Pieces may be skipped. In O(samples + pieces) time and linear memory

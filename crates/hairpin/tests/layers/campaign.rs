@@ -32,7 +32,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["flight", "drive", "arm", "boat"],
     // A scenario becomes a setup: the one `match`.
     &["setup"],
-    &["callers_code", "chance", "coverage", "goals", "gravity", "hidden", "states"],
+    &["callers_code", "chance", "coverage", "goals", "gravity", "hidden", "missed", "states"],
     // The jobs.
     &["mission", "judge", "rank"],
     &["landed", "flown"],

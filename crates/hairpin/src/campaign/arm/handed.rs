@@ -51,8 +51,8 @@ impl ArmSetup {
         }
     }
 
-    /// `program` for a language that knows no configurations: moves in joints whose posture is not the nearest one go to
-    /// its joint angles.
+    /// `program` for a language that knows no configurations: moves in joints whose posture is not the nearest one go
+    /// to its joint angles.
     ///
     /// Nearest to where the move begins: by the largest turn of an axis and by the sum of all, over whole turns within
     /// the bounds. Of arms without a closed inverse others may be nearer that nobody knows, and all go to angles. Moves

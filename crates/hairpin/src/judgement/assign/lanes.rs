@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Point3;
 
-use super::Piece;
+use super::piece::Piece;
 use crate::math::simd::{Simd, kernel};
 
 /// Pieces as columns: from where, which way, and the square of its length.
