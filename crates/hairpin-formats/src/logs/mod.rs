@@ -10,6 +10,7 @@ mod bag;
 mod dataflash;
 mod detect;
 mod error;
+mod invalid;
 mod late;
 mod log;
 mod modes;

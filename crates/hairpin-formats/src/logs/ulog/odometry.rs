@@ -5,7 +5,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_attitude, enu_point, enu_vector};
 use super::super::error::Fault;
-use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
+use super::super::invalid::Invalid;
+use super::super::log::{LoggedMotion, Reset, Sample, Source};
 use super::super::samples::Budget;
 use super::formats::Slot;
 use super::position::contradiction;
@@ -42,9 +43,7 @@ pub(super) struct Odometry {
     samples: Vec<Sample>,
     resets: Vec<Reset>,
     count: Option<f64>,
-    invalid: Vec<Span>,
-    /// Since when it has failed.
-    since: Option<f64>,
+    invalid: Invalid,
     /// Poses in axes that nobody knows.
     unknown: usize,
     skipped: usize,
@@ -70,8 +69,7 @@ impl Odometry {
             samples: Vec::new(),
             resets: Vec::new(),
             count: None,
-            invalid: Vec::new(),
-            since: None,
+            invalid: Invalid::default(),
             unknown: 0,
             skipped: 0,
             frd: false,
@@ -129,14 +127,7 @@ impl Odometry {
         }
         self.count = count;
         self.samples.push(Sample { t_s, p_m: enu_point(ned), attitude, v_m_s, accuracy_m });
-        match (self.since, failed) {
-            (None, true) => self.since = Some(t_s),
-            (Some(from_s), false) => {
-                self.invalid.push(Span { from_s, to_s: t_s });
-                self.since = None;
-            }
-            _ => {}
-        }
+        self.invalid.settle(t_s, failed);
         Ok(())
     }
 
@@ -149,7 +140,7 @@ impl Odometry {
         self.frd
     }
 
-    pub(super) fn motion(mut self, name: &str, source: Source) -> (Option<LoggedMotion>, Vec<String>) {
+    pub(super) fn motion(self, name: &str, source: Source) -> (Option<LoggedMotion>, Vec<String>) {
         let mut notes = Vec::new();
         if self.unknown > 0 {
             notes.push(format!("{name}: {} poses in a frame that is not told are not read", self.unknown));
@@ -160,10 +151,8 @@ impl Odometry {
         if self.frd {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
-        if let (Some(from_s), Some(last)) = (self.since, self.samples.last()) {
-            self.invalid.push(Span { from_s, to_s: last.t_s });
-        }
         let Self { samples, resets, invalid, halves, unfit, .. } = self;
+        let invalid = invalid.until(samples.last().map(|last| last.t_s));
         notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
         let motion = LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit };

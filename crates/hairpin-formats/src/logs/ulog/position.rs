@@ -5,8 +5,9 @@ use nalgebra::Point3;
 use super::super::accuracy::{both, half, known};
 use super::super::axes::{enu_point, enu_vector};
 use super::super::error::Fault;
+use super::super::invalid::Invalid;
 use super::super::late::set_back;
-use super::super::log::{LoggedMotion, Reset, Sample, Source, Span};
+use super::super::log::{LoggedMotion, Reset, Sample, Source};
 use super::super::samples::Budget;
 use super::super::twice::{places_apart, two_places};
 use super::formats::Slot;
@@ -47,9 +48,7 @@ pub(super) struct Positions {
     slots: Slots,
     samples: Vec<Sample>,
     resets: Vec<Reset>,
-    invalid: Vec<Span>,
-    /// Since when it is not valid.
-    since: Option<f64>,
+    invalid: Invalid,
     counters: Option<[u8; 3]>,
     /// References on Earth, each with the first sample that it holds for.
     references: Vec<(usize, Geodetic)>,
@@ -81,8 +80,8 @@ impl Positions {
             accuracy: ["eph", "epv"].map(|name| finder.slot(name)),
         };
         let (samples, resets, invalid, references, turned) = Default::default();
-        let (since, counters, turns, skipped, halves, unfit) = Default::default();
-        Ok(Self { slots, samples, resets, invalid, since, counters, references, turned, turns, skipped, halves, unfit })
+        let (counters, turns, skipped, halves, unfit) = Default::default();
+        Ok(Self { slots, samples, resets, invalid, counters, references, turned, turns, skipped, halves, unfit })
     }
 
     pub(super) fn push(&mut self, stamp: f64, data: &[u8], budget: &mut Budget) -> Result<(), Fault> {
@@ -101,7 +100,7 @@ impl Positions {
             if !lost && self.unfit.is_none() {
                 self.unfit = contradiction(&self.samples, t_s, &enu_point(ned));
             }
-            self.settle(t_s, lost);
+            self.invalid.settle(t_s, lost);
             return Ok(());
         }
         budget.take()?;
@@ -113,20 +112,8 @@ impl Positions {
         self.take_resets(t_s, data);
         self.take_reference(t_s, data);
         self.samples.push(sample);
-        self.settle(t_s, lost);
+        self.invalid.settle(t_s, lost);
         Ok(())
-    }
-
-    /// Begins or ends a span in which the estimate is none.
-    fn settle(&mut self, t_s: f64, lost: bool) {
-        match (self.since, lost) {
-            (None, true) => self.since = Some(t_s),
-            (Some(from_s), false) => {
-                self.invalid.push(Span { from_s, to_s: t_s });
-                self.since = None;
-            }
-            _ => {}
-        }
     }
 
     fn take_resets(&mut self, t_s: f64, data: &[u8]) {
@@ -207,9 +194,6 @@ impl Positions {
         if self.skipped > 0 {
             notes.push(format!("{name}: {} samples without numbers or with stamps that do not rise", self.skipped));
         }
-        if let (Some(from_s), Some(last)) = (self.since, self.samples.last()) {
-            self.invalid.push(Span { from_s, to_s: last.t_s.max(from_s) });
-        }
         match origin {
             Some(origin) if !self.references.is_empty() => self.place_about(&origin),
             Some(_) => notes.push(format!("{name}: about a point of its own, which is nowhere on Earth")),
@@ -219,6 +203,7 @@ impl Positions {
             notes.push(format!("{name}: its reference on Earth moved {} times", self.references.len() - 1));
         }
         let Self { samples, resets, invalid, halves, unfit, .. } = self;
+        let invalid = invalid.until(samples.last().map(|last| last.t_s));
         notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
         (LoggedMotion { name: name.into(), source, samples, resets, invalid, unfit }, notes)
