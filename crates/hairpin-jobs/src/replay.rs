@@ -10,6 +10,7 @@ use hairpin_formats::scenario;
 
 use crate::consent::{Consent, Wish};
 use crate::execute::fly_one;
+use crate::missions::{self, FENCE, MissionsTold, read_told};
 use crate::work::open_to_read;
 use crate::{Problem, Watch};
 
@@ -50,8 +51,10 @@ pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> 
     let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
     let setup = setup.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
-    consent.ask(&campaign_of(file), &Wish::of_execution(&setup))?;
-    fly(repro, &setup, &case, watch)
+    let folder = campaign_of(file);
+    consent.ask(&folder, &Wish::of_execution(&setup))?;
+    let told = CampaignFolder::open(&folder).ok().map(|folder| read_told(&folder)).transpose()?.flatten();
+    fly(repro, (&setup, &case), told.as_ref(), watch)
 }
 
 /// Flies the worst run of a case of the judged campaign in `folder` again, by the kernels `simd`.
@@ -76,12 +79,26 @@ pub fn replay_case(
     let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| refuse(&why))?;
     consent.ask(folder, &Wish::of_execution(&setup))?;
-    fly(repro, &setup, &case, watch)
+    fly(repro, (&setup, &case), read_told(&work.folder)?.as_ref(), watch)
 }
 
-fn fly(repro: Repro, setup: &Setup, case: &Case, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
+/// Flies it, and judges it by the spec and, where its campaign has `told` of missions, by its own.
+fn fly(
+    repro: Repro,
+    (setup, case): (&Setup, &Case),
+    told: Option<&MissionsTold>,
+    watch: &dyn Watch,
+) -> Result<ReplayedRepro, Problem> {
     let flown = fly_one(setup, case, repro.run, watch)?;
-    let result = campaign::judge(setup, case, std::slice::from_ref(&flown))?;
+    let mut result = campaign::judge(setup, case, std::slice::from_ref(&flown))?;
+    missions::hold(told, (setup, case), || Ok(vec![flown]), &mut result)?;
+    if told.is_none()
+        && result.status == Status::Pass
+        && repro.expected.violations.iter().any(|one| one.starts_with(FENCE))
+    {
+        result.status = Status::Inconclusive;
+        result.message = Some("it broke a fence of its mission, which its campaign's folder keeps".into());
+    }
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
     let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
     Ok(ReplayedRepro { repro, result, same })
@@ -98,9 +115,12 @@ fn campaign_of(file: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::Unwatched;
     use crate::judge::judge;
+    use crate::shrink::{ShrinkSettings, Shrinking};
     use crate::testing::{executed, violating};
 
     #[test]
@@ -117,6 +137,29 @@ mod tests {
         std::fs::write(&file, other).unwrap();
         let refused = replay(&file, Simd::Portable, &Consent::default(), &Unwatched).unwrap_err();
         assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
+    }
+
+    /// A mission's fences are its campaign's, not the scenario's that a repro file has.
+    #[test]
+    fn what_broke_a_fence_does_so_again() {
+        let (place, folder) = executed();
+        let opened = CampaignFolder::open(&folder).unwrap();
+        let way = opened.read_cases().unwrap()[0].waypoints[1];
+        let fence = json!({ "keeps_in": false, "circle_m": [way.x, way.y, 1.0] });
+        opened.write_missions(&json!({ "missions": [{ "fences": { "firmware": null, "fences": [fence] } }] })).unwrap();
+        judge(&folder, &[("spec.deviation.max_m".to_owned(), "500".to_owned())]).unwrap();
+        let file = folder.join("repro/0000.json");
+        let flown = |file: &Path| replay(file, Simd::Widest, &Consent::default(), &Unwatched).unwrap();
+        let by_case = replay_case((&folder, CaseNumber(0)), Simd::Widest, &Consent::default(), &Unwatched).unwrap();
+        for again in [flown(&file), by_case] {
+            assert!(again.reproduces() && again.result.violations[0].what == FENCE, "{again:?}");
+        }
+        let alone = place.path().join("alone.json");
+        std::fs::copy(&file, &alone).unwrap();
+        let untold = flown(&alone);
+        assert!(untold.result.status == Status::Inconclusive && !untold.reproduces(), "{untold:?}");
+        let refused = Shrinking::open(ShrinkSettings { folder, ..ShrinkSettings::default() }).map(|_| ());
+        assert!(refused.unwrap_err().to_string().contains("its mission's fence"));
     }
 
     #[test]

@@ -114,7 +114,7 @@ fn assumptions(
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }
-    if let Some(told) = read_told(work)? {
+    if let Some(told) = read_told(&work.folder)? {
         assumptions.extend(told.said());
         if work.folder.read_searched()?.is_some() {
             assumptions.push(

@@ -22,7 +22,7 @@ use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
 use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge, runs_with_motion};
-use crate::missions::{Compared, compare, doubt, fences_of, read_told, with_compared};
+use crate::missions::{self, Compared, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read};
@@ -180,13 +180,10 @@ pub(crate) fn judge_cases(
         judged.iter().fold((0, 0), |(rows, anew), case| (rows + case.from_rows, anew + case.flown_anew));
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
-    let missions_told = read_told(work)?;
-    let total_time = work.setup.scenario.head().terms.limits.total_time;
+    let missions_told = read_told(&work.folder)?;
     for (mut case, own) in judged.into_iter().zip(cases) {
-        doubt(missions_told.as_ref(), total_time, &mut case.result);
-        if let Some(fences) = fences_of(missions_told.as_ref(), &case.result).filter(|_| case.flown > 0) {
-            fences.hold(&told, own, &runs_with_motion(work, own)?, &mut case.result);
-        }
+        let runs = || if case.flown > 0 { runs_with_motion(work, own) } else { Ok(Vec::new()) };
+        missions::hold(missions_told.as_ref(), (&told, own), runs, &mut case.result)?;
         results.push(case.result);
         deviations.extend(case.deviations);
         met.push(case.met);

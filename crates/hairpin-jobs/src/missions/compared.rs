@@ -37,7 +37,7 @@ pub struct Ranked {
 /// The missions of `work` beside what was searched and drawn; `None` where its cases are no missions, or nothing of
 /// them was measured.
 pub(crate) fn compare(work: &Work, results: &[CaseResult]) -> Result<Option<Compared>, Problem> {
-    let Some(told) = read_told(work)? else { return Ok(None) };
+    let Some(told) = read_told(&work.folder)? else { return Ok(None) };
     let (scenario, repeat) = (&work.setup.scenario, work.setup.scenario.executor().repeat);
     let sought = scenario.sought();
     let [searched, random] =

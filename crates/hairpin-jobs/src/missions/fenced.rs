@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::check::{ARDUPILOT, PX4};
 
+/// What a violation of one is called.
+pub(crate) const FENCE: &str = "fence";
 /// Rows that are kept are as near to what was flown, and places that were given in degrees are rounded, m.
 const ROUNDING_M: f64 = 1e-3;
 /// Between two rows it is looked at in steps of this, m.
@@ -72,7 +74,7 @@ impl FencesTold {
 
     /// Holds what was executed of `case` against them: beyond one of them is a violation, and what is so by another
     /// autopilot's reading alone decides nothing.
-    pub(crate) fn hold(&self, setup: &Setup, case: &Case, runs: &[Run], result: &mut CaseResult) {
+    pub(super) fn hold(&self, setup: &Setup, case: &Case, runs: &[Run], result: &mut CaseResult) {
         let flown = runs.iter().filter_map(|run| Some((run, run.outcome.as_ref().ok()?)));
         let (mut worst, mut doubted): (Option<(&Run, &Flight, Beyond)>, bool) = (None, false);
         for (run, flight) in flown {
@@ -94,7 +96,7 @@ impl FencesTold {
                 result.status = Status::Fail;
                 let reached = flight.reached.iter().skip(1).flatten().filter(|time| **time <= at).count();
                 let leg = reached.min(case.waypoints.len().saturating_sub(2));
-                let (what, unit) = ("fence".to_owned(), "m".to_owned());
+                let (what, unit) = (FENCE.to_owned(), "m".to_owned());
                 result.violations.push(Violation { what, value: by, limit: 0.0, unit, at, leg });
             }
             None if doubted && matches!(result.status, Status::Pass | Status::Unjudged) => {
@@ -184,7 +186,7 @@ mod tests {
         // Between two rows, both of them outside.
         let result = held(None, vec![disc(false, 5.0)]);
         let [one] = &result.violations[..] else { panic!("{:?}", result.violations) };
-        assert!(result.status == Status::Fail && one.what == "fence", "{one:?}");
+        assert!(result.status == Status::Fail && one.what == FENCE, "{one:?}");
         assert!((one.value - 2.0).abs() < 1e-6 && (one.at - 5.0).abs() < 0.1 && one.leg == 0, "{one:?}");
         assert_eq!(held(None, vec![disc(false, 5.0), disc(false, 50.0)]).violations.len(), 1);
         assert_eq!(held(None, vec![disc(false, 13.0)]).status, Status::Pass);

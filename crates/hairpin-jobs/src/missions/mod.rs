@@ -20,10 +20,11 @@ use crate::work::Work;
 use crate::{Problem, Watch};
 pub use compared::{Compared, Ranked};
 pub(crate) use compared::{compare, with_compared};
+pub(crate) use fenced::FENCE;
 pub use fenced::FencesTold;
 pub(crate) use leg::Leg;
 pub use told::{MissionTold, MissionsTold};
-pub(crate) use told::{doubt, fences_of, read_told};
+pub(crate) use told::{hold, read_told};
 
 /// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///

@@ -1,13 +1,13 @@
 //! What a campaign's folder keeps of its missions beside their cases: where they are from, and what their check said.
 
-use hairpin::campaign::{CaseResult, Status};
+use hairpin::campaign::{Case, CaseResult, Run, Setup, Status};
+use hairpin_formats::folder::CampaignFolder;
 use serde::{Deserialize, Serialize};
 
 use super::fenced::FencesTold;
 use super::leg::Leg;
 use crate::Problem;
 use crate::check::{certainty_word, frame_in_words};
-use crate::work::Work;
 
 /// All missions of a campaign, a row a case.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -87,11 +87,30 @@ impl MissionsTold {
     }
 }
 
+/// Holds what was executed of `case`, `runs` with their motion, against what its mission asks beside the spec: `result`
+/// is no more than that leaves of it. Missions that are none ask nothing, and their runs are not read.
+///
+/// # Errors
+/// Of reading the runs.
+pub(crate) fn hold(
+    told: Option<&MissionsTold>,
+    (setup, case): (&Setup, &Case),
+    runs: impl FnOnce() -> Result<Vec<Run>, Problem>,
+    result: &mut CaseResult,
+) -> Result<(), Problem> {
+    let Some(one) = told.and_then(|told| told.missions.get(case.number.0)) else { return Ok(()) };
+    doubt(one, setup.scenario.head().terms.limits.total_time, result);
+    // One that was executed otherwise than it asks is doubted for it, whatever its fences.
+    if one.unmet.is_empty() && !one.fences.is_empty() {
+        one.fences.hold(setup, case, &runs()?, result);
+    }
+    Ok(())
+}
+
 /// A case whose mission asks for something else than what was executed says nothing of it, neither way; one between two
 /// stops does not say that the mission keeps a limit of `total_time` s: it takes all of its parts, and stands between
 /// them.
-pub(crate) fn doubt(told: Option<&MissionsTold>, total_time: Option<f64>, result: &mut CaseResult) {
-    let Some(one) = told.and_then(|told| told.missions.get(result.case.0)) else { return };
+fn doubt(one: &MissionTold, total_time: Option<f64>, result: &mut CaseResult) {
     let open = |result: &mut CaseResult, why: String| {
         result.status = Status::Inconclusive;
         result.violations.clear();
@@ -107,16 +126,9 @@ pub(crate) fn doubt(told: Option<&MissionsTold>, total_time: Option<f64>, result
     }
 }
 
-/// The fences that what was executed of the case of `result` is held against: of a mission that was executed as it
-/// asks.
-pub(crate) fn fences_of<'t>(told: Option<&'t MissionsTold>, result: &CaseResult) -> Option<&'t FencesTold> {
-    let one = told?.missions.get(result.case.0)?;
-    (one.unmet.is_empty() && !one.fences.is_empty()).then_some(&one.fences)
-}
-
-/// What the folder of `work` keeps of its missions; `None` where its cases are none.
-pub(crate) fn read_told(work: &Work) -> Result<Option<MissionsTold>, Problem> {
-    Ok(work.folder.read_missions()?)
+/// What `folder` keeps of its missions; `None` where its cases are none.
+pub(crate) fn read_told(folder: &CampaignFolder) -> Result<Option<MissionsTold>, Problem> {
+    Ok(folder.read_missions()?)
 }
 
 #[cfg(test)]
@@ -129,16 +141,16 @@ mod tests {
     fn what_was_not_executed_as_asked_says_nothing() {
         let of = |unmet: &[&str], part: bool| {
             let unmet = unmet.iter().map(|words| (*words).to_owned()).collect();
-            MissionsTold { missions: vec![MissionTold { unmet, part, ..MissionTold::default() }] }
+            MissionTold { unmet, part, ..MissionTold::default() }
         };
         let told = |unmet: &[&str]| of(unmet, false);
-        let within = |total_time: Option<f64>, status: Status, told: &MissionsTold| {
+        let within = |total_time: Option<f64>, status: Status, told: &MissionTold| {
             let mut result =
                 CaseResult { status, message: None, ..CaseResult::undone(CaseNumber(0), Undone::NotJudged) };
-            doubt(Some(told), total_time, &mut result);
+            doubt(told, total_time, &mut result);
             (result.status, result.message)
         };
-        let judged = |status: Status, told: &MissionsTold| within(Some(15.0), status, told);
+        let judged = |status: Status, told: &MissionTold| within(Some(15.0), status, told);
         for status in [Status::Pass, Status::Fail, Status::Unjudged] {
             assert_eq!(judged(status, &told(&[])), (status, None));
             assert_eq!(judged(status, &told(&["a", "b"])), (Status::Inconclusive, Some("a; b".into())));

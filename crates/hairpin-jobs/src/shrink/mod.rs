@@ -12,6 +12,7 @@ use hairpin_formats::atomic;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
 use crate::consent::Wish;
+use crate::missions::FENCE;
 use crate::names::named;
 use crate::work::{Work, open_to_change};
 use crate::{Problem, Watch};
@@ -104,6 +105,10 @@ fn violating(work: &Work, settings: &ShrinkSettings) -> Result<(Case, CaseResult
     let result = result.ok_or_else(|| Problem::input(format!("not judged yet: hairpin judge {folder}")))?;
     if result.violations.is_empty() {
         return Err(Problem::input(format!("case {} does not violate: there is nothing to shrink", case.id())));
+    }
+    if result.violations[0].what == FENCE {
+        let what = "what it violates is its mission's fence, which a shorter flight is not the mission's to break";
+        return Err(Problem::input(format!("case {}: {what}: hairpin replay flies it again", case.id())));
     }
     Ok((case, result))
 }

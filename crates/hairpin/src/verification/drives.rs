@@ -86,6 +86,8 @@ pub struct DriveTolerances {
     pub most_curvature_rate: f64,
     /// Largest angle of the body's z axis from the vertical, rad.
     pub most_tilt: f64,
+    /// Largest |angle| of rocker and bogies, rad; without a suspension there are none.
+    pub most_joint: f64,
     /// Largest |torque| of each wheel, N·m; infinite where none is asked for.
     pub most_torque: f64,
     /// Least and greatest direction of travel in the body, rad.
@@ -161,6 +163,7 @@ pub fn verify_drives<T: Terrain>(
                 found.above("end.yaw", replay.error[2].abs(), tolerances.yaw, "rad");
                 found.above("end.curvature", replay.error_curvature.abs(), tolerances.curvature, "1/m");
                 found.above("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
+                found.above("joint_angle", replay.max_joint, kept(tolerances.most_joint), "rad");
                 found.above("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
@@ -218,6 +221,7 @@ mod tests {
         most_curvature: 1.0,
         most_curvature_rate: 1.0,
         most_tilt: 0.5,
+        most_joint: f64::INFINITY,
         most_torque: f64::INFINITY,
         directions: [0.0, 0.0],
         most_acceleration: f64::INFINITY,

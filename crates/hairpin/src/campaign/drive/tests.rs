@@ -108,6 +108,18 @@ fn drives_are_drawn_by_numbers_and_are_feasible() {
     }
 }
 
+/// What was planned by wider limits of the suspension or the body is found by narrower ones.
+#[test]
+fn joints_and_tilt_are_held_to_the_limits_that_are_asked() {
+    let wide = setup(rover(), &[]);
+    let plan = solver(&wide).draw(0, &Stop::never()).unwrap();
+    for (key, told) in [("robot.limits.joint_deg", ".joint_angle"), ("generate.limits.tilt_deg", ".tilt")] {
+        let narrow = setup(rover(), &[(key, json!(1))]);
+        let findings = verify(&narrow, &plan.clone().case(42, 0, 0)).proof.expect("a witness").findings;
+        assert!(!findings.is_empty() && findings.iter().all(|one| one.field.ends_with(told)), "{findings:?}");
+    }
+}
+
 /// A differential drive on a plain, at 0.2 of 0.22 m/s: the outer wheel leaves |κ| ≤ 1.25 1/m.
 fn two_wheels() -> Value {
     json!({

@@ -36,6 +36,7 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
         most_curvature: bounds.most,
         most_curvature_rate: bounds.most_rate,
         most_tilt: setup.tilt(),
+        most_joint: setup.rover.limits.joint,
         most_torque: setup.rover.wheels.torque,
         directions: setup.directions(),
         most_acceleration: match setup.pace() {
