@@ -6,7 +6,7 @@ use hairpin::trajectory::drive::Planar;
 
 use crate::asked::{seen, wrapped};
 use crate::drive::{Drive, HAIRPIN_BLOCKED, HAIRPIN_INFEASIBLE, HAIRPIN_NOT_CONVERGED};
-use crate::ground::{no_ground, over_limits};
+use crate::ground::no_ground;
 use crate::refusal::Refused;
 use crate::steer::SteerHandle;
 
@@ -30,8 +30,9 @@ impl SteerHandle {
         // Curvatures as they were commanded, errors as the ground has them.
         let mut told = flat;
         (told.error, told.error_curvature) = (ground.error, ground.error_curvature);
-        let limit = broken(&told, &self.bounds, &precision)
-            .or_else(|| over_limits(&self.rover, ground.max_tilt, ground.max_joint));
+        let at_rest = self.rover.limits.broken_at_rest(ground.max_tilt, ground.max_joint);
+        let limit =
+            broken(&told, &self.bounds, &precision).or_else(|| at_rest.map(|(limit, over)| (limit, Some(over))));
         Ok(Drive { tilt_rad: ground.max_tilt, ..found }.held_to(told.error, told.error_curvature, limit))
     }
 }

@@ -5,7 +5,7 @@ use hairpin::feasibility::steering::shooting::families::Problem;
 use hairpin::feasibility::steering::shooting::rough::{Answer, Cause, Prediction, Status};
 use hairpin::feasibility::steering::shooting::solve::{Choices, Method, Outcome};
 use hairpin::feasibility::steering::shooting::{Control, Curvatures, Precision, Query, generate};
-use hairpin::robot::rover::{Rover, Unsettled};
+use hairpin::robot::rover::Unsettled;
 use hairpin::trajectory::drive::{Planar, SegmentList};
 use hairpin::world::terrain::{ElevationMap, NoGround};
 
@@ -111,11 +111,11 @@ impl SteerHandle {
             joint = *most;
             drive = Drive { tilt_rad: *tilt, ..drive.missing(&seen(end, goal), end.curvature) };
         }
-        let over = over_limits(&self.rover, drive.tilt_rad, joint);
+        let over = self.rover.limits.broken_at_rest(drive.tilt_rad, joint);
         match status {
             _ if found.spent => Drive { status: HAIRPIN_BUDGET_SPENT, ..drive },
             Status::Ok => match over {
-                Some((limit, over)) => Drive { status: HAIRPIN_INFEASIBLE, ..drive }.over(limit, over),
+                Some((limit, over)) => Drive { status: HAIRPIN_INFEASIBLE, ..drive }.over(limit, Some(over)),
                 None => Drive { status: HAIRPIN_SOLVED, ..drive },
             },
             Status::Blocked(blocked) => Drive { status: HAIRPIN_BLOCKED, stopped_after_m: blocked.after_m, ..drive }
@@ -123,12 +123,6 @@ impl SteerHandle {
             Status::Unreachable | Status::NotConverged { .. } => drive,
         }
     }
-}
-
-/// Which limit of how it stands is broken, and by how much, where the largest tilt and angle of a joint are these, rad.
-pub(crate) fn over_limits(rover: &Rover, tilt: f64, joint: f64) -> Option<(&'static str, Option<f64>)> {
-    let stood = [("tilt_rad", tilt - rover.limits.tilt), ("joint_rad", joint - rover.limits.joint)];
-    stood.into_iter().find(|(_, over)| *over > 0.0).map(|(limit, over)| (limit, Some(over)))
 }
 
 /// What stops a drive.

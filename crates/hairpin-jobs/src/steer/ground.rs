@@ -106,9 +106,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         return stopped(no_ground(map, &goal, place), *after_m);
     }
     let drive = Some((solution, replay));
-    let limits = &task.rover.limits;
-    let stood = [("tilt_rad", ground.max_tilt - limits.tilt), ("joint_rad", ground.max_joint - limits.joint)];
-    let over = stood.into_iter().find(|(_, over)| *over > 0.0);
+    let over = task.rover.limits.broken_at_rest(ground.max_tilt, ground.max_joint);
     if let Some(near) = near {
         return too_near(near, drive);
     }

@@ -150,3 +150,12 @@ pub struct Limits {
     /// Whether the vehicle can turn in place.
     pub turns_in_place: bool,
 }
+
+impl Limits {
+    /// The limit that a body breaks whose largest tilt and |angle of a joint| are these (rad), `tilt_rad` before
+    /// `joint_rad`, and by how much.
+    pub fn broken_at_rest(&self, tilt: f64, joint: f64) -> Option<(&'static str, f64)> {
+        let over = [("tilt_rad", tilt - self.tilt), ("joint_rad", joint - self.joint)];
+        over.into_iter().find(|(_, over)| *over > 0.0)
+    }
+}
