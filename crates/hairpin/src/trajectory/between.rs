@@ -1,9 +1,9 @@
 //! The motion between rows of a track, and its rows at even times.
 //!
-//! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, and of
-//! everything else, the straight line. Attitudes are the line's, made rotations again.
+//! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, where
+//! they turn round at a sample, and of everything else, the straight line. Attitudes are the line's, made rotations again.
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::track::{Channel, Track};
 
@@ -76,7 +76,7 @@ impl Track {
             return self.poses().first().map(|pose| (*pose, values.collect()));
         }
         let next = self.times().partition_point(|time| *time <= t);
-        Some(Between::of(self).at(next.clamp(1, self.len() - 1) - 1, t))
+        Some(Between::of(self, None).at(next.clamp(1, self.len() - 1) - 1, t))
     }
 
     /// The motion that the rows stand for, every `period` s from the first row on, and at the last. A row that stands
@@ -92,7 +92,7 @@ impl Track {
         if last - stamps[stamps.len() - 1] > near {
             stamps.push(*last);
         }
-        let between = Between::of(self);
+        let between = Between::of(self, Some(period));
         let mut rows = Rows::default();
         let mut after = 1;
         for stamp in stamps {
@@ -113,11 +113,29 @@ impl Track {
 struct Between<'a> {
     track: &'a Track,
     velocity: Option<[&'a [f64]; 3]>,
+    /// The time between samples, of which rows were picked, s.
+    period: Option<f64>,
 }
 
+/// A mean velocity is that of one end within this share of it.
+const SAME: f64 = 0.05;
+
 impl<'a> Between<'a> {
-    fn of(track: &'a Track) -> Self {
-        Self { track, velocity: velocity_of(track) }
+    fn of(track: &'a Track, period: Option<f64>) -> Self {
+        Self { track, velocity: velocity_of(track), period }
+    }
+
+    /// Whether the velocity turns round at the one or the other of two neighbouring samples, and not between them: a
+    /// vehicle that changes its gear. The cubic through both velocities would overshoot by half of them.
+    fn turns_round(&self, from: usize) -> bool {
+        let (Some(velocity), Some(period)) = (self.velocity, self.period) else { return false };
+        let span = self.track.times()[from + 1] - self.track.times()[from];
+        if span > 1.5 * period {
+            return false;
+        }
+        let [v, w] = [from, from + 1].map(|row| Vector3::from(velocity.map(|axis| axis[row])));
+        let mean = (self.track.position(from + 1) - self.track.position(from)) / span;
+        v.dot(&w) < 0.0 && [v, w].iter().any(|end| (mean - end).norm() <= SAME * end.norm())
     }
 
     /// Pose and channels at `stamp`, between the rows `from` and `from` + 1.
@@ -131,7 +149,11 @@ impl<'a> Between<'a> {
         let share = ((stamp - times[from]) / span).clamp(0.0, 1.0);
         let [a, b] = [from, from + 1].map(|row| poses[row]);
         let ends = |axis: usize| [a.translation.vector[axis], b.translation.vector[axis]];
-        let speeds = |axis: usize| self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]);
+        let straight = self.turns_round(from);
+        let speeds = |axis: usize| match straight {
+            true => Some([ends(axis)[1] - ends(axis)[0]; 2]),
+            false => self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]),
+        };
         let [x, y, z] = [0, 1, 2].map(|axis| place(share, ends(axis), speeds(axis)));
         let [p, q] = [a, b].map(|pose| std::array::from_fn(|i| pose.rotation.coords[i]));
         let q = nearer(&p, q);
@@ -183,5 +205,32 @@ impl Rows {
         };
         let channels = of.channels().iter().enumerate().map(column).collect();
         Track::new(self.times, self.poses, channels).expect("stamps rise, and what is between finite numbers is finite")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forwards at 1 m/s for a second, and back at once at that speed; then softly round, which is a cubic.
+    #[test]
+    fn a_change_of_gear_does_not_overshoot() {
+        let along = |places: [f64; 4], speeds: [f64; 4]| {
+            let poses = places.map(|x| Isometry3::translation(x, 0.0, 0.0)).to_vec();
+            let channel = |name: &str, values: [f64; 4]| Channel { name: name.into(), values: values.to_vec() };
+            let channels = VELOCITY.into_iter().zip([speeds, [0.0; 4], [0.0; 4]]);
+            let channels = channels.map(|(name, values)| channel(name, values)).collect();
+            Track::new(vec![0.0, 1.0, 2.0, 3.0], poses, channels).unwrap()
+        };
+        let fastest = |track: &Track, period: f64| {
+            let speeds = track.at_period(period);
+            speeds.channel(VELOCITY[0]).unwrap().iter().fold(0.0_f64, |most, speed| most.max(speed.abs()))
+        };
+        let geared = along([0.0, 1.0, 0.0, -1.0], [1.0, 1.0, -1.0, -1.0]);
+        assert!((fastest(&geared, 0.9) - 1.0).abs() < 1e-12);
+        // Of rows that stand for ten samples each nothing is known between them.
+        assert!(fastest(&geared, 0.1) > 1.2);
+        let soft = along([0.0, 1.0, 1.0, 0.0], [1.0, 1.0, -1.0, -1.0]);
+        assert!(soft.at_period(0.9).position(2).x > 1.0, "between 1 and 2 s it goes on and comes back");
     }
 }
