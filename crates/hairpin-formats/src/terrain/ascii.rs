@@ -1,4 +1,4 @@
-//! ESRI ASCII grid: a header of six words, then rows from the north.
+//! ESRI ASCII grid: a header of six words, each once, then rows from the north and nothing else.
 
 use hairpin::world::terrain::Grid;
 
@@ -11,26 +11,35 @@ use crate::quote;
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =
         std::str::from_utf8(bytes).map_err(|_| TerrainError::Broken("no text: an ASCII grid is needed".into()))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut header = Header::default();
     let mut heights = Vec::new();
     let mut cells = None;
     for (index, line) in text.lines().enumerate() {
         let wrong = |what: String| TerrainError::Broken(format!("line {}: {what}", index + 1));
         let mut words = line.split_whitespace().peekable();
-        let Some(first) = words.peek() else { continue };
+        let Some(first) = words.peek().copied() else { continue };
         let is_word = first.starts_with(|c: char| c.is_ascii_alphabetic()) && first.parse::<f64>().is_err();
         if is_word {
             let key = first.to_ascii_lowercase();
             words.next();
             let value = words.next().ok_or_else(|| wrong(format!("{key} has no value")))?;
+            if cells.is_some() {
+                return Err(wrong(format!("{:?} amid the heights: its place is before them", quote::cell(&key))));
+            }
+            if let Some(more) = words.next() {
+                return Err(wrong(format!("{:?} after the value of {key}", quote::cell(more))));
+            }
             header.set(&key, value).map_err(wrong)?;
             continue;
         }
         let (columns, rows) = match cells {
             Some(cells) => cells,
             None => {
-                let size = bounded(header.need(header.columns, "ncols")?, header.need(header.rows, "nrows")?)?;
-                *cells.insert(size)
+                let [columns, rows] = [(header.columns, "ncols"), (header.rows, "nrows")].map(|(count, key)| {
+                    count.ok_or_else(|| wrong(format!("{:?}, and {key} is missing before it", quote::cell(first))))
+                });
+                *cells.insert(bounded(columns?, rows?)?)
             }
         };
         for word in words {
@@ -81,13 +90,15 @@ struct Header {
     /// dx and dy, of cells that are not square.
     sides: [Option<f64>; 2],
     no_data: f64,
+    /// Words that were read.
+    known: Vec<String>,
 }
 
 impl Default for Header {
     /// The format's own default of no data is −9999.
     fn default() -> Self {
         let (corner, center, sides) = ([None; 2], [None; 2], [None; 2]);
-        Self { columns: None, rows: None, corner, center, cell: None, sides, no_data: -9999.0 }
+        Self { columns: None, rows: None, corner, center, cell: None, sides, no_data: -9999.0, known: Vec::new() }
     }
 }
 
@@ -102,6 +113,11 @@ impl Header {
         };
         let count =
             || value.parse::<u64>().map_err(|_| format!("{key} = {:?} is no number of cells", quote::cell(value)));
+        let own = key.trim_end_matches("_value");
+        if self.known.iter().any(|known| known == own) {
+            return Err(format!("{key} = {:?}: {own} was there before", quote::cell(value)));
+        }
+        self.known.push(own.to_owned());
         match key {
             "ncols" => self.columns = Some(count()?),
             "nrows" => self.rows = Some(count()?),

@@ -164,6 +164,11 @@ fn ascii_grids_by_corner_and_by_centre() {
     let map = read_terrain(grid.as_bytes(), "a.asc", &Georeference::default()).expect("a map");
     assert_eq!(map.extent(), ([10.25, 19.25], [11.25, 19.75]));
     assert_eq!((at(&map, 10.25, 19.75), at(&map, 11.25, 19.25)), (1.0, 6.0));
+    let marked = format!("\u{feff}{grid}");
+    assert_eq!(
+        read_terrain(marked.as_bytes(), "a.asc", &Georeference::default()).expect("a map").extent(),
+        map.extent()
+    );
     let centred = grid.replace("corner", "center");
     let map = read_terrain(centred.as_bytes(), "a.asc", &Georeference::default()).expect("a map");
     assert_eq!(map.extent(), ([10.0, 19.0], [11.0, 19.5]));
@@ -177,6 +182,12 @@ fn ascii_grids_by_corner_and_by_centre() {
         ("nrows 2\n", "", "nrows is missing"),
         ("4 5 6", "4 -1 6", "1 cells without data"),
         ("4 5 6", "4 -3.4e38 6", "1 cells without data"),
+        ("4 5 6", "4 5 6\nNODATA_value 4", "line 9: \"nodata_value\" amid the heights"),
+        ("1 2 3\n", "1 2 3\ncellsize 0.3\n", "line 8: \"cellsize\" amid the heights"),
+        ("nrows 2", "nrows 2\nNCOLS 30", "line 3: ncols = \"30\": ncols was there before"),
+        ("nrows 2", "nrows 2\nnodata -2", "line 7: nodata_value = \"-1\": nodata was there before"),
+        ("cellsize 0.5", "cellsize 0.5 0.25", "line 5: \"0.25\" after the value of cellsize"),
+        ("ncols 3", "# made by me\nncols 3", "line 1: \"#\", and ncols is missing before it"),
     ] {
         let broken = grid.replace(from, to);
         let error = read_terrain(broken.as_bytes(), "a.asc", &Georeference::default()).expect_err(said);
