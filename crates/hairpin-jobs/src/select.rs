@@ -1,6 +1,6 @@
 //! A few of many cases, in a campaign folder of their own.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::PathBuf;
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
@@ -74,8 +74,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
         return Err(Problem::input("--out: must be another folder than OUT"));
     }
     // Plans and runs are read of those that are chosen: they are nearly all of a campaign.
-    let all = work.folder.read_cases_without_profiles()?;
-    let results = work.folder.read_results()?;
+    let (all, results) = work.folder.read_cases_and_results()?;
     let measured = measured(&results);
     let (cases, unmeasured): (Vec<&Case>, Vec<&Case>) =
         all.iter().partition(|case| measured.is_empty() || measured.contains_key(&case.number));
@@ -98,10 +97,11 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     }
     let met = Met::new(&work, &cases, !measured.is_empty() && unmeasured.is_empty())?;
     let of_all = (0..cases.len()).collect::<Vec<_>>();
-    let known = if by == By::Coverage { met.by_case(&of_all)? } else { vec![BTreeSet::new(); cases.len()] };
-    let with_cells = cases.iter().zip(known);
-    let candidates: Vec<Candidate> =
-        with_cells.map(|(case, met)| Candidate::new(case, measured.get(&case.number).copied(), met)).collect();
+    let mut known = if by == By::Coverage { met.by_case(&of_all.iter().copied().collect())? } else { Cells::new() };
+    let candidate = |(place, case): (usize, &&Case)| {
+        Candidate::new(case, measured.get(&case.number).copied(), known.remove(&place).unwrap_or_default())
+    };
+    let candidates: Vec<Candidate> = cases.iter().enumerate().map(candidate).collect();
     if by == By::Coverage && candidates.iter().all(|candidate| candidate.cells.is_empty()) {
         return Err(Problem::input(format!(
             "--by coverage: what was exercised is known of executed cases: hairpin execute {}",
@@ -115,19 +115,22 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     chosen.sort_by_key(|case| case.number);
     chosen.iter_mut().try_for_each(|case| work.folder.read_witness(case))?;
     let folder = write(&work, settings, (&all, &results), &chosen)?;
-    // What was read to choose by is not read again.
-    let cells = |places: &[usize]| match by {
-        By::Coverage => Ok(Some(together(places.iter().map(|place| candidates[*place].cells.clone())))),
-        _ if !work.folder.has_runs() => Ok(None),
-        _ => met.by_case(places).map(|each| Some(together(each.into_iter()))),
+    // What was read to choose by is not read again, and what two choices share is read once.
+    let asked: BTreeSet<usize> =
+        if met.judged.is_some() { [&*places, &*stressful].concat() } else { of_all.clone() }.into_iter().collect();
+    let known: Option<Cells> = match by {
+        By::Coverage => Some(asked.iter().map(|place| (*place, candidates[*place].cells.clone())).collect()),
+        _ if work.folder.has_runs() => Some(met.by_case(&asked)?),
+        _ => None,
     };
+    let cells = |places: &[usize]| known.as_ref().map(|known| together(places.iter().map(|place| &known[place])));
     Ok(Selected {
         folder,
         names: places.iter().map(|place| cases[*place].id()).collect(),
         of: cases.len(),
-        selected: choice.measure(&places, cells(&places)?),
-        most_stressful: choice.measure(&stressful, cells(&stressful)?),
-        all: choice.measure(&of_all, met.judged.map_or_else(|| cells(&of_all), |judged| Ok(Some(judged)))?),
+        selected: choice.measure(&places, cells(&places)),
+        most_stressful: choice.measure(&stressful, cells(&stressful)),
+        all: choice.measure(&of_all, met.judged.or_else(|| cells(&of_all))),
         cells: met.grid.cells(),
         stress: StressUnit::of(&work, &candidates),
     })
@@ -149,6 +152,9 @@ fn measured(results: &[CaseResult]) -> HashMap<CaseNumber, &CaseResult> {
     results.iter().filter(|result| result.measures.is_some()).map(|result| (result.case, result)).collect()
 }
 
+/// Which cells cases met, by their places in the list.
+type Cells = BTreeMap<usize, BTreeSet<usize>>;
+
 /// The cells that cases met, where they were executed.
 struct Met<'a> {
     work: &'a Work,
@@ -168,20 +174,19 @@ impl<'a> Met<'a> {
     }
 
     /// Those that each of these cases met, in the order of their numbers: neighbours lie in one part of the tables.
-    fn by_case(&self, places: &[usize]) -> Result<Vec<BTreeSet<usize>>, Problem> {
+    fn by_case(&self, places: &BTreeSet<usize>) -> Result<Cells, Problem> {
         let met = |place: &usize| {
             let case = self.cases[*place];
             let runs = measured_runs(self.work, case)?;
-            Ok(runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect())
+            let met = runs.iter().flat_map(|run| self.grid.met(&self.work.setup, &case.waypoints, run)).collect();
+            Ok((*place, met))
         };
-        let mut places = places.to_vec();
-        places.sort_unstable();
         places.par_iter().map(met).collect()
     }
 }
 
 /// How many cells cases met together.
-fn together(each: impl Iterator<Item = BTreeSet<usize>>) -> usize {
+fn together<'a>(each: impl Iterator<Item = &'a BTreeSet<usize>>) -> usize {
     each.flatten().collect::<BTreeSet<_>>().len()
 }
 
@@ -237,7 +242,7 @@ mod tests {
     #[test]
     fn cells_that_several_met_count_once() {
         let met = [[0, 1, 2], [2, 3, 0]].map(BTreeSet::from);
-        assert_eq!((together(met.into_iter()), together([].into_iter())), (4, 0));
+        assert_eq!((together(met.iter()), together([].iter())), (4, 0));
     }
 
     #[test]

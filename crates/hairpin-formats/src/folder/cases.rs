@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::{fs, io};
 
-use hairpin::campaign::{Case, CaseNumber, Scenario, Witness};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
@@ -81,11 +81,19 @@ impl CampaignFolder {
     /// # Errors
     /// As [`Self::read_cases`].
     pub fn read_cases_without_profiles(&self) -> Result<Vec<Case>, FolderError> {
+        Ok(self.read_cases_and_results()?.0)
+    }
+
+    /// The same, and the results of all judged cases.
+    ///
+    /// # Errors
+    /// As [`Self::read_cases`].
+    pub fn read_cases_and_results(&self) -> Result<(Vec<Case>, Vec<CaseResult>), FolderError> {
         let path = self.file(WAYPOINTS);
         let mut routes = cases::read(&path)?;
         let contradiction = |case, what| FolderError::Contradiction { path: path.clone(), case, what };
-        let mut all = Vec::new();
-        for Row { mut case, length, .. } in self.read_rows()? {
+        let (mut all, mut results) = (Vec::new(), Vec::new());
+        for Row { mut case, length, result } in self.read_rows()? {
             let number = case.number;
             let route = routes.remove(&number).ok_or_else(|| contradiction(number, "has no waypoints"))?;
             if route.waypoints.len() != length {
@@ -99,6 +107,7 @@ impl CampaignFolder {
             }
             (case.waypoints, case.leg_times, case.seen) = (route.waypoints, route.leg_times, route.seen);
             all.push(case);
+            results.extend(result);
         }
         // Waypoints are written first: those of higher numbers are of a checkpoint that a kill cut short. A search that
         // came to its end leaves none.
@@ -107,7 +116,7 @@ impl CampaignFolder {
             Some(&number) if last.is_some_and(|last| number < last) || self.is_complete() => {
                 Err(contradiction(number, "is not in results.parquet"))
             }
-            _ => Ok(all),
+            _ => Ok((all, results)),
         }
     }
 

@@ -3,7 +3,8 @@
 //! The same distances as [`Scale::apart`](super::Scale::apart), in SIMD lanes: for sums over all pairs, and for
 //! greedy choices that need one row of distances after another.
 
-use super::lanes::{Centred, Lanes, over_pairs};
+use super::lanes::Lanes;
+use super::pairs::{Centred, over_pairs};
 use super::scale::{Placed, Scale, roots};
 use crate::trajectory::Route;
 
@@ -68,8 +69,7 @@ impl Crowd {
         if count < 2 {
             return (0.0, 0.0);
         }
-        let size = self.shares[0].len();
-        let parts = [Centred::new(&self.ways, 3 * Route::PLACES), Centred::new(&self.shares, size)];
+        let parts = [Centred::new(&self.ways), Centred::new(&self.shares)];
         let (sum, near) = over_pairs([&parts[0], &parts[1]], self.scale.weights());
         let mut least = f64::INFINITY;
         for one in near {
@@ -98,7 +98,9 @@ mod tests {
             let mut number = |scale: f64| scale * (unit(&mut random) - 0.5);
             let mut traces: Vec<Trace> = (0..count)
                 .map(|_| {
-                    let way: Vec<_> = (0..5).map(|_| Point3::new(number(9.0), number(30.0), number(4.0))).collect();
+                    // All begin together.
+                    let mut way = vec![Point3::new(1.0, 0.3, -2.0)];
+                    way.extend((0..4).map(|_| Point3::new(number(9.0), number(30.0), number(4.0))));
                     Trace { route: Route::along(&way), behaviour: (0..measures).map(|_| number(3.0)).collect() }
                 })
                 .collect();

@@ -1,5 +1,5 @@
-//! Vectors side by side in lanes, so that all pairs of them can be compared: what is asked of two is answered to the
-//! same bits, only sums over all pairs are added up another way.
+//! Vectors side by side in lanes, so that many of them can be compared: what is asked of two is answered to the same
+//! bits. Sums over all pairs are added up another way (`pairs`).
 //!
 //! Eight vectors make a block: coordinate k of all eight lies side by side, so that one instruction serves eight
 //! pairs. Four vectors of a block are compared with each other block at once, which keeps 32 sums in registers.
@@ -11,27 +11,25 @@ use rayon::prelude::*;
 use crate::math::simd::{Simd, kernel};
 
 /// Vectors in a block.
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 /// Those of a block that are compared with others at once.
-const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 /// More than rounding takes from a bound of a squared distance, as a share.
 const ROUNDING: f64 = 1e-9;
-/// More than a distance, as a share of the largest, can be wrong by where it comes from products.
-const ALIKE: f64 = 1e-6;
 
 /// A number for each pair of four vectors with the eight of a block.
-type Pairs = [[f64; LANES]; ROWS];
+pub(super) type Pairs = [[f64; LANES]; ROWS];
 
 /// Vectors of equal size, block by block, coordinate by coordinate; the last block is filled up with the first vector.
 ///
 /// `values[(block · size + k) · 8 + lane]` is coordinate k of vector 8 · block + lane.
 #[derive(Debug, Clone)]
 pub(super) struct Lanes {
-    count: usize,
+    pub(super) count: usize,
     size: usize,
     /// Coordinates whose squares are added up before they are added to the others': 3 of places, 1 of numbers.
     group: usize,
-    values: Vec<f64>,
+    pub(super) values: Vec<f64>,
 }
 
 impl Lanes {
@@ -48,7 +46,7 @@ impl Lanes {
         Self { count: vectors.len(), size, group, values }
     }
 
-    fn blocks(&self) -> usize {
+    pub(super) fn blocks(&self) -> usize {
         self.count.div_ceil(LANES)
     }
 
@@ -188,104 +186,8 @@ fn squares<const GROUP: usize>(own: &[f64], first: usize, other: &[f64]) -> Pair
 }
 
 /// `vectors` less their mean.
-fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
+pub(super) fn centred(vectors: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
     let mean: Vec<f64> =
         (0..size).map(|k| vectors.iter().map(|vector| vector[k]).sum::<f64>() / vectors.len() as f64).collect();
     vectors.iter().map(|vector| vector.iter().zip(&mean).map(|(x, mean)| x - mean).collect()).collect()
-}
-
-/// Vectors around their mean, for sums over all pairs by ‖x − y‖² = ‖x‖² + ‖y‖² − 2 x·y: half the work of differences,
-/// and as exact but where two are alike.
-///
-/// Around the mean, as ‖x‖² and 2 x·y cancel the less the smaller they are.
-#[derive(Debug, Clone)]
-pub(super) struct Centred {
-    lanes: Lanes,
-    /// Their squares.
-    squares: Vec<f64>,
-}
-
-impl Centred {
-    pub(super) fn new(vectors: &[Vec<f64>], size: usize) -> Self {
-        let lanes = Lanes::new(&centred(vectors, size), size, 1);
-        let mut squares = vec![0.0; lanes.blocks() * LANES];
-        for (at, square) in squares.iter_mut().enumerate() {
-            let block = &lanes.values[at / LANES * size * LANES..][..size * LANES];
-            *square = block.iter().skip(at % LANES).step_by(LANES).map(|x| x * x).sum();
-        }
-        Self { lanes, squares }
-    }
-}
-
-/// Of `weights[0]` ‖x − y‖ + `weights[1]` ‖u − v‖, x and u of either part: the sum over all pairs; and the vectors that
-/// may be nearest to one before them.
-///
-/// Of each block a sum; they are added up in their order, on any number of threads.
-///
-/// Each pair once, and none of a vector with itself or with what fills up the last block.
-pub(super) fn over_pairs(parts: [&Centred; 2], weights: [f64; 2]) -> (f64, Vec<usize>) {
-    let (count, blocks) = (parts[0].lanes.count, parts[0].lanes.blocks());
-    let parts = parts.map(|part| (part.lanes.values.as_slice(), part.squares.as_slice()));
-    let of_block = |own: usize| {
-        let (mut sums, mut least) = ([0.0; LANES], [f64::INFINITY; LANES]);
-        add_pairs(Simd::Widest, parts, weights, (own, count), &mut sums, &mut least);
-        (sums.into_iter().sum::<f64>(), least.into_iter().fold(f64::INFINITY, f64::min))
-    };
-    let all: Vec<(f64, f64)> = (0..blocks).into_par_iter().map(of_block).collect();
-    let nearest = all.iter().map(|(_, least)| *least).fold(f64::INFINITY, f64::min);
-    let near = all.iter().enumerate().filter(|(_, (_, least))| *least <= nearest + ALIKE);
-    let near = near.flat_map(|(own, _)| own * LANES..((own + 1) * LANES).min(count)).collect();
-    (all.iter().map(|(sum, _)| sum).sum(), near)
-}
-
-kernel! {
-    fn add_pairs(
-        parts: [(&[f64], &[f64]); 2],
-        weights: [f64; 2],
-        place: (usize, usize),
-        sums: &mut [f64; LANES],
-        least: &mut [f64; LANES],
-    ) {
-        let (own, count) = place;
-        for first in [0, ROWS] {
-            for block in 0..=own {
-                let mut apart = [[0.0; LANES]; ROWS];
-                for ((values, squares), weight) in parts.into_iter().zip(weights) {
-                    let size = values.len() / squares.len() * LANES;
-                    let dots = dots(&values[own * size..][..size], first, &values[block * size..][..size]);
-                    let (of_own, of_other) = (&squares[own * LANES..][..LANES], &squares[block * LANES..][..LANES]);
-                    for r in 0..ROWS {
-                        for l in 0..LANES {
-                            let square = of_own[first + r] + of_other[l] - 2.0 * dots[r][l];
-                            apart[r][l] += weight * if square > 0.0 { square } else { 0.0 }.sqrt();
-                        }
-                    }
-                }
-                for r in 0..ROWS {
-                    // Each pair once, and none of what fills the last block up.
-                    let row = own * LANES + first + r;
-                    let before = if row < count { row - block * LANES } else { 0 };
-                    for l in 0..LANES {
-                        let (counts, apart) = (l < before, apart[r][l]);
-                        sums[l] += if counts { apart } else { 0.0 };
-                        least[l] = if counts & (apart < least[l]) { apart } else { least[l] };
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// x·y of four vectors of one block with the eight of another.
-#[inline(always)]
-fn dots(own: &[f64], first: usize, other: &[f64]) -> Pairs {
-    let mut total = [[0.0; LANES]; ROWS];
-    for (own, other) in own.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
-        for r in 0..ROWS {
-            for l in 0..LANES {
-                total[r][l] += own[first + r] * other[l];
-            }
-        }
-    }
-    total
 }

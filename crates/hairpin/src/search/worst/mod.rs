@@ -22,6 +22,7 @@ mod change;
 mod crowd;
 mod field;
 mod lanes;
+mod pairs;
 mod portfolio;
 mod rounds;
 mod scale;
