@@ -36,6 +36,7 @@ mod forest;
 mod local;
 mod one;
 mod problem;
+mod prove;
 mod question;
 mod record;
 mod relaxation;
