@@ -44,6 +44,16 @@ impl Best {
         beaten.max(self.least)
     }
 
+    /// Where bounds should come to: the heaviest cost, or what is wanted if that is more.
+    pub(super) fn aim(&self) -> i64 {
+        self.cost().max(self.least - 1).max(0)
+    }
+
+    /// Wants paths of this cost; what was wanted before.
+    pub(super) fn want(&mut self, least: i64) -> i64 {
+        std::mem::replace(&mut self.least, least)
+    }
+
     /// The heaviest cost, −1 without a path.
     pub(super) fn cost(&self) -> i64 {
         self.paths.first().map_or(-1, |(cost, _)| *cost)

@@ -183,7 +183,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
         let mut last_step = None;
         for look in 1.. {
             let threshold = self.threshold();
-            let target = self.best.cost().max(0) as f64 * self.ground.scale as f64 - AIM * self.ground.gap;
+            let target = self.best.aim() as f64 * self.ground.scale as f64 - AIM * self.ground.gap;
             let ended = self.ascent.run(
                 &mut self.relaxation,
                 (choices, &made),

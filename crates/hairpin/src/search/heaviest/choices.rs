@@ -27,6 +27,7 @@ pub(super) struct Arc {
 }
 
 /// All choices of a problem, and the rules between them.
+#[derive(Clone)]
 pub(super) struct Choices {
     /// Points.
     pub(super) points: usize,

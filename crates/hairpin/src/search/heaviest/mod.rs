@@ -12,14 +12,14 @@
 //! | --- | --- | --- |
 //! | to 14 | subsets, O(2ⁿ n²) | `subsets` |
 //! | to 16 | branch and bound first, subsets if it has to split much | `one` |
-//! | more | branch and bound under Lagrangian bounds | `root`, `branch` |
+//! | more | branch and bound under Lagrangian bounds | `prove`, `root`, `branch` |
 //! | any, points K times | branch and bound on circulations | `walk` |
 //! | any, moves that pass points | subsets to 20, else annealing under walks with prices | `triples` |
 //!
 //! Costs are whole numbers (µm, µs, counts): every sum and bound is exact, and a certificate can be checked by
 //! addition. Data flow of branch and bound: a path by local search (`local`) → first multipliers → subgradient steps
 //! (`ascent`, means of solutions in `volume`) on a relaxation (`forest` where costs are symmetric, `arborescence` where
-//! they are not) → what the bound decides (`choices`) → splits (`branch`) → a tree of steps (`record`), which
+//! they are not) → what the bound decides under a guessed cost (`choices`, `prove`) → splits (`branch`) → a tree of steps (`record`), which
 //! [`crate::verification::verify_heaviest`] recomputes.
 
 mod arborescence;
@@ -36,6 +36,7 @@ mod forest;
 mod local;
 mod one;
 mod problem;
+mod prove;
 mod question;
 mod record;
 mod relaxation;

@@ -7,9 +7,10 @@ use super::arborescence::Arborescence;
 use super::dfs::depth_first;
 use super::forest::{Forest, ID_BITS};
 use super::problem::Arcs;
+use super::prove::prove;
 use super::question::{Heaviest, HeaviestMistake, HeaviestSettings, Method, Outcome, wanted};
 use super::record::{Proof, Recorder};
-use super::root::{prove, scale_of};
+use super::root::scale_of;
 use super::subsets::{MOST_SUBSET_POINTS, best_by_subsets, subset_bytes};
 
 /// Up to so many points subsets are the quicker way.

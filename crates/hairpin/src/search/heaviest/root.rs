@@ -5,13 +5,12 @@
 
 use super::ascent::{Ascent, Ended, Pace};
 use super::best::Best;
-use super::branch::{Ground, Open, Searched, branch};
 use super::choices::{Arc, Choices, IN, Made, OPEN, OUT};
 use super::cuts::violated;
 use super::first_multipliers::first_multipliers;
 use super::local::Local;
 use super::problem::{Arcs, Ends};
-use super::question::{HeaviestSettings, Method};
+use super::question::HeaviestSettings;
 use super::record::{Next, Recorder};
 use super::relaxation::{Relaxation, path_of};
 use super::whole::Whole;
@@ -31,6 +30,8 @@ const MEAN_STEPS: usize = 20000;
 const MANY_OPEN: usize = 5;
 /// Rounds of cuts, each along means of relaxed solutions again.
 const CUT_ROUNDS: usize = 8;
+/// Rounds of steps and decisions under a wanted cost.
+const NARROWED: usize = 2;
 /// Costs times the scale are about so many bits long, so that multipliers are finer than costs.
 const BITS: u32 = 33;
 
@@ -45,74 +46,41 @@ pub(super) fn scale_of(arcs: &Arcs) -> i64 {
     scale
 }
 
-/// What is known of the whole problem.
-struct Root<'a, R> {
-    arcs: &'a Arcs,
-    ends: Ends,
-    scale: i64,
+/// What a root goes back to from paths of a cost that none has.
+pub(super) struct Kept {
     choices: Choices,
     made: Made,
-    relaxation: R,
-    ascent: Ascent,
     multipliers: Vec<i64>,
-    best: Best,
-    local: Local<'a>,
-    record: Recorder,
-    /// The last step recorded.
     step: usize,
-    /// Upper bound, scaled.
+    steps: usize,
     bound: i64,
-    stop: &'a (dyn Fn() -> bool + Sync),
+    wanted: i64,
 }
 
-/// Proves the heaviest path, or comes as far as it may; `path` meets the ends. The second value is the upper bound,
-/// scaled.
-///
-/// Root, then branching; begun again from the root whenever the first splits find a heavier path, which decides more
-/// before any split. `nodes` counts all of it.
-pub(super) fn prove<'a, R: Relaxation>(
-    arcs: &'a Arcs,
-    settings: &HeaviestSettings,
-    path: &[usize],
-    record: Recorder,
+/// What is known of the whole problem.
+pub(super) struct Root<'a, R> {
+    pub(super) arcs: &'a Arcs,
+    ends: Ends,
+    pub(super) scale: i64,
+    pub(super) choices: Choices,
+    pub(super) made: Made,
+    relaxation: R,
+    ascent: Ascent,
+    pub(super) multipliers: Vec<i64>,
+    pub(super) best: Best,
+    local: Local<'a>,
+    pub(super) record: Recorder,
+    /// The last step recorded.
+    pub(super) step: usize,
+    /// Upper bound, scaled.
+    pub(super) bound: i64,
     stop: &'a (dyn Fn() -> bool + Sync),
-) -> (Searched, i64, Recorder) {
-    let mut root = Root::<R>::new(arcs, settings, path, record, stop);
-    let widened = root.widen();
-    let closed = widened == Some(true) || widened.is_some() && root.settle(settings);
-    let finished = |best: Best, open: Option<i64>| Searched { best, open, nodes: 0, first: 0, again: false };
-    if closed {
-        return (finished(root.best, None), root.bound, root.record);
-    }
-    if settings.method == Method::Local || widened.is_none() {
-        return (finished(root.best, Some(root.bound)), root.bound, root.record);
-    }
-    let mut nodes = 0;
-    loop {
-        let gap = (root.bound - root.best.cost() * root.scale).max(0) as f64;
-        let most_nodes = settings.most_nodes.unwrap_or(u64::MAX);
-        let ground = Ground { arcs, choices: &root.choices, scale: root.scale, gap, most_nodes, stop };
-        let problem = Open::new(root.made.clone(), root.multipliers.clone(), root.bound);
-        let mut searched = branch::<R>(ground, problem, root.best.clone(), &mut root.record);
-        nodes += searched.nodes;
-        searched.nodes = nodes;
-        if !searched.again || stop() {
-            root.record.follow(root.step, Next::Again(searched.first));
-            return (searched, root.bound, root.record);
-        }
-        // A heavier path decides more before anything is split: what was split with the lighter one is forgotten.
-        root.record.forget(searched.first);
-        root.learn(searched.best);
-        if root.settle(settings) {
-            return (Searched { nodes, ..finished(root.best, None) }, root.bound, root.record);
-        }
-    }
 }
 
 impl<'a, R: Relaxation> Root<'a, R> {
     /// Of more than 3 [`NEAR`] points, the ascent begins among each point's [`NEAR`] heaviest arcs. What it reaches
     /// there is no bound of the whole ([`Root::widen`]).
-    fn new(
+    pub(super) fn new(
         arcs: &'a Arcs,
         settings: &HeaviestSettings,
         path: &[usize],
@@ -158,10 +126,10 @@ impl<'a, R: Relaxation> Root<'a, R> {
     ///
     /// Steps go along few arcs, to which those come that the heaviest tree of the whole has beside them, until its
     /// bound leaves few open. Where costs are directed all arcs come at once.
-    fn widen(&mut self) -> Option<bool> {
+    pub(super) fn widen(&mut self) -> Option<bool> {
         if !self.arcs.symmetric() {
             self.take_up(Choices::all(self.arcs, self.scale));
-            return Some(false);
+            return Some(self.decide());
         }
         let points = self.arcs.points();
         let mut least = self.multipliers.clone();
@@ -231,7 +199,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
     }
 
     /// Takes paths that were found elsewhere; the local search goes on from the best.
-    fn learn(&mut self, best: Best) {
+    pub(super) fn learn(&mut self, best: Best) {
         for (cost, path) in best.into_paths() {
             self.local.offer(&path);
             self.best.offer(cost, path);
@@ -251,7 +219,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
     /// [`STEPS`] subgradient steps from the multipliers; the local search ranks its candidates by them afterwards.
     fn ascend(&mut self, threshold: i64) -> Ended {
         let pace = Pace { iterations: STEPS, alpha: 0.7, patience: 6 };
-        let target = self.best.cost().max(0) as f64 * self.scale as f64;
+        let target = self.best.aim() as f64 * self.scale as f64;
         let problem = (&self.choices, &self.made);
         let ended =
             self.ascent.run(&mut self.relaxation, problem, &self.multipliers, (threshold, target), pace, self.stop);
@@ -262,7 +230,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
 
     /// Multipliers along means of relaxed solutions, kept if their bound is smaller.
     fn average(&mut self) -> Ended {
-        let aims = (self.threshold(), self.best.cost().max(0) as f64 * self.scale as f64);
+        let aims = (self.threshold(), self.best.aim() as f64 * self.scale as f64);
         let problem = (&self.choices, &self.made);
         let ended = self.ascent.mean(&mut self.relaxation, problem, &self.multipliers, aims, MEAN_STEPS, self.stop);
         if self.ascent.bound < self.bound || ended == Ended::Closed {
@@ -294,7 +262,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
 
     /// Whether branching would be long: more than [`MANY_OPEN`] arcs a point are neither in nor out, or of more than
     /// half of all points it is open whether they are met.
-    fn many_open(&self) -> bool {
+    pub(super) fn many_open(&self) -> bool {
         let n = self.arcs.points();
         let open = |from: usize, to: usize| self.made.state[from..to].iter().filter(|state| **state == OPEN).count();
         let loops = self.choices.looped(0);
@@ -311,10 +279,7 @@ impl<'a, R: Relaxation> Root<'a, R> {
     /// Rounds go in three stages: kicks and subgradient steps while paths get better and two rounds beyond; then,
     /// where much is open, steps along means of relaxed solutions; then cuts that the mean violates, priced by further
     /// means, eight rounds of them at most.
-    fn settle(&mut self, settings: &HeaviestSettings) -> bool {
-        // Branching with a path that is not the heaviest costs many times what kicks cost.
-        let points = self.arcs.points() as u64;
-        let kicks = settings.kicks.unwrap_or(points * (1 + points / 60));
+    pub(super) fn settle(&mut self, kicks: u64) -> bool {
         self.polish(2 * kicks);
         let (mut waited, mut averaged, mut rounds) = (0, false, 0);
         loop {
@@ -337,14 +302,57 @@ impl<'a, R: Relaxation> Root<'a, R> {
             };
             match ended {
                 Ended::Closed => return self.close(),
-                Ended::Path => {
-                    let path = path_of(&self.choices, self.relaxation.used());
-                    if let Some(cost) = self.arcs.total(&path) {
-                        self.best.offer(cost, path);
-                    }
-                }
+                Ended::Path => self.take_path(),
                 Ended::Open => {}
             }
+        }
+    }
+
+    /// Wants nothing below `least`, a cost that may be too high, and decides what follows; what to go back to, and
+    /// whether nothing is left.
+    pub(super) fn want(&mut self, least: i64) -> (Kept, bool) {
+        let kept = Kept {
+            choices: self.choices.clone(),
+            made: self.made.clone(),
+            multipliers: self.multipliers.clone(),
+            step: self.step,
+            steps: self.record.next_number(),
+            bound: self.bound,
+            wanted: self.best.want(least),
+        };
+        (kept, self.narrow())
+    }
+
+    /// Decides, and takes steps where that leaves fewer arcs; whether nothing is left.
+    fn narrow(&mut self) -> bool {
+        for _ in 0..NARROWED {
+            if self.decide() {
+                return true;
+            }
+            match self.ascend(self.threshold()) {
+                Ended::Closed => return self.close(),
+                Ended::Path => self.take_path(),
+                Ended::Open => {}
+            }
+        }
+        self.decide()
+    }
+
+    /// Goes back, with what is known of the whole since: that no path costs more than `most`.
+    pub(super) fn go_back(&mut self, kept: Kept, most: Option<i64>) {
+        self.record.forget(kept.steps);
+        self.best.want(kept.wanted);
+        self.bound = most.map_or(kept.bound, |most| kept.bound.min(most * self.scale));
+        (self.multipliers, self.step) = (kept.multipliers, kept.step);
+        (self.choices, self.made) = (kept.choices, kept.made);
+        self.relaxation = R::new(&self.choices);
+    }
+
+    /// The relaxed solution as a path, offered with its true cost.
+    fn take_path(&mut self) {
+        let path = path_of(&self.choices, self.relaxation.used());
+        if let Some(cost) = self.arcs.total(&path) {
+            self.best.offer(cost, path);
         }
     }
 
