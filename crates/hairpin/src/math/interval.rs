@@ -162,14 +162,16 @@ impl Smooth for Enclosure {
     fn sqrt(self) -> Self {
         // √(x₀ + δ) = √x₀ + δ/(2√x₀) − δ²/(8 ξ^{3/2}), ξ ≥ the lower bound; or, near zero, just [0, √upper].
         let (lower, upper) = (self.lower(), self.upper());
-        let root = self.middle.max(f64x4::ZERO).sqrt();
+        let root = positive_part(self.middle).sqrt();
         let half_inverse = f64x4::splat(0.5) / root;
         let spread = self.slope.abs() + self.rest;
         let rest = self.rest * half_inverse + spread * spread / (lower * lower.sqrt() * 8.0);
         let slope = self.slope * half_inverse;
-        let highest = upper.max(f64x4::ZERO).sqrt();
+        let highest = positive_part(upper).sqrt();
         let tame = lower.simd_gt(f64x4::ZERO) & (slope.abs() + rest).simd_lt(highest);
-        Self { middle: root, slope: tame.select(slope, f64x4::ZERO), rest: tame.select(rest, root.max(highest - root)) }
+        let above = highest - root;
+        let widest = either(above.simd_gt(root), above, root);
+        Self { middle: root, slope: tame & slope, rest: either(tame, rest, widest) }
     }
 
     #[inline(always)]
@@ -181,18 +183,31 @@ impl Smooth for Enclosure {
         let spread = self.slope.abs() + self.rest;
         let rest = square * (self.rest + spread * spread / lower);
         let positive = lower.simd_gt(f64x4::ZERO);
-        Self { middle: inverse, slope: -self.slope * square, rest: positive.select(rest, f64x4::splat(f64::INFINITY)) }
+        Self { middle: inverse, slope: -self.slope * square, rest: either(positive, rest, f64x4::splat(f64::INFINITY)) }
     }
 
     #[inline(always)]
     fn direction(self, norm: Self) -> Self {
         let ratio = self * norm.recip();
         // The centre keeps its direction where it has one; NaN and infinity are not tame.
-        let middle = norm.middle.simd_gt(f64x4::ZERO).select(ratio.middle, f64x4::ZERO);
+        let middle = norm.middle.simd_gt(f64x4::ZERO) & ratio.middle;
         let all = f64x4::ONE + middle.abs();
         let tame = (ratio.slope.abs() + ratio.rest).simd_lt(all);
-        Self { middle, slope: tame.select(ratio.slope, f64x4::ZERO), rest: tame.select(ratio.rest, all) }
+        Self { middle, slope: tame & ratio.slope, rest: either(tame, ratio.rest, all) }
     }
+}
+
+/// `yes` on the lanes of `mask`, whose bits are all set or none, `no` on the others. `wide`'s own is a call where it is
+/// compiled for the baseline, with all lanes through memory.
+#[inline(always)]
+fn either(mask: f64x4, yes: f64x4, no: f64x4) -> f64x4 {
+    no ^ ((no ^ yes) & mask)
+}
+
+/// max(x, 0), and 0 of NaN: without a call, as [`either`].
+#[inline(always)]
+fn positive_part(x: f64x4) -> f64x4 {
+    x & x.simd_gt(f64x4::ZERO)
 }
 
 /// `[body at i = 0, body at i = 1, …]`, written out. `array::from_fn` and `array::map` leave calls where the body is as
@@ -245,7 +260,7 @@ impl Smooth for f64x4 {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        f64x4::sqrt(self.max(f64x4::ZERO))
+        f64x4::sqrt(positive_part(self))
     }
     #[inline(always)]
     fn recip(self) -> Self {
@@ -253,7 +268,7 @@ impl Smooth for f64x4 {
     }
     #[inline(always)]
     fn direction(self, norm: Self) -> Self {
-        norm.simd_gt(f64x4::ZERO).select(self / norm, f64x4::ZERO)
+        norm.simd_gt(f64x4::ZERO) & (self / norm)
     }
 }
 
@@ -312,6 +327,16 @@ mod tests {
         for (index, [wide, narrow]) in widest.into_iter().enumerate() {
             assert!(narrow < wide / 80.0, "formula {index}: rest {wide} falls to {narrow} at a tenth of the width");
         }
+    }
+
+    #[test]
+    fn lanes_are_chosen_to_the_bit() {
+        let x = f64x4::new([-0.0, f64::NAN, f64::INFINITY, -1.5]);
+        assert_eq!(positive_part(x).to_array().map(f64::to_bits), [0.0, 0.0, f64::INFINITY, 0.0].map(f64::to_bits));
+        let mask = f64x4::new([1.0, 0.0, 1.0, 0.0]).simd_gt(f64x4::ZERO);
+        let chosen = either(mask, x, f64x4::splat(f64::NEG_INFINITY)).to_array();
+        let infinite = f64::NEG_INFINITY;
+        assert_eq!(chosen.map(f64::to_bits), [-0.0, infinite, f64::INFINITY, infinite].map(f64::to_bits));
     }
 
     #[test]

@@ -11,7 +11,7 @@
 //!
 //! where V and A are numbers at a given u, so that an instant of four durations costs what the leg itself would.
 //!
-//! The limits asked are those of [`super::LegJudge::judge`] before its proof, with 10⁻⁷ of room instead of none, since
+//! The limits asked are those of [`super::LegJudge::judge`], which holds them at every instant, with 10⁻⁷ of room, since
 //! the same quantities come out of other formulas here: a leg that is refused here is refused there, while one that
 //! passes here may still fail there. Walls and obstacles are not asked.
 
@@ -27,12 +27,23 @@ use crate::math::simd::at_every_level;
 
 /// More than rounding can make of a demand, as a share of its limit.
 const ROUNDING: f64 = 1e-7;
-/// The instants at which a leg is looked at, those first at which most are refused.
-const INSTANTS: [Instant; 4] = [Instant::at(0.4), Instant::at(0.8), Instant::at(0.2), Instant::at(0.6)];
+/// The instants at which a leg is looked at, those first at which most are refused. At the last five the judge looks
+/// only in its proof, which costs more than all of these.
+const INSTANTS: [Instant; 9] = [
+    Instant::at(0.4),
+    Instant::at(0.8),
+    Instant::at(0.2),
+    Instant::at(0.6),
+    Instant::at(0.3),
+    Instant::at(0.7),
+    Instant::at(0.5),
+    Instant::at(0.1),
+    Instant::at(0.9),
+];
 
 at_every_level! {
     /// Which of one to four durations (s, > 0) are refused by more than rounding, for what `body`, of that mass, would
-    /// have to do at the ends or at four instants: bit i for duration number i.
+    /// have to do at the ends or at nine instants: bit i for duration number i.
     ///
     /// What is left need not be a leg; what is refused is none by [`super::LegJudge::judge`].
     ///

@@ -148,7 +148,7 @@ impl LegJudge {
 
     /// The number of the first of `durations` (s) in which the leg is one by [`Self::judge`].
     ///
-    /// Most are refused four at a time, for what the body would have to do at the ends and at four instants.
+    /// Most are refused four at a time, for what the body would have to do at the ends and at nine instants.
     ///
     /// Same answer as judging them one after the other: the filter refuses only what the judge would. The order is that
     /// of `durations`; `None` where none is a leg or there are none.

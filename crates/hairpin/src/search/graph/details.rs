@@ -17,32 +17,45 @@ pub(super) struct Details {
 /// Duration, v_in, v_out, length, climb, ground: as bits, so that equal ones are one and the same number.
 ///
 /// s, m/s, m/s, m, m and what the reach set says of the ground, in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 struct Onward([u64; 6]);
 
 /// turn, slope_in.
 ///
 /// rad and the sine of an elevation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 struct Turn([u64; 2]);
 
 impl Onward {
     fn of<N>(leg: &Leg<N>) -> Self {
         let LegFeatures { v_in, v_out, length, climb, ground, .. } = leg.features;
-        Self([leg.duration, v_in, v_out, length, climb, ground].map(f64::to_bits))
+        Self([
+            leg.duration.to_bits(),
+            v_in.to_bits(),
+            v_out.to_bits(),
+            length.to_bits(),
+            climb.to_bits(),
+            ground.to_bits(),
+        ])
     }
 }
 
 impl Turn {
     fn of<N>(leg: &Leg<N>) -> Self {
-        Self([leg.features.turn, leg.features.slope_in].map(f64::to_bits))
+        Self([leg.features.turn.to_bits(), leg.features.slope_in.to_bits()])
     }
+}
+
+/// Word by word: `==` of arrays calls into the C library, which costs more than so few words.
+#[inline]
+fn are_same<const K: usize>(a: &[u64; K], b: &[u64; K]) -> bool {
+    a.iter().zip(b).fold(0, |differing, (a, b)| differing | (a ^ b)) == 0
 }
 
 impl Details {
     /// Whether leg number `at` and `leg` differ at most in what they turn from.
     pub(super) fn is_onward<N>(&self, at: usize, leg: &Leg<N>) -> bool {
-        self.onward[self.legs[at][0] as usize] == Onward::of(leg)
+        are_same(&self.onward[self.legs[at][0] as usize].0, &Onward::of(leg).0)
     }
 
     /// Adds a leg that shares nothing but its turn with those before.
@@ -59,7 +72,7 @@ impl Details {
     /// Legs to the states of one waypoint follow on one another: only the last turn is compared.
     fn push_leg<N>(&mut self, onward: u32, leg: &Leg<N>) {
         let turn = Turn::of(leg);
-        if self.turns.last() != Some(&turn) {
+        if !self.turns.last().is_some_and(|last| are_same(&last.0, &turn.0)) {
             self.turns.push(turn);
         }
         self.legs.push([onward, self.turns.len() as u32 - 1]);
