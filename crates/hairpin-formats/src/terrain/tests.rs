@@ -177,11 +177,20 @@ fn ascii_grids_by_corner_and_by_centre() {
         ("nrows 2\n", "", "nrows is missing"),
         ("4 5 6", "4 -1 6", "1 cells without data"),
         ("4 5 6", "4 -3.4e38 6", "1 cells without data"),
+        ("4 5 6", "4 5 6\nNODATA_value 4", "line 9: \"NODATA_value\" after the first height"),
+        ("4 5 6", "cellsize 0.3\n4 5 6", "line 8: \"cellsize\" after the first height"),
+        ("nrows 2", "nrows 2\nNROWS 1", "line 3: nrows = \"1\" is given again"),
+        ("NODATA_value -1", "NODATA_value -1\nnodata 1", "line 7: nodata = \"1\" is given again"),
+        ("cellsize 0.5", "cellsize 0.5 0.2", "line 5: cellsize = \"0.5\" is followed by \"0.2\""),
+        ("ncols 3", "ncols 3 m", "line 1: ncols = \"3\" is followed by \"m\""),
+        ("ncols 3", "# by hand\nncols 3", "line 1: \"#\" is no word"),
     ] {
         let broken = grid.replace(from, to);
         let error = read_terrain(broken.as_bytes(), "a.asc", &Georeference::default()).expect_err(said);
         assert!(error.to_string().contains(said), "{error}");
     }
+    let marked = ["\u{feff}", grid].concat();
+    assert!(read_terrain(marked.as_bytes(), "a.asc", &Georeference::default()).is_ok(), "a mark of the encoding");
 }
 
 #[test]
