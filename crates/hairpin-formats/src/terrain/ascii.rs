@@ -1,4 +1,4 @@
-//! ESRI ASCII grid: a header of six words, each once, then rows from the north and nothing else.
+//! ESRI ASCII grid: a header of six words, then rows from the north.
 
 use hairpin::world::terrain::Grid;
 
@@ -11,53 +11,24 @@ use crate::quote;
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     let text =
         std::str::from_utf8(bytes).map_err(|_| TerrainError::Broken("no text: an ASCII grid is needed".into()))?;
+    // Editors of Windows begin a text with a mark of its encoding.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut header = Header::default();
-    let mut heights = Vec::new();
-    let mut cells = None;
+    let mut rows = None;
     for (index, line) in text.lines().enumerate() {
         let wrong = |what: String| TerrainError::Broken(format!("line {}: {what}", index + 1));
-        let mut words = line.split_whitespace().peekable();
-        let Some(first) = words.peek().copied() else { continue };
-        let is_word = first.starts_with(|c: char| c.is_ascii_alphabetic()) && first.parse::<f64>().is_err();
-        if is_word {
-            let key = first.to_ascii_lowercase();
-            words.next();
-            let value = words.next().ok_or_else(|| wrong(format!("{key} has no value")))?;
-            if cells.is_some() {
-                return Err(wrong(format!("{:?} amid the heights: its place is before them", quote::cell(&key))));
-            }
-            if let Some(more) = words.next() {
-                return Err(wrong(format!("{:?} after the value of {key}", quote::cell(more))));
-            }
-            header.set(&key, value).map_err(wrong)?;
+        let Some(first) = line.split_whitespace().next() else { continue };
+        if rows.is_none() && !is_height(first) {
+            header.read(line).map_err(wrong)?;
             continue;
         }
-        let (columns, rows) = match cells {
-            Some(cells) => cells,
-            None => {
-                let [columns, rows] = [(header.columns, "ncols"), (header.rows, "nrows")].map(|(count, key)| {
-                    count.ok_or_else(|| wrong(format!("{:?}, and {key} is missing before it", quote::cell(first))))
-                });
-                *cells.insert(bounded(columns?, rows?)?)
-            }
+        let rows = match &mut rows {
+            Some(rows) => rows,
+            None => rows.insert(Rows::after(&header)?),
         };
-        for word in words {
-            let height = match word.parse::<f32>() {
-                Ok(height) => height,
-                Err(_) => {
-                    no_data::parse(word).ok_or_else(|| wrong(format!("{:?} is no height", quote::cell(word))))? as f32
-                }
-            };
-            if heights.len() == columns * rows {
-                return Err(wrong(format!("more than {columns} x {rows} heights")));
-            }
-            let value = f64::from(height);
-            let hole = no_data::is_none(value) || value == header.no_data || height == header.no_data as f32;
-            heights.push(if hole { f32::NAN } else { height });
-        }
+        rows.read(line, header.no_data()).map_err(wrong)?;
     }
-    let (columns, rows) = cells.ok_or_else(|| TerrainError::Broken("no heights".into()))?;
+    let Rows { columns, rows, heights } = rows.ok_or_else(|| TerrainError::Broken("no heights".into()))?;
     let cell = match (header.cell, header.sides) {
         (None, [Some(dx), Some(dy)]) => [dx, dy],
         (cell, [None, None]) => [header.need(cell, "cellsize")?; 2],
@@ -73,7 +44,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
         place(header.center[1], header.corner[1], cell[1], "yllcorner or yllcenter")?,
     ];
     let layout = Layout {
-        no_data: Some(header.no_data),
+        no_data: Some(header.no_data()),
         at_centers: header.center.iter().any(Option::is_some),
         ..Layout::default()
     };
@@ -81,6 +52,59 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, TerrainError> {
     Ok(Raster { grid, heights, reference: Reference::default(), layout })
 }
 
+fn is_height(word: &str) -> bool {
+    no_data::parse(word).is_some()
+}
+
+/// The heights, row by row.
+struct Rows {
+    columns: usize,
+    rows: usize,
+    heights: Vec<f32>,
+}
+
+impl Rows {
+    fn after(header: &Header) -> Result<Self, TerrainError> {
+        let (columns, rows) = bounded(header.need(header.columns, "ncols")?, header.need(header.rows, "nrows")?)?;
+        Ok(Self { columns, rows, heights: Vec::new() })
+    }
+
+    /// A word of the header would change what the heights above it are.
+    fn read(&mut self, line: &str, no_data: f64) -> Result<(), String> {
+        for word in line.split_whitespace() {
+            if KEYS.contains(&word.to_ascii_lowercase().as_str()) {
+                return Err(format!("{:?} after the first height: the header must be before it", quote::cell(word)));
+            }
+            let height = match word.parse::<f32>() {
+                Ok(height) => height,
+                Err(_) => no_data::parse(word).ok_or_else(|| format!("{:?} is no height", quote::cell(word)))? as f32,
+            };
+            if self.heights.len() == self.columns * self.rows {
+                return Err(format!("more than {} x {} heights", self.columns, self.rows));
+            }
+            let value = f64::from(height);
+            let hole = no_data::is_none(value) || value == no_data || height == no_data as f32;
+            self.heights.push(if hole { f32::NAN } else { height });
+        }
+        Ok(())
+    }
+}
+
+const KEYS: [&str; 11] = [
+    "ncols",
+    "nrows",
+    "xllcorner",
+    "yllcorner",
+    "xllcenter",
+    "yllcenter",
+    "cellsize",
+    "dx",
+    "dy",
+    "nodata_value",
+    "nodata",
+];
+
+#[derive(Default)]
 struct Header {
     columns: Option<u64>,
     rows: Option<u64>,
@@ -89,52 +113,52 @@ struct Header {
     cell: Option<f64>,
     /// dx and dy, of cells that are not square.
     sides: [Option<f64>; 2],
-    no_data: f64,
-    /// Words that were read.
-    known: Vec<String>,
-}
-
-impl Default for Header {
-    /// The format's own default of no data is −9999.
-    fn default() -> Self {
-        let (corner, center, sides) = ([None; 2], [None; 2], [None; 2]);
-        Self { columns: None, rows: None, corner, center, cell: None, sides, no_data: -9999.0, known: Vec::new() }
-    }
+    no_data: Option<f64>,
 }
 
 impl Header {
+    /// A line of a word and its value.
+    fn read(&mut self, line: &str) -> Result<(), String> {
+        let mut words = line.split_whitespace();
+        let key = words.next().unwrap_or_default().to_ascii_lowercase();
+        if !KEYS.contains(&key.as_str()) {
+            return Err(format!("{:?} is no word of an ASCII grid's header", quote::cell(&key)));
+        }
+        let value = words.next().ok_or_else(|| format!("{key} has no value"))?;
+        if let Some(more) = words.next() {
+            let (value, more) = (quote::cell(value), quote::cell(more));
+            return Err(format!("{key} = {value:?} is followed by {more:?}: it must have one value"));
+        }
+        self.set(&key, value)
+    }
+
     fn set(&mut self, key: &str, value: &str) -> Result<(), String> {
-        let number = || {
-            value
-                .parse::<f64>()
-                .ok()
-                .filter(|v| v.is_finite())
-                .ok_or(format!("{key} = {:?} is no number", quote::cell(value)))
-        };
+        let no_number = || format!("{key} = {:?} is no number", quote::cell(value));
+        let number = || value.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(no_number);
         let count =
             || value.parse::<u64>().map_err(|_| format!("{key} = {:?} is no number of cells", quote::cell(value)));
-        let own = key.trim_end_matches("_value");
-        if self.known.iter().any(|known| known == own) {
-            return Err(format!("{key} = {:?}: {own} was there before", quote::cell(value)));
+        let twice = match key {
+            "ncols" => self.columns.replace(count()?).is_some(),
+            "nrows" => self.rows.replace(count()?).is_some(),
+            "xllcorner" => self.corner[0].replace(number()?).is_some(),
+            "yllcorner" => self.corner[1].replace(number()?).is_some(),
+            "xllcenter" => self.center[0].replace(number()?).is_some(),
+            "yllcenter" => self.center[1].replace(number()?).is_some(),
+            "cellsize" => self.cell.replace(number()?).is_some(),
+            "dx" => self.sides[0].replace(number()?).is_some(),
+            "dy" => self.sides[1].replace(number()?).is_some(),
+            _ => self.no_data.replace(no_data::parse(value).ok_or_else(no_number)?).is_some(),
+        };
+        if twice {
+            Err(format!("{key} = {:?} is given again: it must be given once", quote::cell(value)))
+        } else {
+            Ok(())
         }
-        self.known.push(own.to_owned());
-        match key {
-            "ncols" => self.columns = Some(count()?),
-            "nrows" => self.rows = Some(count()?),
-            "xllcorner" => self.corner[0] = Some(number()?),
-            "yllcorner" => self.corner[1] = Some(number()?),
-            "xllcenter" => self.center[0] = Some(number()?),
-            "yllcenter" => self.center[1] = Some(number()?),
-            "cellsize" => self.cell = Some(number()?),
-            "dx" => self.sides[0] = Some(number()?),
-            "dy" => self.sides[1] = Some(number()?),
-            "nodata_value" | "nodata" => {
-                self.no_data =
-                    no_data::parse(value).ok_or_else(|| format!("{key} = {:?} is no number", quote::cell(value)))?;
-            }
-            _ => return Err(format!("{:?} is no word of an ASCII grid's header", quote::cell(key))),
-        }
-        Ok(())
+    }
+
+    /// The format's own default of no data is −9999.
+    fn no_data(&self) -> f64 {
+        self.no_data.unwrap_or(-9999.0)
     }
 
     fn need<T>(&self, value: Option<T>, key: &str) -> Result<T, TerrainError> {

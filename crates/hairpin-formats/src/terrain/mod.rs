@@ -37,6 +37,8 @@ use reference::{Model, Reference, Units};
 const FAR: f64 = 20_000.0;
 /// The origin's coordinates are whole multiples of this, m.
 const ROUND: f64 = 1000.0;
+/// No ground is higher or deeper, m; heights have 24 bits, steps of 8 mm there.
+const HIGHEST: f32 = 1e5;
 /// No plane of the Earth has coordinates beyond, m.
 const FARTHEST: f64 = 1e8;
 
@@ -70,6 +72,9 @@ pub fn read_terrain(
         _ => return Err(TerrainError::Format),
     };
     beside.check(name, &raster.layout)?;
+    if says_itself(&ending) {
+        beside.check_place(name, &raster.grid, &raster.layout)?;
+    }
     let by_sidecar = if raster.reference.model == Model::Unsaid { beside.reference(name)? } else { None };
     let beside = by_sidecar.is_some();
     let said = match by_sidecar {
@@ -93,6 +98,7 @@ pub fn read_terrain(
     if !height.is_metre() {
         heights.iter_mut().for_each(|value| *value = (f64::from(*value) * height.metres) as f32);
     }
+    check_heights(&heights, grid.columns)?;
     let in_metres = |length: f64| length * plane.metres;
     let grid = Grid { first_center: grid.first_center.map(in_metres), cell: grid.cell.map(in_metres), ..grid };
     let offset_m = match georeference.offset_m {
@@ -144,6 +150,17 @@ fn check_given(ending: &str, given: &Georeference) -> Result<(), TerrainError> {
         Some((key, _)) => Err(TerrainError::Unwanted { key }),
         None => Ok(()),
     }
+}
+
+/// Refuses heights that are no ground: numbers for no data that nothing tells, and other scales.
+fn check_heights(heights: &[f32], columns: usize) -> Result<(), TerrainError> {
+    let Some(cell) = heights.iter().position(|height| height.abs() > HIGHEST) else { return Ok(()) };
+    let (row, column) = (cell / columns, cell % columns);
+    Err(TerrainError::Broken(format!(
+        "height = {} m in row {row} from the north, column {column}: must be within ±{HIGHEST} m; likely it means no \
+         data and nothing says so, or the heights have another scale, unit or datum",
+        heights[cell]
+    )))
 }
 
 fn check_extent(grid: &Grid, first_center: [f64; 2]) -> Result<(), TerrainError> {

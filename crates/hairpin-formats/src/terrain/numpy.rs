@@ -34,10 +34,12 @@ pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, 
             return Err(TerrainError::Broken(found));
         }
     };
-    // The data must be there before room for it is taken.
-    let data = data
-        .get(..size * columns * rows)
-        .ok_or_else(|| broken(&format!("the header says {rows} x {columns} heights, {} bytes follow", data.len())))?;
+    // The data must be there before room for it is taken, and nothing that is none of it.
+    let needed = size * columns * rows;
+    if data.len() != needed {
+        let found = data.len();
+        return Err(broken(&format!("the header says {rows} x {columns} heights, {needed} bytes; {found} follow")));
+    }
     let heights: Vec<f32> = match descr {
         "<f4" => data.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
         ">f4" => data.as_chunks().0.iter().map(|b| f32::from_be_bytes(*b)).collect(),

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairpin::world::terrain::Grid;
 use roxmltree::{Document, Node};
 
 use super::error::TerrainError;
@@ -11,6 +12,7 @@ use super::raster::Layout;
 use super::reference::Reference;
 use super::remedy::Remedy;
 use crate::bounds::{self, MOST_SIDECAR_BYTES};
+use crate::quote;
 
 /// The texts beside a raster's file.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +46,25 @@ impl Sidecars {
             // Older ones are lists of words, which GDAL understands.
             Err(error) => Err(TerrainError::Convert { why: error.to_string(), command: Remedy::rewrite(file, "") }),
         }
+    }
+
+    /// Refuses another place of the cells of `grid` than the file says, which GDAL believes before the file's own.
+    pub(super) fn check_place(&self, file: &str, grid: &Grid, layout: &Layout) -> Result<(), TerrainError> {
+        let Some(said) = self.notes(|notes| Some(notes.child("GeoTransform")?.text().unwrap_or_default().to_owned()))
+        else {
+            return Ok(());
+        };
+        let own = transform(grid, layout.south_up);
+        let other: Option<Vec<f64>> = said.split(',').map(|number| number.trim().parse().ok()).collect();
+        if other.is_some_and(|other| same_place(&own, &other, grid)) {
+            return Ok(());
+        }
+        let (said, own) = (quote::cell(said.trim()), own.map(|number| number.to_string()).join(", "));
+        let why = format!(
+            "an .aux.xml beside the file says GeoTransform {said}, the file {own}; programs differ in which they \
+             believe, and this takes GDAL's"
+        );
+        Err(TerrainError::Convert { why, command: Remedy::rewrite(file, "") })
     }
 
     /// Refuses what is said of the heights beside the file and not in it.
@@ -85,6 +106,24 @@ impl Sidecars {
         let document = Document::parse(self.aux.as_deref()?).ok()?;
         ask(document.root_element())
     }
+}
+
+/// GDAL's six numbers of a grid: x of the first cell's outer corner, along a row, along a column; then those of y.
+fn transform(grid: &Grid, south_up: bool) -> [f64; 6] {
+    let Grid { rows, first_center: [west, south], cell: [width, height], .. } = *grid;
+    let (first, step) = if south_up { (south, height) } else { (south + (rows as f64 - 1.0) * height, -height) };
+    [west - 0.5 * width, width, 0.0, first - 0.5 * step, 0.0, step]
+}
+
+/// Whether two transformations place all corners of the grid within a hundredth of a cell of each other.
+fn same_place(own: &[f64; 6], other: &[f64], grid: &Grid) -> bool {
+    let Ok(other) = <&[f64; 6]>::try_from(other) else { return false };
+    let (columns, rows) = (grid.columns as f64, grid.rows as f64);
+    let corners = [[0.0, 0.0], [columns, 0.0], [0.0, rows], [columns, rows]];
+    corners.iter().all(|[column, row]| {
+        let at = |of: &[f64; 6], axis: usize| of[3 * axis] + of[3 * axis + 1] * column + of[3 * axis + 2] * row;
+        [0, 1].iter().all(|axis| (at(own, *axis) - at(other, *axis)).abs() <= 0.01 * grid.cell[*axis].abs())
+    })
 }
 
 trait Child<'a, 'i> {

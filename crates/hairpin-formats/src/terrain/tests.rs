@@ -117,6 +117,37 @@ fn pictures_where_white_is_zero_are_refused() {
 }
 
 #[test]
+fn kinds_of_rasters_and_orders_of_bits_that_are_not_known_are_refused() {
+    for kind in [3, 32767] {
+        let error = read_terrain(&geotiff(&HEIGHTS, kind, "-9999"), "a.tif", &Georeference::default());
+        let error = error.expect_err("neither areas nor points").to_string();
+        assert!(error.contains(&format!("GTRasterType is {kind}")), "{error}");
+    }
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).expect("an encoder");
+    let mut image = encoder.new_image::<colortype::Gray32Float>(3, 2).expect("an image");
+    image.encoder().write_tag(Tag::FillOrder, 2_u16).expect("a tag");
+    image.write_data(&HEIGHTS).expect("data");
+    let error = read_terrain(&bytes.into_inner(), "a.tif", &Georeference::default()).expect_err("reversed bits");
+    assert!(error.to_string().contains("FillOrder is 2"), "{error}");
+}
+
+#[test]
+fn another_place_beside_a_file_than_in_it_is_refused() {
+    let file = geotiff(&HEIGHTS, 1, "-9999");
+    let read = |numbers: &str| {
+        let aux = format!("<PAMDataset><GeoTransform> {numbers}</GeoTransform></PAMDataset>");
+        read_file(&file, "a.tif", &Sidecars::of(None, Some(aux)), &Georeference::default())
+    };
+    assert!(read("1.0e+01, 5.0e-01, 0, 2.0e+01, 0, -5.0e-01").is_ok(), "its own");
+    for other in ["10, 0.5, 0, 21, 0, -0.5", "10, 0.5, 0.1, 20, 0, -0.5", "10, 0.6, 0, 20, 0, -0.5", "10, 0.5", "", "?"]
+    {
+        let error = read(other).expect_err(other).to_string();
+        assert!(error.contains("10, 0.5, 0, 20, 0, -0.5") && error.contains(other), "{error}");
+    }
+}
+
+#[test]
 fn steps_of_heights_in_the_georeference_are_refused() {
     let plain = geotiff(&HEIGHTS, 1, "-9999");
     let scale: Vec<u8> = [0.5_f64, 0.5, 0.0].iter().flat_map(|number| number.to_le_bytes()).collect();
@@ -164,11 +195,6 @@ fn ascii_grids_by_corner_and_by_centre() {
     let map = read_terrain(grid.as_bytes(), "a.asc", &Georeference::default()).expect("a map");
     assert_eq!(map.extent(), ([10.25, 19.25], [11.25, 19.75]));
     assert_eq!((at(&map, 10.25, 19.75), at(&map, 11.25, 19.25)), (1.0, 6.0));
-    let marked = format!("\u{feff}{grid}");
-    assert_eq!(
-        read_terrain(marked.as_bytes(), "a.asc", &Georeference::default()).expect("a map").extent(),
-        map.extent()
-    );
     let centred = grid.replace("corner", "center");
     let map = read_terrain(centred.as_bytes(), "a.asc", &Georeference::default()).expect("a map");
     assert_eq!(map.extent(), ([10.0, 19.0], [11.0, 19.5]));
@@ -182,17 +208,20 @@ fn ascii_grids_by_corner_and_by_centre() {
         ("nrows 2\n", "", "nrows is missing"),
         ("4 5 6", "4 -1 6", "1 cells without data"),
         ("4 5 6", "4 -3.4e38 6", "1 cells without data"),
-        ("4 5 6", "4 5 6\nNODATA_value 4", "line 9: \"nodata_value\" amid the heights"),
-        ("1 2 3\n", "1 2 3\ncellsize 0.3\n", "line 8: \"cellsize\" amid the heights"),
-        ("nrows 2", "nrows 2\nNCOLS 30", "line 3: ncols = \"30\": ncols was there before"),
-        ("nrows 2", "nrows 2\nnodata -2", "line 7: nodata_value = \"-1\": nodata was there before"),
-        ("cellsize 0.5", "cellsize 0.5 0.25", "line 5: \"0.25\" after the value of cellsize"),
-        ("ncols 3", "# made by me\nncols 3", "line 1: \"#\", and ncols is missing before it"),
+        ("4 5 6", "4 5 6\nNODATA_value 4", "line 9: \"NODATA_value\" after the first height"),
+        ("4 5 6", "cellsize 0.3\n4 5 6", "line 8: \"cellsize\" after the first height"),
+        ("nrows 2", "nrows 2\nNROWS 1", "line 3: nrows = \"1\" is given again"),
+        ("NODATA_value -1", "NODATA_value -1\nnodata 1", "line 7: nodata = \"1\" is given again"),
+        ("cellsize 0.5", "cellsize 0.5 0.2", "line 5: cellsize = \"0.5\" is followed by \"0.2\""),
+        ("ncols 3", "ncols 3 m", "line 1: ncols = \"3\" is followed by \"m\""),
+        ("ncols 3", "# by hand\nncols 3", "line 1: \"#\" is no word"),
     ] {
         let broken = grid.replace(from, to);
         let error = read_terrain(broken.as_bytes(), "a.asc", &Georeference::default()).expect_err(said);
         assert!(error.to_string().contains(said), "{error}");
     }
+    let marked = ["\u{feff}", grid].concat();
+    assert!(read_terrain(marked.as_bytes(), "a.asc", &Georeference::default()).is_ok(), "a mark of the encoding");
 }
 
 #[test]
@@ -212,6 +241,14 @@ fn sixteen_bits_are_scaled_between_the_given_heights() {
     encoder.set_depth(png::BitDepth::Sixteen);
     let big_endian: Vec<u8> = values.iter().flat_map(|v| v.to_be_bytes()).collect();
     encoder.write_header().expect("a header").write_image_data(&big_endian).expect("data");
+    let mut transparent = Vec::new();
+    let mut encoder = png::Encoder::new(&mut transparent, 3, 2);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.set_trns(vec![0x80, 0]);
+    encoder.write_header().expect("a header").write_image_data(&big_endian).expect("data");
+    let error = read_terrain(&transparent, "a.png", &given).expect_err("a transparent cell");
+    assert_eq!(error, TerrainError::Map(MapError::Holes { count: 1, row: 0, column: 1 }));
     for (bytes, name) in [(&raw, "a.bin"), (&png, "a.png")] {
         let map = read_terrain(bytes, name, &given).expect("a map");
         assert_eq!(map.extent(), ([5.0, 6.0], [9.0, 8.0]), "{name}");
@@ -255,6 +292,16 @@ fn numpy_arrays_in_either_order_and_precision() {
     assert!(error.to_string().contains("float32 or float64"), "{error}");
     let error = read_terrain(&array("<f4", false, &c32[..8]), "a.npy", &given).expect_err("cut short");
     assert!(error.to_string().contains("no readable NumPy array"), "{error}");
+    let longer = [&c32[..], &[0; 4]].concat();
+    let error = read_terrain(&array("<f4", false, &longer), "a.npy", &given).expect_err("bytes behind it");
+    assert!(error.to_string().contains("2 x 3 heights, 24 bytes; 28 follow"), "{error}");
+    let mut high = c32.clone();
+    high[4..8].copy_from_slice(&3.396e6_f32.to_le_bytes());
+    let error = read_terrain(&array("<f4", false, &high), "a.npy", &given).expect_err("a radius").to_string();
+    assert!(
+        error.starts_with("height = 3396000 m in row 0 from the north, column 1: must be within ±100000"),
+        "{error}"
+    );
 }
 
 #[test]

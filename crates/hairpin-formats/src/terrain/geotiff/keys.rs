@@ -23,6 +23,9 @@ const VERTICAL: u16 = 4096;
 const VERTICAL_CITATION: u16 = 4097;
 const VERTICAL_UNIT: u16 = 4099;
 
+/// As if it were not there.
+const UNDEFINED: u16 = 0;
+const PIXEL_IS_AREA: u16 = 1;
 const PIXEL_IS_POINT: u16 = 2;
 /// "User-defined": what follows says it.
 const OWN: u16 = 32767;
@@ -31,6 +34,8 @@ pub(super) struct Keys {
     pub(super) reference: Reference,
     /// Whether a tie point names a cell's centre, not its corner.
     pub(super) at_centers: bool,
+    /// A raster type that is neither of areas nor of points.
+    pub(super) unknown_raster: Option<u16>,
 }
 
 /// The keys of a file; one without any says nothing.
@@ -60,7 +65,9 @@ pub(super) fn read(tiff: &mut Tiff<'_>) -> Keys {
     let radius = table.number(SEMI_MAJOR_AXIS);
     let plane = Reference { model, epsg: epsg.map(u32::from), name, degrees, radius, ..Reference::default() };
     let reference = heights(&table, of_plane(&table, plane));
-    Keys { reference, at_centers: table.short(RASTER_TYPE) == Some(PIXEL_IS_POINT) }
+    let raster = table.short(RASTER_TYPE);
+    let unknown_raster = raster.filter(|kind| !matches!(*kind, UNDEFINED | PIXEL_IS_AREA | PIXEL_IS_POINT));
+    Keys { reference, at_centers: raster == Some(PIXEL_IS_POINT), unknown_raster }
 }
 
 /// With the unit of x and y.

@@ -52,7 +52,14 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     if let Some(orientation) = number(&mut tiff, Tag::Orientation)?.filter(|orientation| *orientation != 1) {
         return Err(convert(format!("its Orientation is {orientation}: rows from the top are needed"), ""));
     }
+    if let Some(order) = number(&mut tiff, Tag::FillOrder)?.filter(|order| *order != 1) {
+        return Err(convert(format!("its FillOrder is {order}: bits from the highest (1) are needed"), ""));
+    }
     let keys = keys::read(&mut tiff);
+    if let Some(kind) = keys.unknown_raster {
+        let why = format!("its GTRasterType is {kind}: 1 (areas) or 2 (points) is needed; this takes areas");
+        return Err(convert(why, "-mo AREA_OR_POINT=Area "));
+    }
     let placed = place::read(&mut tiff, columns, rows, keys.at_centers, file)?;
     let band = metadata::read(&mut tiff)?;
     let values = tiff.read_image().map_err(broken)?;
