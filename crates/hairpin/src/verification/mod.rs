@@ -35,6 +35,7 @@ mod demand;
 mod drive;
 mod drives;
 mod finding;
+mod flight_limits;
 mod gauss;
 mod ground;
 mod ground_claim;
@@ -78,6 +79,7 @@ pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_gro
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveManoeuvres, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
+pub use flight_limits::{FlightLimits, verify_flight_limits};
 pub use ground::{GroundReplay, Stopped, replay_ground};
 pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
 pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
