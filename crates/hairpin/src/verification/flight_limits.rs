@@ -74,7 +74,7 @@ mod tests {
             rotors: [rotor; 4],
             thrust_coefficient: 1e-6,
             moment_coefficient: 1e-8,
-            rotor_speed: [0.0, 1e4],
+            rotor_speed: (0.0, 1e4),
             rotor_time_constant: 0.0,
             drag_linear: 0.0,
             drag_quadratic: 0.0,

@@ -6,7 +6,7 @@ use crate::campaign::kind::{PlannedRows, flat_places};
 use crate::robot::boat::Boat;
 use crate::trajectory::Profile;
 use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, boat_with_lag, verify_boat, verify_boat_rows};
-use crate::verification::{Collector, EndError, Finding, FlatPlace, Proof, Tolerances};
+use crate::verification::{Collector, EndError, Finding, Proof, Tolerances};
 
 /// Error of the integrated state, SI: damping has bends, which no order makes smooth.
 ///
