@@ -4,19 +4,24 @@
 
 use super::kind::{PlannedRows, Verified};
 use super::{Case, Setup, vary};
-use crate::verification::Finding;
+use crate::verification::{EndError, Finding, Proof};
 
 /// Integrates the witness of `case` by independent code, to the default tolerances of flights and the scenario's of
 /// drives.
 ///
-/// Deterministic, and independent of any execution. A case without a witness gives no proof; that is no failure.
+/// Deterministic, and independent of any execution. A case without a witness gives no proof; that is no failure. Where
+/// `[vary]` draws what shapes plans, a case is held to what was drawn for it, or to what is nominal: missions made
+/// elsewhere are planned by that.
 pub fn verify(setup: &Setup, case: &Case) -> Verified {
-    let drawn = case.environment.as_ref().and_then(|_| {
-        // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's,
-        // bound nothing.
-        vary::apply(&setup.scenario, &vary::draw_for_case(&setup.scenario, case.seed, case.number)).ok()
-    });
-    let (proof, with_lag) = setup.kind().verify(case, drawn.as_ref().unwrap_or(&setup.scenario));
+    let draws = vary::draw_for_case(&setup.scenario, case.seed, case.number);
+    // Bounds that vary are those that the case was searched with; draws that do not fit, as another scenario's, bound
+    // nothing.
+    let drawn = vary::apply(&setup.scenario, &draws).ok().filter(|_| !draws.is_empty());
+    let asked = drawn.as_ref().unwrap_or(&setup.scenario);
+    let holds = |(proof, _): &(Option<Proof>, Option<EndError>)| proof.as_ref().is_none_or(Proof::ok);
+    let own = drawn.clone().and_then(|drawn| setup.of_draw(drawn).ok());
+    let as_drawn = own.map(|own| own.kind().verify(case, asked)).filter(holds);
+    let (proof, with_lag) = as_drawn.unwrap_or_else(|| setup.kind().verify(case, asked));
     Verified { case: case.number, proof, with_lag }
 }
 

@@ -5,6 +5,8 @@ use super::drives::DriveLegClaim;
 use super::finding::{Collector, Finding};
 use super::ground::follow_ground;
 use super::ground_claim::GroundVehicle;
+use super::place::FlatPlace;
+use super::way::Way;
 use crate::world::terrain::Terrain;
 
 /// A disc on the ground.
@@ -46,9 +48,7 @@ const ROUNDING: f64 = 1e-9;
 /// All discs that are none, that are not all on the map, or that a leg comes too near to, with the leg that comes
 /// nearest.
 ///
-/// A step of the replay that turns the body by Δψ, and its direction of travel by Δδ, leaves its chord c by no more
-/// than c (|Δψ| + |Δδ|)/4, as a curve does whose direction changes by so much. A leg that cannot be replayed is as near
-/// as can be.
+/// A leg that cannot be replayed is as near as can be.
 ///
 /// Distances are those of the body's origin in the plane. Fields `environment.keep_out[k].radius`, `.outside`,
 /// `.clearance`, in m. One replay a leg, and O(steps) for each disc.
@@ -67,25 +67,23 @@ pub fn verify_clear_ground<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, cla
         let outside = |i: usize| (low[i] + radius - center[i]).max(center[i] + radius - high[i]);
         let outside = outside(0).max(outside(1));
         found.unless(outside <= ROUNDING, "outside", outside, 0.0, "m");
-        let nearest = legs.iter().enumerate().map(|(leg, (began, steps))| (steps.distance(disc), leg, *began));
+        let place = FlatPlace::Disc(center, radius);
+        let wanted = claim.clearance - ROUNDING;
+        let away = |way: &Option<Way>| way.as_ref().map_or(f64::NEG_INFINITY, |way| way.distance(&place, wanted));
+        let nearest = legs.iter().enumerate().map(|(leg, (began, way))| (away(way), leg, *began));
         let Some((distance, leg, at)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-        let clear = distance >= claim.clearance - ROUNDING;
+        let clear = distance >= wanted;
         found.at(leg, at).unless(clear, "clearance", distance, claim.clearance, "m");
     }
     findings
 }
 
-/// A leg as chords with what its way leaves each by, m; `None` where it cannot be replayed.
-struct Steps(Option<Vec<([[f64; 2]; 2], f64)>>);
-
 impl ClearDrive<'_> {
-    /// When each leg begins, s, and its steps; straight legs have no clock.
-    ///
-    /// Straight legs are one chord each that nothing leaves.
-    fn legs<T: Terrain>(&self, vehicle: &GroundVehicle, terrain: &T) -> Vec<(f64, Steps)> {
+    /// When each leg begins, s, and its way; straight legs have no clock. `None` for one that cannot be replayed.
+    fn legs<T: Terrain>(&self, vehicle: &GroundVehicle, terrain: &T) -> Vec<(f64, Option<Way>)> {
         match self {
             Self::Straight(waypoints) => {
-                waypoints.windows(2).map(|leg| (0.0, Steps(Some(vec![([leg[0], leg[1]], 0.0)])))).collect()
+                waypoints.windows(2).map(|leg| (0.0, Some(Way::straight([leg[0], leg[1]])))).collect()
             }
             Self::Legs(legs) => {
                 let began = legs.iter().scan(0.0, |sum, leg| {
@@ -93,44 +91,18 @@ impl ClearDrive<'_> {
                     *sum += leg.duration;
                     Some(began)
                 });
-                began.zip(*legs).map(|(began, leg)| (began, Steps::of(vehicle, terrain, leg))).collect()
+                began.zip(*legs).map(|(began, leg)| (began, replayed(vehicle, terrain, leg))).collect()
             }
         }
     }
 }
 
-impl Steps {
-    /// Replays one leg from its own start; the first entry is the start itself.
-    fn of<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, leg: &DriveLegClaim) -> Self {
-        let claim = leg.ground();
-        let mut last = claim.start;
-        let mut steps = vec![([[last[0], last[1]]; 2], 0.0)];
-        let mut pass = |here: [f64; 3]| {
-            let chord = libm::hypot(here[0] - last[0], here[1] - last[1]);
-            let turned = (here[2] - last[2]).abs() + claim.crab_rate.abs() * chord;
-            steps.push(([[last[0], last[1]], [here[0], here[1]]], 0.25 * chord * turned));
-            last = here;
-        };
-        let followed = follow_ground(&leg.pieces, vehicle, terrain, &claim, Some(&mut pass)).is_ok();
-        Self(followed.then_some(steps))
-    }
-
-    /// Distance of the disc from the nearest of them, m; −∞ where there are none.
-    fn distance(&self, disc: &ClearDisc) -> f64 {
-        let Some(steps) = &self.0 else { return f64::NEG_INFINITY };
-        let distances = steps.iter().map(|(chord, leaves)| from_segment(&disc.center, chord) - disc.radius - leaves);
-        // A place that is no number is as near as can be.
-        distances.fold(f64::INFINITY, |least, d| if d.is_nan() { f64::NEG_INFINITY } else { least.min(d) })
-    }
-}
-
-/// Distance of `p` from the segment from `a` to `b`, m.
-fn from_segment(p: &[f64; 2], [a, b]: &[[f64; 2]; 2]) -> f64 {
-    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let squared = along[0] * along[0] + along[1] * along[1];
-    let share = if squared > 0.0 { (along[0] * to[0] + along[1] * to[1]) / squared } else { 0.0 };
-    let share = share.clamp(0.0, 1.0);
-    libm::hypot(to[0] - share * along[0], to[1] - share * along[1])
+/// The way of one leg from its own start.
+fn replayed<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, leg: &DriveLegClaim) -> Option<Way> {
+    let claim = leg.ground();
+    let mut way = Way::begun(claim.start, claim.crab_rate);
+    follow_ground(&leg.pieces, vehicle, terrain, &claim, Some(&mut |here| way.pass(here))).ok()?;
+    Some(way)
 }
 
 #[cfg(test)]

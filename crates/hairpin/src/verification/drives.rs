@@ -2,10 +2,12 @@
 
 use super::drive::{DriveClaim, DrivePiece, replay_drive};
 use super::finding::{Collector, Finding, Proof, Worst, note};
-use super::ground::replay_ground;
+use super::ground::follow_ground;
 use super::ground_claim::{GroundClaim, GroundVehicle};
 use super::pace::{PaceClaim, check_speeds};
+use super::place::FlatPlace;
 use super::rims::{WheelRims, rim_breaches};
+use super::way::Way;
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
@@ -67,6 +69,8 @@ pub struct DrivesClaim<'a> {
     pub speed: f64,
     /// Rate of turns in place, rad/s.
     pub turn_rate: f64,
+    /// What it keeps away from.
+    pub places: &'a [FlatPlace],
 }
 
 /// What a leg may leave open, and what it must keep.
@@ -96,6 +100,25 @@ pub struct DriveTolerances {
     pub most_acceleration: f64,
     /// The driven wheels of a differential drive; `None` of others.
     pub rims: Option<WheelRims>,
+    /// Largest commanded speed, m/s.
+    pub most_speed: f64,
+    /// Largest rate of turns in place, rad/s.
+    pub most_turn_rate: f64,
+    /// What a leg may do.
+    pub manoeuvres: DriveManoeuvres,
+    /// Least distance of the body's origin from each place of the claim, m.
+    pub clearance: f64,
+}
+
+/// Ways of driving that legs may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DriveManoeuvres {
+    /// Arcs with the nose ahead.
+    pub forward: bool,
+    /// Arcs with the nose behind.
+    pub reverse: bool,
+    /// Turns in place.
+    pub turn_in_place: bool,
 }
 
 /// Waypoints are written with all their digits.
@@ -110,8 +133,10 @@ const ROUNDING: f64 = 1e-6;
 /// or more each.
 ///
 /// Per leg: joint (position, heading, curvature, direction of travel), speeds and stops, direction within bounds, |κ|,
-/// |κ′| and jumps of κ of the commands, speed and acceleration of driven rims, then the replay on the ground: end pose
-/// and curvature, tilt, wheel torque. Of a leg that cannot be replayed `stopped_after` tells after how many metres.
+/// |κ′| and jumps of κ of the commands, gears and turns, speed and acceleration of driven rims, then the replay on the
+/// ground: end pose and curvature, tilt, wheel torque, `keep_out[k].clearance` from each place, between the steps of
+/// the replay too. Of a leg that cannot be replayed `stopped_after` tells after how many metres. Of the whole drive
+/// `drive.speed`, `drive.turn_rate`: the highest that are commanded.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,
@@ -124,6 +149,10 @@ pub fn verify_drives<T: Terrain>(
         proof.findings.push(Finding { field: "legs".into(), value: found, bound: wanted, unit: "", leg: 0, at: 0.0 });
         return proof;
     }
+    let kept = |bound: f64| bound * (1.0 + ROUNDING);
+    let mut found = Collector::about(&mut proof.findings, "drive");
+    found.above("speed", claim.speed, kept(tolerances.most_speed), "m/s");
+    found.above("turn_rate", claim.turn_rate, kept(tolerances.most_turn_rate), "rad/s");
     let mut at = 0.0;
     for (number, leg) in claim.legs.iter().enumerate() {
         check_joint(&mut proof, claim, number, at);
@@ -149,13 +178,16 @@ pub fn verify_drives<T: Terrain>(
         let plane =
             DriveClaim { start_curvature: leg.from[3], crab, crab_rate, end: [0.0; 3], end_curvature: leg.to[3] };
         let commands = replay_drive(&leg.pieces, &plane);
-        let kept = |bound: f64| bound * (1.0 + ROUNDING);
         found.above("curvature", commands.max_curvature, kept(tolerances.most_curvature), "1/m");
         found.above("curvature_rate", commands.max_curvature_rate, kept(tolerances.most_curvature_rate), "1/m²");
         found.above("curvature_jump", commands.max_jump, tolerances.curvature, "1/m");
         found.above("start.curvature", commands.start_error_curvature.abs(), tolerances.curvature, "1/m");
         check_rims(leg, claim.turn_rate, tolerances.rims.as_ref(), &mut found);
-        match replay_ground(&leg.pieces, vehicle, terrain, &leg.ground()) {
+        check_manoeuvres(&leg.pieces, &tolerances.manoeuvres, &mut found);
+        let ground = leg.ground();
+        let mut way = Way::begun(ground.start, ground.crab_rate);
+        let replayed = follow_ground(&leg.pieces, vehicle, terrain, &ground, Some(&mut |here| way.pass(here)));
+        match replayed {
             Err(stopped) => found.above("stopped_after", stopped.after_m, f64::NEG_INFINITY, "m"),
             Ok(replay) => {
                 let position = libm::hypot(replay.error[0], replay.error[1]);
@@ -165,6 +197,7 @@ pub fn verify_drives<T: Terrain>(
                 found.above("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
                 found.above("joint_angle", replay.max_joint, kept(tolerances.most_joint), "rad");
                 found.above("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
+                check_places(&way, claim.places, tolerances.clearance, &mut found);
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
                 proof.steps += replay.steps;
@@ -172,6 +205,35 @@ pub fn verify_drives<T: Terrain>(
         }
     }
     proof
+}
+
+/// Nothing is driven in a gear, or turned in place, that may not be; what has no length has no gear.
+///
+/// `reverse` and `forward` are metres, `turn_in_place` rad of what may not be.
+fn check_manoeuvres(pieces: &[DrivePiece], may: &DriveManoeuvres, found: &mut Collector) {
+    let [mut ahead, mut back, mut turned] = [0.0_f64; 3];
+    for piece in pieces {
+        match piece {
+            DrivePiece::Arc { length_m, direction, .. } if *direction < 0.0 => back += length_m,
+            DrivePiece::Arc { length_m, .. } => ahead += length_m,
+            DrivePiece::Turn { angle_rad } => turned += angle_rad.abs(),
+        }
+    }
+    for (may, what, amount, unit) in [
+        (may.forward, "forward", ahead, "m"),
+        (may.reverse, "reverse", back, "m"),
+        (may.turn_in_place, "turn_in_place", turned, "rad"),
+    ] {
+        found.above(what, amount, if may { f64::INFINITY } else { 0.0 }, unit);
+    }
+}
+
+/// `way` keeps `wanted` m from all of `places`.
+fn check_places(way: &Way, places: &[FlatPlace], wanted: f64, found: &mut Collector) {
+    for (number, place) in places.iter().enumerate() {
+        let distance = way.distance(place, wanted);
+        found.unless(distance >= wanted, format_args!("keep_out[{number}].clearance"), distance, wanted, "m");
+    }
 }
 
 /// Both driven wheels keep their speed and their acceleration.
@@ -226,6 +288,10 @@ mod tests {
         directions: [0.0, 0.0],
         most_acceleration: f64::INFINITY,
         rims: None,
+        most_speed: 1.0,
+        most_turn_rate: 1.0,
+        manoeuvres: DriveManoeuvres { forward: true, reverse: false, turn_in_place: false },
+        clearance: 0.5,
     };
 
     /// A quarter of a circle of radius 2 with clothoids of no length, then straight on: curvature jumps at the joint
@@ -262,8 +328,12 @@ mod tests {
     }
 
     fn prove_within(legs: &[DriveLegClaim], tolerances: &DriveTolerances) -> Proof {
+        prove_beside(&[], legs, tolerances)
+    }
+
+    fn prove_beside(places: &[FlatPlace], legs: &[DriveLegClaim], tolerances: &DriveTolerances) -> Proof {
         let waypoints = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]];
-        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0 };
+        let claim = DrivesClaim { waypoints: &waypoints, legs, speed: 1.0, turn_rate: 1.0, places };
         verify_drives(&GroundVehicle::LEVEL, &Flat, &claim, tolerances)
     }
 
@@ -303,6 +373,34 @@ mod tests {
         let fields: Vec<&str> = fast.findings.iter().map(|finding| finding.field.as_str()).collect();
         assert_eq!(fields, ["legs[0].wheel_speed", "legs[1].wheel_speed"]);
         assert!((fast.findings[0].value - 1.25).abs() < 1e-12 && fast.findings[0].bound == 1.24);
+    }
+
+    fn told(proof: Proof) -> Vec<String> {
+        proof.findings.into_iter().map(|finding| finding.field).collect()
+    }
+
+    #[test]
+    fn speeds_and_manoeuvres_are_those_that_are_asked() {
+        let slow = DriveTolerances { most_speed: 0.9, most_turn_rate: 0.9, ..TOLERANCES };
+        assert_eq!(told(prove_within(&legs(), &slow)), ["drive.speed", "drive.turn_rate"]);
+        let may = DriveManoeuvres { forward: false, reverse: true, turn_in_place: true };
+        let backwards = DriveTolerances { manoeuvres: may, ..TOLERANCES };
+        assert_eq!(told(prove_within(&legs(), &backwards)), ["legs[0].forward", "legs[1].forward"]);
+        let mut turns = legs();
+        turns[1].pieces.push(DrivePiece::Turn { angle_rad: -0.5 });
+        assert!(told(prove(&turns)).contains(&"legs[1].turn_in_place".to_owned()));
+    }
+
+    /// The bend's far point is (2, 2), half a metre is kept.
+    #[test]
+    fn places_are_kept_away_from_all_along() {
+        let found = |place: FlatPlace| told(prove_beside(&[place], &legs(), &TOLERANCES));
+        let square = |x: f64| FlatPlace::Polygon(vec![[x, 0.5], [x + 1.0, 0.5], [x + 1.0, 3.5], [x, 3.5]]);
+        let both = ["legs[0].keep_out[0].clearance", "legs[1].keep_out[0].clearance"];
+        assert!(found(FlatPlace::Disc([3.501, 2.0], 1.0)).is_empty() && found(square(2.501)).is_empty());
+        assert_eq!(found(FlatPlace::Disc([3.499, 2.0], 1.0)), both);
+        assert_eq!(found(square(2.499)), both);
+        assert_eq!(found(FlatPlace::Disc([f64::NAN, 2.0], 1.0)), both);
     }
 
     #[test]

@@ -13,7 +13,8 @@
 //! | --- | --- | --- |
 //! | a flight's polynomials are flyable | [`verify`], [`open_loop_with_lag`] | knots, rotor speeds, end states, path |
 //! | a flight keeps off solids | [`verify_clear`] | distances between samples, Taylor sums |
-//! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, speeds, tilt |
+//! | a flight keeps speed and tilt | [`verify_flight_limits`] | places of each leg |
+//! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, speeds, tilt, places |
 //! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |
 //! | a drive keeps off discs | [`verify_clear_ground`] | chords and what leaves them |
 //! | an arm's program or graph holds | [`verify_arm_program`], [`verify_arm_graph`] | bounds, margins, cell, targets |
@@ -35,6 +36,7 @@ mod demand;
 mod drive;
 mod drives;
 mod finding;
+mod flight_limits;
 mod gauss;
 mod ground;
 mod ground_claim;
@@ -47,6 +49,7 @@ mod jet;
 mod knots;
 mod pace;
 mod peak;
+mod place;
 mod proof;
 mod quadrature;
 mod replay;
@@ -58,6 +61,7 @@ mod stretch;
 mod stride;
 mod twist;
 mod walk;
+mod way;
 
 #[cfg(test)]
 mod midpoint;
@@ -74,13 +78,15 @@ pub use claim::{Claim, Leg};
 pub use clear::{ClearClaim, ClearSolid, verify_clear};
 pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_ground};
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, replay_drive, trace_drive};
-pub use drives::{DriveLegClaim, DriveTolerances, DrivesClaim, verify_drives};
+pub use drives::{DriveLegClaim, DriveManoeuvres, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};
+pub use flight_limits::{FlightLimits, verify_flight_limits};
 pub use ground::{GroundReplay, Stopped, replay_ground};
 pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
 pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
 pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
+pub use place::FlatPlace;
 pub use proof::{open_loop_with_lag, verify};
 pub use rims::{RimBreach, WheelRims, rim_breaches};
 pub use rows::{PlannedRow, PlannedState, RowTolerances, verify_flight_rows, verify_rows};

@@ -1,9 +1,10 @@
 //! A witness is proof only if a wrong one is found out: on every shipped robot, one coefficient after the other.
 
-use crate::campaigns::{asked, run, setup};
+use crate::campaigns::{asked, of, run, scenario, setup};
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Evidence, Witness, verify};
 use hairpin::trajectory::Profile;
+use serde_json::json;
 
 fn profile_of(case: &mut Case) -> &mut Profile {
     match &mut case.witness {
@@ -38,4 +39,34 @@ fn any_coefficient_off_by_a_percent_is_found() {
         // A septic has four coefficients beside those that rest and level at its start make zero.
         assert!(tampered.iter().all(|count| *count >= 4 * legs), "{name}: {tampered:?} is too few to tell");
     }
+}
+
+/// What was planned by wider limits, or in another world, is found by those that are asked.
+#[test]
+fn flights_are_held_to_the_limits_and_the_world_that_are_asked() {
+    let wide = asked("witness", "beam", 1);
+    let (cases, tally) = run(&setup("flightgoggles", 4, wide.clone()), &Known::default());
+    let case = cases.first().unwrap_or_else(|| panic!("{tally:?}"));
+    let [x, y, z] = [case.waypoints[1].x, case.waypoints[1].y, case.waypoints[1].z];
+    let ball = json!({ "name": "ball", "sphere": { "center_m": [x, y, z], "radius_m": 0.1 } });
+    let cuboid = json!({ "name": "box", "box": { "center_m": [x, y, z], "size_m": [0.1, 0.1, 0.1] } });
+    for (key, value, told) in [
+        ("/generate/limits/max_speed_m_s", json!(0.1), ".speed"),
+        ("/generate/limits/max_tilt_deg", json!(0.1), ".tilt"),
+        ("/world/obstacles", json!([ball]), "world.obstacles[0].clearance"),
+        ("/world/obstacles", json!([cuboid]), "world.obstacles[0].clearance"),
+    ] {
+        let mut other = scenario("flightgoggles", 4, wide.clone());
+        *other.pointer_mut(key).expect(key) = value;
+        let findings = verify(&of(other), case).proof.expect("a proof").findings;
+        let fits = |told_of: &str| told_of.ends_with(told);
+        assert!(!findings.is_empty() && findings.iter().all(|one| fits(&one.field)), "{key}: {findings:?}");
+    }
+    // Flown alike, and 10 m farther along x: beyond the wall's margin at 19 m.
+    let mut aside = case.clone();
+    aside.waypoints.iter_mut().for_each(|p| p.x += 10.0);
+    profile_of(&mut aside).legs.iter_mut().for_each(|leg| leg.coefficients[0][0] += 10.0);
+    let findings = verify(&setup("flightgoggles", 4, wide), &aside).proof.expect("a proof").findings;
+    assert!(findings.iter().any(|one| one.field == "world.walls[0].high.clearance"), "{findings:?}");
+    assert!(findings.iter().all(|one| one.field.starts_with("world.")), "{findings:?}");
 }

@@ -2,14 +2,11 @@
 
 use super::BoatSetup;
 use crate::campaign::Case;
-use crate::campaign::kind::PlannedRows;
+use crate::campaign::kind::{PlannedRows, flat_places};
 use crate::robot::boat::Boat;
 use crate::trajectory::Profile;
-use crate::verification::boat::{
-    BoatClaim, BoatHull, BoatLeg, BoatPlace, boat_with_lag, verify_boat, verify_boat_rows,
-};
+use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, boat_with_lag, verify_boat, verify_boat_rows};
 use crate::verification::{Collector, EndError, Finding, Proof, Tolerances};
-use crate::world::terrain::KeepOutShape;
 
 /// Error of the integrated state, SI: damping has bends, which no order makes smooth.
 ///
@@ -47,11 +44,7 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
     let (generate, world) = (&setup.scenario.generate, &setup.scenario.world);
     let waypoints: Vec<[f64; 2]> = case.waypoints.iter().map(|p| [p.x, p.y]).collect();
     let legs = legs_of(profile);
-    let place = |shape: &KeepOutShape| match shape {
-        KeepOutShape::Circle { center_m, radius_m } => BoatPlace::Disc(*center_m, *radius_m),
-        KeepOutShape::Polygon { points_m } => BoatPlace::Polygon(points_m.clone()),
-    };
-    let places: Vec<BoatPlace> = setup.keep_out.list().iter().map(|keep_out| place(&keep_out.shape)).collect();
+    let places = flat_places(&setup.keep_out);
     let margin = world.keep_in_margin_m;
     let claim = BoatClaim {
         waypoints: &waypoints,

@@ -285,6 +285,16 @@ fn times(drive: &Drive) -> Vec<f64> {
     (0..drive.legs.len()).map(|leg| drive.leg_time(leg)).collect()
 }
 
+/// The ways of driving that the scenario allows, of those that the vehicle has.
+pub(super) fn allowed(setup: &DriveSetup) -> Manoeuvres {
+    let may = |manoeuvre| setup.scenario.generate.manoeuvres.contains(&manoeuvre);
+    Manoeuvres {
+        forward: may(Manoeuvre::Forward),
+        reverse: may(Manoeuvre::Reverse),
+        turn_in_place: may(Manoeuvre::TurnInPlace) && setup.rover.limits.turns_in_place,
+    }
+}
+
 /// What legs may do, and how hard they are looked for.
 ///
 /// Speed, rate of turns, bounds, tilt and pace are the setup's; a turn in place is allowed only where the robot can. A
@@ -294,17 +304,12 @@ fn times(drive: &Drive) -> Vec<f64> {
 /// A score of legs that has an unknown term, in a sentence's part.
 pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
     let (task, generate) = (&setup.scenario.task, &setup.scenario.generate);
-    let may = |manoeuvre| generate.manoeuvres.contains(&manoeuvre);
     let settings = DriveSettings {
         leg_m: task.leg_m,
         headings: generate.headings as usize,
         speed: setup.speed(),
         turn_rate: setup.turn_rate(),
-        manoeuvres: Manoeuvres {
-            forward: may(Manoeuvre::Forward),
-            reverse: may(Manoeuvre::Reverse),
-            turn_in_place: may(Manoeuvre::TurnInPlace) && setup.rover.limits.turns_in_place,
-        },
+        manoeuvres: allowed(setup),
         bounds: setup.bounds(),
         limits: DriveLimits {
             tilt: setup.tilt(),

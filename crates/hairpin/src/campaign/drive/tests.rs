@@ -120,6 +120,67 @@ fn joints_and_tilt_are_held_to_the_limits_that_are_asked() {
     }
 }
 
+/// Findings of the proof of a drive of `value` that was planned as it is, under `changes`; fields without their leg.
+fn found_under(value: Value, number: u64, changes: &[(&str, Value)]) -> Vec<String> {
+    let plan = solver(&setup(value.clone(), &[])).draw(number, &Stop::never()).unwrap();
+    let asked = setup(value, changes);
+    let findings = verify(&asked, &plan.case(asked.scenario.seed(), 0, 0)).proof.expect("a witness").findings;
+    findings
+        .into_iter()
+        .map(|one| one.field.split_once('.').map_or(one.field.clone(), |(_, what)| what.into()))
+        .collect()
+}
+
+#[test]
+fn speeds_are_held_to_those_that_are_asked() {
+    let slow = found_under(car(), 0, &[("generate.limits.speed_m_s", json!(1.0))]);
+    assert!(["speed", "turn_rate"].iter().all(|what| slow.iter().any(|one| one == what)), "{slow:?}");
+    let mut free = rover();
+    free["generate"]["limits"].as_object_mut().unwrap().remove("speed_m_s");
+    assert!(found_under(free.clone(), 0, &[]).is_empty());
+    let slow = found_under(free, 0, &[("robot.speed_m_s", json!(0.2))]);
+    assert!(slow.iter().any(|one| one == "speed"), "{slow:?}");
+}
+
+/// Every drive of each scenario has what is taken from it, in one leg at least of a few draws.
+#[test]
+fn manoeuvres_are_held_to_those_that_are_asked() {
+    for (value, without, told) in [
+        (two_wheels(), json!(["forward"]), "turn_in_place"),
+        (car(), json!(["forward"]), "reverse"),
+        (car(), json!(["reverse"]), "forward"),
+    ] {
+        let under = |number| found_under(value.clone(), number, &[("generate.manoeuvres", without.clone())]);
+        let found: Vec<String> = (0..3).flat_map(under).collect();
+        assert!(!found.is_empty() && found.iter().all(|one| one == told), "{told}: {found:?}");
+    }
+}
+
+/// A keep-out that was put on a waypoint, or grew: circles and polygons.
+#[test]
+fn what_the_world_keeps_out_is_kept_out_of() {
+    let plan = solver(&setup(car(), &[])).draw(0, &Stop::never()).unwrap();
+    let [x, y] = [plan.waypoints[2].x, plan.waypoints[2].y];
+    let corners = json!([[x - 0.1, y - 0.1], [x + 0.1, y - 0.1], [x, y + 0.1]]);
+    for place in [
+        json!({ "name": "put", "circle": { "center_m": [x, y], "radius_m": 0.1 } }),
+        json!({ "name": "put", "polygon": { "points_m": corners } }),
+        json!({ "name": "grown", "circle": { "center_m": [24, 21], "radius_m": 8 } }),
+    ] {
+        let found = found_under(car(), 0, &[("world.keep_out", json!([place]))]);
+        assert!(!found.is_empty() && found.iter().all(|one| one == "keep_out[0].clearance"), "{found:?}");
+    }
+}
+
+#[test]
+fn waypoints_lie_on_the_ground() {
+    let setup = setup(rover(), &[]);
+    let mut case = solver(&setup).draw(0, &Stop::never()).unwrap().case(42, 0, 0);
+    case.waypoints[3].z += 1e-3;
+    let findings = verify(&setup, &case).proof.expect("a witness").findings;
+    assert_eq!(findings.iter().map(|one| one.field.as_str()).collect::<Vec<_>>(), ["legs[2].height"]);
+}
+
 /// A differential drive on a plain, at 0.2 of 0.22 m/s: the outer wheel leaves |κ| ≤ 1.25 1/m.
 fn two_wheels() -> Value {
     json!({

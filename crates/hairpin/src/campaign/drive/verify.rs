@@ -2,15 +2,18 @@
 
 use super::DriveSetup;
 use super::site::{drive_piece, ground_vehicle, wheel_rims};
+use super::solve::allowed;
+use crate::campaign::kind::flat_places;
 use crate::campaign::scenario::DriveEnvironmentSection;
 use crate::campaign::{Case, Environment};
-use crate::feasibility::reach::drive::Pace;
+use crate::feasibility::reach::drive::{Manoeuvres, Pace};
 use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
 use crate::verification::{
-    ClearDisc, ClearDrive, ClearGroundClaim, Collector, DriveLegClaim, DriveTolerances, DrivesClaim, Finding, Proof,
-    verify_clear_ground, verify_drives,
+    ClearDisc, ClearDrive, ClearGroundClaim, Collector, DriveLegClaim, DriveManoeuvres, DriveTolerances, DrivesClaim,
+    Finding, Proof, verify_clear_ground, verify_drives,
 };
+use crate::world::terrain::Terrain;
 
 /// Replays every leg of `case` on the ground by independent code, to the solver's precision. `None` for a case that
 /// claims no witness.
@@ -21,13 +24,21 @@ use crate::verification::{
 /// setup's numbers ─▶ GroundVehicle, DrivesClaim, DriveTolerances ─▶ verify_drives ─▶ Proof
 /// ```
 ///
-/// The limits are those of the setup that is asked, not of the case: what was planned under wider ones fails. With a
-/// constant pace accelerations are not bounded.
+/// The limits are those of the setup that is asked, not of the case: what was planned under wider ones fails, of speed
+/// and rate of turns, gears and turns in place, tilt and joints, and of the world's keep-outs, from which the vehicle's
+/// radius is kept to within `generate.solver.position_m`. With a constant pace accelerations are not bounded.
 pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
     let waypoints = waypoints_of(case);
-    let claim = DrivesClaim { waypoints: &waypoints, legs: &legs, speed: drive.speed, turn_rate: drive.turn_rate };
+    let places = flat_places(&setup.keep_out);
+    let claim = DrivesClaim {
+        waypoints: &waypoints,
+        legs: &legs,
+        speed: drive.speed,
+        turn_rate: drive.turn_rate,
+        places: &places,
+    };
     let (solver, bounds) = (&setup.scenario.generate.solver, setup.bounds());
     let tolerances = DriveTolerances {
         position: solver.position_m,
@@ -44,8 +55,42 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
         },
         rims: setup.rover.rims.as_ref().map(wheel_rims),
+        most_speed: most_speed(setup, case),
+        most_turn_rate: setup.turn_rate(),
+        manoeuvres: manoeuvres(setup),
+        // The motion that is held clear is known to what a leg's end is.
+        clearance: setup.radius() - solver.position_m,
     };
-    Some(verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances))
+    let mut proof = verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances);
+    check_heights(setup, case, &mut proof);
+    Some(proof)
+}
+
+/// The highest speed that may be commanded, m/s.
+///
+/// Searches command one speed; missions made elsewhere, of whose legs no search saw anything, may ask for up to the
+/// limit where none is given.
+fn most_speed(setup: &DriveSetup, case: &Case) -> f64 {
+    match setup.scenario.generate.limits.speed_m_s {
+        None if case.seen.is_empty() => setup.rover.limits.speed,
+        _ => setup.speed(),
+    }
+}
+
+/// The ways of driving that legs are looked for by: without `reverse` the line between two turns is driven forward.
+fn manoeuvres(setup: &DriveSetup) -> DriveManoeuvres {
+    let Manoeuvres { forward, reverse, turn_in_place } = allowed(setup);
+    DriveManoeuvres { forward: forward || !reverse, reverse, turn_in_place }
+}
+
+/// Heights of waypoints are the ground's, which others read; to a micrometre.
+fn check_heights(setup: &DriveSetup, case: &Case, proof: &mut Proof) {
+    for (number, p) in case.waypoints.iter().enumerate() {
+        // Where the map has no ground the replay ends.
+        let Ok(patch) = setup.map.patch(p.x, p.y) else { continue };
+        let mut found = Collector::on_leg(&mut proof.findings, number.saturating_sub(1), 0.0);
+        found.above("height", (p.z - patch.height).abs(), 1e-6, "m");
+    }
 }
 
 /// What does not hold of the environment of `case`: its keep-outs are discs on the map that the plan keeps the

@@ -52,7 +52,7 @@ impl Claim for FlightSetup {
     }
 
     fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
-        let (mut proof, with_lag) = verify::verify(&self.robot, case).unzip();
+        let (mut proof, with_lag) = verify::verify(self, case).unzip();
         if case.environment.is_some() {
             let asked = drawn.own::<FlightScenario>().and_then(|drawn| drawn.generate.environment);
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));

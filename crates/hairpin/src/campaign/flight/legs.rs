@@ -21,6 +21,15 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
     judge_up_to(setup, f64::INFINITY)
 }
 
+/// The scenario's limits of speed and tilt.
+pub(super) fn limits(setup: &FlightSetup) -> Limits {
+    let given = &setup.scenario.generate.limits;
+    Limits {
+        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY),
+        max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
+    }
+}
+
 /// The same, no faster than `most` (m/s).
 ///
 /// # Errors
@@ -28,11 +37,8 @@ pub(super) fn judge(setup: &FlightSetup) -> Result<LegJudge, String> {
 ///
 /// For missions of others, which are held to the robot's top speed too.
 pub(super) fn judge_up_to(setup: &FlightSetup, most: f64) -> Result<LegJudge, String> {
-    let given = &setup.scenario.generate.limits;
-    let limits = Limits {
-        max_speed: given.max_speed_m_s.unwrap_or(f64::INFINITY).min(most),
-        max_tilt: given.max_tilt_deg.map_or(Limits::default().max_tilt, f64::to_radians),
-    };
+    let given = limits(setup);
+    let limits = Limits { max_speed: given.max_speed.min(most), ..given };
     LegJudge::new(&setup.robot, &setup.world, limits, ProofSettings::default()).map_err(|error| error.to_string())
 }
 

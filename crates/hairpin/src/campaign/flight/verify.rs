@@ -3,31 +3,82 @@
 //! What the verification room gets are coefficients, places and numbers of the body: no type of the claim goes along
 //! but by copy.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::campaign::Case;
 use crate::campaign::kind::PlannedRows;
 use crate::campaign::scenario::EnvironmentSection;
+use crate::feasibility::Limits;
 use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::Profile;
 use crate::verification::{
-    self, Body, Claim, ClearClaim, ClearSolid, Collector, EndError, Finding, Leg, Proof, RotorPlace, Tolerances,
-    verify_clear, verify_flight_rows,
+    self, Body, Claim, ClearClaim, ClearSolid, Collector, EndError, Finding, FlightLimits, Leg, Proof, RotorPlace,
+    Tolerances, verify_clear, verify_flight_limits, verify_flight_rows,
 };
 
 use super::FlightSetup;
+use super::legs::limits as limits_of;
+use crate::world::Shape;
 
 /// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the
 /// proof, and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
 ///
 /// The tolerances are 0.1 mm, 0.1 mm/s and 0.001° a leg; they are the room's own defaults.
-pub(super) fn verify(robot: &Quadrotor, case: &Case) -> Option<(Proof, Option<EndError>)> {
+///
+/// Limits and world are those of the setup that is asked, not of the case: what was planned under wider ones fails.
+pub(super) fn verify(setup: &FlightSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
-    let body = body_of(robot);
+    let body = body_of(&setup.robot);
     let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
     let legs = legs_of(profile);
     let claim = Claim { waypoints: &waypoints, legs: &legs };
-    let proof = verification::verify(&body, &claim, &Tolerances::default());
+    let mut proof = verification::verify(&body, &claim, &Tolerances::default());
+    proof.findings.extend(verify_flight_limits(&body, &legs, &limits(setup)));
+    proof.findings.extend(outside(setup, &legs));
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
 }
+
+/// Largest speed and tilt that plans keep; at a right angle the tilt is no limit.
+fn limits(setup: &FlightSetup) -> FlightLimits {
+    let Limits { max_speed, max_tilt } = limits_of(setup);
+    let tilt = if max_tilt < FRAC_PI_2 { max_tilt } else { f64::INFINITY };
+    FlightLimits { speed: max_speed, tilt }
+}
+
+/// What `legs` come too near to in the world: obstacles that are balls or boxes, and its walls less their margin.
+///
+/// Capsules, hulls and meshes are not held. Walls are boxes that stand [`ASIDE`] behind the margin: along them a
+/// distance of 0 would have no direction.
+fn outside(setup: &FlightSetup, legs: &[Leg]) -> Vec<Finding> {
+    let near = |solid: ClearSolid, clearance: f64, what: String| {
+        let found = verify_clear(&ClearClaim { legs, solids: &[solid], clearance: clearance - TOUCH });
+        found.into_iter().map(move |finding| Finding { field: what.clone(), ..finding })
+    };
+    let mut findings = Vec::new();
+    for (number, obstacle) in setup.world.obstacles().iter().enumerate() {
+        let solid = match &obstacle.shape {
+            Shape::Sphere { center, radius } => ClearSolid::Ball((*center).into(), *radius),
+            Shape::Box { center, half_extents } => ClearSolid::Box((*center).into(), (2.0 * half_extents).into()),
+            Shape::Capsule { .. } | Shape::Hull(_) | Shape::Mesh(_) => continue,
+        };
+        findings.extend(near(solid, setup.robot.clearance_radius, format!("world.obstacles[{number}].clearance")));
+    }
+    let (size, margin) = (setup.world.size(), setup.world.keep_in_margin());
+    let edge = 4.0 * size.max() + 1.0;
+    for axis in 0..3 {
+        for (end, face) in [("low", margin - ASIDE - 0.5 * edge), ("high", size[axis] - margin + ASIDE + 0.5 * edge)] {
+            let mut centre = [0.5 * size.x, 0.5 * size.y, 0.5 * size.z];
+            centre[axis] = face;
+            let wall = ClearSolid::Box(centre, [edge; 3]);
+            findings.extend(near(wall, ASIDE, format!("world.walls[{axis}].{end}.clearance")));
+        }
+    }
+    findings
+}
+
+/// How far behind the margin the walls stand that are held, m, and what rounding may take, m.
+const ASIDE: f64 = 1.0;
+const TOUCH: f64 = 1e-6;
 
 /// Holds the rows that are kept of the planned motion of `case` to its polynomials and the attitudes that they demand,
 /// by independent code; nothing for a case that claims no witness.

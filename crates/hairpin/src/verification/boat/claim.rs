@@ -1,5 +1,7 @@
 //! What is claimed of a boat, as plain numbers.
 
+use crate::verification::place::FlatPlace;
+
 /// One leg: q(τ) = Σ c_i τ^i for x, y (m, world frame) and ψ (rad), τ ∈ [0, duration].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoatLeg {
@@ -61,15 +63,6 @@ impl BoatHull {
     }
 }
 
-/// Where the hull's disc must not come.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BoatPlace {
-    /// A disc: centre and radius, m.
-    Disc([f64; 2], f64),
-    /// The inside of a polygon by the even-odd rule: corners, m.
-    Polygon(Vec<[f64; 2]>),
-}
-
 /// A trip: leg k joins waypoints k and k + 1; it begins and ends at rest over ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoatClaim<'a> {
@@ -84,5 +77,5 @@ pub struct BoatClaim<'a> {
     /// Least and largest x and y, m.
     pub waters: ([f64; 2], [f64; 2]),
     /// Where it keeps out of.
-    pub places: &'a [BoatPlace],
+    pub places: &'a [FlatPlace],
 }

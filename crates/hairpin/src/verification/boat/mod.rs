@@ -21,6 +21,6 @@ mod series;
 #[cfg(test)]
 mod tests;
 
-pub use claim::{BoatClaim, BoatHull, BoatLeg, BoatPlace};
+pub use claim::{BoatClaim, BoatHull, BoatLeg};
 pub use proof::{boat_with_lag, verify_boat};
 pub use rows::verify_boat_rows;

@@ -1,10 +1,9 @@
 //! Whether the way stays in its waters and keeps its distance from places, everywhere: between samples it is no farther
 //! from the middle of a stretch than the stretch is wide.
 
-use super::claim::{BoatClaim, BoatHull, BoatLeg, BoatPlace};
+use super::claim::{BoatClaim, BoatHull, BoatLeg};
 use super::demand::taylor_over;
 use crate::math::outward::Interval;
-use crate::math::power::square;
 
 /// What rounding may take from a distance that is kept exactly, m.
 const ROUNDING: f64 = 1e-9;
@@ -78,33 +77,4 @@ fn too_near(
 /// How far inside the waters, m.
 fn inside([x, y]: [f64; 2], (low, high): &([f64; 2], [f64; 2])) -> f64 {
     (x - low[0]).min(high[0] - x).min(y - low[1]).min(high[1] - y)
-}
-
-impl BoatPlace {
-    /// Distance of a point, m; negative inside.
-    fn distance(&self, p: [f64; 2]) -> f64 {
-        match self {
-            Self::Disc(centre, radius) => libm::hypot(p[0] - centre[0], p[1] - centre[1]) - radius,
-            Self::Polygon(corners) => {
-                let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
-                let nearest = edges().map(|(a, b)| from_edge(p, *a, *b)).fold(f64::INFINITY, f64::min);
-                // Crossings of a ray to the north.
-                let crosses = |a: &[f64; 2], b: &[f64; 2]| {
-                    let (west, east) = if a[0] <= b[0] { (a, b) } else { (b, a) };
-                    let spans = west[0] <= p[0] && p[0] < east[0];
-                    spans && (east[0] - west[0]) * (p[1] - west[1]) < (east[1] - west[1]) * (p[0] - west[0])
-                };
-                let inside = edges().filter(|(a, b)| crosses(a, b)).count() % 2 == 1;
-                if inside { -nearest } else { nearest }
-            }
-        }
-    }
-}
-
-/// Distance of `p` from the straight line from `a` to `b`, m.
-fn from_edge(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let length = square(along[0]) + square(along[1]);
-    let share = if length > 0.0 { ((along[0] * to[0] + along[1] * to[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-    libm::hypot(to[0] - share * along[0], to[1] - share * along[1])
 }

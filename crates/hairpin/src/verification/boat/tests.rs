@@ -1,7 +1,7 @@
 //! Proofs of boats' witnesses: a sound one holds, and whatever is tampered with is found where it was done.
 
 use super::*;
-use crate::verification::Tolerances;
+use crate::verification::{FlatPlace, Tolerances};
 
 /// CyberShip II, with room in its thrusters.
 fn hull() -> BoatHull {
@@ -47,7 +47,7 @@ fn legs() -> [BoatLeg; 2] {
     [BoatLeg { duration: 45.0, coefficients: first }, BoatLeg { duration: 80.0, coefficients: second }]
 }
 
-fn claim<'a>(legs: &'a [BoatLeg], places: &'a [BoatPlace]) -> BoatClaim<'a> {
+fn claim<'a>(legs: &'a [BoatLeg], places: &'a [FlatPlace]) -> BoatClaim<'a> {
     BoatClaim {
         waypoints: &WAYPOINTS,
         legs,
@@ -134,12 +134,12 @@ fn waters_and_places_are_kept_to_the_millimetre() {
     let centre = [6.0, 6.5];
     let room = nearest(centre) - hull.radius;
     assert!(room > 0.2, "{room}");
-    let disc = |radius: f64| [BoatPlace::Disc(centre, radius)];
+    let disc = |radius: f64| [FlatPlace::Disc(centre, radius)];
     assert_eq!(fields(&hull, &claim(&legs, &disc(room - 1e-3))), Vec::<String>::new());
     assert_eq!(fields(&hull, &claim(&legs, &disc(room + 1e-3))), ["legs[0].keep_out[0].clearance"]);
     // A square around the disc's middle whose corner points at the way, and one that holds a waypoint.
     let square = |[x, y]: [f64; 2], half: f64| {
-        BoatPlace::Polygon(vec![[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]])
+        FlatPlace::Polygon(vec![[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]])
     };
     assert_eq!(fields(&hull, &claim(&legs, &[square(centre, 0.2)])), Vec::<String>::new());
     let found = fields(&hull, &claim(&legs, &[square([9.0, 5.0], 2.0)]));
@@ -159,6 +159,6 @@ fn what_is_no_claim_is_told_and_panics_nowhere() {
     assert_eq!(fields(&massless, &claim(&legs, &[])), ["hull"]);
     let nowhere = BoatClaim { current: [f64::NAN, 0.0], ..claim(&legs, &[]) };
     assert_eq!(fields(&hull, &nowhere), ["hull"]);
-    let void = [BoatPlace::Disc([f64::NAN, 0.0], 1.0)];
+    let void = [FlatPlace::Disc([f64::NAN, 0.0], 1.0)];
     assert_eq!(fields(&hull, &claim(&legs, &void)).len(), 2);
 }
