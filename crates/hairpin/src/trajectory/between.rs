@@ -1,7 +1,8 @@
 //! The motion between rows of a track, and its rows at even times.
 //!
 //! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, where
-//! they turn round at a sample, and of everything else, the straight line. Attitudes are the line's, made rotations again.
+//! they turn round at a sample, and of everything else, the straight line. Attitudes are the line's, made rotations
+//! again.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 

@@ -11,9 +11,9 @@
 //!
 //! where V and A are numbers at a given u, so that an instant of four durations costs what the leg itself would.
 //!
-//! The limits asked are those of [`super::LegJudge::judge`], which holds them at every instant, with 10⁻⁷ of room, since
-//! the same quantities come out of other formulas here: a leg that is refused here is refused there, while one that
-//! passes here may still fail there. Walls and obstacles are not asked.
+//! The limits asked are those of [`super::LegJudge::judge`], which holds them at every instant, with 10⁻⁷ of room,
+//! since the same quantities come out of other formulas here: a leg that is refused here is refused there, while one
+//! that passes here may still fail there. Walls and obstacles are not asked.
 
 use nalgebra::Vector3;
 use wide::f64x4;

@@ -19,8 +19,8 @@
 //! Costs are whole numbers (µm, µs, counts): every sum and bound is exact, and a certificate can be checked by
 //! addition. Data flow of branch and bound: a path by local search (`local`) → first multipliers → subgradient steps
 //! (`ascent`, means of solutions in `volume`) on a relaxation (`forest` where costs are symmetric, `arborescence` where
-//! they are not) → what the bound decides under a guessed cost (`choices`, `prove`) → splits (`branch`) → a tree of steps (`record`), which
-//! [`crate::verification::verify_heaviest`] recomputes.
+//! they are not) → what the bound decides under a guessed cost (`choices`, `prove`) → splits (`branch`) → a tree of
+//! steps (`record`), which [`crate::verification::verify_heaviest`] recomputes.
 
 mod arborescence;
 mod ascent;
