@@ -31,6 +31,8 @@ enum Guessed {
 /// A search on its way.
 struct Proving<'a, R> {
     root: Root<'a, R>,
+    /// No path costs more, scaled, as guesses have shown. The root's own bound says how far its multipliers are.
+    most: i64,
     most_nodes: u64,
     /// Problems looked at.
     nodes: u64,
@@ -51,7 +53,7 @@ pub(super) fn prove<'a, R: Relaxation>(
 ) -> (Searched, i64, Recorder) {
     let root = Root::<R>::new(arcs, settings, path, record, stop);
     let most_nodes = settings.most_nodes.unwrap_or(u64::MAX);
-    let mut proving = Proving { root, most_nodes, nodes: 0, stop };
+    let mut proving = Proving { root, most: i64::MAX, most_nodes, nodes: 0, stop };
     let Some(mut closed) = proving.root.widen() else { return proving.at_the_root(false) };
     // Branching with a path that is not the heaviest costs many times what kicks cost.
     let points = arcs.points() as u64;
@@ -104,7 +106,7 @@ impl<R: Relaxation> Proving<'_, R> {
     }
 
     fn end(self, searched: Searched) -> (Searched, i64, Recorder) {
-        (Searched { nodes: self.nodes, ..searched }, self.root.bound, self.root.record)
+        (Searched { nodes: self.nodes, ..searched }, self.root.bound.min(self.most), self.root.record)
     }
 
     /// Splits what the root left.
@@ -122,7 +124,7 @@ impl<R: Relaxation> Proving<'_, R> {
     /// Guesses in turn, until one comes true or is too much work.
     fn guess(&mut self) -> Guessed {
         for parts in PARTS {
-            let bound = self.root.bound / self.root.scale;
+            let bound = self.root.bound.min(self.most) / self.root.scale;
             let least = bound - (bound - self.root.best.cost()) / parts;
             if least <= self.root.best.needed() || (self.stop)() {
                 break;
@@ -155,7 +157,10 @@ impl<R: Relaxation> Proving<'_, R> {
         if found && complete {
             return Some(Guessed::Proven(searched));
         }
-        self.root.go_back(kept, complete.then_some(least - 1));
+        self.root.go_back(kept);
+        if complete {
+            self.most = self.most.min((least - 1) * self.root.scale);
+        }
         self.root.learn(searched.best);
         match (found, complete) {
             (true, _) => Some(Guessed::Better),
@@ -182,7 +187,7 @@ mod tests {
             assert_eq!(proven.open, None, "seed {seed}");
             let heaviest = proven.best.cost();
             let root = Root::<Forest<i64>>::new(&arcs, &settings, &[0], Recorder::new(true), &|| false);
-            let mut proving = Proving { root, most_nodes: u64::MAX, nodes: 0, stop: &|| false };
+            let mut proving = Proving { root, most: i64::MAX, most_nodes: u64::MAX, nodes: 0, stop: &|| false };
             if proving.root.widen() == Some(true) {
                 continue;
             }
@@ -194,7 +199,7 @@ mod tests {
             let (was, scale) = (before(&proving), proving.root.scale);
             assert!(matches!(proving.search_from(heaviest + 1), Some(Guessed::Nothing)), "seed {seed}");
             assert_eq!(before(&proving), was, "seed {seed}");
-            assert!((heaviest * scale..=(heaviest + 1) * scale).contains(&proving.root.bound), "seed {seed}");
+            assert_eq!(proving.most, heaviest * scale, "seed {seed}");
             assert!(proving.root.best.needed() <= heaviest, "seed {seed}");
             match proving.search_from(heaviest) {
                 Some(Guessed::Proven(searched)) => assert_eq!(searched.best.cost(), heaviest, "seed {seed}"),

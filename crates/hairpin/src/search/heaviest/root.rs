@@ -46,7 +46,7 @@ pub(super) fn scale_of(arcs: &Arcs) -> i64 {
     scale
 }
 
-/// What a root goes back to from paths of a cost that none has.
+/// What a root goes back to where a wanted cost was too high.
 pub(super) struct Kept {
     choices: Choices,
     made: Made,
@@ -338,12 +338,11 @@ impl<'a, R: Relaxation> Root<'a, R> {
         self.decide()
     }
 
-    /// Goes back, with what is known of the whole since: that no path costs more than `most`.
-    pub(super) fn go_back(&mut self, kept: Kept, most: Option<i64>) {
+    /// Goes back to what was before [`Root::want`].
+    pub(super) fn go_back(&mut self, kept: Kept) {
         self.record.forget(kept.steps);
         self.best.want(kept.wanted);
-        self.bound = most.map_or(kept.bound, |most| kept.bound.min(most * self.scale));
-        (self.multipliers, self.step) = (kept.multipliers, kept.step);
+        (self.multipliers, self.step, self.bound) = (kept.multipliers, kept.step, kept.bound);
         (self.choices, self.made) = (kept.choices, kept.made);
         self.relaxation = R::new(&self.choices);
     }
