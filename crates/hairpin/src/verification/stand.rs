@@ -7,6 +7,8 @@
 //! F(q) = 0 by Newton with central differences of width 1e-6 to 1e-2, an inverse Jacobian borrowed from the
 //! neighbouring rest as long as it helps, halved steps, and the same order of falls as the claim's own, typed again.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use crate::world::terrain::{NoGround, Terrain};
@@ -49,8 +51,8 @@ type Gaps = SVector<f64, 6>;
 #[derive(Debug, Clone)]
 pub(super) struct Rest {
     unknowns: Unknowns,
-    /// The inverse Jacobian it was found with; good for its neighbours.
-    inverse: Option<SMatrix<f64, 6, 6>>,
+    /// The inverse Jacobian it was found with; good for its neighbours, and one with theirs: rests are copied often.
+    inverse: Option<Arc<SMatrix<f64, 6, 6>>>,
 }
 
 /// Share of the ground's slope below the body, and height over it (m), from which a rest is looked for, in turn.
@@ -139,7 +141,7 @@ impl Rest {
         if change.amax() > NEIGHBOURS {
             return last.clone();
         }
-        Self { unknowns: last.unknowns + share * change, inverse: last.inverse }
+        Self { unknowns: last.unknowns + share * change, inverse: last.inverse.clone() }
     }
 
     /// The largest difference of heights (m) and angles (rad).
@@ -220,8 +222,8 @@ impl Rest {
         }
         let gaps_at = |unknowns: &Unknowns| gaps(stand, terrain, place, unknowns).map_err(NoRest::Ground);
         // A neighbour's Jacobian closes gaps as its own does; where gaps remain it is another least that it leads to.
-        if let Some(inverse) = self.inverse.filter(|_| !matches!(stand, Stand::FourWheel { .. })) {
-            let (mut inverse, mut unknowns, mut last) = (inverse, self.unknowns, f64::INFINITY);
+        if let Some(inverse) = self.inverse.as_ref().filter(|_| !matches!(stand, Stand::FourWheel { .. })) {
+            let (mut inverse, mut unknowns, mut last) = (**inverse, self.unknowns, f64::INFINITY);
             let mut gaps = gaps_at(&unknowns)?;
             for _ in 0..BORROWED {
                 let step = inverse * gaps;
@@ -232,7 +234,7 @@ impl Rest {
                 unknowns -= step;
                 // What is left is the share of this step that this one was of the last.
                 if length < CLOSED || length * length < CLOSED * last {
-                    (self.unknowns, self.inverse) = (unknowns, Some(inverse));
+                    (self.unknowns, self.inverse) = (unknowns, Some(Arc::new(inverse)));
                     return Ok(());
                 }
                 let there = gaps_at(&unknowns)?;
@@ -252,7 +254,7 @@ impl Rest {
             let mut step = inverse * found;
             let length = step.amax();
             step *= FARTHEST / length.max(FARTHEST);
-            self.inverse = Some(inverse);
+            self.inverse = Some(Arc::new(inverse));
             if length < CLOSED {
                 self.unknowns -= step;
                 return Ok(());
