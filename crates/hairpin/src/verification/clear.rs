@@ -7,18 +7,8 @@
 //! place is deeper than another by no more than the way between them.
 
 use super::claim::Leg;
+use super::clear_solid::{ClearSolid, norm, winds_around};
 use super::finding::{Collector, Finding};
-
-/// A solid.
-///
-/// Convex; a box along the axes of the world. Numbers that are none make every path too near.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ClearSolid {
-    /// A ball: centre and radius, m.
-    Ball([f64; 3], f64),
-    /// A box along the axes: centre and edge lengths, m.
-    Box([f64; 3], [f64; 3]),
-}
 
 /// What is claimed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,23 +50,53 @@ const RESOLUTION: f64 = 1e-4;
 pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, solid) in claim.solids.iter().enumerate() {
-        let mut nearest: Option<Near> = None;
-        let mut began = 0.0;
-        for (place, leg) in claim.legs.iter().enumerate() {
-            let here = Near { distance: f64::NAN, leg: place, at: began };
-            if !(leg.is_finite() && solid.is_finite()) {
-                nearest = Some(here);
-                break;
-            }
-            approach(leg, solid, claim.clearance - ROUNDING, [0.0, leg.duration], here, &mut nearest, DEPTH);
-            began += leg.duration;
-        }
-        if let Some(Near { distance, leg, at }) = nearest {
+        if let Some(Near { distance, leg, at }) = nearest(claim.legs, std::iter::once(*solid), claim.clearance) {
             let mut found = Collector::about(&mut findings, "environment").at(leg, at);
             found.unless(false, format_args!("obstacles[{number}].clearance"), distance, claim.clearance, "m");
         }
     }
     findings
+}
+
+/// Whether a path comes too near to a closed surface of `triangles`, or begins within it: the place where it is nearest,
+/// as `field`.
+///
+/// As [`verify_clear`], each triangle being a solid; a path that begins outside comes inside only through one. A path
+/// without a leg keeps away from everything.
+pub fn verify_clear_of_surface(
+    legs: &[Leg],
+    triangles: &[[[f64; 3]; 3]],
+    clearance: f64,
+    field: &str,
+) -> Option<Finding> {
+    let start = legs.first()?.coefficients.map(|c| c[0]);
+    let solids = || triangles.iter().map(|corners| ClearSolid::Triangle(*corners));
+    let inside = winds_around(triangles, &start).abs() > 0.5;
+    let near = if inside {
+        let depth = solids().map(|solid| solid.distance(&start)).fold(f64::INFINITY, f64::min);
+        Near { distance: -depth, leg: 0, at: 0.0 }
+    } else {
+        nearest(legs, solids(), clearance)?
+    };
+    let Near { distance, leg, at } = near;
+    Some(Finding { field: field.into(), value: distance, bound: clearance, unit: "m", leg, at })
+}
+
+/// Where a path is nearest to any of `solids`, where that is nearer than `clearance`, or not shown not to be.
+fn nearest(legs: &[Leg], solids: impl Iterator<Item = ClearSolid>, clearance: f64) -> Option<Near> {
+    let mut nearest: Option<Near> = None;
+    for solid in solids {
+        let mut began = 0.0;
+        for (place, leg) in legs.iter().enumerate() {
+            let here = Near { distance: f64::NAN, leg: place, at: began };
+            if !(leg.is_finite() && solid.is_finite()) {
+                return Some(here);
+            }
+            approach(leg, &solid, clearance - ROUNDING, [0.0, leg.duration], here, &mut nearest, DEPTH);
+            began += leg.duration;
+        }
+    }
+    nearest
 }
 
 /// A place that is too near.
@@ -141,46 +161,6 @@ fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
     }
 }
 
-/// √(v·v).
-fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-impl ClearSolid {
-    /// Whether all of its numbers are numbers.
-    fn is_finite(&self) -> bool {
-        let finite = |numbers: &[f64]| numbers.iter().all(|x| x.is_finite());
-        match self {
-            Self::Ball(centre, radius) => finite(centre) && radius.is_finite(),
-            Self::Box(centre, size) => finite(centre) && finite(size),
-        }
-    }
-
-    /// Distance of `p`, m; negative inside.
-    fn distance(&self, p: &[f64; 3]) -> f64 {
-        match self {
-            Self::Ball(centre, radius) => norm(std::array::from_fn(|i| p[i] - centre[i])) - radius,
-            Self::Box(centre, size) => {
-                let beyond: [f64; 3] = std::array::from_fn(|i| (p[i] - centre[i]).abs() - 0.5 * size[i]);
-                norm(beyond.map(|x| x.max(0.0))) + beyond.into_iter().fold(f64::NEG_INFINITY, f64::max).min(0.0)
-            }
-        }
-    }
-
-    /// Unit vector from the nearest point to `p`; `None` inside.
-    fn away(&self, p: &[f64; 3]) -> Option<[f64; 3]> {
-        let from: [f64; 3] = std::array::from_fn(|i| match self {
-            Self::Ball(centre, _) => p[i] - centre[i],
-            Self::Box(centre, size) => {
-                let (from, half) = (p[i] - centre[i], 0.5 * size[i]);
-                from - from.min(half).max(-half)
-            }
-        });
-        let length = norm(from);
-        (self.distance(p) > 0.0 && length > 0.0).then(|| from.map(|x| x / length))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -225,5 +205,33 @@ mod tests {
             "{through:?}"
         );
         assert!(found(ClearSolid::Ball([f64::NAN, 0.0, 0.0], 1.0), 0.2)[0].value.is_nan());
+    }
+
+    /// The surface of a cuboid of triangles is kept as the cuboid is, and nothing is inside of it unseen.
+    #[test]
+    fn a_surface_is_as_near_as_what_it_encloses() {
+        let (centre, size) = ([2.0, 0.0, 1.9], [3.0, 1.0, 1.0]);
+        let corner = |i: usize| std::array::from_fn(|k| centre[k] + size[k] * if i >> k & 1 == 1 { 0.5 } else { -0.5 });
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[[f64; 3]; 3]> =
+            faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]].map(|t| t.map(corner))).collect();
+        let surface = |legs: &[Leg], clearance: f64| verify_clear_of_surface(legs, &triangles, clearance, "s");
+        // Its underside is 0.4 m above the arch's top.
+        assert!(surface(&[arch(), arch()], 0.399).is_none());
+        let near = surface(&[arch(), arch()], 0.401).unwrap();
+        let cuboid = &found(ClearSolid::Box(centre, size), 0.401)[0];
+        assert!((near.value - cuboid.value).abs() < 2e-4 && near.field == "s", "{near:?} {cuboid:?}");
+        // Wholly inside, touching no face.
+        let still =
+            |z: f64| Leg { duration: 1.0, coefficients: [2.0, 0.0, z].map(|x| [x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]) };
+        assert!((surface(&[still(1.8)], 0.0).unwrap().value + 0.4).abs() < 1e-12);
+        assert!(surface(&[still(1.0)], 0.2).is_none() && surface(&[], 0.2).is_none());
+    }
+
+    #[test]
+    fn a_capsule_is_a_ball_along_its_axis() {
+        let capsule = |gap: f64| ClearSolid::Capsule([2.0, -1.0, 1.7 + gap], [2.0, 1.0, 1.7 + gap], 0.5);
+        assert!(found(capsule(0.001), 0.2).is_empty());
+        assert!((found(capsule(-0.001), 0.2)[0].value - 0.199).abs() < 1e-4);
     }
 }

@@ -214,8 +214,8 @@ fn check_manoeuvres(pieces: &[DrivePiece], may: &DriveManoeuvres, found: &mut Co
     let [mut ahead, mut back, mut turned] = [0.0_f64; 3];
     for piece in pieces {
         match piece {
-            DrivePiece::Arc { length_m, direction, .. } if *direction < 0.0 => back += length_m,
-            DrivePiece::Arc { length_m, .. } => ahead += length_m,
+            DrivePiece::Arc { length_m, direction, .. } if length_m * direction < 0.0 => back += length_m.abs(),
+            DrivePiece::Arc { length_m, .. } => ahead += length_m.abs(),
             DrivePiece::Turn { angle_rad } => turned += angle_rad.abs(),
         }
     }
@@ -386,6 +386,9 @@ mod tests {
         let may = DriveManoeuvres { forward: false, reverse: true, turn_in_place: true };
         let backwards = DriveTolerances { manoeuvres: may, ..TOLERANCES };
         assert_eq!(told(prove_within(&legs(), &backwards)), ["legs[0].forward", "legs[1].forward"]);
+        let mut backed = legs();
+        backed[1].pieces.push(DrivePiece::Arc { length_m: -0.1, curvature: [0.0; 6], direction: 1.0 });
+        assert!(told(prove(&backed)).contains(&"legs[1].reverse".to_owned()));
         let mut turns = legs();
         turns[1].pieces.push(DrivePiece::Turn { angle_rad: -0.5 });
         assert!(told(prove(&turns)).contains(&"legs[1].turn_in_place".to_owned()));

@@ -12,7 +12,7 @@
 //! | claimed | proven by | asked of |
 //! | --- | --- | --- |
 //! | a flight's polynomials are flyable | [`verify`], [`open_loop_with_lag`] | knots, rotor speeds, end states, path |
-//! | a flight keeps off solids | [`verify_clear`] | distances between samples, Taylor sums |
+//! | a flight keeps off solids | [`verify_clear`], [`verify_clear_of_surface`] | distances between samples, Taylor sums |
 //! | a flight keeps speed and tilt | [`verify_flight_limits`] | places of each leg |
 //! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, v, tilt, places |
 //! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |
@@ -30,6 +30,7 @@ mod body;
 mod claim;
 mod clear;
 mod clear_ground;
+mod clear_solid;
 mod course;
 mod crest;
 mod demand;
@@ -75,8 +76,9 @@ pub use arm::{
 };
 pub use body::{Body, RotorPlace};
 pub use claim::{Claim, Leg};
-pub use clear::{ClearClaim, ClearSolid, verify_clear};
+pub use clear::{ClearClaim, verify_clear, verify_clear_of_surface};
 pub use clear_ground::{ClearDisc, ClearDrive, ClearGroundClaim, verify_clear_ground};
+pub use clear_solid::ClearSolid;
 pub use drive::{DriveClaim, DrivePiece, DriveReplay, replay_drive, trace_drive};
 pub use drives::{DriveLegClaim, DriveManoeuvres, DriveTolerances, DrivesClaim, verify_drives};
 pub use finding::{Collector, EndError, Finding, Proof, Tolerances, Worst};

@@ -13,12 +13,12 @@ use crate::robot::quadrotor::Quadrotor;
 use crate::trajectory::Profile;
 use crate::verification::{
     self, Body, Claim, ClearClaim, ClearSolid, Collector, EndError, Finding, FlightLimits, Leg, Proof, RotorPlace,
-    Tolerances, verify_clear, verify_flight_limits, verify_flight_rows,
+    Tolerances, verify_clear, verify_clear_of_surface, verify_flight_limits, verify_flight_rows,
 };
 
 use super::FlightSetup;
 use super::legs::limits as limits_of;
-use crate::world::Shape;
+use crate::world::{Shape, Solid};
 
 /// Integrates the witness of `case` through the robot's equations by independent code, to the default tolerances: the
 /// proof, and the end error of the whole flight with rotor lag. `None` for a case that claims no witness.
@@ -45,9 +45,9 @@ fn limits(setup: &FlightSetup) -> FlightLimits {
     FlightLimits { speed: max_speed, tilt }
 }
 
-/// What `legs` come too near to in the world: obstacles that are balls or boxes, and its walls less their margin.
+/// What `legs` come too near to in the world: obstacles, and its walls less their margin.
 ///
-/// Capsules, hulls and meshes are not held. Walls are boxes that stand [`ASIDE`] behind the margin: along them a
+/// Hulls and meshes are held by their triangles. Walls are boxes that stand [`ASIDE`] behind the margin: along them a
 /// distance of 0 would have no direction.
 fn outside(setup: &FlightSetup, legs: &[Leg]) -> Vec<Finding> {
     let near = |solid: ClearSolid, clearance: f64, what: String| {
@@ -56,12 +56,17 @@ fn outside(setup: &FlightSetup, legs: &[Leg]) -> Vec<Finding> {
     };
     let mut findings = Vec::new();
     for (number, obstacle) in setup.world.obstacles().iter().enumerate() {
+        let (clearance, what) = (setup.robot.clearance_radius, format!("world.obstacles[{number}].clearance"));
         let solid = match &obstacle.shape {
             Shape::Sphere { center, radius } => ClearSolid::Ball((*center).into(), *radius),
             Shape::Box { center, half_extents } => ClearSolid::Box((*center).into(), (2.0 * half_extents).into()),
-            Shape::Capsule { .. } | Shape::Hull(_) | Shape::Mesh(_) => continue,
+            Shape::Capsule { a, b, radius } => ClearSolid::Capsule((*a).into(), (*b).into(), *radius),
+            Shape::Hull(solid) | Shape::Mesh(solid) => {
+                findings.extend(verify_clear_of_surface(legs, &triangles_of(solid), clearance - TOUCH, &what));
+                continue;
+            }
         };
-        findings.extend(near(solid, setup.robot.clearance_radius, format!("world.obstacles[{number}].clearance")));
+        findings.extend(near(solid, clearance, what));
     }
     let (size, margin) = (setup.world.size(), setup.world.keep_in_margin());
     let edge = 4.0 * size.max() + 1.0;
@@ -74,6 +79,12 @@ fn outside(setup: &FlightSetup, legs: &[Leg]) -> Vec<Finding> {
         }
     }
     findings
+}
+
+/// Corners of the triangles of a surface, m.
+fn triangles_of(solid: &Solid) -> Vec<[[f64; 3]; 3]> {
+    let vertices = solid.vertices();
+    solid.triangles().iter().map(|corners| corners.map(|at| vertices[at as usize].into())).collect()
 }
 
 /// How far behind the margin the walls stand that are held, m, and what rounding may take, m.
