@@ -2,7 +2,7 @@
 
 use super::BoatSetup;
 use crate::campaign::Case;
-use crate::campaign::kind::{PlannedRows, flat_places};
+use crate::campaign::kind::{PlannedRows, Task, flat_places, verify_task};
 use crate::robot::boat::Boat;
 use crate::trajectory::Profile;
 use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, boat_with_lag, verify_boat, verify_boat_rows};
@@ -57,6 +57,8 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
     let hull = hull_of(&setup.boat, generate.limits.thrust_share.unwrap_or(1.0));
     let tolerances = Tolerances { accuracy: ACCURACY, ..Tolerances::default() };
     let mut proof = verify_boat(&hull, &claim, &tolerances);
+    let task = &setup.scenario.task;
+    verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);
     // What others read of the case are its leg times, and its path lies in the plane.
     for (number, leg) in legs.iter().enumerate() {
         let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);

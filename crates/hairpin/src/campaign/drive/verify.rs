@@ -1,10 +1,12 @@
 //! Hands the written drives to the verification room, as plain numbers.
 
+use std::f64::consts::TAU;
+
 use super::DriveSetup;
 use super::site::{drive_piece, ground_vehicle, wheel_rims};
 use super::solve::allowed;
-use crate::campaign::kind::flat_places;
-use crate::campaign::scenario::DriveEnvironmentSection;
+use crate::campaign::kind::{Task, flat_places, verify_task};
+use crate::campaign::scenario::{DriveEnvironmentSection, DriveTask};
 use crate::campaign::{Case, Environment};
 use crate::feasibility::reach::drive::{Manoeuvres, Pace};
 use crate::trajectory::Drive;
@@ -63,6 +65,7 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     };
     let mut proof = verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances);
     check_heights(setup, case, &mut proof);
+    check_task(setup, case, drive, &mut proof);
     Some(proof)
 }
 
@@ -81,6 +84,19 @@ fn most_speed(setup: &DriveSetup, case: &Case) -> f64 {
 fn manoeuvres(setup: &DriveSetup) -> DriveManoeuvres {
     let Manoeuvres { forward, reverse, turn_in_place } = allowed(setup);
     DriveManoeuvres { forward: forward || !reverse, reverse, turn_in_place }
+}
+
+/// A drive that was searched for begins, ends and is as long as the task has it; with the heading and the curvature at
+/// its start, which are the commands'.
+fn check_task(setup: &DriveSetup, case: &Case, drive: &Drive, proof: &mut Proof) {
+    let DriveTask { start, end_m, length, .. } = &setup.scenario.task;
+    let end = end_m.as_ref().map(|end| &end[..]);
+    verify_task(&Task { start: &[start.x_m, start.y_m], end, length: *length }, case, proof);
+    let Some(first) = drive.legs.first().filter(|_| !case.seen.is_empty()) else { return };
+    let yaw = libm::remainder(first.from.yaw - start.yaw_deg.to_radians(), TAU);
+    let mut found = Collector::about(&mut proof.findings, "task");
+    found.above("start.yaw", yaw.abs(), 1e-9, "rad");
+    found.above("start.curvature", (first.from.curvature - start.curvature_1_m).abs(), 1e-9, "1/m");
 }
 
 /// Heights of waypoints are the ground's, which others read; to a micrometre.

@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::campaign::Case;
-use crate::campaign::kind::PlannedRows;
+use crate::campaign::kind::{PlannedRows, Task, verify_task};
 use crate::campaign::scenario::EnvironmentSection;
 use crate::feasibility::Limits;
 use crate::robot::quadrotor::Quadrotor;
@@ -35,6 +35,8 @@ pub(super) fn verify(setup: &FlightSetup, case: &Case) -> Option<(Proof, Option<
     let mut proof = verification::verify(&body, &claim, &Tolerances::default());
     proof.findings.extend(verify_flight_limits(&body, &legs, &limits(setup)));
     proof.findings.extend(outside(setup, &legs));
+    let task = &setup.scenario.task;
+    verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
 }
 

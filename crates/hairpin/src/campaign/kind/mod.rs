@@ -43,6 +43,7 @@ mod rows;
 mod same;
 mod say;
 mod solid;
+mod task;
 
 pub use act::PassedOver;
 pub(super) use act::{Act, Imitator, LegByLeg, Order};
@@ -66,3 +67,4 @@ pub(super) use same::Same;
 pub(super) use say::{Assumptions, Facts, Motion, RobotWords, Say, reached_within, word};
 pub use say::{FrameWords, Handed};
 pub use solid::{Surface, surface};
+pub(super) use task::{Task, verify_task};

@@ -1,0 +1,60 @@
+//! What a case was asked for, against its waypoints.
+
+use nalgebra::Point3;
+
+use crate::campaign::Case;
+use crate::verification::{Collector, Proof};
+
+/// Where trajectories begin and end, and of how many waypoints they are.
+///
+/// Coordinates in m; the last is left out of what lies in a plane, and an end that is anywhere is `None`.
+pub(in crate::campaign) struct Task<'a> {
+    pub(in crate::campaign) start: &'a [f64],
+    pub(in crate::campaign) end: Option<&'a [f64]>,
+    pub(in crate::campaign) length: u64,
+}
+
+/// Waypoints are written with all their digits, m.
+const SAME: f64 = 1e-9;
+
+/// Adds to `proof` what does not hold of the task of a case that was searched for: `task.start`, `task.end` (distances,
+/// m) and `task.length`. Missions made elsewhere, of whose legs no search saw anything, have tasks of their own.
+pub(in crate::campaign) fn verify_task(task: &Task, case: &Case, proof: &mut Proof) {
+    if case.seen.is_empty() {
+        return;
+    }
+    let apart = |point: Option<&Point3<f64>>, asked: &[f64]| {
+        let square =
+            |point: &Point3<f64>| asked.iter().enumerate().map(|(i, at)| (point[i] - at) * (point[i] - at)).sum();
+        point.map_or(f64::NAN, |point| f64::sqrt(square(point)))
+    };
+    let mut found = Collector::about(&mut proof.findings, "task");
+    found.above("start", apart(case.waypoints.first(), task.start), SAME, "m");
+    if let Some(end) = task.end {
+        found.above("end", apart(case.waypoints.last(), end), SAME, "m");
+    }
+    let (length, asked) = (case.waypoints.len() as f64, task.length as f64);
+    found.unless(length == asked, "length", length, asked, "");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::{CaseNumber, SeenLeg};
+
+    #[test]
+    fn what_was_searched_for_begins_ends_and_is_as_long_as_asked() {
+        let points = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 0.0, 1.0]].map(Point3::from);
+        let mut case = Case::bare(CaseNumber(0), 0, points.to_vec());
+        let fields = |case: &Case, start: &[f64], end: Option<&[f64]>, length: u64| {
+            let mut proof = Proof::default();
+            verify_task(&Task { start, end, length }, case, &mut proof);
+            proof.findings.into_iter().map(|finding| finding.field).collect::<Vec<_>>()
+        };
+        let (start, end): (&[f64], &[f64]) = (&[0.0, 0.0, 1.0], &[2.0, 0.0]);
+        assert!(fields(&case, end, Some(start), 9).is_empty(), "missions made elsewhere are held to no task");
+        case.seen = vec![SeenLeg::of([1.0; 8]); 2];
+        assert!(fields(&case, start, Some(end), 3).is_empty() && fields(&case, start, None, 3).is_empty());
+        assert_eq!(fields(&case, end, Some(&[1.9, 0.0]), 4), ["task.start", "task.end", "task.length"]);
+    }
+}
