@@ -105,7 +105,7 @@ pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{judge, judge_runs};
 pub use kind::{PassedOver, PlanError, PlannedRows, Verified};
 pub use landed::at_full_rate;
-pub use mission::{Mission, mission, mission_again, planned};
+pub use mission::{Mission, mission, mission_again, planned, planned_rows};
 pub use own_controller::AnyController;
 pub use passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
 pub use passes::passes;
