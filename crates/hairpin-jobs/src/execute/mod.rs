@@ -208,7 +208,7 @@ mod tests {
     use super::*;
     use crate::Unwatched;
     use crate::export::{Export, ExportSettings, Format};
-    use crate::testing::generated;
+    use crate::testing::{generated, program};
 
     #[test]
     fn runs_are_flown_once_and_resumed() {
@@ -273,16 +273,9 @@ mod tests {
     fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
         let (place, folder) = generated();
         let file = place.path().join("sim.py");
-        let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
-        let minimal = std::fs::read_to_string(minimal).unwrap();
-        let named = |name: &str| {
-            let text = minimal.replace("name=\"minimal executor\"", name);
-            assert_ne!(text, minimal);
-            std::fs::write(&file, text).unwrap();
-        };
-        let sets = vec![set("execute.command", &format!("python3 '{}'", file.display()))];
+        let named = |says: &str| program(&file, says);
+        let sets = vec![named("name=\"sim 1\", version=1")];
         let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
-        named("name=\"sim 1\", version=1");
         execute(&settings, &Unwatched).unwrap();
         crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
         let resumed = ExecuteSettings { resume: true, ..settings.clone() };
