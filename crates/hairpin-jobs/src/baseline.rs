@@ -40,7 +40,7 @@ pub(crate) fn fly_searched(work: &Work, deadline: Deadline, watch: &dyn Watch) -
         return Ok(());
     }
     let setup = &work.setup;
-    let cases = found_beside(setup, deadline, watch)?;
+    let cases = found_beside(work, deadline, watch)?;
     let measured: Result<Vec<CaseResult>, Problem> =
         fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (SEARCHED, watch))?.into_iter().collect();
     Ok(work.folder.write_searched(&cases, &measured?)?)

@@ -5,32 +5,29 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::{Case, Run, Setup, Status, at_full_rate, execute_run, judge, mission};
-use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all, fly_all_if};
+use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all, fly_all_if};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
 use super::job::Job;
+use crate::program::Executing;
 use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
 use crate::{Deadline, Problem, Seen, Watch};
-
-/// Whether a program is the one that executed what is there.
-type IsSame<'a> = &'a (dyn Fn(&Greeting) -> bool + Sync);
 
 /// Where runs land.
 pub(super) struct Landing<'f, 'k> {
     /// How many there are once all have landed.
     pub(super) of: usize,
     pub(super) writer: RunWriter<'f>,
-    /// What the program that executed those that are there said of itself.
-    pub(super) before: Option<Greeting>,
     /// Whether the motion of one, with what was measured of it, is kept.
     pub(super) keeps: &'k (dyn Fn(&Run) -> bool + Sync),
 }
 
 /// Flies `missing`, the rest of those that land there.
 pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watch) -> Result<(), Problem> {
-    let Landing { of, writer, before, keeps } = there;
+    let Landing { of, writer, keeps } = there;
+    let executing = Executing::within(&work.folder)?;
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, mut run: Run| {
@@ -44,15 +41,17 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
             None => Landed::of(&run, &marked),
             Some(again) => Landed::again(&run, again, &marked),
         };
-        if let Err(error) = packed.map_err(|cause| writer.no_room(cause)).and_then(|packed| writer.land(packed)) {
+        let land = || {
+            executing.keep()?;
+            writer.land(packed.map_err(|cause| writer.no_room(cause))?)
+        };
+        if let Err(error) = land() {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
         steps.step();
     };
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || watch.stopped() || broken();
-    let is_same = |now: &Greeting| before.as_ref().is_none_or(|before| before.is_of_same(now));
-    let mut another = None;
     match command_of(&work.setup)? {
         None => {
             let fly = |job: &Job| {
@@ -66,10 +65,9 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
             let parts = missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number));
             while_wanted(&work.setup, watch, || parts.for_each(|part| part.par_iter().for_each(fly)));
         }
-        Some((command, limits)) => match fly_with(work, missing, (&command, limits, &is_same), &landed, &stop, watch) {
-            Some(greeting) if is_same(&greeting) => work.folder.write_executor(&greeting)?,
-            greeting => another = greeting,
-        },
+        Some((command, limits)) => {
+            fly_with(work, missing, (&command, limits, &executing), &landed, &stop, watch);
+        }
     }
     drop(steps);
     let kept = writer.finish();
@@ -77,27 +75,13 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
         return Err(error.into());
     }
     kept?;
-    if let (Some(before), Some(now)) = (&before, &another) {
-        return Err(another_program(before, now));
+    if let Some(refused) = executing.refusal() {
+        return Err(refused);
     }
     if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
-}
-
-/// All runs of a campaign are one program's, or what is told of it would be told of another.
-fn another_program(before: &Greeting, now: &Greeting) -> Problem {
-    let words = |greeting: &Greeting, version: &str| match &greeting.version {
-        Some(told) => format!("`{}`, {version}`{told}`", greeting.name),
-        None => format!("`{}` without a version", greeting.name),
-    };
-    Problem::input(format!(
-        "--resume: the program says of itself {}; what is kept was executed by {}: go on with that one, or fly all anew \
-         without --resume",
-        words(now, "version "),
-        words(before, "")
-    ))
 }
 
 /// What `run` came to, where it was measured as it landed.
@@ -124,11 +108,11 @@ pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String
 fn fly_with(
     work: &Work,
     missing: &[Job],
-    (command, limits, is_same): (&Command, Limits, IsSame),
+    (command, limits, executing): (&Command, Limits, &Executing),
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
-) -> Option<Greeting> {
+) {
     let processes = processes(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
@@ -152,9 +136,9 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    let greeting = fly_all_if((command, limits), is_same, processes, missing.len(), &make, &counted, stop);
+    let may = |now: &_| executing.may(now);
+    fly_all_if((command, limits), &may, processes, missing.len(), &make, &counted, stop);
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
-    greeting
 }
 
 pub(super) fn as_run(

@@ -151,6 +151,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     work.folder.write_results(&cases, &[])?;
     if !settings.resume {
         work.folder.forget_runs()?;
+        if !sets.is_empty() || work.setup.scenario.executor().command.is_some() {
+            // Of a search that was stopped: who flies now may be another than who flew then.
+            work.folder.write_executed(None)?;
+        }
     }
     if let Some((cases, results)) = searched {
         work.folder.write_searched(&cases, &results)?;
@@ -287,8 +291,7 @@ mod tests {
             std::fs::remove_dir_all(folder.join(part)).unwrap();
         }
         let refused = refusal(&resumed);
-        let told =
-            "--resume: the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, `1`";
+        let told = "the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, version `1`";
         assert!(refused.starts_with(told), "{refused}");
         let kept = CampaignFolder::open(&folder).unwrap();
         assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
