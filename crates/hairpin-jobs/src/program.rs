@@ -54,6 +54,11 @@ impl<'f> Executing<'f> {
         Ok(())
     }
 
+    /// Whether a program was started here.
+    pub(crate) fn is_known(&self) -> bool {
+        self.now.get().is_some()
+    }
+
     /// Why nothing was executed, where the program is another than before.
     pub(crate) fn refusal(&self) -> Option<Problem> {
         let (before, now) = self.before.as_ref().zip(self.now.get())?;
@@ -66,6 +71,17 @@ impl<'f> Executing<'f> {
             ))
         })
     }
+}
+
+/// Why the program that says `now` of itself executes nothing of a search that shards share, for all of whom `first`
+/// executes.
+pub(crate) fn of_another_shard(first: &Greeting, now: &Greeting) -> Problem {
+    Problem::input(format!(
+        "the program says of itself {}; what shards executed of this search is of {}: go on with that one, or hairpin plan … \
+         --force begins anew",
+        words(now),
+        words(first)
+    ))
 }
 
 /// The program that executed what the folders of `parts`, in their order, hold; `None` where none has.

@@ -94,7 +94,7 @@ pub(crate) fn is_exported(path: &Path) -> bool {
     List::has_exported(path)
 }
 use recent::Recent;
-pub use rounds::{ALIVE, Piece};
+pub use rounds::{ALIVE, Piece, executor_of_rounds, first_executor_of_rounds};
 pub use run_writer::{Landed, RunWriter};
 
 const LOCK: &str = ".lock";

@@ -76,7 +76,7 @@ pub(crate) fn in_the_loop<T: Send>(
         return Ok((found, trouble().map(Problem::Executor).or_else(|| rounds?.trouble())));
     };
     let processes = processes(setup);
-    let may = |now: &Greeting| executing.may(now);
+    let may = |now: &Greeting| executing.may(now) && rounds.is_none_or(|rounds| rounds.may(now));
     let program = InLoop::new(&command, limits, processes, stopped).only_if(&may);
     let stop = || stopped() || program.trouble().is_some() || program.is_unwanted() || apart();
     let executor = &Seeing { executor: &program, watch, rounds, stop: &stop };

@@ -87,6 +87,12 @@ pub(crate) fn find_cases_together(
     }
     let (mut tally, executor_trouble) = found?;
     executing.keep()?;
+    if !executing.is_known()
+        && let Some(program) = rounds.map(Rounds::program).transpose()?.flatten()
+    {
+        // Others have executed all of it.
+        work.folder.take_executor(&program)?;
+    }
     work.folder.write_executed(tally.answers.as_deref())?;
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {
