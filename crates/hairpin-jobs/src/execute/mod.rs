@@ -303,6 +303,26 @@ mod tests {
         assert_eq!(CampaignFolder::open(&folder).unwrap().read_executor().unwrap().unwrap().name, "sim 2");
     }
 
+    /// Random cases stand beside a campaign for what the same program makes of them.
+    #[test]
+    fn random_cases_are_flown_by_the_campaigns_program() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let sets = vec![program(&file, "name=\"sim 1\""), ("execute.baseline".to_owned(), "2".to_owned())];
+        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        execute(&settings, &Unwatched).unwrap();
+        let baseline = folder.join("baseline.parquet");
+        let measured = std::fs::read(&baseline).unwrap();
+        std::fs::remove_file(&baseline).unwrap();
+        let resumed = ExecuteSettings { resume: true, ..settings };
+        program(&file, "name=\"sim 2\"");
+        let refused = refusal(&resumed);
+        assert!(refused.contains("`sim 2`") && refused.contains("`sim 1`") && !baseline.exists(), "{refused}");
+        program(&file, "name=\"sim 1\"");
+        execute(&resumed, &Unwatched).unwrap();
+        assert_eq!(std::fs::read(&baseline).unwrap(), measured);
+    }
+
     /// What `export` writes in degrees is the same cases again, with their plans and evidence.
     #[test]
     fn missions_in_degrees_are_the_cases_that_they_were_written_from() {
