@@ -16,6 +16,14 @@ pub(crate) fn words(greeting: &Greeting) -> String {
     }
 }
 
+/// What is to be known of what the program that says `now` of itself flew again, where it is another than flew it
+/// `before`: a sentence.
+pub(crate) fn another_than(before: Option<&Greeting>, now: Option<&Greeting>) -> Option<String> {
+    let (before, now) = before.zip(now)?;
+    let told = || format!("another program flew it now: {}; before it was {}", words(now), words(before));
+    (!before.is_of_same(now)).then(told)
+}
+
 /// Who executes in a campaign's folder, held against who did before.
 pub(crate) struct Executing<'f> {
     folder: &'f CampaignFolder,

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::{Case, Run, Setup, Status, at_full_rate, execute_run, judge, mission};
-use hairpin_formats::executor::{Command, Failed, Failure, Limits, fly_all, fly_all_if};
+use hairpin_formats::executor::{Command, Failed, Failure, Greeting, Limits, fly_all, fly_all_if};
 use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
@@ -183,7 +183,15 @@ pub fn fly_each(setup: &Setup, cases: &[Case], run: usize, watch: &dyn Watch) ->
 /// Flies the run of each case under its setup, in their order, without a folder: all by the program of the first setup,
 /// where it has one.
 pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -> Result<Vec<Run>, Problem> {
-    let Some((setup, case, _)) = jobs.first() else { return Ok(Vec::new()) };
+    fly_told(jobs, watch).map(|(runs, _)| runs)
+}
+
+/// The same, with what the program says of itself, where one was started.
+pub(crate) fn fly_told(
+    jobs: &[(&Setup, &Case, usize)],
+    watch: &dyn Watch,
+) -> Result<(Vec<Run>, Option<Greeting>), Problem> {
+    let Some((setup, case, _)) = jobs.first() else { return Ok((Vec::new(), None)) };
     if let Some(logs) = setup.recordings() {
         return Err(Problem::input(format!(
             "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
@@ -195,7 +203,7 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
     let Some((command, limits)) = command_of(setup)? else {
         let fly = |(setup, case, run): &(&Setup, &Case, usize)| unless_stopped(execute_run(setup, case, *run), watch);
         let flown = while_wanted(setup, watch, || jobs.par_iter().map(fly).collect::<Option<_>>());
-        return flown.ok_or_else(stopped);
+        return Ok((flown.ok_or_else(stopped)?, None));
     };
     let flown = Mutex::new(vec![None; jobs.len()]);
     let make = |index: usize| {
@@ -211,9 +219,9 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
         let (setup, case, run) = jobs[index];
         flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(as_run(setup, case, run, result));
     };
-    fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
+    let greeting = fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    runs.into_iter().collect::<Option<_>>().ok_or_else(stopped)
+    Ok((runs.into_iter().collect::<Option<_>>().ok_or_else(stopped)?, greeting))
 }
 
 /// Does `work`, which simulates runs of `setup`; where code of the user's steers them it is not waited for once it was

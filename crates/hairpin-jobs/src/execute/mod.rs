@@ -31,7 +31,7 @@ use beside::beside;
 pub(crate) use by_case::fly_by_case;
 use fly::first_trouble;
 pub use fly::fly_each;
-pub(crate) use fly::{command_of, fly_one, fly_together};
+pub(crate) use fly::{command_of, fly_one, fly_together, fly_told};
 pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use job::comes_again;
 pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
