@@ -94,12 +94,12 @@ fn seen(setup: &Setup, case: &Case, run: &Run) -> Seen {
     }
 }
 
-/// Why the first run of `cases` that was not flown was not, and by which program.
+/// Which case of `cases` has the first run that was not flown, why it was not, and by which program.
 pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String>, Problem> {
     for case in cases {
         let facts = work.folder.facts_of(case.number)?;
         if let Some((run, message)) = facts.iter().find_map(|facts| Some((facts.run, facts.message.as_ref()?))) {
-            return Ok(Some(work.told()?.by_program(run, message)));
+            return Ok(Some(format!("{}, {}", case.number, work.told()?.by_program(run, message))));
         }
     }
     Ok(None)

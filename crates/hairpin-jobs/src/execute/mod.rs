@@ -77,7 +77,7 @@ pub struct Executed {
     pub cases: usize,
     /// Their runs.
     pub flown: Flown,
-    /// Why the first run that was not flown was not, and by which program.
+    /// The case of the first run that was not flown, why it was not, and by which program.
     pub trouble: Option<String>,
     /// Names of the missions that were made elsewhere.
     pub missions: Vec<String>,
