@@ -14,6 +14,7 @@ use thiserror::Error;
 
 use crate::atomic::{self, WriteError};
 use crate::bounds;
+use crate::executor::Greeting;
 use crate::rapid::{self, Frames};
 
 /// A file that is no repro file.
@@ -55,6 +56,9 @@ pub struct Repro {
     /// What an arm runs, as RAPID.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub program: Option<String>,
+    /// What the program of the user's that flew it says of itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flown_by: Option<Greeting>,
     /// What it was made of, where it is smaller than the case was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shrunk: Option<ShrunkFrom>,
@@ -129,6 +133,7 @@ impl Repro {
             profile: case.profile().map(|profile| profile.legs.iter().map(leg).collect()),
             drive: case.commands().cloned(),
             program: case.program().and_then(|program| rapid::module(program, &[]).ok()),
+            flown_by: None,
             shrunk: None,
             scenario: scenario_of(setup, case, result),
         }

@@ -16,7 +16,7 @@ const WHAT: &str = "baseline";
 const SEARCHED: &str = "searched";
 
 /// Draws and runs as many as `work` asks for, where cases of a search have `flown` to compare with, and they are not
-/// there yet. The file is written once all are measured.
+/// there yet. The file is written once all are measured. They are of the program that flew those.
 pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn Watch) -> Result<(), Problem> {
     let setup = &work.setup;
     let wanted = setup.scenario.baseline_cases();
@@ -29,7 +29,9 @@ pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn
         return Ok(());
     }
     let measured: Result<Vec<CaseResult>, Problem> =
-        fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (WHAT, watch))?.into_iter().collect();
+        fly_by_case((setup, Some(&work.folder)), &cases, &|case, runs| measure(setup, case, runs), (WHAT, watch))?
+            .into_iter()
+            .collect();
     Ok(work.folder.write_baseline(&cases, &measured?)?)
 }
 
@@ -40,9 +42,11 @@ pub(crate) fn fly_searched(work: &Work, deadline: Deadline, watch: &dyn Watch) -
         return Ok(());
     }
     let setup = &work.setup;
-    let cases = found_beside(setup, deadline, watch)?;
+    let cases = found_beside(work, deadline, watch)?;
     let measured: Result<Vec<CaseResult>, Problem> =
-        fly_by_case(setup, &cases, &|case, runs| measure(setup, case, runs), (SEARCHED, watch))?.into_iter().collect();
+        fly_by_case((setup, Some(&work.folder)), &cases, &|case, runs| measure(setup, case, runs), (SEARCHED, watch))?
+            .into_iter()
+            .collect();
     Ok(work.folder.write_searched(&cases, &measured?)?)
 }
 

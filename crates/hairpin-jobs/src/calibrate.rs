@@ -83,7 +83,7 @@ pub fn calibrate(settings: &CalibrateSettings, watch: &dyn Watch) -> Result<Cali
         unflown.note(&setup, case, runs);
         calibrate::outcome(&setup, case, runs)
     };
-    let outcomes = fly_by_case(&setup, &cases, &made, (WHAT, watch))?;
+    let outcomes = fly_by_case((&setup, None), &cases, &made, (WHAT, watch))?;
     let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
     let trouble = unflown.trouble(cases.len())?;
     let proposals = calibrate::propose(&setup, &outcomes, settings.share);

@@ -30,6 +30,7 @@ pub mod names;
 pub mod next;
 pub mod optimum;
 mod problem;
+mod program;
 pub mod replay;
 pub mod report;
 mod rounds;

@@ -9,8 +9,9 @@ use hairpin_formats::repro::Repro;
 use hairpin_formats::scenario;
 
 use crate::consent::{Consent, Wish};
-use crate::execute::fly_one;
+use crate::execute::fly_told;
 use crate::missions::{self, FENCE, MissionsTold, read_told};
+use crate::program::another_than;
 use crate::work::open_to_read;
 use crate::{Problem, Watch};
 
@@ -26,6 +27,8 @@ pub struct ReplayedRepro {
     pub result: CaseResult,
     /// Whether it deviates as it did.
     pub same: bool,
+    /// That another program flew it now than before, by what they say of themselves: a sentence.
+    pub another: Option<String>,
 }
 
 impl ReplayedRepro {
@@ -46,14 +49,19 @@ impl ReplayedRepro {
 /// A file that is none, or asks to run what its user has not allowed; recordings, which cannot be made again; it was
 /// asked to stop.
 pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
-    let repro = Repro::read(file).map_err(Problem::input)?;
+    let mut repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
     let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
     let setup = setup.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
     let folder = campaign_of(file);
     consent.ask(&folder, &Wish::of_execution(&setup))?;
-    let told = CampaignFolder::open(&folder).ok().map(|folder| read_told(&folder)).transpose()?.flatten();
+    let campaign = CampaignFolder::open(&folder).ok();
+    let told = campaign.as_ref().map(read_told).transpose()?.flatten();
+    if let Some(campaign) = campaign.filter(|_| repro.flown_by.is_none()) {
+        // As of earlier versions, whose repro files do not say it.
+        repro.flown_by = campaign.read_executor()?;
+    }
     fly(repro, (&setup, &case), told.as_ref(), watch)
 }
 
@@ -75,7 +83,7 @@ pub fn replay_case(
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case);
     let result = result.filter(|result| result.measures.is_some());
     let result = result.ok_or_else(|| refuse("nothing was measured of it: hairpin execute, then hairpin judge"))?;
-    let repro = Repro::of(&work.setup, found, &result);
+    let repro = Repro { flown_by: work.folder.read_executor()?, ..Repro::of(&work.setup, found, &result) };
     let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| refuse(&why))?;
     consent.ask(folder, &Wish::of_execution(&setup))?;
@@ -89,9 +97,10 @@ fn fly(
     told: Option<&MissionsTold>,
     watch: &dyn Watch,
 ) -> Result<ReplayedRepro, Problem> {
-    let flown = fly_one(setup, case, repro.run, watch)?;
-    let mut result = campaign::judge(setup, case, std::slice::from_ref(&flown))?;
-    missions::hold(told, (setup, case), || Ok(vec![flown]), &mut result)?;
+    let (flown, now) = fly_told(&[(setup, case, repro.run)], watch)?;
+    let another = another_than(repro.flown_by.as_ref(), now.as_ref());
+    let mut result = campaign::judge(setup, case, &flown)?;
+    missions::hold(told, (setup, case), || Ok(flown), &mut result)?;
     if told.is_none()
         && result.status == Status::Pass
         && repro.expected.violations.iter().any(|one| one.starts_with(FENCE))
@@ -101,7 +110,7 @@ fn fly(
     }
     let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
     let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
-    Ok(ReplayedRepro { repro, result, same })
+    Ok(ReplayedRepro { repro, result, same, another })
 }
 
 /// The campaign's folder that a repro file lies in, or else the file's own.
@@ -119,9 +128,10 @@ mod tests {
 
     use super::*;
     use crate::Unwatched;
+    use crate::execute::{ExecuteSettings, execute};
     use crate::judge::judge;
     use crate::shrink::{ShrinkSettings, Shrinking};
-    use crate::testing::{executed, violating};
+    use crate::testing::{executed, generated, program, violating};
 
     #[test]
     fn a_violation_comes_again() {
@@ -160,6 +170,29 @@ mod tests {
         assert!(untold.result.status == Status::Inconclusive && !untold.reproduces(), "{untold:?}");
         let refused = Shrinking::open(ShrinkSettings { folder, ..ShrinkSettings::default() }).map(|_| ());
         assert!(refused.unwrap_err().to_string().contains("its mission's fence"));
+    }
+
+    /// What another program makes of it says nothing of the one that violated.
+    #[test]
+    fn a_violation_that_another_program_flies_is_told_as_such() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let sets = vec![program(&file, "name=\"sim 1\", version=1")];
+        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        execute(&settings, &Unwatched).unwrap();
+        judge(&folder, &[("spec.total_time.max_s".to_owned(), "0.01".to_owned())]).unwrap();
+        let allowing = Consent { allow_commands: true, ..Consent::default() };
+        let moved = place.path().join("moved.json");
+        std::fs::copy(folder.join("repro/0000.json"), &moved).unwrap();
+        let told = || {
+            let by_file = |file: &Path| replay(file, Simd::Widest, &allowing, &Unwatched).unwrap();
+            let by_case = replay_case((&folder, CaseNumber(0)), Simd::Widest, &allowing, &Unwatched).unwrap();
+            [by_file(&folder.join("repro/0000.json")), by_file(&moved), by_case].map(|again| again.another)
+        };
+        assert_eq!(told(), [None, None, None]);
+        program(&file, "name=\"sim 2\"");
+        let expected = "another program flew it now: `sim 2` without a version; before it was `sim 1`, version `1`";
+        assert_eq!(told(), [(); 3].map(|()| Some(expected.to_owned())));
     }
 
     #[test]

@@ -92,8 +92,9 @@ pub(crate) fn written_by(setup: &Setup, campaign: &Path) -> Vec<PathBuf> {
         let result = results.iter().find(violates)?;
         let case = cases.iter().find(|case| case.number == result.case)?;
         let has_its_name = file.file_stem().is_some_and(|name| name.to_str() == Some(&saved.case));
-        // What was seen is nothing that it is run with.
-        let written = Repro { expected: saved.expected.clone(), ..Repro::of(setup, case, result) };
+        // What was seen, and who flew, is nothing that it is run with.
+        let (expected, flown_by) = (saved.expected.clone(), saved.flown_by.clone());
+        let written = Repro { expected, flown_by, ..Repro::of(setup, case, result) };
         let as_read: Repro = serde_json::from_value(serde_json::to_value(written).ok()?).ok()?;
         (has_its_name && as_read == saved).then_some(())
     };

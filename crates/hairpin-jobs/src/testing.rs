@@ -48,6 +48,16 @@ deviation = { max_m = 0.5, from = "nearest-leg" }
     file.to_string_lossy().into_owned()
 }
 
+/// The smallest program that executes, in `file`; `says` is what it says of itself in place of its name.
+pub(crate) fn program(file: &Path, says: &str) -> Set {
+    let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
+    let minimal = std::fs::read_to_string(minimal).unwrap();
+    let text = minimal.replace("name=\"minimal executor\"", says);
+    assert_ne!(text, minimal);
+    std::fs::write(file, text).unwrap();
+    ("execute.command".to_owned(), format!("\"python3 '{}'\"", file.display()))
+}
+
 /// They are found.
 pub(crate) fn generated() -> (TempDir, PathBuf) {
     let place = tempfile::tempdir().unwrap();

@@ -46,6 +46,10 @@ pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
         Status::ExecutorFailed => (EXECUTOR_FAILED, format!("EXECUTOR FAILED 1/1: {message}")),
         Status::Inconclusive => (INCONCLUSIVE, format!("INCONCLUSIVE 1/1: {message}")),
     };
+    let sentence = match &replayed.another {
+        Some(another) => format!("{sentence}; {another}"),
+        None => sentence,
+    };
     if asked.json {
         let object = json!({
             "verdict": sentence, "exit_code": code, "case": repro.case, "run": repro.run,

@@ -34,7 +34,7 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
         (&Value::from(4), &Value::from(1)),
         "{object}"
     );
-    let trouble = "EXECUTOR FAILED 1/4 (minimal executor, run 0: ended without \"end\" (exit status: 1); the last line of its stderr: rotor 3 is gone)";
+    let trouble = "EXECUTOR FAILED 1/4 (0001, minimal executor, run 0: ended without \"end\" (exit status: 1); the last line of its stderr: rotor 3 is gone)";
     assert!(object["verdict"].as_str().unwrap().starts_with(trouble), "{object}");
     assert!(
         fs::read_to_string(folder.path().join("bad/junit.xml"))
@@ -61,7 +61,7 @@ fn an_executor_of_the_users_flies_and_fails_alone() {
     // What ran before was another one.
     let object = json(folder.path(), &["execute", "bad", "--executor", "no-such-program"]);
     assert!(!folder.path().join("bad/executor.json").exists());
-    let trouble = "EXECUTOR FAILED 4/4 runs (`no-such-program`, run 0: cannot start `no-such-program`: ";
+    let trouble = "EXECUTOR FAILED 4/4 runs (0000, `no-such-program`, run 0: cannot start `no-such-program`: ";
     assert!(object["verdict"].as_str().unwrap().starts_with(trouble), "{object}");
     assert_eq!(
         (&object["exit_code"], &object["counts"]["executor_failed"]),

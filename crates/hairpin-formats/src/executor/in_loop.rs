@@ -27,6 +27,7 @@ const KEPT_POSES: usize = 2_000_000;
 pub struct InLoop<'a> {
     pool: Pool,
     cancelled: &'a (dyn Fn() -> bool + Sync),
+    is_wanted: &'a (dyn Fn(&Greeting) -> bool + Sync),
     limits: Limits,
     kept: Mutex<Kept>,
     told: Mutex<Told>,
@@ -60,7 +61,18 @@ impl<'a> InLoop<'a> {
     /// At most `processes` of `command`, none of them started yet; `cancelled` is asked often.
     pub fn new(command: &Command, limits: Limits, processes: usize, cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
         let pool = Pool::new(command, limits, processes, true);
-        Self { pool, cancelled, limits, kept: Mutex::default(), told: Mutex::default() }
+        Self { pool, cancelled, is_wanted: &|_| true, limits, kept: Mutex::default(), told: Mutex::default() }
+    }
+
+    /// The same where the program `is_wanted` by what it says of itself; one that is not flies nothing.
+    #[must_use]
+    pub fn only_if(self, is_wanted: &'a (dyn Fn(&Greeting) -> bool + Sync)) -> Self {
+        Self { is_wanted, ..self }
+    }
+
+    /// Whether it is started, and is not to fly by what it says of itself.
+    pub fn is_unwanted(&self) -> bool {
+        self.greeting().is_some_and(|greeting| !(self.is_wanted)(greeting))
     }
 
     /// Why the search is to end, in a sentence: three executions in a row had no answer, or the program does not start.
@@ -96,7 +108,7 @@ impl<'a> InLoop<'a> {
 
     /// The flight of `mission` by a process that is free.
     fn ask(&self, mission: &Mission) -> Result<Flight, Failed> {
-        let stop = || (self.cancelled)() || self.told().trouble.is_some();
+        let stop = || (self.cancelled)() || self.told().trouble.is_some() || self.is_unwanted();
         let cancelled = || Failed { failure: Failure::Cancelled, stderr: String::new() };
         let mut pilot = self.pool.check_out(&stop).ok_or_else(cancelled)?;
         // What a process says after its answer is the judgement's business, which flies again.

@@ -148,6 +148,9 @@ impl CampaignFolder {
             let _ = fs::remove_dir(place);
         }
         self.close_tables();
+        if names.contains(&EXECUTOR) {
+            self.set_executor_before(None);
+        }
         Ok(())
     }
 }

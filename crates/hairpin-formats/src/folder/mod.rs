@@ -64,12 +64,13 @@ mod tables;
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 use hairpin::campaign::{Curve, Tally};
 
 use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_TEXT_BYTES};
+use crate::executor::Greeting;
 use crate::parquet::part::Part;
 use crate::parquet::runs::Facts;
 use crate::rapid::Frames;
@@ -93,7 +94,7 @@ pub(crate) fn is_exported(path: &Path) -> bool {
     List::has_exported(path)
 }
 use recent::Recent;
-pub use rounds::{ALIVE, Piece};
+pub use rounds::{ALIVE, Piece, executor_of_rounds, first_executor_of_rounds};
 pub use run_writer::{Landed, RunWriter};
 
 const LOCK: &str = ".lock";
@@ -118,6 +119,8 @@ pub struct CampaignFolder {
     frames: OnceLock<Frames>,
     open_parts: Recent<Part>,
     facts: Recent<Facts>,
+    /// Who executed what stood there before this process, once somebody asked.
+    executor_before: Mutex<Option<Option<Greeting>>>,
 }
 
 impl CampaignFolder {
@@ -175,7 +178,8 @@ impl CampaignFolder {
 
     fn at(path: &Path, lock: Option<File>) -> Self {
         let (open_parts, facts) = (Recent::default(), Recent::default());
-        Self { path: path.into(), _lock: lock, frames: OnceLock::new(), open_parts, facts }
+        let executor_before = Mutex::default();
+        Self { path: path.into(), _lock: lock, frames: OnceLock::new(), open_parts, facts, executor_before }
     }
 
     /// Opens a campaign to read it and to add to it.

@@ -5,6 +5,7 @@
 //! | `ROUND-PIECE.tsv` | what a piece of a round came to: rows of `executed.tsv`, and the SHA-256 of them in the end |
 //! | `ROUND-PIECE.N.lease` | who executes it; the N-th who took it over from one that died |
 //! | `alive-…` | that one of them is alive: what it says changes every second |
+//! | `executor.json` | what the program of the user's that executes says of itself: the one that was started first |
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -14,8 +15,9 @@ use hairpin::campaign::answers::Answer;
 
 use super::executed::{read, row};
 use super::names::stands_for;
-use super::{CampaignFolder, FolderError, entries};
+use super::{CampaignFolder, EXECUTOR, FolderError, entries};
 use crate::atomic::{self, WriteError, is_temporary};
+use crate::executor::Greeting;
 use crate::{bounds, checksum};
 
 /// A piece has less than that, bytes.
@@ -74,6 +76,32 @@ impl Piece {
     }
 }
 
+/// The program that executes for all shards whose rounds are kept in `folder`, as it calls itself; `None` where none has
+/// been started.
+///
+/// # Errors
+/// What is kept of it is broken.
+pub fn executor_of_rounds(folder: &Path) -> Result<Option<Greeting>, FolderError> {
+    let path = folder.join(EXECUTOR);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let refuse = |cause| FolderError::Unreadable { path: path.clone(), cause };
+    let text = bounds::read_json_text(&path).map_err(refuse)?;
+    serde_json::from_str(&text).map(Some).map_err(|broken| refuse(broken.into()))
+}
+
+/// The same with the program that says `now` of itself where no other was before it.
+///
+/// # Errors
+/// Likewise; it cannot be written.
+pub fn first_executor_of_rounds(folder: &Path, now: &Greeting) -> Result<Greeting, FolderError> {
+    let path = folder.join(EXECUTOR);
+    let text = atomic::json_text(now).map_err(|error| WriteError { path: path.clone(), cause: error.into() })?;
+    atomic::write_new(&path, text.as_bytes())?;
+    Ok(executor_of_rounds(folder)?.unwrap_or_else(|| now.clone()))
+}
+
 /// The rows of a piece whose seal is theirs.
 fn unsealed(text: &str) -> Option<&str> {
     let text = text.strip_suffix('\n')?;
@@ -112,7 +140,7 @@ fn is_rounds(path: &Path) -> bool {
 fn is_ours(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let of_pieces = ["PART-RUN.tsv", "PART-RUN.RUN.lease"].iter().any(|pattern| stands_for(pattern, &name));
-    of_pieces || name.starts_with(ALIVE) || is_temporary(&name)
+    of_pieces || name == EXECUTOR || name.starts_with(ALIVE) || is_temporary(&name)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::plan::{Plan, Unit};
 use super::shard::Shard;
 use crate::consent::{Consent, Wish};
 use crate::generate::{keep_cases, unfinished};
+use crate::program;
 use crate::stress::{Stressed, stress_begun};
 use crate::work::{Work, open_to_change};
 use crate::{Budget, Problem, Watch};
@@ -39,12 +40,13 @@ pub struct Merged {
 /// number a part could not know), judges, and writes the report.
 ///
 /// # Errors
-/// A part is missing or broken; otherwise as of [`run_shard`](super::run_shard).
+/// A part is missing or broken, or another program's than the others; otherwise as of [`run_shard`](super::run_shard).
 pub fn merge(folder: &Path, consent: &Consent, watch: &dyn Watch) -> Result<Merged, Problem> {
     let work = open_to_change(folder, &[], &["execute"], Some(Simd::Widest))?.answered_by(&consent.code)?;
     let plan = Plan::read(&work)?;
     consent.ask(folder, &Wish::of_campaign(&work.setup))?;
     let parts = whole_parts(&work, &plan)?;
+    let program = program::of_all(&parts)?;
     work.folder.forget_cases()?;
     work.folder.forget_parts_cut_short()?;
     work.folder.forget_rounds()?;
@@ -53,6 +55,9 @@ pub fn merge(folder: &Path, consent: &Consent, watch: &dyn Watch) -> Result<Merg
         Unit::Graph | Unit::Case => take_over(&work, &parts)?,
     };
     drop(parts);
+    if let Some(program) = program {
+        work.folder.take_executor(&program)?;
+    }
     let stressed = stress_begun(work, &Budget::endless(), Vec::new(), watch)?;
     let content_hash = stressed.work.folder.content_hash()?;
     Ok(Merged { stressed, parts: plan.parts, taken, content_hash })
@@ -106,9 +111,6 @@ fn take_runs(
     for (part, own) in parts.iter().zip(each) {
         part.hand_runs(own, &writer, &work.folder)?;
         reruns.extend(part.reruns_of(own)?);
-        if let Some(greeting) = part.read_executor()? {
-            work.folder.write_executor(&greeting)?;
-        }
     }
     writer.finish()?;
     if reruns.is_empty() { Ok(()) } else { Ok(work.folder.land_reruns(reruns)?) }

@@ -100,7 +100,7 @@ pub(super) fn make(
                     let Known { cases, tally } = known_in(before)?;
                     Known { cases: renumbered(&own.setup.scenario, cases, first), tally }
                 }
-                None => find_units(&own.setup, (plan.units_of(part), first), watch)?,
+                None => find_units(&own, (plan.units_of(part), first), watch)?,
             };
             keep_cases(&own, &known.cases, 0, &known.tally)?;
             // What a controller reads is what is flown: numbers as they are written.

@@ -7,7 +7,7 @@ use super::*;
 use crate::consent::Consent;
 use crate::sets::Set;
 use crate::stress::stress;
-use crate::testing::small_hull;
+use crate::testing::{program, small_hull};
 use crate::work::CampaignSettings;
 use crate::{Problem, Unwatched};
 
@@ -79,6 +79,29 @@ fn graphs_without_a_case_move_the_numbers_of_those_behind() {
     let (hash, second) = merged(&folder).unwrap();
     assert_eq!(hash, one);
     assert_eq!((first, second), (2, 3));
+}
+
+/// Shards whose programs are two, or two versions of one, make no campaign, and their parts stay as they are.
+#[test]
+fn parts_that_two_programs_flew_are_not_put_together() {
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("sim.py");
+    let allowing = Consent { allow_commands: true, ..Consent::default() };
+    let fly = |folder: &Path, shard: &str, says: &str| {
+        program(&file, says);
+        run_shard(folder, shard.parse().unwrap(), &allowing, &Unwatched).unwrap();
+    };
+    let command = program(&file, "name=\"sim\", version=1");
+    let more = [command, set("generate.search.cases", "2"), set("execute.repeat", "1"), set("execute.baseline", "0")];
+    let (folder, _) = planned(&settings("demo-quadrotor", &place.path().join("two"), &more), None);
+    fly(&folder, "1/2", "name=\"sim\", version=1");
+    fly(&folder, "2/2", "name=\"sim\", version=2");
+    let refused = merge(&folder, &allowing, &Unwatched).map(drop).unwrap_err().to_string();
+    let told = ["part-00000 was executed by `sim`, version `1`", "part-00001 by `sim`, version `2`"];
+    assert!(told.iter().all(|words| refused.contains(words)), "{refused}");
+    fs::remove_dir_all(folder.join("parts/part-00001")).unwrap();
+    fly(&folder, "2/2", "name=\"sim\", version=1");
+    assert_eq!(merge(&folder, &allowing, &Unwatched).unwrap().taken, 2);
 }
 
 /// A search that learns, by each method that does, small.

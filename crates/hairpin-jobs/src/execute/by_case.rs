@@ -1,22 +1,25 @@
-//! Cases flown for what comes of them, without a folder: each is handed on when its last run has landed, so that no
-//! more flights are in memory than are in the air.
+//! Cases flown for what comes of them, of which no run is kept: each is handed on when its last run has landed, so that
+//! no more flights are in memory than are in the air.
 
 use std::sync::{Mutex, PoisonError};
 
 use hairpin::campaign::{Case, Run, Setup, execute_run, mission};
-use hairpin_formats::executor::{Failed, fly_all};
+use hairpin_formats::executor::{Failed, fly_all_if};
+use hairpin_formats::folder::CampaignFolder;
 use rayon::prelude::*;
 
 use super::fly::{as_run, command_of, processes, unless_stopped, while_wanted};
+use crate::program::Executing;
 use crate::watch::Steps;
 use crate::{Problem, Watch};
 
-/// What `made` makes of all runs of each of `cases`, in their order; `what` is told of as it goes on.
+/// What `made` makes of all runs of each of `cases`, in their order; `what` is told of as it goes on. Where they stand
+/// beside what was executed in a folder, `beside`, it is by the same program.
 ///
 /// # Errors
-/// A command that is none; it was asked to stop.
+/// A command that is none; a program that is another than the folder's; it was asked to stop.
 pub(crate) fn fly_by_case<T: Send>(
-    setup: &Setup,
+    (setup, beside): (&Setup, Option<&CampaignFolder>),
     cases: &[Case],
     made: &(dyn Fn(&Case, &[Run]) -> T + Sync),
     (what, watch): (&'static str, &dyn Watch),
@@ -57,7 +60,13 @@ pub(crate) fn fly_by_case<T: Send>(
         }
         steps.step();
     };
-    fly_all(&command, limits, processes(setup), cases.len() * repeat, &make, &land, &|| watch.stopped());
+    let executing = beside.map(Executing::within).transpose()?;
+    let may = |now: &_| executing.as_ref().is_none_or(|executing| executing.may(now));
+    let (processes, count) = (processes(setup), cases.len() * repeat);
+    fly_all_if((&command, limits), &may, processes, count, &make, &land, &|| watch.stopped());
+    if let Some(refused) = executing.as_ref().and_then(Executing::refusal) {
+        return Err(refused);
+    }
     let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     all.into_iter().collect::<Option<_>>().ok_or_else(stopped)
 }

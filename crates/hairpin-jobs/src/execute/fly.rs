@@ -10,27 +10,24 @@ use hairpin_formats::folder::{Landed, RunWriter};
 use rayon::prelude::*;
 
 use super::job::Job;
+use crate::program::Executing;
 use crate::watch::{Steps, not_waiting_for};
 use crate::work::Work;
 use crate::{Deadline, Problem, Seen, Watch};
-
-/// Whether a program is the one that executed what is there.
-type IsSame<'a> = &'a (dyn Fn(&Greeting) -> bool + Sync);
 
 /// Where runs land.
 pub(super) struct Landing<'f, 'k> {
     /// How many there are once all have landed.
     pub(super) of: usize,
     pub(super) writer: RunWriter<'f>,
-    /// What the program that executed those that are there said of itself.
-    pub(super) before: Option<Greeting>,
     /// Whether the motion of one, with what was measured of it, is kept.
     pub(super) keeps: &'k (dyn Fn(&Run) -> bool + Sync),
 }
 
 /// Flies `missing`, the rest of those that land there.
 pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watch) -> Result<(), Problem> {
-    let Landing { of, writer, before, keeps } = there;
+    let Landing { of, writer, keeps } = there;
+    let executing = Executing::within(&work.folder)?;
     let steps = Steps::new(watch, "execute", of - missing.len(), of);
     let trouble = Mutex::new(None);
     let landed = |job: &Job, mut run: Run| {
@@ -44,15 +41,17 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
             None => Landed::of(&run, &marked),
             Some(again) => Landed::again(&run, again, &marked),
         };
-        if let Err(error) = packed.map_err(|cause| writer.no_room(cause)).and_then(|packed| writer.land(packed)) {
+        let land = || {
+            executing.keep()?;
+            writer.land(packed.map_err(|cause| writer.no_room(cause))?)
+        };
+        if let Err(error) = land() {
             trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get_or_insert(error);
         }
         steps.step();
     };
     let broken = || trouble.lock().is_ok_and(|trouble| trouble.is_some());
     let stop = || watch.stopped() || broken();
-    let is_same = |now: &Greeting| before.as_ref().is_none_or(|before| before.is_of_same(now));
-    let mut another = None;
     match command_of(&work.setup)? {
         None => {
             let fly = |job: &Job| {
@@ -73,10 +72,9 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
                 rayon::broadcast(|_| fly_on());
             });
         }
-        Some((command, limits)) => match fly_with(work, missing, (&command, limits, &is_same), &landed, &stop, watch) {
-            Some(greeting) if is_same(&greeting) => work.folder.write_executor(&greeting)?,
-            greeting => another = greeting,
-        },
+        Some((command, limits)) => {
+            fly_with(work, missing, (&command, limits, &executing), &landed, &stop, watch);
+        }
     }
     drop(steps);
     let kept = writer.finish();
@@ -84,27 +82,13 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
         return Err(error.into());
     }
     kept?;
-    if let (Some(before), Some(now)) = (&before, &another) {
-        return Err(another_program(before, now));
+    if let Some(refused) = executing.refusal() {
+        return Err(refused);
     }
     if watch.stopped() {
         return Err(Problem::Interrupted("stopped; the runs that have landed are kept, --resume goes on".into()));
     }
     Ok(())
-}
-
-/// All runs of a campaign are one program's, or what is told of it would be told of another.
-fn another_program(before: &Greeting, now: &Greeting) -> Problem {
-    let words = |greeting: &Greeting, version: &str| match &greeting.version {
-        Some(told) => format!("`{}`, {version}`{told}`", greeting.name),
-        None => format!("`{}` without a version", greeting.name),
-    };
-    Problem::input(format!(
-        "--resume: the program says of itself {}; what is kept was executed by {}: go on with that one, or fly all anew \
-         without --resume",
-        words(now, "version "),
-        words(before, "")
-    ))
 }
 
 /// What `run` came to, where it was measured as it landed.
@@ -117,12 +101,12 @@ fn seen(setup: &Setup, case: &Case, run: &Run) -> Seen {
     }
 }
 
-/// Why the first run of `cases` that was not flown was not, and by which program.
+/// Which case of `cases` has the first run that was not flown, why it was not, and by which program.
 pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String>, Problem> {
     for case in cases {
         let facts = work.folder.facts_of(case.number)?;
         if let Some((run, message)) = facts.iter().find_map(|facts| Some((facts.run, facts.message.as_ref()?))) {
-            return Ok(Some(work.told()?.by_program(run, message)));
+            return Ok(Some(format!("{}, {}", case.number, work.told()?.by_program(run, message))));
         }
     }
     Ok(None)
@@ -131,11 +115,11 @@ pub(super) fn first_trouble(work: &Work, cases: &[Case]) -> Result<Option<String
 fn fly_with(
     work: &Work,
     missing: &[Job],
-    (command, limits, is_same): (&Command, Limits, IsSame),
+    (command, limits, executing): (&Command, Limits, &Executing),
     landed: &(dyn Fn(&Job, Run) + Sync),
     stop: &(dyn Fn() -> bool + Sync),
     watch: &dyn Watch,
-) -> Option<Greeting> {
+) {
     let processes = processes(&work.setup);
     let make = |index: usize| missing[index].mission(&work.setup).map_err(|mistake| mistake.to_string());
     let land = |index: usize, result: Result<_, Failed>| {
@@ -159,9 +143,9 @@ fn fly_with(
         flown.fetch_add(1, Ordering::Relaxed);
         land(index, result);
     };
-    let greeting = fly_all_if((command, limits), is_same, processes, missing.len(), &make, &counted, stop);
+    let may = |now: &_| executing.may(now);
+    fly_all_if((command, limits), &may, processes, missing.len(), &make, &counted, stop);
     tracing::info!("{} missions by {processes} processes", flown.into_inner());
-    greeting
 }
 
 pub(super) fn as_run(
@@ -206,7 +190,15 @@ pub fn fly_each(setup: &Setup, cases: &[Case], run: usize, watch: &dyn Watch) ->
 /// Flies the run of each case under its setup, in their order, without a folder: all by the program of the first setup,
 /// where it has one.
 pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -> Result<Vec<Run>, Problem> {
-    let Some((setup, case, _)) = jobs.first() else { return Ok(Vec::new()) };
+    fly_told(jobs, watch).map(|(runs, _)| runs)
+}
+
+/// The same, with what the program says of itself, where one was started.
+pub(crate) fn fly_told(
+    jobs: &[(&Setup, &Case, usize)],
+    watch: &dyn Watch,
+) -> Result<(Vec<Run>, Option<Greeting>), Problem> {
+    let Some((setup, case, _)) = jobs.first() else { return Ok((Vec::new(), None)) };
     if let Some(logs) = setup.recordings() {
         return Err(Problem::input(format!(
             "`execute.logs` = \"{logs}\": case {} was recorded, and a recording cannot be made again here; leave the key out for the virtual \
@@ -218,7 +210,7 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
     let Some((command, limits)) = command_of(setup)? else {
         let fly = |(setup, case, run): &(&Setup, &Case, usize)| unless_stopped(execute_run(setup, case, *run), watch);
         let flown = while_wanted(setup, watch, || jobs.par_iter().map(fly).collect::<Option<_>>());
-        return flown.ok_or_else(stopped);
+        return Ok((flown.ok_or_else(stopped)?, None));
     };
     let flown = Mutex::new(vec![None; jobs.len()]);
     let make = |index: usize| {
@@ -234,9 +226,9 @@ pub(crate) fn fly_together(jobs: &[(&Setup, &Case, usize)], watch: &dyn Watch) -
         let (setup, case, run) = jobs[index];
         flown.lock().unwrap_or_else(std::sync::PoisonError::into_inner)[index] = Some(as_run(setup, case, run, result));
     };
-    fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
+    let greeting = fly_all(&command, limits, processes(setup), jobs.len(), &make, &landed, &|| watch.stopped());
     let runs = flown.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    runs.into_iter().collect::<Option<_>>().ok_or_else(stopped)
+    Ok((runs.into_iter().collect::<Option<_>>().ok_or_else(stopped)?, greeting))
 }
 
 /// Does `work`, which simulates runs of `setup`; where code of the user's steers them it is not waited for once it was

@@ -4,10 +4,11 @@ use hairpin::campaign::answers::Answer;
 use hairpin::campaign::{Batch, Case, Executor, Mission, OwnSimulator, Setup};
 use hairpin::judgement::Measures;
 use hairpin::trajectory::Flight;
-use hairpin_formats::executor::{InLoop, Told};
+use hairpin_formats::executor::{Greeting, InLoop, Told};
 use rayon::ThreadPoolBuilder;
 
 use super::fly::{command_of, processes, while_wanted};
+use crate::program::Executing;
 use crate::rounds::Rounds;
 use crate::{Problem, Seen, Watch};
 
@@ -47,18 +48,19 @@ impl Executor for Seeing<'_> {
     }
 }
 
-/// Does `search` with whoever executes for `setup`, its `rounds` shared where others search with this machine. Gives
-/// what it found, and what went wrong with the user's program, or between the machines, where that was the end of it.
+/// Does `search` with whoever executes for `setup` and may by `executing`, its `rounds` shared where others search with
+/// this machine. Gives what it found, and what went wrong with the user's program, or between the machines, where that
+/// was the end of it.
 ///
 /// Where there are more processes than threads, the search has a thread for each: who waits for a program does nothing
 /// else.
 ///
 /// # Errors
-/// A command that is none; no threads.
+/// A command that is none; a program that is another than before; no threads.
 pub(crate) fn in_the_loop<T: Send>(
     setup: &Setup,
     stopped: &(dyn Fn() -> bool + Sync),
-    rounds: Option<&Rounds>,
+    (rounds, executing): (Option<&Rounds>, &Executing),
     watch: &dyn Watch,
     search: impl FnOnce(Asked) -> T + Send,
 ) -> Result<(T, Option<Problem>), Problem> {
@@ -74,8 +76,9 @@ pub(crate) fn in_the_loop<T: Send>(
         return Ok((found, trouble().map(Problem::Executor).or_else(|| rounds?.trouble())));
     };
     let processes = processes(setup);
-    let program = InLoop::new(&command, limits, processes, stopped);
-    let stop = || stopped() || program.trouble().is_some() || apart();
+    let may = |now: &Greeting| executing.may(now) && rounds.is_none_or(|rounds| rounds.may(now));
+    let program = InLoop::new(&command, limits, processes, stopped).only_if(&may);
+    let stop = || stopped() || program.trouble().is_some() || program.is_unwanted() || apart();
     let executor = &Seeing { executor: &program, watch, rounds, stop: &stop };
     let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
@@ -84,6 +87,9 @@ pub(crate) fn in_the_loop<T: Send>(
     } else {
         search(asked)
     };
+    if let Some(refused) = executing.refusal() {
+        return Err(refused);
+    }
     let told = program.all();
     tell(&told, watch);
     // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says

@@ -4,7 +4,6 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::scenario::Record;
 use hairpin::campaign::{self, Case, Run, Status};
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
-use hairpin_formats::executor::Greeting;
 use rayon::prelude::*;
 
 use super::fly::{Landing, fly};
@@ -38,7 +37,6 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
         .filter(|(case, run)| !work.folder.has_valid_run(case.number, *run))
         .map(|(case, run)| Job { case, run, again: None })
         .collect();
-    let before = work.folder.read_executor()?;
     let writer = work.folder.write_runs(repeat, all().map(|(case, run)| (case.number, run)));
     let (record, again) = (work.setup.scenario.executor().record, comes_again(&work.setup));
     let keeps = |run: &Run| match record {
@@ -47,14 +45,12 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
         Record::Worst => run.full_rate.is_none() || !again,
         Record::None => is_indispensable(run, again),
     };
-    // Programs whose name is another one each time are asked once.
-    let of_reruns = before.clone().filter(|_| missing.is_empty());
-    fly(work, &missing, Landing { of: all().count(), writer, before, keeps: &keeps }, watch)?;
+    fly(work, &missing, Landing { of: all().count(), writer, keeps: &keeps }, watch)?;
     if record == Record::Worst {
         keep_worst(work, cases, watch)?;
     }
     let flown = count(work, cases, repeat)?;
-    fly_again(work, cases, of_reruns, watch)?;
+    fly_again(work, cases, watch)?;
     if flown.attitude_unknown > 0 {
         watch.warn(&format!(
             "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
@@ -70,7 +66,7 @@ fn is_indispensable(run: &Run, again: bool) -> bool {
 }
 
 /// Flies the worst run of every violating case as often again as the scenario asks for, where it was not yet.
-fn fly_again(work: &Work, cases: &[Case], before: Option<Greeting>, watch: &dyn Watch) -> Result<(), Problem> {
+fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Problem> {
     let wanted = work.setup.scenario.executor().reruns as usize;
     if wanted == 0 {
         return Ok(());
@@ -97,7 +93,7 @@ fn fly_again(work: &Work, cases: &[Case], before: Option<Greeting>, watch: &dyn 
     }
     let (all_stay, again) = (work.setup.scenario.executor().record.is_all(), comes_again(&work.setup));
     let keeps = |run: &Run| all_stay || is_indispensable(run, again);
-    fly(work, &jobs, Landing { of: jobs.len(), writer, before, keeps: &keeps }, watch)
+    fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &keeps }, watch)
 }
 
 /// How often the violation of `case` was run again.

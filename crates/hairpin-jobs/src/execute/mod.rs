@@ -31,7 +31,7 @@ use beside::beside;
 pub(crate) use by_case::fly_by_case;
 use fly::first_trouble;
 pub use fly::fly_each;
-pub(crate) use fly::{command_of, fly_one, fly_together};
+pub(crate) use fly::{command_of, fly_one, fly_together, fly_told};
 pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use job::comes_again;
 pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
@@ -77,7 +77,7 @@ pub struct Executed {
     pub cases: usize,
     /// Their runs.
     pub flown: Flown,
-    /// Why the first run that was not flown was not, and by which program.
+    /// The case of the first run that was not flown, why it was not, and by which program.
     pub trouble: Option<String>,
     /// Names of the missions that were made elsewhere.
     pub missions: Vec<String>,
@@ -151,6 +151,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     work.folder.write_results(&cases, &[])?;
     if !settings.resume {
         work.folder.forget_runs()?;
+        if !sets.is_empty() || work.setup.scenario.executor().command.is_some() {
+            // Of a search that was stopped: who flies now may be another than who flew then.
+            work.folder.write_executed(None)?;
+        }
     }
     if let Some((cases, results)) = searched {
         work.folder.write_searched(&cases, &results)?;
@@ -208,7 +212,7 @@ mod tests {
     use super::*;
     use crate::Unwatched;
     use crate::export::{Export, ExportSettings, Format};
-    use crate::testing::generated;
+    use crate::testing::{generated, program};
 
     #[test]
     fn runs_are_flown_once_and_resumed() {
@@ -273,16 +277,9 @@ mod tests {
     fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
         let (place, folder) = generated();
         let file = place.path().join("sim.py");
-        let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
-        let minimal = std::fs::read_to_string(minimal).unwrap();
-        let named = |name: &str| {
-            let text = minimal.replace("name=\"minimal executor\"", name);
-            assert_ne!(text, minimal);
-            std::fs::write(&file, text).unwrap();
-        };
-        let sets = vec![set("execute.command", &format!("python3 '{}'", file.display()))];
+        let named = |says: &str| program(&file, says);
+        let sets = vec![named("name=\"sim 1\", version=1")];
         let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
-        named("name=\"sim 1\", version=1");
         execute(&settings, &Unwatched).unwrap();
         crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
         let resumed = ExecuteSettings { resume: true, ..settings.clone() };
@@ -294,8 +291,7 @@ mod tests {
             std::fs::remove_dir_all(folder.join(part)).unwrap();
         }
         let refused = refusal(&resumed);
-        let told =
-            "--resume: the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, `1`";
+        let told = "the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, version `1`";
         assert!(refused.starts_with(told), "{refused}");
         let kept = CampaignFolder::open(&folder).unwrap();
         assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
@@ -305,6 +301,26 @@ mod tests {
         named("name=\"sim 2\"");
         execute(&settings, &Unwatched).unwrap();
         assert_eq!(CampaignFolder::open(&folder).unwrap().read_executor().unwrap().unwrap().name, "sim 2");
+    }
+
+    /// Random cases stand beside a campaign for what the same program makes of them.
+    #[test]
+    fn random_cases_are_flown_by_the_campaigns_program() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let sets = vec![program(&file, "name=\"sim 1\""), ("execute.baseline".to_owned(), "2".to_owned())];
+        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        execute(&settings, &Unwatched).unwrap();
+        let baseline = folder.join("baseline.parquet");
+        let measured = std::fs::read(&baseline).unwrap();
+        std::fs::remove_file(&baseline).unwrap();
+        let resumed = ExecuteSettings { resume: true, ..settings };
+        program(&file, "name=\"sim 2\"");
+        let refused = refusal(&resumed);
+        assert!(refused.contains("`sim 2`") && refused.contains("`sim 1`") && !baseline.exists(), "{refused}");
+        program(&file, "name=\"sim 1\"");
+        execute(&resumed, &Unwatched).unwrap();
+        assert_eq!(std::fs::read(&baseline).unwrap(), measured);
     }
 
     /// What `export` writes in degrees is the same cases again, with their plans and evidence.

@@ -42,7 +42,7 @@ pub(super) fn keep_worst(work: &Work, cases: &[Case], watch: &dyn Watch) -> Resu
     if !jobs.is_empty() {
         let repeat = work.setup.scenario.executor().repeat as usize;
         let writer = work.folder.write_runs(repeat, jobs.iter().map(|job| (job.case.number, job.run)));
-        fly(work, &jobs, Landing { of: jobs.len(), writer, before: None, keeps: &|_| true }, watch)?;
+        fly(work, &jobs, Landing { of: jobs.len(), writer, keeps: &|_| true }, watch)?;
     }
     let stays = |facts: &RunFacts| chosen.contains(&(facts.case, facts.run)) || !(facts.is_measured() || again);
     Ok(work.folder.keep_motion_of(&stays)?)

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
+use crate::program::Executing;
 use crate::rounds::Rounds;
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
@@ -64,6 +65,7 @@ pub(crate) fn find_cases_together(
     watch: &dyn Watch,
 ) -> Result<(Vec<Case>, Tally), Problem> {
     let known = known(work)?;
+    let executing = Executing::within(&work.folder)?;
     if known.tally.complete {
         tracing::info!("generation is complete already");
         return Ok((known.cases, known.tally));
@@ -71,10 +73,12 @@ pub(crate) fn find_cases_together(
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
-    let found = searched(&work.setup, (&Scope::From(&known), rounds), (deadline, watch), &mut |new, tally| {
+    let how = (&Scope::From(&known), rounds, &executing);
+    let found = searched(&work.setup, how, (deadline, watch), &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
-            trouble = keep_cases(work, &cases, saved, &unfinished(tally)).err();
+            let kept = executing.keep().map_err(Problem::from);
+            trouble = kept.and_then(|()| keep_cases(work, &cases, saved, &unfinished(tally))).err();
             (saved, at) = (cases.len(), Instant::now());
         }
     });
@@ -82,6 +86,13 @@ pub(crate) fn find_cases_together(
         return Err(problem);
     }
     let (mut tally, executor_trouble) = found?;
+    executing.keep()?;
+    if !executing.is_known()
+        && let Some(program) = rounds.map(Rounds::program).transpose()?.flatten()
+    {
+        // Others have executed all of it.
+        work.folder.take_executor(&program)?;
+    }
     work.folder.write_executed(tally.answers.as_deref())?;
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {
@@ -133,7 +144,7 @@ enum Scope<'a> {
 /// user's program where that was the end of it.
 fn searched(
     setup: &Setup,
-    (scope, rounds): (&Scope, Option<&Rounds>),
+    (scope, rounds, executing): (&Scope, Option<&Rounds>, &Executing),
     (deadline, watch): (Deadline, &dyn Watch),
     found: &mut (dyn FnMut(&[Case], &Tally) + Send),
 ) -> Result<(Tally, Option<Problem>), Problem> {
@@ -154,7 +165,7 @@ fn searched(
             Scope::Units(units, first) => generate_units(setup, (units.clone(), *first), executor, &stop, found),
         })
     };
-    let answer = in_the_loop(setup, &stopped, rounds, watch, search)?;
+    let answer = in_the_loop(setup, &stopped, (rounds, executing), watch, search)?;
     watch.finished(WHAT);
     match code_trouble() {
         Some((key, trouble)) => Err(Problem::input(format!("`{key}` = {trouble}"))),
@@ -162,30 +173,28 @@ fn searched(
     }
 }
 
-/// What the search of `setup` finds, without a folder.
+/// What the search of the campaign in `work` finds, of which nothing is kept in its folder but who executed.
 ///
 /// # Errors
-/// Code or a program of the user's that failed; it was asked to stop.
-pub(crate) fn found_beside(setup: &Setup, deadline: Deadline, watch: &dyn Watch) -> Result<Vec<Case>, Problem> {
-    Ok(found_in(setup, &Scope::From(&Known::default()), deadline, watch)?.cases)
+/// Code or a program of the user's that failed, or is another than before; it was asked to stop.
+pub(crate) fn found_beside(work: &Work, deadline: Deadline, watch: &dyn Watch) -> Result<Vec<Case>, Problem> {
+    Ok(found_in(work, &Scope::From(&Known::default()), deadline, watch)?.cases)
 }
 
 /// What these units of work come to, the cases numbered from `first` on.
 ///
 /// # Errors
 /// As of [`found_beside`].
-pub(crate) fn find_units(
-    setup: &Setup,
-    (units, first): (Range<u64>, u64),
-    watch: &dyn Watch,
-) -> Result<Known, Problem> {
-    found_in(setup, &Scope::Units(units, first), Deadline::after(None), watch)
+pub(crate) fn find_units(work: &Work, (units, first): (Range<u64>, u64), watch: &dyn Watch) -> Result<Known, Problem> {
+    found_in(work, &Scope::Units(units, first), Deadline::after(None), watch)
 }
 
-fn found_in(setup: &Setup, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -> Result<Known, Problem> {
+fn found_in(work: &Work, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -> Result<Known, Problem> {
     let mut cases = Vec::new();
-    let (tally, trouble) =
-        searched(setup, (scope, None), (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    let executing = Executing::within(&work.folder)?;
+    let how = (scope, None, &executing);
+    let (tally, trouble) = searched(&work.setup, how, (deadline, watch), &mut |new, _| cases.extend_from_slice(new))?;
+    executing.keep()?;
     match trouble {
         Some(problem) => Err(problem),
         None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),
@@ -202,11 +211,12 @@ pub(crate) fn unfinished(tally: &Tally) -> Tally {
 /// are of a checkpoint that a kill cut short; they are found again.
 fn known(work: &Work) -> Result<Known, Problem> {
     let folder = &work.folder;
+    let answers = folder.read_executed()?.map(Box::new);
     if !folder.has_cases() || !folder.has_tally() {
-        return Ok(Known::default());
+        // As where it was gone on with, and could not be.
+        return Ok(Known { cases: Vec::new(), tally: Tally { answers, ..Tally::default() } });
     }
-    let answers = folder.read_executed()?;
-    let tally = Tally { answers: answers.map(Box::new), cut: None, ..folder.read_tally()? };
+    let tally = Tally { answers, cut: None, ..folder.read_tally()? };
     let known = Known { cases: folder.read_cases()?, tally };
     let begun = !known.cases.is_empty();
     if !known.tally.missions.is_empty() {
@@ -218,7 +228,11 @@ fn known(work: &Work) -> Result<Known, Problem> {
     let known = hairpin::campaign::generate::counted(&work.setup.scenario, known);
     if begun && known.cases.is_empty() {
         // Flights of what is generated anew would be taken for those of what is.
+        let program = folder.executor_before()?.filter(|_| known.tally.answers.is_some());
         folder.forget_cases()?;
+        if let Some(program) = program {
+            folder.take_executor(&program)?;
+        }
         folder.write_executed(known.tally.answers.as_deref())?;
     }
     Ok(known)

@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::small;
+use crate::testing::{program, small};
 use crate::{Problem, Unwatched};
 
 #[test]
@@ -55,6 +55,35 @@ fn a_search_that_was_stopped_executes_nothing_twice_and_finds_what_it_would_have
     // Runs that choose which draws the search is executed under are no plans of it: there are none here.
     assert!(count(&begun) >= 25 && count(&begun) + count(&rest) == count(&whole), "{begun:?} {rest:?} {whole:?}");
     assert!(!executed.exists(), "nothing is left to go on with");
+}
+
+/// What a search has executed until it was stopped is one program's: another goes on with none of it, and loses none.
+#[test]
+fn a_search_is_gone_on_with_by_the_program_that_began_it() {
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("sim.py");
+    let mut settings = small(&place);
+    settings.scenario = crate::testing::small_hull(place.path());
+    let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 30 }";
+    settings.sets.push(("generate.search".into(), search.into()));
+    settings.sets.push(program(&file, "name=\"sim 1\""));
+    let begun = Counting { most: Some(15), ..Counting::default() };
+    let stopped = generate(&settings, &begun).map(|found| found.cases.len());
+    assert!(matches!(stopped, Err(Problem::Interrupted(_))), "{stopped:?}");
+    let executed = || std::fs::read(place.path().join("out/executed.tsv")).unwrap();
+    let before = executed();
+    let resumed = CampaignSettings { if_there: crate::work::IfThere::Resume, ..settings };
+    program(&file, "name=\"sim 2\"");
+    for _ in 0..2 {
+        let refused = generate(&resumed, &Unwatched).map(drop).unwrap_err().to_string();
+        let told = "`sim 2` without a version; what is kept was executed by `sim 1` without a version";
+        assert!(refused.contains(told), "{refused}");
+        assert_eq!(executed(), before);
+    }
+    program(&file, "name=\"sim 1\"");
+    let found = generate(&resumed, &Unwatched).unwrap();
+    assert_eq!((found.cases.len(), found.tally.complete), (2, true));
+    assert_eq!(found.work.folder.read_executor().unwrap().unwrap().name, "sim 1");
 }
 
 /// A broken simulator is told as one also where the time is over before all of the search was in vain.

@@ -306,12 +306,14 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
             _ => {}
         }
     }
+    let flown_by = work.folder.read_executor()?;
     let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
     // Of every other `hairpin replay OUT --case` makes one.
     for result in violating.take(WORST) {
         atomic::make_folder(&folder)?;
         if let Some(case) = cases.iter().find(|case| case.number == result.case) {
-            Repro::of(&work.setup, case, result).write(&folder.join(format!("{}.json", case.id())))?;
+            let repro = Repro { flown_by: flown_by.clone(), ..Repro::of(&work.setup, case, result) };
+            repro.write(&folder.join(format!("{}.json", case.id())))?;
         }
     }
     Ok(())

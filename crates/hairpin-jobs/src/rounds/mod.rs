@@ -20,20 +20,22 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::Batch;
 use hairpin::campaign::answers::Answer;
 use hairpin_formats::atomic;
-use hairpin_formats::folder::Piece;
+use hairpin_formats::executor::Greeting;
+use hairpin_formats::folder::{Piece, executor_of_rounds, first_executor_of_rounds};
 use rayon::prelude::*;
 
 use self::beat::Beat;
 use self::lease::Leases;
 use self::pieces::Pieces;
 use crate::Problem;
+use crate::program::of_another_shard;
 
 /// What is waited before others are asked again, as a share of what was waited already; at least and at most.
 const PATIENCE: f64 = 0.05;
@@ -63,6 +65,8 @@ pub(crate) struct Rounds {
     /// Rounds before the next one.
     number: AtomicUsize,
     any_flown: AtomicBool,
+    /// Whether the program that was started here may execute, once there is one.
+    may: OnceLock<bool>,
     trouble: Mutex<Option<Problem>>,
     /// Until it is dropped.
     _alive: Beat,
@@ -81,12 +85,44 @@ impl Rounds {
         let begins = (place % of.max(1)) as f64 / of.max(1) as f64;
         let most = if dear { usize::MAX } else { pieces::OF_CHEAP };
         let (number, any_flown, trouble) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
-        Ok(Self { folder: folder.into(), most, begins, leases, number, any_flown, trouble, _alive: alive })
+        Ok(Self {
+            folder: folder.into(),
+            most,
+            begins,
+            leases,
+            number,
+            any_flown,
+            may: OnceLock::new(),
+            trouble,
+            _alive: alive,
+        })
     }
 
     /// Whether an execution, anyone's, has come to something.
     pub(crate) fn any_flown(&self) -> bool {
         self.any_flown.load(Ordering::Relaxed)
+    }
+
+    /// Whether the program that says `now` of itself may execute: it does for the other shards as well, or none was
+    /// started before it.
+    pub(crate) fn may(&self, now: &Greeting) -> bool {
+        *self.may.get_or_init(|| {
+            let refused = match first_executor_of_rounds(&self.folder, now) {
+                Ok(first) if first.is_of_same(now) => return true,
+                Ok(first) => of_another_shard(&first, now),
+                Err(error) => error.into(),
+            };
+            self.trouble.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(refused);
+            false
+        })
+    }
+
+    /// The program that executes for all shards; `None` where none has been started.
+    ///
+    /// # Errors
+    /// What is kept of it is broken.
+    pub(crate) fn program(&self) -> Result<Option<Greeting>, Problem> {
+        Ok(executor_of_rounds(&self.folder)?)
     }
 
     /// Whether nothing more can be shared.

@@ -3,6 +3,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hairpin::campaign::answers::{Answer, Executed};
+use hairpin_formats::executor::Greeting;
 
 use super::*;
 
@@ -85,4 +86,18 @@ fn what_another_search_has_executed_is_not_taken() {
     search(&rounds, &AtomicUsize::new(0), usize::MAX);
     let problem = rounds.trouble().unwrap().to_string();
     assert!(problem.contains("00000-0.tsv") && problem.contains("answer alike"), "{problem}");
+}
+
+/// The program that was started first executes for all, whoever comes later and with whatever.
+#[test]
+fn shards_with_another_program_execute_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let named = |name: &str| Greeting { name: name.into(), ..Greeting::default() };
+    let [first, other, third] = [0, 1, 2].map(|number| joined(place.path(), number));
+    assert_eq!(first.program().unwrap(), None);
+    assert!(first.may(&named("sim 1")) && !other.may(&named("sim 2")) && third.may(&named("sim 1")));
+    let refused = other.trouble().unwrap().to_string();
+    assert!(refused.contains("`sim 2` without a version") && refused.contains("is of `sim 1`"), "{refused}");
+    assert!(!first.is_in_trouble() && !third.is_in_trouble());
+    assert_eq!(third.program().unwrap(), Some(named("sim 1")));
 }

@@ -82,6 +82,7 @@ impl Shrinking {
     fn repro(&self, shrunk: &Shrunk, runs: u64) -> Result<Repro, Problem> {
         let setup = self.work.setup.changed(shrunk.scenario.clone())?;
         Ok(Repro {
+            flown_by: self.work.folder.read_executor()?,
             shrunk: Some(ShrunkFrom {
                 waypoints: self.case.waypoints.len(),
                 violations: self.result.violations.iter().map(violation).collect(),

@@ -58,7 +58,7 @@ pub fn verdict_on(
     let confidence = setup.scenario.confidence_of_intervals();
     let draws = |result: &CaseResult| result.draws.map(|draws| [draws.violated, draws.of]);
     let reruns = rerun_words(results, confidence, setup.repeats());
-    let trouble = results.iter().find_map(|result| result.message.clone()).unwrap_or_default();
+    let trouble = trouble(results).unwrap_or_default();
     let undone = |what: Undone| results.iter().filter(|result| result.is_undone(what)).count();
     let undone = [undone(Undone::NotExecuted), undone(Undone::NotJudged)];
     let cut = cut_words(tally, undone, results.len());
@@ -99,6 +99,13 @@ pub fn verdict_on(
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
+}
+
+/// `0001, my simulator, run 0: ended without "end"`: the first case that the executor failed to fly, and why.
+fn trouble(results: &[CaseResult]) -> Option<String> {
+    let failed = results.iter().find(|result| result.status == Status::ExecutorFailed)?;
+    let why = failed.message.as_ref().map_or(String::new(), |message| format!(", {message}"));
+    Some(format!("{}{why}", failed.case))
 }
 
 /// `2 of 20 legs within corner_m of their waypoints: no deviation judged there`, of the worst runs.
@@ -272,6 +279,18 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_failed_executor_is_told_with_its_case() {
+        let told = |case, status, message: &str| CaseResult {
+            message: Some(message.to_owned()),
+            ..CaseResult::bare(CaseNumber(case), status)
+        };
+        let open = told(0, Status::Inconclusive, "run 0: a gap");
+        assert_eq!(trouble(std::slice::from_ref(&open)), None);
+        let failed = told(1, Status::ExecutorFailed, "sim, run 0: no licence");
+        assert_eq!(trouble(&[open, failed]).as_deref(), Some("0001, sim, run 0: no licence"));
+    }
 
     #[test]
     fn reruns_without_chance_are_told_to_be_the_same_run() {

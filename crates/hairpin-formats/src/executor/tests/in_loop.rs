@@ -50,6 +50,19 @@ fn what_fails_costs_itself_alone() {
     assert!(told.last.is_some());
 }
 
+/// What a program says of itself may be why it is to fly nothing: it is asked for nothing then.
+#[test]
+fn who_is_not_wanted_flies_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = folder.path().join("asked");
+    let command = python(folder.path(), &format!("open({:?}, 'a').write('x')\ngood(m)", asked.to_str().unwrap()));
+    let program = InLoop::new(&command, limits(), 1, &|| false).only_if(&|_| false);
+    assert!(!program.is_unwanted(), "nobody knows yet");
+    assert!((0..3).all(|number| ask(&program, number).is_err()));
+    let told = program.all();
+    assert!(program.is_unwanted() && (told.flown, told.failed, told.trouble) == (0, 0, None) && !asked.exists());
+}
+
 /// The flight of the mission that is asked for counts, whatever follows it: the judgement flies again.
 #[test]
 fn who_answers_twice_is_never_taken_for_the_next() {
