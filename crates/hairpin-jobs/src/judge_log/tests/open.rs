@@ -72,6 +72,9 @@ fn bounds_that_the_log_itself_exceeds_bound_nothing() {
     let flown = judged.found.unwrap().flown.unwrap();
     assert_eq!((flown.swiftness.speed, flown.swiftness.acceleration), (None, None));
     assert!(flown.most_between.is_infinite() && flown.exceeded.is_some_and(|exceeded| exceeded.what == "speed"));
+    // What is told is the largest that the samples have, not where it is first in doubt.
+    let sentence = said(&with_velocities(8.0, 0.3)).0;
+    assert!(sentence.contains(": 0.30 m ≤ 0.50 m in samples at 800 Hz, but nothing bounds"), "{sentence}");
     // So do positions alone, whatever velocities stand beside them.
     for v_m_s in [None, Some(Vector3::x())] {
         let mut log = with_velocities(4.0, 0.0);

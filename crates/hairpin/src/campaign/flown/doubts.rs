@@ -94,25 +94,25 @@ impl Looked<'_> {
         (margin > 0.0 && least.is_finite()).then_some(least)
     }
 
+    /// Whether the limit of deviation is open. What is told is the largest of the samples, wherever it is in doubt.
     pub(super) fn deviation(&self, measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
         let limit = limit?;
         let samples = || {
             let all = self.close.iter().enumerate();
             all.filter_map(|(i, close)| Some((i, close.off?.norm(), self.sigma(i, close.off))))
         };
-        let value = |at: f64, value: f64, leg: usize| violation("deviation", value, limit, at, leg);
-        let worst = value(measures.t_worst, measures.max_deviation, measures.leg_worst);
-        let times = self.log.flight.track.times();
+        let worst = violation("deviation", measures.max_deviation, limit, measures.t_worst, measures.leg_worst);
         if measures.max_deviation > limit {
+            let times = self.log.flight.track.times();
             let certain = samples().any(|(_, off, sigma)| off - sigma.along > limit);
             let (_, _, sigma) = samples().find(|(i, ..)| times[*i] == measures.t_worst)?;
             return (!certain).then_some(Doubt { value: worst, why: sigma.doubt() });
         }
         let unsure = samples().filter(|(_, off, sigma)| off + sigma.along > limit);
-        if let Some((i, off, sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
-            return Some(Doubt { value: value(times[i], off, self.close[i].leg), why: sigma.doubt() });
+        if let Some((.., sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
+            return Some(Doubt { value: worst, why: sigma.doubt() });
         }
-        let (mut most, mut rate, mut at) = (0.0, Some(0.0_f64), 0);
+        let (mut most, mut rate) = (0.0_f64, Some(0.0_f64));
         for (i, close) in self.close.iter().enumerate() {
             let Some(bound) = close.until_next.map(|bound| bound + self.sigma(i, close.off).along) else { continue };
             if bound > limit {
@@ -120,14 +120,10 @@ impl Looked<'_> {
                     [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
                 let own = self.rate(limit - ends[0].max(ends[1]));
                 rate = rate.and_then(|rate| Some(rate.max(own?)));
-                if bound > most {
-                    (most, at) = (bound, i);
-                }
+                most = most.max(bound);
             }
         }
-        let off = self.close[at].off.map_or(0.0, |off| off.norm());
-        let value = value(times[at], off, self.close[at].leg);
-        (most > limit).then_some(Doubt { value, why: Why::Between { most, rate_hz: rate } })
+        (most > limit).then_some(Doubt { value: worst, why: Why::Between { most, rate_hz: rate } })
     }
 
     pub(super) fn overshoot(&self, measures: &Measures, limit: Option<f64>, settings: &Settings) -> Option<Doubt> {
