@@ -200,6 +200,24 @@ fn continuous_joints_need_no_limit() {
     assert!(told(&bare).contains("joint `joint_6` turns and needs <limit>"), "{}", told(&bare));
 }
 
+/// A controller that obeys softer limits stops short of what is planned.
+#[test]
+fn narrower_bounds_of_a_safety_controller_are_told() {
+    let of = |soft: &str| {
+        let text =
+            irb120().replacen("<axis xyz='0 0 1'/>", &format!("<axis xyz='0 0 1'/><safety_controller {soft}/>"), 1);
+        let (_, built) = arm(&text);
+        built.estimated.into_iter().filter(|said| said.contains("safety_controller")).collect::<Vec<_>>()
+    };
+    let words = "bounds of joint `joint_1`: its <safety_controller> has -114.6° to 165.0°, narrower than they are, and is not kept";
+    assert_eq!(of("soft_lower_limit='-2' k_velocity='10'"), [words]);
+    assert_eq!(of("soft_lower_limit='-2.88' soft_upper_limit='2.88' k_velocity='10'").len(), 0);
+    assert_eq!(of("k_velocity='10'").len(), 0);
+    let broken =
+        irb120().replacen("<axis xyz='0 0 1'/>", "<axis xyz='0 0 1'/><safety_controller soft_upper_limit='2m'/>", 1);
+    assert!(told(&broken).ends_with("soft_upper_limit = \"2m\" is no number"), "{}", told(&broken));
+}
+
 #[test]
 fn shapes_are_read_as_they_are_described() {
     let shapes = "<collision><origin xyz='0 0 0.5'/><geometry><box size='0.2 0.4 0.6'/></geometry></collision>\
