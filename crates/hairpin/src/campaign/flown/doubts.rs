@@ -3,8 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use super::log::Log;
+use crate::campaign::Setup;
+use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
-    self, Clearance, Close, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between, where_least,
+    self, Clearance, Close, Limits, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between,
+    where_least,
 };
 
 /// Why a limit that the samples keep, or break, is open.
@@ -35,6 +38,8 @@ pub enum Why {
     },
     /// When it ended is not seen: so many seconds of it were left out.
     End(f64),
+    /// No robot of its file is as fast: neither its times nor its places decide anything.
+    Impossible(Impossible),
 }
 
 /// A limit that is open; of leaving the world the distance to its edge, `edge`, which must not fall below 0.
@@ -191,6 +196,19 @@ impl Looked<'_> {
         }
         (most > f64::NEG_INFINITY).then(|| Doubt { value, why: Why::Between { most: turn(most), rate_hz: rate } })
     }
+}
+
+/// That a log is faster than any robot of the scenario's file, whatever is limited.
+pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Measures) -> Option<Doubt> {
+    let track = &log.flight.track;
+    let found = impossible(setup, track, &log.breaks, &|i| log.radius(i)).filter(|_| limits.are_given())?;
+    let mut past = 0.0;
+    let leg = measures.legs.iter().position(|leg| {
+        past += leg.time;
+        past > found.from_s - track.times()[0]
+    });
+    let value = violation("speed", found.speed(), found.bound_m_s, found.from_s, leg.unwrap_or(0));
+    Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
 }
 
 impl Sigma {
