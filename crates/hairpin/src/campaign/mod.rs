@@ -54,6 +54,7 @@ pub mod goals;
 mod graph;
 mod gravity;
 mod hidden;
+pub mod impossible;
 pub mod influence;
 pub mod judge;
 pub mod kind;
