@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 
 use super::drive::DrivePiece;
 use super::ground_claim::{GroundClaim, GroundVehicle};
-use super::stand::{Rest, turn};
+use super::posed::turn;
+use super::stand::Rest;
 use super::twist::Place;
 
 /// A piece as it acts.
@@ -55,7 +56,8 @@ impl Course<'_> {
         }
     }
 
-    /// d(x, y, ψ) at heading `yaw` and `rest` per metre commanded, or per radian of a turn in place.
+    /// Rates at `rest` per metre commanded, or per radian of a turn in place: ahead and to the left in the level frame
+    /// of the heading, and of the heading.
     ///
     /// ```text
     /// a = cos θ vx + sin θ sin φ vy,   b = cos φ vy
@@ -64,13 +66,11 @@ impl Course<'_> {
     ///
     /// Roll φ, pitch θ, yaw ψ (z-y-x Euler angles); vx, vy, ωz are those in the body. What keeps the wheels on the
     /// ground (vz, ωx, ωy) is left out of it: that is the difference from `carry`.
-    pub(super) fn rates(&self, rest: &Rest, yaw: f64, s: f64) -> [f64; 3] {
-        let (place, (sp, cp)) = (Place::new(rest.roll(), rest.pitch()), libm::sincos(yaw));
+    pub(super) fn rates(&self, rest: &Rest, s: f64) -> [f64; 3] {
+        let place = Place::new(rest.roll(), rest.pitch());
         let [vx, vy, turn] = self.body_rates(&place, s);
-        let ((sf, cf), (st, ct)) = (place.roll, place.pitch);
-        let ahead = ct * vx + st * sf * vy;
-        let left = cf * vy;
-        [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * turn]
+        let [(sf, cf), (st, ct)] = [place.roll, place.pitch];
+        [ct * vx + st * sf * vy, cf * vy, cf / ct * turn]
     }
 
     /// vx, vy (per metre commanded) and ωz (1/m) in the body, or 0, 0, 1 of a turn in place.
@@ -84,7 +84,7 @@ impl Course<'_> {
     /// linear in the sine: uphill it goes slower, downhill faster, across it slides down.
     pub(super) fn body_rates(&self, place: &Place, s: f64) -> [f64; 3] {
         let DrivePiece::Arc { direction, .. } = self.piece else { return [0.0, 0.0, 1.0] };
-        let ((sf, _), (st, ct), (sd, cd)) = (place.roll, place.pitch, libm::sincos(self.crab(s)));
+        let ([(sf, _), (st, ct)], (sd, cd)) = ([place.roll, place.pitch], libm::sincos(self.crab(s)));
         // Unit vectors of the way and across it in the body, and how steeply each rises.
         let (along, across) = ([cd, sd], [-sd, cd]);
         let rises = [-st, ct * sf];

@@ -6,7 +6,7 @@
 //! about 2000 places a drive, and the body is looked at once where that is largest.
 
 use super::stand::{Rest, joint, tilt};
-use super::stride::{FELL, Look, Pose, Stretch, Taken, foreseen};
+use super::stride::{Look, Pose, Stretch, Taken, foreseen};
 use crate::world::terrain::Terrain;
 
 /// What is seen of a drive along its way.
@@ -56,7 +56,7 @@ impl<T: Terrain> Stretch<'_, T> {
         if self.course.vehicle.haul.is_none() {
             return;
         }
-        let torque = |look: &Look| self.course.torque([look.rest.roll(), look.rest.pitch()], look.s);
+        let torque = |rest: &Rest, s: f64| self.course.torque([rest.roll(), rest.pitch()], s);
         let count = (SHOWN * self.length.abs() / self.extent).ceil().max(16.0) as usize;
         let (mut most, mut highest, mut after) = (0.0, 0.0, 0);
         for i in 0..count {
@@ -64,7 +64,7 @@ impl<T: Terrain> Stretch<'_, T> {
             while after + 2 < looks.len() && looks[after + 1].s.abs() < s.abs() {
                 after += 1;
             }
-            let between = torque(&Look { s, rest: foreseen(&looks[after..(after + 2).min(looks.len())], s) });
+            let between = torque(&foreseen(&looks[after..(after + 2).min(looks.len())], s), s);
             if between > most {
                 (most, highest) = (between, s);
             }
@@ -75,7 +75,8 @@ impl<T: Terrain> Stretch<'_, T> {
             Some([before, behind]) => self.look_between([before, behind], highest, taken),
             _ => None,
         };
-        followed.max_torque = looks.iter().chain(&there).map(torque).fold(followed.max_torque, f64::max);
+        let torques = looks.iter().chain(&there).map(|look| torque(&look.rest, look.s));
+        followed.max_torque = torques.fold(followed.max_torque, f64::max);
     }
 
     /// Looks from one to the other in small steps, each from the last, the first from `rest` if there is one; the last
@@ -88,10 +89,10 @@ impl<T: Terrain> Stretch<'_, T> {
         followed: &mut Followed,
     ) -> Option<Rest> {
         let count = (SHOWN * (to.s - from.s).abs() / self.extent).ceil().max(1.0) as usize;
-        let mut rest = rest.unwrap_or_else(|| from.rest.clone());
+        let mut rest = rest.unwrap_or_else(|| from.rest);
         for i in 1..=count {
             let s = from.s + (to.s - from.s) * i as f64 / count as f64;
-            rest.carry_on(&self.course.vehicle.stand, self.terrain, pose_at(taken, s)?).ok()?;
+            rest.carry_on(&self.course.vehicle.stand, self.terrain, pose_at(taken, s)?, &self.asked()).ok()?;
             followed.max_tilt = followed.max_tilt.max(tilt(&rest));
             followed.max_joint = followed.max_joint.max(joint(&rest));
         }
@@ -101,8 +102,8 @@ impl<T: Terrain> Stretch<'_, T> {
     /// Looks that are out of turn may find no rest, or one that the way does not lead to: they count for nothing.
     fn look_between(&self, [from, to]: [&Look; 2], s: f64, taken: &[Taken]) -> Option<Look> {
         let around = [from.clone(), to.clone()];
-        let look = self.look(&around, s, pose_at(taken, s)?).ok()?;
-        (foreseen(&around, s).apart(&look.rest) <= FELL).then_some(look)
+        let (look, fell) = self.look(&around, s, pose_at(taken, s)?).ok()?;
+        (!fell).then_some(look)
     }
 }
 

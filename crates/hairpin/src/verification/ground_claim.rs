@@ -1,6 +1,6 @@
 //! What a drive on the ground claims: the vehicle, its commands' speeds, and where they are to lead.
 
-use super::stand::Stand;
+use super::posed::Stand;
 
 /// The vehicle, as plain numbers.
 ///

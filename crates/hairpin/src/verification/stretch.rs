@@ -2,12 +2,14 @@
 
 use super::crest::{Followed, SHOWN};
 use super::stand::{NoRest, Rest};
-use super::stride::{Look, Pose, Station, Stretch, Taken, Tried};
+use super::stride::{Look, Pose, Stretch, Taken, Tried};
 use crate::world::terrain::Terrain;
 
 /// What a drive's strides may leave out of its end's place in all, m, and of its heading times the metres left: a
 /// hundredth of what drives are usually held to.
 const ACCURACY: f64 = 1e-4;
+/// Of what strides before left, one may leave out so many times its own share.
+const SPARE: f64 = 2.0;
 /// Longest stride, m and rad: what lies between two looks is not seen.
 const LONGEST: f64 = 0.1;
 /// The shortest is this share of the drive, or this long, m and rad: whatever it leaves out is told.
@@ -36,32 +38,34 @@ impl<T: Terrain> Stretch<'_, T> {
         if !length.is_finite() {
             return Err((0.0, NoRest::NotFound));
         }
-        let mut looks = vec![Look { s: 0.0, rest: at.1.clone() }];
+        let mut looks = vec![self.seen(0.0, at.1.clone())];
         let mut taken: Vec<Taken> = Vec::new();
-        let mut station = self.station(0.0, at.0, at.1.clone());
-        let (mut done, mut stride) = (0.0, LONGEST);
+        let (mut pose, mut done, mut stride, mut ended) = (at.0, 0.0, LONGEST, false);
+        // What the strides before left of their share.
+        let mut spare = 0.0_f64;
         while done < length {
-            let left = length - done;
-            let Step { h, tried, next } = self.step(&station, &looks, stride, left).map_err(|no| (station.s, no))?;
+            let (from, left) = ((f64::copysign(done, self.length), pose), length - done);
+            let Step { h, tried, next } =
+                self.step(from, &mut looks, [stride, left, spare]).map_err(|no| (from.0, no))?;
             followed.strides += 1;
             followed.left_out += tried.off;
-            let poses = [station.pose, tried.middle, tried.end];
-            let walked = Taken { s: station.s, h: h.copysign(self.length), poses };
-            if let Some(pass) = pass {
-                let parts = (SHOWN * h / self.extent).ceil().max(1.0) as usize;
-                (1..=parts).for_each(|part| pass(walked.pose(part as f64 / parts as f64)));
+            spare = (spare + ACCURACY * h / self.extent - tried.off).max(0.0);
+            for walked in tried.taken {
+                if let Some(pass) = pass {
+                    let parts = (SHOWN * walked.h.abs() / self.extent).ceil().max(1.0) as usize;
+                    (1..=parts).for_each(|part| pass(walked.pose(part as f64 / parts as f64)));
+                }
+                pose = walked.poses[2];
+                taken.push(walked);
             }
-            taken.push(walked);
-            looks.extend(tried.looks);
             done = if h >= left { length } else { done + h };
-            station = self.station(done.copysign(self.length), tried.end, tried.rest);
-            stride = next;
+            (stride, ended) = (next, tried.ended);
         }
         // Nobody asks how it stands where the drive ends: what is behind the last look may be an edge.
-        if let Ok(end) = self.look(&looks, self.length, station.pose) {
+        if !ended && let Ok((end, _)) = self.look(&looks, self.length, pose) {
             looks.push(end);
         }
-        *at = (station.pose, looks.last().map_or(station.rest, |last| last.rest.clone()));
+        *at = (pose, looks[looks.len() - 1].rest);
         self.add_peaks(&looks, &taken, followed);
         Ok(())
     }
@@ -77,12 +81,13 @@ impl<T: Terrain> Stretch<'_, T> {
     /// allowed with h, so that the square root of their ratio is the step's factor: between 0.5 and 2 after a stride
     /// that is taken, between 0.2 and 0.7 after one that is not, a quarter where the body fell. The shortest stride is
     /// taken whatever it leaves out.
-    fn step(&self, station: &Station, looks: &[Look], stride: f64, left: f64) -> Result<Step, NoRest> {
+    fn step(&self, from: (f64, Pose), looks: &mut Vec<Look>, [stride, left, spare]: [f64; 3]) -> Result<Step, NoRest> {
         let shortest = SHORTEST.1.max(SHORTEST.0 * self.extent);
-        let mut h = stride.min(left);
+        let (mut h, known) = (stride.min(left), looks.len());
         loop {
-            let allowed = ACCURACY * h / self.extent;
-            let tried = self.attempt(station, h.copysign(self.length), looks).ok();
+            let share = ACCURACY * h / self.extent;
+            let allowed = share + spare.min(SPARE * share);
+            let tried = self.attempt(from, h.copysign(self.length), looks).ok();
             // A difference that is not a number is as large as can be; its root is that of third-order terms.
             let longer = tried.as_ref().map_or(0.0, |tried| 0.9 * (allowed / tried.off).sqrt());
             let fell = tried.as_ref().is_none_or(|tried| tried.fell);
@@ -91,9 +96,12 @@ impl<T: Terrain> Stretch<'_, T> {
                     let next = shortest.max(LONGEST.min(h * bounded(longer, 0.5, 2.0)));
                     return Ok(Step { h, tried, next });
                 }
-                _ if h <= shortest => return self.fall(station, looks, shortest, left),
-                _ => h = shortest.max(h * if fell { 0.25 } else { bounded(longer, 0.2, 0.7) }),
+                _ => looks.truncate(known),
             }
+            if h <= shortest {
+                return self.fall(from, looks, shortest, left);
+            }
+            h = shortest.max(h * if fell { 0.25 } else { bounded(longer, 0.2, 0.7) });
         }
     }
 
@@ -101,11 +109,11 @@ impl<T: Terrain> Stretch<'_, T> {
     ///
     /// Plain steps of 1, 2, 4, 8 and 16 times the shortest, none longer than what is left; the last refusal where none
     /// finds a rest.
-    fn fall(&self, station: &Station, looks: &[Look], shortest: f64, left: f64) -> Result<Step, NoRest> {
+    fn fall(&self, from: (f64, Pose), looks: &mut Vec<Look>, shortest: f64, left: f64) -> Result<Step, NoRest> {
         let mut refused = NoRest::NotFound;
         for times in PLAIN {
             let h = left.min(times * shortest);
-            match self.plainly(station, h.copysign(self.length), looks) {
+            match self.plainly(from, h.copysign(self.length), looks) {
                 Ok(tried) => return Ok(Step { h, tried, next: shortest }),
                 Err(why) => refused = why,
             }

@@ -1,12 +1,12 @@
-//! Strides along a piece of a drive on the ground: whole and in halves, extrapolated.
+//! Strides along a piece of a drive on the ground: whole and in halves.
 //!
 //! Terrain is C¹, so that rates have kinks wherever a wheel passes the border of two cells, and no method of high order
-//! is any: looks at the ground are what counts, and each stride has three.
+//! is any: looks at the ground are what counts, and each stride has four.
 
 use super::course::Course;
 use super::drive::DrivePiece;
 use super::peak::largest;
-use super::stand::{NoRest, Rest};
+use super::stand::{Asked, EXACTLY, NoRest, Rest};
 use super::twist::{Place, carry};
 use crate::world::terrain::Terrain;
 
@@ -29,39 +29,29 @@ pub(super) type Pose = [f64; 3];
 
 /// The body at rest, looked at.
 ///
-/// `s` in metres (or radians of a turn) since the piece began.
+/// `s` in metres (or radians of a turn) since the piece began; `rates` are those of [`Course::rates`] there.
 #[derive(Clone)]
 pub(super) struct Look {
     pub(super) s: f64,
     pub(super) rest: Rest,
+    pub(super) rates: [f64; 3],
 }
 
-/// Where a stride begins.
-///
-/// `rates` are dx/ds, dy/ds, dψ/ds there.
-pub(super) struct Station {
-    pub(super) s: f64,
-    pub(super) pose: Pose,
-    pub(super) rest: Rest,
-    rates: Pose,
-}
-
-/// A stride before it is taken.
+/// A stride before it is taken; its looks are the last ones.
 ///
 /// Taken where `off` is little enough for the metres left; else the stride is halved.
 pub(super) struct Tried {
-    pub(super) middle: Pose,
-    pub(super) end: Pose,
-    /// At its end: as seen, or foreseen.
-    pub(super) rest: Rest,
-    pub(super) looks: Vec<Look>,
-    /// What its halves differ by from what they are extrapolated to, m and rad m.
+    /// Its parts, in turn.
+    pub(super) taken: Vec<Taken>,
+    /// Whether its last look is at its end.
+    pub(super) ended: bool,
+    /// What its halves leave out, judged by what they differ by from the whole, m and rad m.
     pub(super) off: f64,
     /// Whether a look found the body far from where it was foreseen: it fell, or a nearer rest was passed by.
     pub(super) fell: bool,
 }
 
-/// A stride that was taken: a parabola through three poses.
+/// A stride that was taken, or a half of it: a parabola through three poses.
 pub(super) struct Taken {
     pub(super) s: f64,
     pub(super) h: f64,
@@ -71,130 +61,109 @@ pub(super) struct Taken {
 /// Heights and angles farther from what was foreseen are those of another rest, m and rad.
 /// So much more than extrapolation is off by in a stride that is short enough.
 pub(super) const FELL: f64 = 0.02;
+/// Rests of looks are known to this, m and rad, over the square of a drive's metres: what rates are off by then, and
+/// headings of what they lead to, is little beside what strides may leave out.
+const KNOWN: f64 = 3e-5;
+/// Jacobians of a look: one that more would do for is near one that a few do for.
+const TRIES: usize = 10;
+/// And beside that by this a metre or radian: what a border of cells changes of their slopes.
+pub(super) const KINK: f64 = 2.0;
 
 impl<T: Terrain> Stretch<'_, T> {
-    /// Its rates are computed once and serve every stride that is tried from it.
-    pub(super) fn station(&self, s: f64, pose: Pose, rest: Rest) -> Station {
-        let rates = self.course.rates(&rest, pose[2], s);
-        Station { s, pose, rest, rates }
+    /// How exactly rests of looks are asked for.
+    pub(super) fn asked(&self) -> Asked {
+        Asked { closed: (KNOWN / (self.extent * self.extent).max(1.0)).max(EXACTLY.closed), ..EXACTLY }
     }
 
-    /// The body at rest at `pose`, looked for from what the last `looks` lead to there; if that leads nowhere, from the
-    /// last of them.
+    /// `rest` looked at.
+    pub(super) fn seen(&self, s: f64, rest: Rest) -> Look {
+        Look { s, rates: self.course.rates(&rest, s), rest }
+    }
+
+    /// The body at rest at `pose`, looked for from what the last `looks` lead to there, and whether it is far from that.
     ///
     /// # Errors
     /// [`NoRest`]: no rest is found there from either.
-    pub(super) fn look(&self, looks: &[Look], s: f64, pose: Pose) -> Result<Look, NoRest> {
+    pub(super) fn look(&self, looks: &[Look], s: f64, pose: Pose) -> Result<(Look, bool), NoRest> {
         let stand = &self.course.vehicle.stand;
-        let mut rest = foreseen(looks, s);
-        if rest.follow(stand, self.terrain, pose).is_err() {
-            rest = looks.last().map_or(rest, |last| last.rest.afresh());
-            rest.carry_on(stand, self.terrain, pose)?;
-        }
-        Ok(Look { s, rest })
+        let ahead = foreseen(looks, s);
+        let mut rest = ahead;
+        rest.follow(stand, self.terrain, pose, &Asked { jacobians: TRIES, ..self.asked() })?;
+        let fell = surprises(&ahead, &rest, looks, s);
+        Ok((self.seen(s, rest), fell))
     }
 
-    /// A stride of `h` behind the last of `looks`, to be taken if it is near enough.
+    /// A stride of `h` from a place at s, behind the last of `looks`, to be taken if it is near enough; else its looks
+    /// are taken back.
     ///
     /// # Errors
     /// As [`Self::look`].
-    pub(super) fn attempt(&self, from: &Station, h: f64, looks: &[Look]) -> Result<Tried, NoRest> {
-        if self.course.vehicle.exact { self.carried(from, h) } else { self.by_midpoints(from, h, looks) }
-    }
-
-    /// By the midpoint rule, whole and in halves.
-    ///
-    /// At a station the rest only says where the first middle lies: it is foreseen there, not looked at.
-    fn by_midpoints(&self, from: &Station, h: f64, looks: &[Look]) -> Result<Tried, NoRest> {
-        let rates = |look: &Look, pose: &Pose| self.course.rates(&look.rest, pose[2], look.s);
-        let mut near = looks[looks.len().saturating_sub(2)..].to_vec();
-        let mut fell = false;
-        let mut look = |s: f64, pose: &Pose| -> Result<Look, NoRest> {
-            let look = self.look(&near, s, *pose)?;
-            fell |= foreseen(&near, s).apart(&look.rest) > FELL;
-            near.push(look.clone());
-            Ok(look)
-        };
-        let first = moved(&from.pose, &from.rates, 0.25 * h);
-        let first_look = look(from.s + 0.25 * h, &first)?;
-        let middle = moved(&from.pose, &from.rates, 0.5 * h);
-        let middle_look = look(from.s + 0.5 * h, &middle)?;
-        let whole = moved(&from.pose, &rates(&middle_look, &middle), h);
-        let half = moved(&from.pose, &rates(&first_look, &first), 0.5 * h);
-        let second = moved(&half, &rates(&middle_look, &half), 0.25 * h);
-        let second_look = look(from.s + 0.75 * h, &second)?;
-        let halves = moved(&half, &rates(&second_look, &second), 0.5 * h);
-        let seen = vec![first_look, middle_look, second_look];
-        let ahead = foreseen(&seen, from.s + h);
-        Ok(Tried { fell, ..self.extrapolated(from, &whole, half, &halves, ahead, seen) })
+    pub(super) fn attempt(&self, from: (f64, Pose), h: f64, looks: &mut Vec<Look>) -> Result<Tried, NoRest> {
+        if self.course.vehicle.exact { self.carried(from, h, looks) } else { self.by_panels(from, h, looks) }
     }
 
     /// From rest to rest by the twist between them, whole and in halves.
     ///
     /// Kinematics `exact`: the body is carried as a rigid one by its twist.
-    fn carried(&self, from: &Station, h: f64) -> Result<Tried, NoRest> {
+    ///
+    /// Both ways are of second order: halves are off by a third of what they differ by from the whole, and
+    /// extrapolated by that.
+    fn carried(&self, (s, from): (f64, Pose), h: f64, looks: &mut Vec<Look>) -> Result<Tried, NoRest> {
         let (course, stand) = (self.course, &self.course.vehicle.stand);
         let step = |rest: &mut Rest, pose: Pose, s: f64, h: f64| {
-            let ahead = moved(&pose, &course.rates(rest, pose[2], s), h);
+            let ahead = moved(&pose, &turned(&course.rates(rest, s), pose[2]), h);
             carry(stand, self.terrain, rest, [pose, ahead], h, |place: &Place| course.body_rates(place, s + 0.5 * h))
         };
-        let mut at_once = from.rest.clone();
-        let whole = step(&mut at_once, from.pose, from.s, h)?;
-        let mut rest = from.rest.clone();
-        let half = step(&mut rest, from.pose, from.s, 0.5 * h)?;
-        let middle = Look { s: from.s + 0.5 * h, rest: rest.clone() };
-        let halves = step(&mut rest, half, from.s + 0.5 * h, 0.5 * h)?;
-        let end = Look { s: from.s + h, rest: rest.clone() };
+        let mut at_once = looks[looks.len() - 1].rest;
+        let mut rest = at_once;
+        let whole = step(&mut at_once, from, s, h)?;
+        let middle = step(&mut rest, from, s, 0.5 * h)?;
+        looks.push(self.seen(s + 0.5 * h, rest));
+        let halves = step(&mut rest, middle, s + 0.5 * h, 0.5 * h)?;
         // Both ways lead to one rest, but where they end in two.
         let fell = at_once.apart(&rest) > FELL;
-        Ok(Tried { fell, ..self.extrapolated(from, &whole, half, &halves, rest, vec![middle, end]) })
-    }
-
-    /// Both ways of second order: halves are off by a third of what they differ by from the whole.
-    fn extrapolated(
-        &self,
-        from: &Station,
-        whole: &Pose,
-        middle: Pose,
-        halves: &Pose,
-        rest: Rest,
-        looks: Vec<Look>,
-    ) -> Tried {
+        looks.push(self.seen(s + h, rest));
         let off: Pose = std::array::from_fn(|i| (halves[i] - whole[i]) / 3.0);
-        let end = moved(halves, &off, 1.0);
-        Tried { middle, end, rest, looks, off: self.far(from, &off), fell: false }
+        let taken = vec![Taken { s, h, poses: [from, middle, moved(&halves, &off, 1.0)] }];
+        Ok(Tried { taken, ended: true, off: self.far(s, &off), fell })
     }
 
     /// A step of `h` as it comes, looked for from the last rest with Jacobians of its own: where the body falls no
     /// stride is short enough. What it may leave out is what it differs by from the way on at the rates before.
-    pub(super) fn plainly(&self, from: &Station, h: f64, looks: &[Look]) -> Result<Tried, NoRest> {
+    pub(super) fn plainly(&self, (s, from): (f64, Pose), h: f64, looks: &mut Vec<Look>) -> Result<Tried, NoRest> {
         let (course, stand) = (self.course, &self.course.vehicle.stand);
-        let (mut rest, s) = (looks.last().map_or(&from.rest, |last| &last.rest).afresh(), from.s + 0.5 * h);
-        let mut seen = Vec::with_capacity(2);
+        let last = &looks[looks.len() - 1];
+        let ahead = moved(&from, &turned(&last.rates, from[2]), h);
+        let (mut rest, halfway) = (last.rest, s + 0.5 * h);
         let end = if course.vehicle.exact {
-            let body = |place: &Place| course.body_rates(place, s);
-            let end = carry(stand, self.terrain, &mut rest, [from.pose; 2], h, body)?;
-            seen.push(Look { s: from.s + h, rest: rest.clone() });
+            let body = |place: &Place| course.body_rates(place, halfway);
+            let end = carry(stand, self.terrain, &mut rest, [from; 2], h, body)?;
+            looks.push(self.seen(s + h, rest));
             end
         } else {
-            rest.carry_on(stand, self.terrain, from.pose)?;
-            let rates = course.rates(&rest, from.pose[2], from.s);
-            seen.push(Look { s: from.s, rest: rest.clone() });
-            let middle = moved(&from.pose, &rates, 0.5 * h);
-            rest.carry_on(stand, self.terrain, middle)?;
-            seen.push(Look { s, rest: rest.clone() });
-            moved(&from.pose, &course.rates(&rest, middle[2], s), h)
+            rest.carry_on(stand, self.terrain, from, &EXACTLY)?;
+            let here = self.seen(s, rest);
+            let middle = moved(&from, &turned(&here.rates, from[2]), 0.5 * h);
+            rest.carry_on(stand, self.terrain, middle, &EXACTLY)?;
+            let there = self.seen(halfway, rest);
+            let end = moved(&from, &turned(&there.rates, middle[2]), h);
+            looks.extend([here, there]);
+            end
         };
-        let ahead = moved(&from.pose, &from.rates, h);
-        let off = self.far(from, &std::array::from_fn(|i| end[i] - ahead[i]));
-        let middle = std::array::from_fn(|i| 0.5 * (from.pose[i] + end[i]));
-        Ok(Tried { middle, end, rest, looks: seen, off, fell: true })
+        let off = self.far(s, &std::array::from_fn(|i| end[i] - ahead[i]));
+        let middle = std::array::from_fn(|i| 0.5 * (from[i] + end[i]));
+        Ok(Tried {
+            taken: vec![Taken { s, h, poses: [from, middle, end] }],
+            ended: course.vehicle.exact,
+            off,
+            fell: true,
+        })
     }
 
-    /// How far `off` leads, m and rad m: headings times the metres left.
-    fn far(&self, from: &Station, off: &Pose) -> f64 {
+    /// How far `off` leads from `s` on, m and rad m: headings times the metres left.
+    pub(super) fn far(&self, s: f64, off: &Pose) -> f64 {
         let ahead = match self.course.piece {
-            DrivePiece::Arc { .. } => self.left - from.s,
+            DrivePiece::Arc { .. } => self.left - s,
             DrivePiece::Turn { .. } => self.left,
         };
         [off[0], off[1], off[2] * ahead.max(1.0)].into_iter().map(f64::abs).fold(0.0, largest)
@@ -210,13 +179,20 @@ impl Taken {
     }
 }
 
+/// Whether `rest` at `s` is another one than the last of `looks` lead to, `ahead`: farther from it than kinks on the
+/// way can have led.
+pub(super) fn surprises(ahead: &Rest, rest: &Rest, looks: &[Look], s: f64) -> bool {
+    let way = looks.last().map_or(0.0, |last| (s - last.s).abs());
+    ahead.apart(rest) > FELL + KINK * way
+}
+
 /// Where the last two looks lead to at `s`.
 pub(super) fn foreseen(looks: &[Look], s: f64) -> Rest {
     match looks {
         [.., before, last] if last.s != before.s => {
             Rest::foreseen(&before.rest, &last.rest, (s - last.s) / (last.s - before.s))
         }
-        [.., last] => last.rest.clone(),
+        [.., last] => last.rest,
         [] => unreachable!("a piece begins with a look"),
     }
 }
@@ -224,4 +200,10 @@ pub(super) fn foreseen(looks: &[Look], s: f64) -> Rest {
 /// pose + h · rates.
 fn moved(pose: &Pose, rates: &Pose, h: f64) -> Pose {
     std::array::from_fn(|i| pose[i] + h * rates[i])
+}
+
+/// `rates` of the level frame at heading `yaw`: dx/ds, dy/ds, dψ/ds.
+pub(super) fn turned([ahead, left, turn]: &[f64; 3], yaw: f64) -> Pose {
+    let (sin, cos) = libm::sincos(yaw);
+    [cos * ahead - sin * left, sin * ahead + cos * left, *turn]
 }

@@ -9,14 +9,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::stand::{NoRest, Rest, Stand, turn};
+use super::posed::{Stand, turn};
+use super::stand::{EXACTLY, NoRest, Rest};
 use crate::world::terrain::Terrain;
 
-/// How the body leans.
+/// How the body leans: sine and cosine of roll φ and pitch θ.
 pub(super) struct Place {
-    /// sin φ, cos φ.
     pub(super) roll: (f64, f64),
-    /// sin θ, cos θ.
     pub(super) pitch: (f64, f64),
 }
 
@@ -57,13 +56,13 @@ pub(super) fn carry<T: Terrain>(
     h: f64,
     body: impl Fn(&Place) -> [f64; 3],
 ) -> Result<[f64; 3], NoRest> {
-    rest.carry_on(stand, terrain, from)?;
+    rest.carry_on(stand, terrain, from, &EXACTLY)?;
     let (begun, origin) = (attitude(rest, from[2]), Vector3::new(from[0], from[1], rest.height()));
     let leant = [rest.roll(), rest.pitch()];
     let mut place = ahead;
     let mut left = f64::INFINITY;
     for _ in 0..TRIES {
-        rest.carry_on(stand, terrain, place)?;
+        rest.carry_on(stand, terrain, place, &EXACTLY)?;
         let (ended, there) = (attitude(rest, place[2]), Vector3::new(place[0], place[1], rest.height()));
         let turned = small_turn(&(begun.transpose() * ended));
         // In the frame halfway between the two.
