@@ -210,7 +210,7 @@ def test_masked_answers_of_callables_count_for_nothing(tmp_path):
     assert flown.judge_by(hairpin.vectorised(lambda runs: np.ma.masked_all(len(runs)))).exit_code == 5
 
 
-@pytest.mark.parametrize("answer", [NAN, float("inf"), 1e101, np.ma.masked])
+@pytest.mark.parametrize("answer", [NAN, float("inf"), 1e101, np.ma.masked, "5", True, np.complex128(5)])
 def test_scores_and_targets_are_bounded_as_those_of_files(answer, tmp_path):
     searched = {"score": {"generate.search.cases": 2}, "target": {"generate.search": {"method": "worst", "executions": 12, "cases": 2}}}
     for what, values in searched.items():

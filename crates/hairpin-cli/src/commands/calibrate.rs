@@ -31,14 +31,19 @@ pub(crate) fn run(asked: &Calibrate, watch: &dyn Watch) -> Result<u8, Problem> {
     if asked.json {
         console::say(&object(asked, &found, code).to_string())
     } else {
-        tell(asked, &found)
+        tell(&found)
     }
     Ok(code)
 }
 
 /// The first limit by the contract's names, and all of them.
 fn object(asked: &Calibrate, found: &Calibrated, code: u8) -> Value {
-    let one = |it: &Proposal| json!({ "field": it.field, "value": it.value, "interval": it.interval, "cases": it.cases, "reason": it.reason });
+    let one = |it: &Proposal| {
+        json!({
+            "field": it.field, "value": it.value, "interval": it.interval,
+            "cases": it.cases, "broken_by": it.broken_by, "reason": it.reason,
+        })
+    };
     let mut object = found.proposals.first().map_or_else(|| json!({}), one);
     object["share"] = json!(asked.share);
     object["flown"] = json!(found.flown);
@@ -53,8 +58,7 @@ fn object(asked: &Calibrate, found: &Calibrated, code: u8) -> Value {
 }
 
 /// `[spec]` to paste, and what stands behind each limit; where there is none, why.
-fn tell(asked: &Calibrate, found: &Calibrated) {
-    let share = digits::percent(Some(asked.share));
+fn tell(found: &Calibrated) {
     if let Some(reason) = &found.reason {
         console::warn(&format!("{} random feasible cases were found: {reason}", found.flown));
     }
@@ -78,6 +82,7 @@ fn tell(asked: &Calibrate, found: &Calibrated) {
     }
     console::say("[spec]");
     for one in given {
+        let share = digits::percent(one.broken_by.map(|cases| cases as f64 / one.cases.max(1) as f64));
         let ends = one.interval.unwrap_or_default().map(|end| digits::with_digits(end, one.digits()));
         console::say(&format!(
             "# {share} of {} random feasible cases break {}, which lies between {} and {} (95 %)",

@@ -221,6 +221,7 @@ fn doubt(doubt: &Doubt) -> Value {
         Why::Between { most, rate_hz } => json!({ "between_samples": finite(most), "needed_rate_hz": rate_hz }),
         Why::Begin { before } => json!({ "begin_not_seen": true, "left_out_s": before }),
         Why::End(after) => json!({ "end_not_seen": true, "left_out_s": after }),
+        Why::Impossible(found) => json!({ "impossible": true, "way_m": found.way_m, "over_s": found.over_s }),
         Why::Mean(span) => json!({ "mean_over_s": span }),
         Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
     };

@@ -92,7 +92,9 @@ fn what_goes_wrong_is_told_with_file_and_line() {
     for (text, words) in [
         ("def score(leg):\n    return 1 / 0\n", &["my score.py", "line 2", "ZeroDivisionError"][..]),
         ("def score(leg):\n    return leg['speed']\n", &["line 2", "KeyError: 'speed'"]),
-        ("def score(leg):\n    return 'much'\n", &["generate.score", "could not convert"]),
+        ("def score(leg):\n    return 'much'\n", &["generate.score", "'much' is no number, of the leg"]),
+        ("def score(leg):\n    return '5'\n", &["my score.py", "'5' is no number, of the leg"]),
+        ("def score(leg):\n    return [5]\n", &["my score.py", "[5] is no number, of the leg"]),
         ("def score(leg)\n", &["line 1", "SyntaxError"]),
         ("def score(leg):\n    raise ValueError('no\\n  score')\n", &["line 2", "ValueError: no score"]),
         ("import sys\nsys.exit(3)\n", &["generate.score", "SystemExit: 3"]),
@@ -172,6 +174,11 @@ fn the_worst_is_searched_by_a_target_of_the_users() {
     with_target(here, "def target(run):\n    return 1 / 0\n");
     let words = ["`generate.search.target` = python:my target.py: File", "line 2", "ZeroDivisionError"];
     refused(here, &["generate", "q.toml", "--out", "d"], &words);
+    for (told, words) in [("'5'", "'5' is no number, of the run"), ("True", "True is no number, of the run")] {
+        with_target(here, &format!("def target(run):\n    return {told}\n"));
+        let words = ["`generate.search.target` = python:my target.py: File", words];
+        refused(here, &["generate", "q.toml", "--out", "e"], &words);
+    }
     with_target(here, "def score(leg):\n    return 1\n");
     refused(here, &["generate", "q.toml", "--out", "e"], &["it defines no function target(run)"]);
     let unknown = ["generate", "q.toml", "--out", "f", "--set", "generate.search.target=\"deviations\""];

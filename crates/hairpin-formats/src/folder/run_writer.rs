@@ -115,7 +115,7 @@ impl<'f> RunWriter<'f> {
     }
 
     /// The number of the part that a case belongs to.
-    pub fn part_of(&self, case: CaseNumber) -> usize {
+    fn part_of(&self, case: CaseNumber) -> usize {
         case.0 / self.cases_per_part
     }
 
@@ -137,9 +137,12 @@ impl<'f> RunWriter<'f> {
             self.folder.put(&mut open.motion, self.tables.motion, (key, piece))?;
         }
         if Some(&open.facts.len()) == self.whole.get(&number) {
-            self.save(number, open)?;
-            all.remove(&number);
-        } else if open.saved.elapsed() > open.next {
+            let whole = all.remove(&number);
+            // Others land meanwhile.
+            drop(all);
+            return whole.map_or(Ok(()), |mut whole| self.save(number, &mut whole));
+        }
+        if open.saved.elapsed() > open.next {
             let begun = Instant::now();
             self.save(number, open)?;
             (open.saved, open.next) = (Instant::now(), CHECKPOINT.max(SELDOM * begun.elapsed()));

@@ -2,6 +2,7 @@
 //! and, of the leg that begins there, what the search saw of it: `seen_v_in_m_s` … `seen_duration_s`.
 
 use std::collections::BTreeMap;
+use std::iter::repeat_n;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -30,7 +31,9 @@ pub struct Route {
 pub fn write(path: &Path, cases: &[Case]) -> Result<(), WriteError> {
     let rows = || cases.iter().flat_map(|case| (0..case.waypoints.len()).map(move |i| (case, i)));
     let mut columns = Columns::default();
-    columns.push("case", Arc::new(rows().map(|(case, _)| Some(case.id())).collect::<StringArray>()));
+    let ids: Vec<String> = cases.iter().map(Case::id).collect();
+    let ids = cases.iter().zip(&ids).flat_map(|(case, id)| repeat_n(id, case.waypoints.len()));
+    columns.push("case", Arc::new(StringArray::from_iter_values(ids)));
     columns.push("waypoint", Arc::new(rows().map(|(_, i)| i as i64).collect::<Int64Array>()));
     for (axis, name) in ["x_m", "y_m", "z_m"].into_iter().enumerate() {
         let values = rows().map(|(case, i)| case.waypoints[i][axis]).collect::<Float64Array>();

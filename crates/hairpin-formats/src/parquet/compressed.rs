@@ -1,21 +1,27 @@
-//! A small Parquet file with its pages compressed, by one compressor for all of its columns.
+//! A small Parquet file whose pages are compressed by one compressor for all of its columns.
 //!
 //! The writer of the crate `parquet` makes a compressor and a decompressor for each column of each row group, and each
 //! of them asks the processor three times what it can do. On a virtual machine the host answers that: for pieces of a
-//! hundred rows it took ten times as long as compressing them.
+//! hundred rows it took ten times as long as compressing them. So its columns are written without one, and their pages
+//! are compressed as they lie in a store of our own.
 
 use std::cell::RefCell;
 use std::io;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use ::parquet::arrow::ArrowSchemaConverter;
+use ::parquet::arrow::arrow_writer::{
+    ArrowColumnChunk, ArrowRowGroupWriterFactory, PageKey, PageStore, PageStoreArgs, PageStoreFactory, compute_leaves,
+};
 use ::parquet::basic::{Compression, ZstdLevel};
-use ::parquet::column::page::{CompressedPage, Page, PageWriter};
 use ::parquet::column::writer::ColumnCloseResult;
 use ::parquet::errors::ParquetError;
-use ::parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, ParquetMetaDataOptions, ParquetMetaDataReader};
-use ::parquet::file::properties::WriterProperties;
-use ::parquet::file::serialized_reader::SerializedPageReader;
-use ::parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use ::parquet::file::metadata::ColumnChunkMetaData;
+use ::parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
+use ::parquet::file::writer::SerializedFileWriter;
+use ::parquet::schema::types::TypePtr;
+use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
 use bytes::Bytes;
 use zstd::bulk::Compressor;
 
@@ -28,64 +34,138 @@ thread_local! {
     static COMPRESSOR: RefCell<Option<Compressor<'static>>> = const { RefCell::new(None) };
 }
 
-/// `plain`, of which no page is compressed, with all pages compressed by Zstandard: the bytes that the writer itself
-/// makes of them.
-pub(super) fn compressed(plain: &Bytes) -> io::Result<Bytes> {
-    with_pages_compressed(plain).map(Bytes::from).map_err(io_error)
+/// How the rows of tables with the same columns are packed.
+#[derive(Debug)]
+pub(super) struct Layout {
+    schema: SchemaRef,
+    root: TypePtr,
+    columns: ArrowRowGroupWriterFactory,
+    pages: Pages,
+    properties: WriterPropertiesPtr,
 }
 
-fn with_pages_compressed(plain: &Bytes) -> Result<Vec<u8>, ParquetError> {
-    // What pages are encoded as goes with them.
-    let options = ParquetMetaDataOptions::new().with_encoding_stats_as_mask(false);
-    let metadata = ParquetMetaDataReader::new().with_metadata_options(Some(options)).parse_and_finish(plain)?;
-    let schema = metadata.file_metadata().schema_descr().root_schema_ptr();
-    let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties(&metadata)))?;
-    for group in metadata.row_groups() {
-        let mut there = writer.next_row_group()?;
-        let rows = group.num_rows() as usize;
-        for column in group.columns() {
-            let (bytes, close) = column_compressed(plain, column, rows)?;
-            there.append_column(&bytes, close)?;
+impl Layout {
+    /// Of tables with the columns of `schema`, which `encoding` says how to encode; it must ask for no compression, and
+    /// for no index.
+    pub(super) fn of(schema: SchemaRef, encoding: WriterProperties) -> io::Result<Self> {
+        let root = ArrowSchemaConverter::new().convert(&schema).map_err(io_error)?.root_schema_ptr();
+        let writer = SerializedFileWriter::new(Vec::new(), root.clone(), Arc::new(encoding)).map_err(io_error)?;
+        let pages = Pages::default();
+        let columns = ArrowRowGroupWriterFactory::new(&writer, schema.clone());
+        let columns = columns.with_page_store_factory(Arc::new(pages.clone()));
+        let properties = Arc::new(WriterProperties::builder().set_created_by("hairpin".into()).build());
+        Ok(Self { schema, root, columns, pages, properties })
+    }
+
+    /// What it is the layout of.
+    pub(super) fn schema(&self) -> &SchemaRef {
+        &self.schema
+    }
+
+    /// The rows as one row group: the bytes of its pages are those that the writer itself makes of them.
+    pub(super) fn packed(&self, batch: &RecordBatch) -> io::Result<Bytes> {
+        // Many of them wait in memory: without room to spare.
+        self.file_of(batch).map(|bytes| bytes.into_boxed_slice().into()).map_err(io_error)
+    }
+
+    fn file_of(&self, batch: &RecordBatch) -> Result<Vec<u8>, ParquetError> {
+        // A piece that failed may have left some.
+        drop(self.pages.taken());
+        let mut writer = SerializedFileWriter::new(Vec::new(), self.root.clone(), self.properties.clone())?;
+        if batch.num_rows() > 0 {
+            let mut group = writer.next_row_group()?;
+            let mut columns = self.columns.create_column_writers(0)?.into_iter();
+            for (field, array) in self.schema.fields().iter().zip(batch.columns()) {
+                for (leaf, mut column) in compute_leaves(field, array)?.iter().zip(columns.by_ref()) {
+                    column.write(leaf)?;
+                    let (bytes, close) = self.compressed(&column.close()?, batch.num_rows())?;
+                    group.append_column(&bytes, close)?;
+                }
+            }
+            group.close()?;
         }
-        there.close()?;
+        writer.into_inner()
     }
-    writer.into_inner()
+
+    /// The column whose pages wait in the store.
+    fn compressed(&self, plain: &ArrowColumnChunk, rows: usize) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
+        let metadata = plain.close().metadata.clone();
+        let stored = self.pages.taken();
+        let (mut pages, has_dictionary) =
+            (stored.as_chunks::<2>().0.to_vec(), metadata.dictionary_page_offset().is_some());
+        if has_dictionary {
+            // It is the last that is known, and the first that is read.
+            pages.rotate_right(1);
+        }
+        let (mut bytes, mut unpacked, mut first) = (Vec::new(), 0, 0);
+        for (number, [header, page]) in pages.iter().enumerate() {
+            let packed = packed(page)?;
+            let header = with_packed_size(header, packed.len());
+            let header = header.ok_or_else(|| ParquetError::General("a page without a header".into()))?;
+            if number == usize::from(has_dictionary) {
+                first = bytes.len() as i64;
+            }
+            unpacked += (header.len() + page.len()) as i64;
+            bytes.extend_from_slice(&header);
+            bytes.extend_from_slice(&packed);
+        }
+        let metadata = metadata
+            .into_builder()
+            .set_compression(Compression::ZSTD(ZstdLevel::try_new(LEVEL)?))
+            .set_total_compressed_size(bytes.len() as i64)
+            .set_total_uncompressed_size(unpacked)
+            .set_dictionary_page_offset(has_dictionary.then_some(0))
+            .set_data_page_offset(first)
+            .build()?;
+        Ok((bytes.into(), closed(metadata, rows)))
+    }
 }
 
-fn properties(metadata: &ParquetMetaData) -> WriterProperties {
-    let notes = metadata.file_metadata().key_value_metadata().cloned();
-    WriterProperties::builder().set_created_by("hairpin".into()).set_key_value_metadata(notes).build()
+/// Pages of the one column that is being written: the header of each, and what it is of.
+#[derive(Debug, Clone, Default)]
+struct Pages(Arc<Mutex<Vec<Bytes>>>);
+
+impl Pages {
+    fn taken(&self) -> Vec<Bytes> {
+        std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
 }
 
-fn column_compressed(
-    plain: &Bytes,
-    column: &ColumnChunkMetaData,
-    rows: usize,
-) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
-    let mut sink = TrackedWrite::new(Vec::new());
-    let mut pages = SerializedPageWriter::new(&mut sink);
-    let (mut sizes, mut dictionary, mut first) = ([0, 0], None, None);
-    for page in SerializedPageReader::new(Arc::new(plain.clone()), column, rows, None)? {
-        let page = page?;
-        let length = page.buffer().len();
-        let is_dictionary = matches!(page, Page::DictionaryPage { .. });
-        let written = pages.write_page(CompressedPage::new(page_compressed(page)?, length))?;
-        sizes = [sizes[0] + written.compressed_size as i64, sizes[1] + written.uncompressed_size as i64];
-        let place = if is_dictionary { &mut dictionary } else { &mut first };
-        place.get_or_insert(written.offset as i64);
+impl PageStoreFactory for Pages {
+    fn create(&self, _of: &PageStoreArgs<'_>) -> Result<Box<dyn PageStore>, ParquetError> {
+        Ok(Box::new(self.clone()))
     }
-    pages.close()?;
-    let bytes: Bytes = sink.into_inner()?.into();
-    let metadata = column
-        .clone()
-        .into_builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(LEVEL)?))
-        .set_total_compressed_size(sizes[0])
-        .set_total_uncompressed_size(sizes[1])
-        .set_dictionary_page_offset(dictionary)
-        .set_data_page_offset(first.unwrap_or(0))
-        .build()?;
-    Ok((bytes, closed(metadata, rows)))
+}
+
+impl PageStore for Pages {
+    fn put(&mut self, bytes: Bytes) -> Result<PageKey, ParquetError> {
+        let mut stored = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        stored.push(bytes);
+        Ok(PageKey::new(stored.len() as u64 - 1))
+    }
+
+    /// Whoever wrote a page takes it from here: nobody asks by a key.
+    fn take(&mut self, key: PageKey) -> Result<Bytes, ParquetError> {
+        Err(ParquetError::General(format!("page {} went another way", key.get())))
+    }
+}
+
+/// The header of a page that is packed as a whole, in so many bytes; `None`: it is none.
+///
+/// Thrift's compact protocol: the kind of the page, its size and its packed size come first, a byte for the field and a
+/// number whose last byte is below 128 each.
+fn with_packed_size(header: &[u8], packed: usize) -> Option<Vec<u8>> {
+    let mut ends = header.iter().zip(1..).filter(|(byte, _)| **byte < 0x80).map(|(_, end)| end);
+    let (from, to) = (ends.nth(4)?, ends.next()?);
+    let mut with = header[..from].to_vec();
+    let mut left = packed << 1;
+    while left >= 0x80 {
+        with.push(left as u8 | 0x80);
+        left >>= 7;
+    }
+    with.push(left as u8);
+    with.extend_from_slice(&header[to..]);
+    Some(with)
 }
 
 /// What a column that is written already, of so many rows, is appended by: it has neither filter nor index.
@@ -98,20 +178,6 @@ pub(super) fn closed(metadata: ColumnChunkMetaData, rows: usize) -> ColumnCloseR
         column_index: None,
         offset_index: None,
     }
-}
-
-/// Pages of the first version of the format are compressed as a whole.
-fn page_compressed(page: Page) -> Result<Page, ParquetError> {
-    Ok(match page {
-        Page::DictionaryPage { buf, num_values, encoding, is_sorted } => {
-            Page::DictionaryPage { buf: packed(&buf)?, num_values, encoding, is_sorted }
-        }
-        Page::DataPage { buf, num_values, encoding, def_level_encoding, rep_level_encoding, statistics } => {
-            let buf = packed(&buf)?;
-            Page::DataPage { buf, num_values, encoding, def_level_encoding, rep_level_encoding, statistics }
-        }
-        Page::DataPageV2 { .. } => return Err(ParquetError::General("a page of version 2 of the format".into())),
-    })
 }
 
 fn packed(bytes: &[u8]) -> io::Result<Bytes> {
@@ -127,6 +193,7 @@ fn packed(bytes: &[u8]) -> io::Result<Bytes> {
 #[cfg(test)]
 mod tests {
     use ::parquet::arrow::ArrowWriter;
+    use ::parquet::arrow::arrow_writer::ArrowWriterOptions;
     use arrow_array::{ArrayRef, Float64Array, Int32Array, RecordBatch, StringArray};
 
     use super::*;
@@ -147,23 +214,26 @@ mod tests {
         RecordBatch::try_from_iter_with_nullable(columns.map(|(name, column)| (name, column, true))).unwrap()
     }
 
-    fn written(batch: &RecordBatch, compression: Compression) -> Bytes {
-        let properties = packing(&batch.schema())
+    fn encoding(batch: &RecordBatch, compression: Compression) -> WriterProperties {
+        packing(&batch.schema())
             .set_compression(compression)
             .set_offset_index_disabled(true)
             .set_statistics_enabled(::parquet::file::properties::EnabledStatistics::None)
-            .build();
-        let mut writer = ArrowWriter::try_new(Vec::new(), batch.schema(), Some(properties)).unwrap();
-        writer.write(batch).unwrap();
-        writer.into_inner().unwrap().into()
+            .build()
     }
 
     #[test]
     fn the_bytes_are_those_of_the_writer() {
         for rows in [0, 1, 100, 30_000] {
             let batch = batch(rows);
-            let by_the_writer = written(&batch, Compression::ZSTD(ZstdLevel::try_new(LEVEL).unwrap()));
-            assert!(compressed(&written(&batch, Compression::UNCOMPRESSED)).unwrap() == by_the_writer, "{rows} rows");
+            let properties = encoding(&batch, Compression::ZSTD(ZstdLevel::try_new(LEVEL).unwrap()));
+            let options = ArrowWriterOptions::new().with_properties(properties).with_skip_arrow_metadata(true);
+            let mut writer = ArrowWriter::try_new_with_options(Vec::new(), batch.schema(), options).unwrap();
+            writer.write(&batch).unwrap();
+            let by_the_writer = writer.into_inner().unwrap();
+            let layout = Layout::of(batch.schema(), encoding(&batch, Compression::UNCOMPRESSED)).unwrap();
+            // Twice: nothing is left over of the first.
+            assert!((0..2).all(|_| layout.packed(&batch).unwrap() == by_the_writer), "{rows} rows");
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
+use std::sync::Arc;
 
-use ::parquet::arrow::arrow_reader::RowGroups;
+use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, RowGroups};
+use ::parquet::file::metadata::ParquetMetaDataReader;
 use arrow_schema::{DataType, Schema};
 
 use super::groups::Groups;
@@ -21,8 +23,8 @@ pub(super) fn most_decoded(file: u64) -> u64 {
     file.saturating_mul(PER_BYTE).saturating_add(ANY).min(MOST)
 }
 
-/// Whether the footer is what it says, which a decoder takes room by.
-pub(super) fn check_footer(file: &mut File) -> Result<(), String> {
+/// What the footer says, which a decoder takes room by: it is read once, and decoded if it does not contradict itself.
+pub(super) fn read_footer(file: &mut File) -> Result<ArrowReaderMetadata, String> {
     let contradicts = |_: io::Error| "it ends too soon".to_owned();
     let size = file.seek(SeekFrom::End(0)).map_err(contradicts)?;
     if size < 12 {
@@ -37,11 +39,12 @@ pub(super) fn check_footer(file: &mut File) -> Result<(), String> {
     }
     let start = (size - 8).checked_sub(length).ok_or("its footer is longer than the file")?;
     file.seek(SeekFrom::Start(start)).map_err(contradicts)?;
-    let mut footer = Vec::new();
-    file.take(length).read_to_end(&mut footer).map_err(contradicts)?;
+    let mut footer = vec![0; length as usize];
+    file.read_exact(&mut footer).map_err(contradicts)?;
     Walker::new(&footer).structure(&mut |_, _| ()).ok_or("its footer contradicts itself")?;
-    file.seek(SeekFrom::Start(0)).map_err(contradicts)?;
-    Ok(())
+    let metadata = ParquetMetaDataReader::decode_metadata(&footer);
+    let metadata = metadata.and_then(|all| ArrowReaderMetadata::try_new(Arc::new(all), ArrowReaderOptions::new()));
+    metadata.map_err(|error| error.to_string())
 }
 
 /// Refuses row groups that would decode to more than `most` bytes, as far as they say.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
+use ::parquet::arrow::arrow_reader::ArrowReaderMetadata;
 use ::parquet::file::metadata::RowGroupMetaData;
 use ::parquet::file::statistics::Statistics;
 use arrow_array::UInt64Array;
@@ -13,7 +13,7 @@ use arrow_select::take::take_record_batch;
 use hairpin::campaign::CaseNumber;
 
 use super::Key;
-use super::guard::{check_footer, most_decoded};
+use super::guard::{most_decoded, read_footer};
 use super::piece::Piece;
 use super::table::{CASE, PERIOD, RUN, Table, TableError, decode_groups, notes_of};
 use crate::bounds;
@@ -123,11 +123,8 @@ impl Part {
 /// What the file at `path` says of its rows: its footer alone is read.
 pub(super) fn footer(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     let mut file = open_file(path)?;
-    let load = || {
-        check_footer(&mut file)?;
-        ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).map_err(|error| error.to_string())
-    };
-    let loaded = foreign::call(load).unwrap_or_else(|_| Err("its bytes contradict each other".into()));
+    let loaded =
+        foreign::call(|| read_footer(&mut file)).unwrap_or_else(|_| Err("its bytes contradict each other".into()));
     loaded.map_err(|cause| TableError::Broken { path: path.into(), cause })
 }
 
@@ -147,7 +144,7 @@ fn open_file(path: &Path) -> Result<File, TableError> {
 
 /// The case and run that a row group is of, if its statistics name one alone.
 pub(super) fn key_of(group: &RowGroupMetaData) -> Option<Key> {
-    let column = |name: &str| group.columns().iter().find(|column| column.column_path().string() == name);
+    let column = |name: &str| group.columns().iter().find(|column| column.column_path().parts() == [name]);
     let case = match column(CASE)?.statistics()? {
         Statistics::ByteArray(found) => {
             let (least, most) = (found.min_opt()?, found.max_opt()?);

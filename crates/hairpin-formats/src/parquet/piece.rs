@@ -1,21 +1,26 @@
 //! A piece: the rows of one case or run, packed as they will stand in a part of a table, a row group of its own.
 
+use std::cell::RefCell;
 use std::io;
 use std::sync::Arc;
 
-use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
 use ::parquet::basic::Compression;
-use ::parquet::file::properties::EnabledStatistics;
+use ::parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::schema::types::ColumnPath;
 use arrow_array::{RecordBatch, new_null_array};
 use arrow_cast::cast;
 use arrow_schema::{DataType, Field, Schema};
 use bytes::Bytes;
 
-use super::compressed::compressed;
+use super::compressed::Layout;
 use super::table::{CASE, Columns, RUN, decode_groups_of, io_error, properties};
 use crate::channels::LEG;
+
+thread_local! {
+    static LAYOUT: RefCell<Option<Layout>> = const { RefCell::new(None) };
+}
 
 /// The rows of one case or run, packed.
 #[derive(Debug, Clone)]
@@ -40,27 +45,20 @@ impl Piece {
 
     pub(super) fn of_batch(batch: &RecordBatch, period: Option<f64>) -> io::Result<Self> {
         let schema = batch.schema();
-        // Of a hundred rows a dictionary is a page more, and longer than what it saves but where few values take turns.
-        let mut builder = properties(&schema)
-            .set_dictionary_enabled(false)
-            .set_column_dictionary_enabled(ColumnPath::new(vec![LEG.into()]), true)
-            .set_statistics_enabled(EnabledStatistics::None)
-            .set_compression(Compression::UNCOMPRESSED);
-        for key in [CASE, RUN] {
-            // What tells one piece from another without reading it.
-            builder =
-                builder.set_column_statistics_enabled(ColumnPath::new(vec![key.into()]), EnabledStatistics::Chunk);
-        }
-        let builder = builder.set_offset_index_disabled(true);
-        let mut writer = ArrowWriter::try_new(Vec::new(), schema.clone(), Some(builder.build())).map_err(io_error)?;
-        writer.write(batch).map_err(io_error)?;
-        let bytes = compressed(&writer.into_inner().map_err(io_error)?.into())?;
+        let bytes = LAYOUT.with_borrow_mut(|known| {
+            // Pieces of one table hardly ever differ in their columns.
+            let layout = match known.take().filter(|known| *known.schema() == schema) {
+                Some(layout) => layout,
+                None => Layout::of(schema.clone(), encoding(&schema))?,
+            };
+            known.insert(layout).packed(batch)
+        })?;
         let fields = schema.fields().iter().map(|field| field.as_ref().clone()).collect();
         Ok(Self { bytes, fields, period })
     }
 
-    pub(super) fn metadata(&self) -> io::Result<ArrowReaderMetadata> {
-        ArrowReaderMetadata::load(&self.bytes, ArrowReaderOptions::new()).map_err(io_error)
+    pub(super) fn metadata(&self) -> io::Result<ParquetMetaData> {
+        ParquetMetaDataReader::new().parse_and_finish(&self.bytes).map_err(io_error)
     }
 
     /// The same with the columns `fields`: numbers in other widths, and columns that it has not empty.
@@ -68,7 +66,8 @@ impl Piece {
         if self.fields == *fields {
             return Ok(self.clone());
         }
-        let batch = decode_groups_of(&self.bytes, &self.metadata()?).map_err(io::Error::other)?;
+        let metadata = ArrowReaderMetadata::try_new(Arc::new(self.metadata()?), ArrowReaderOptions::new());
+        let batch = decode_groups_of(&self.bytes, &metadata.map_err(io_error)?).map_err(io::Error::other)?;
         let column = |field: &Field| match batch.column_by_name(field.name()) {
             Some(column) => cast(column, field.data_type()).map_err(io::Error::other),
             None => Ok(new_null_array(field.data_type(), batch.num_rows())),
@@ -78,6 +77,21 @@ impl Piece {
         let batch = RecordBatch::try_new(schema, columns).map_err(io::Error::other)?;
         Self::of_batch(&batch, self.period)
     }
+}
+
+/// How the columns of a piece are encoded.
+fn encoding(schema: &Schema) -> WriterProperties {
+    // Of a hundred rows a dictionary is a page more, and longer than what it saves but where few values take turns.
+    let mut builder = properties(schema)
+        .set_dictionary_enabled(false)
+        .set_column_dictionary_enabled(ColumnPath::new(vec![LEG.into()]), true)
+        .set_statistics_enabled(EnabledStatistics::None)
+        .set_compression(Compression::UNCOMPRESSED);
+    for key in [CASE, RUN] {
+        // What tells one piece from another without reading it.
+        builder = builder.set_column_statistics_enabled(ColumnPath::new(vec![key.into()]), EnabledStatistics::Chunk);
+    }
+    builder.set_offset_index_disabled(true).build()
 }
 
 /// The columns of all that `pieces` have, by first appearance; where their types differ, floating-point numbers.

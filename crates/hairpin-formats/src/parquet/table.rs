@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader};
+use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReader};
 use ::parquet::arrow::{ArrowWriter, ProjectionMask, parquet_to_arrow_field_levels};
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::file::metadata::KeyValue;
@@ -20,7 +20,7 @@ use bytes::Bytes;
 use thiserror::Error;
 
 use super::groups::Groups;
-use super::guard::{check_footer, check_sizes, most_decoded};
+use super::guard::{check_sizes, most_decoded, read_footer};
 use crate::atomic::{self, WriteError};
 use crate::bounds::{self, MOST_RASTER_BYTES};
 use crate::foreign;
@@ -273,8 +273,7 @@ type Decoded = (RecordBatch, Vec<(String, String)>);
 
 fn decode(mut file: File) -> Result<Decoded, String> {
     let most = most_decoded(file.metadata().map_err(|error| error.to_string())?.len());
-    check_footer(&mut file)?;
-    let metadata = ArrowReaderMetadata::load(&file, ArrowReaderOptions::new()).map_err(|error| error.to_string())?;
+    let metadata = read_footer(&mut file)?;
     let groups: Vec<usize> = (0..metadata.metadata().num_row_groups()).collect();
     let batch = decode_groups(&file, &metadata, &groups, most)?;
     Ok((batch, notes_of(&metadata)))

@@ -44,6 +44,14 @@ pub fn planned(case: CaseNumber, track: &Track) -> io::Result<Piece> {
     thinned((case, None), track, &BTreeSet::new())
 }
 
+/// A planned motion of which the rows where it bends are known, and the time between its samples, s.
+///
+/// # Errors
+/// There is no room for it.
+pub fn planned_rows(case: CaseNumber, (rows, period): (&Track, f64)) -> io::Result<Piece> {
+    Piece::thinned(rounded(columns((case, None), rows)), Some(period))
+}
+
 /// The motion of a run, or a plan, the rows where it bends and those in `marked`.
 pub(super) fn thinned(key: (CaseNumber, Option<usize>), track: &Track, marked: &BTreeSet<usize>) -> io::Result<Piece> {
     let Some(period) = period(track) else { return Piece::of(columns(key, track)) };

@@ -22,10 +22,18 @@ class Unheard(BaseException):
 
 
 def number(value, of):
-    if not abs(float(value)) <= LARGEST:
-        wanted = f"must be within ±{LARGEST:g}" if math.isfinite(float(value)) else "is no finite number"
+    # float() takes words for what they say, truths for 0 and 1, and of complex numbers a part.
+    kind = getattr(getattr(value, "dtype", None), "kind", "f")
+    try:
+        told = None if isinstance(value, (bool, str, bytes, bytearray)) or kind not in "iuf" else float(value)
+    except (TypeError, ValueError):
+        told = None
+    if told is None:
+        raise TypeError(f"{value!r} is no number, of {of}")
+    if not abs(told) <= LARGEST:
+        wanted = f"must be within ±{LARGEST:g}" if math.isfinite(told) else "is no finite number"
         raise ValueError(f"{value!r} {wanted}, of {of}")
-    return float(value)
+    return told
 
 
 def scores(space):

@@ -40,14 +40,14 @@ pub(super) fn read(bytes: &[u8], georeference: &Georeference) -> Result<Raster, 
         let found = data.len();
         return Err(broken(&format!("the header says {rows} x {columns} heights, {needed} bytes; {found} follow")));
     }
-    let heights: Vec<f32> = match descr {
-        "<f4" => data.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect(),
-        ">f4" => data.as_chunks().0.iter().map(|b| f32::from_be_bytes(*b)).collect(),
-        "<f8" => data.as_chunks().0.iter().map(|b| f64::from_le_bytes(*b) as f32).collect(),
-        _ => data.as_chunks().0.iter().map(|b| f64::from_be_bytes(*b) as f32).collect(),
-    };
     let known = |height: f32| if no_data::is_none(height.into()) { f32::NAN } else { height };
-    let heights: Vec<f32> = heights.into_iter().map(known).collect();
+    // Arrays may be large: each number is touched once.
+    let heights: Vec<f32> = match descr {
+        "<f4" => data.as_chunks().0.iter().map(|b| known(f32::from_le_bytes(*b))).collect(),
+        ">f4" => data.as_chunks().0.iter().map(|b| known(f32::from_be_bytes(*b))).collect(),
+        "<f8" => data.as_chunks().0.iter().map(|b| known(f64::from_le_bytes(*b) as f32)).collect(),
+        _ => data.as_chunks().0.iter().map(|b| known(f64::from_be_bytes(*b) as f32)).collect(),
+    };
     let heights = match fortran {
         false => heights,
         true => (0..rows * columns).map(|i| heights[i % columns * rows + i / columns]).collect(),

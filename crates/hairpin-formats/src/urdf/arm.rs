@@ -19,6 +19,8 @@ use super::tree::{Joint, Moves, Tree, UNBOUNDED};
 
 /// Speed of a joint whose limit is not given, rad/s.
 const USUAL_SPEED: f64 = std::f64::consts::PI;
+/// Bounds that differ by less are the same but for their digits, rad.
+const SAME: f64 = 1e-6;
 /// Bodies, at most: each is held against every other.
 const MOST_BODIES: usize = 2000;
 /// Sentences about shapes, at most.
@@ -68,6 +70,7 @@ impl Built {
         self.names.push(joint.name.into());
         let bounds = self.limit(joint)?;
         self.limits.push(bounds);
+        self.softer(joint, [bounds[0], bounds[1]])?;
         let limit = child(&joint.node, "limit").unwrap_or(joint.node);
         self.place(&format!("chain.joints[{index}]"), &joint.node);
         for (key, name) in [("lower_deg", "lower"), ("upper_deg", "upper"), ("speed_deg_s", "velocity")] {
@@ -122,6 +125,24 @@ impl Built {
             self.said.push(format!("speed of joint {}, which has no <limit>: {degrees:.0}°/s", joint.told()));
         }
         Ok([lower, upper, speed.unwrap_or(USUAL_SPEED)])
+    }
+
+    /// Says where a `<safety_controller>` has narrower bounds (rad) than the joint: whoever obeys it stops there, and
+    /// what is planned goes by `<limit>`.
+    fn softer(&mut self, joint: &Joint, [lower, upper]: [f64; 2]) -> Result<(), UrdfError> {
+        for soft in joint.node.children().filter(|node| node.has_tag_name("safety_controller")) {
+            let or = |name: &str, usual: f64| soft.attribute(name).map_or(Ok(usual), |_| number(&soft, name));
+            let (from, to) = (or("soft_lower_limit", lower)?, or("soft_upper_limit", upper)?);
+            if from > lower + SAME || to < upper - SAME {
+                self.say(format!(
+                    "bounds of joint {}: its <safety_controller> has {:.1}° to {:.1}°, narrower than they are, and is not kept",
+                    joint.told(),
+                    from.to_degrees(),
+                    to.to_degrees()
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Bodies of all links, each with the arm's link that carries it; those of `known` get no stand-in.

@@ -17,7 +17,8 @@
 //! | mesh: STL, OBJ, Collada | convex hulls around it, never smaller |
 //! | a link without, or whose mesh is not there | a stand-in, named in `estimates` |
 //! | `<inertial>` | masses, where all six links have them |
-//! | `<visual>`, `<transmission>`, `<gazebo>`, `<safety_controller>`, `<dynamics>`, `effort` | nothing |
+//! | `<safety_controller>` with narrower bounds | nothing, and that it is not kept is named in `estimates` |
+//! | `<visual>`, `<transmission>`, `<gazebo>`, `<dynamics>`, `effort` | nothing |
 //! | whatever is on no list (`known`), or a second time where one is read | refused with its line |
 
 mod arm;

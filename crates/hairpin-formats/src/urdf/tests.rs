@@ -172,7 +172,17 @@ fn what_slides_before_the_arm_is_named() {
         "<axis xyz='1 0 0'/><limit lower='-2.79",
         "<axis xyz='1 0 0'/><mimic joint='joint_3'/><limit lower='-2.79",
     );
-    assert!(told(&hung).contains("turning joints, not six") || told(&hung).contains("mimic"), "{}", told(&hung));
+    let words = "the longest chain has 5 turning joints, not six; on its way joint `joint_4` follows another (mimic)";
+    assert!(told(&hung).starts_with("line ") && told(&hung).ends_with(words), "{}", told(&hung));
+    // One that slides, or floats, in the place of an axis; of the last the flange's name says that it is before that.
+    for (joint, kind, moves) in
+        [("joint_3", "prismatic", "slides (prismatic)"), ("joint_6", "planar", "floats, or moves in a plane")]
+    {
+        let other =
+            irb120().replace(&format!("name='{joint}' type='revolute'"), &format!("name='{joint}' type='{kind}'"));
+        let words = format!("5 turning joints, not six; on its way joint `{joint}` {moves}");
+        assert!(told(&other).starts_with("line ") && told(&other).ends_with(&words), "{}", told(&other));
+    }
 }
 
 #[test]
@@ -188,6 +198,24 @@ fn continuous_joints_need_no_limit() {
     assert!(built.estimated.iter().any(|said| said.contains("speed of joint `joint_6`")), "{:?}", built.estimated);
     let bare = text.replace(&text[from..end], "");
     assert!(told(&bare).contains("joint `joint_6` turns and needs <limit>"), "{}", told(&bare));
+}
+
+/// A controller that obeys softer limits stops short of what is planned.
+#[test]
+fn narrower_bounds_of_a_safety_controller_are_told() {
+    let of = |soft: &str| {
+        let text =
+            irb120().replacen("<axis xyz='0 0 1'/>", &format!("<axis xyz='0 0 1'/><safety_controller {soft}/>"), 1);
+        let (_, built) = arm(&text);
+        built.estimated.into_iter().filter(|said| said.contains("safety_controller")).collect::<Vec<_>>()
+    };
+    let words = "bounds of joint `joint_1`: its <safety_controller> has -114.6° to 165.0°, narrower than they are, and is not kept";
+    assert_eq!(of("soft_lower_limit='-2' k_velocity='10'"), [words]);
+    assert_eq!(of("soft_lower_limit='-2.88' soft_upper_limit='2.88' k_velocity='10'").len(), 0);
+    assert_eq!(of("k_velocity='10'").len(), 0);
+    let broken =
+        irb120().replacen("<axis xyz='0 0 1'/>", "<axis xyz='0 0 1'/><safety_controller soft_upper_limit='2m'/>", 1);
+    assert!(told(&broken).ends_with("soft_upper_limit = \"2m\" is no number"), "{}", told(&broken));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::element::{UrdfError, at, told};
-use super::tree::{Moves, Tree};
+use super::tree::{Joint, Moves, Tree};
 
 /// Joints of an arm.
 pub(super) const AXES: usize = 6;
@@ -34,12 +34,7 @@ pub(super) fn arm_of<'t>(tree: &Tree<'t>, base: Option<&str>, tip: Option<&str>)
         return Err(UrdfError::Chain(format!("tip `{}` is not below the base `{}`", told(tip), told(base))));
     };
     for joint in joints.iter().map(|joint| &tree.joints[*joint]) {
-        let moves = match joint.moves {
-            Moves::Slides => "slides (prismatic)",
-            Moves::Anyhow => "floats, or moves in a plane",
-            Moves::Turns if joint.mimic.is_some() => "follows another (mimic)",
-            Moves::Not | Moves::Turns => continue,
-        };
+        let Some(moves) = moves_otherwise(joint) else { continue };
         let what = format!(
             "joint {} {moves} and lies between the base `{}` and the flange `{}`: arms of six turning joints are \
              modelled; where it stands before the arm, the key base = \"{}\" leaves it out",
@@ -62,6 +57,16 @@ pub(super) fn arm_of<'t>(tree: &Tree<'t>, base: Option<&str>, tip: Option<&str>)
         told(tip),
         names.join(", ")
     )))
+}
+
+/// How a joint moves that is neither fixed nor an axis of an arm.
+fn moves_otherwise(joint: &Joint) -> Option<&'static str> {
+    match joint.moves {
+        Moves::Slides => Some("slides (prismatic)"),
+        Moves::Anyhow => Some("floats, or moves in a plane"),
+        Moves::Turns if joint.mimic.is_some() => Some("follows another (mimic)"),
+        Moves::Not | Moves::Turns => None,
+    }
 }
 
 fn known<'t>(tree: &Tree<'t>, key: &str, link: &str) -> Result<&'t str, UrdfError> {
@@ -95,19 +100,14 @@ fn chosen<'t>(tree: &Tree<'t>, base: &'t str) -> Result<&'t str, UrdfError> {
     // What another joint follows is a gripper's.
     let wrists: Vec<usize> = sixths.iter().copied().filter(|index| !followed(tree.joints[*index].name)).collect();
     if wrists.is_empty() {
-        let most = count.values().copied().max().unwrap_or(0);
-        return Err(sixths.first().map_or_else(
-            || UrdfError::Chain(format!("the longest chain has {most} turning joints, not six")),
-            |sixth| followed_sixth(tree, *sixth),
-        ));
+        return Err(sixths.first().map_or_else(|| too_few(tree, base, &count), |sixth| followed_sixth(tree, *sixth)));
     }
     let rigid: Vec<Vec<&str>> = wrists.iter().map(|index| rigidly(tree, tree.joints[*index].child)).collect();
     // By name: exactly, else as the last part of a name.
     let all = || rigid.iter().flatten().copied();
     for flange in FLANGES {
         let exact: Vec<&str> = all().filter(|link| *link == flange).collect();
-        let ends = |link: &&str| link.strip_suffix(flange).is_some_and(|before| before.ends_with(['_', '-', '/', '.']));
-        let named = if exact.is_empty() { all().filter(ends).collect() } else { exact };
+        let named = if exact.is_empty() { all().filter(|link| ends_as(link, flange)).collect() } else { exact };
         match named[..] {
             [] => {}
             [link] => return Ok(link),
@@ -130,6 +130,28 @@ fn chosen<'t>(tree: &Tree<'t>, base: &'t str) -> Result<&'t str, UrdfError> {
             )))
         }
         _ => Ok(tip),
+    }
+}
+
+/// Whether the last part of a link's name is a flange's.
+fn ends_as(link: &str, flange: &str) -> bool {
+    link.strip_suffix(flange).is_some_and(|before| before.ends_with(['_', '-', '/', '.']))
+}
+
+/// That nowhere six joints turn in a row; and what moves otherwise on the way to where most do, or to a link with a
+/// flange's name, so that it stands in the place of one.
+fn too_few(tree: &Tree, base: &str, count: &BTreeMap<&str, usize>) -> UrdfError {
+    let most = count.values().copied().max().unwrap_or(0);
+    let is_flange = |link: &str| FLANGES.iter().any(|flange| link == *flange || ends_as(link, flange));
+    // The first of a chain's links with as many is what the last of its joints turns.
+    let links = || tree.downwards(base).into_iter().map(move |index| tree.joints[index].child);
+    let last = links().find(|link| count[*link] == most);
+    let ways = last.into_iter().chain(links().filter(|link| is_flange(link))).filter_map(|link| tree.way(base, link));
+    let other = ways.flatten().find_map(|index| Some((&tree.joints[index], moves_otherwise(&tree.joints[index])?)));
+    let what = format!("the longest chain has {most} turning joints, not six");
+    match other {
+        Some((joint, moves)) => at(&joint.node, &format!("{what}; on its way joint {} {moves}", joint.told())),
+        None => UrdfError::Chain(what),
     }
 }
 

@@ -61,9 +61,16 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
                     landed(job, run);
                 }
             };
-            // Part by part, so that few are open at a time.
-            let parts = missing.chunk_by(|a, b| writer.part_of(a.case.number) == writer.part_of(b.case.number));
-            while_wanted(&work.setup, watch, || parts.for_each(|part| part.par_iter().for_each(fly)));
+            // In order, so that few parts are open at a time, and without waiting for each other at a part's end.
+            let next = AtomicUsize::new(0);
+            let fly_on = || {
+                while let Some(job) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    fly(job);
+                }
+            };
+            while_wanted(&work.setup, watch, || {
+                rayon::broadcast(|_| fly_on());
+            });
         }
         Some((command, limits)) => {
             fly_with(work, missing, (&command, limits, &executing), &landed, &stop, watch);

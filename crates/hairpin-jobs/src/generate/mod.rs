@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::generate::{Known, generate_units};
-use hairpin::campaign::{Case, Setup, Stop, Tally, learn, planned};
+use hairpin::campaign::{Case, Setup, Stop, Tally, learn, planned, planned_rows};
 use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
 use rayon::prelude::*;
@@ -255,8 +255,14 @@ pub(crate) fn check_plans(setup: &Setup, cases: &[Case]) -> Result<(), Problem> 
 pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally) -> Result<(), Problem> {
     let pack = |case: &Case| {
         let refuse = |error: &dyn Display| Problem::input(format!("case {}: {error}", case.id()));
-        let planned = planned(&work.setup, case).map_err(|error| refuse(&error))?;
-        Ok((case.number, track::planned(case.number, &planned).map_err(|error| refuse(&error))?))
+        let piece = match planned_rows(&work.setup, case).map_err(|error| refuse(&error))? {
+            Some((rows, period)) => track::planned_rows(case.number, (&rows, period)),
+            None => {
+                let planned = planned(&work.setup, case).map_err(|error| refuse(&error))?;
+                track::planned(case.number, &planned)
+            }
+        };
+        Ok((case.number, piece.map_err(|error| refuse(&error))?))
     };
     for block in cases[from..].chunks(AT_ONCE) {
         let packed: Result<Vec<_>, Problem> = block.par_iter().map(pack).collect();

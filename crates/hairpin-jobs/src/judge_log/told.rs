@@ -207,6 +207,7 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
                 _ => format!("{own}{may}; {other} or {limit} the limit"),
             }
         }
+        Why::Impossible(found) => found.in_words(),
         Why::Mean(span) => {
             let rate = found.source.rate_hz;
             format!(

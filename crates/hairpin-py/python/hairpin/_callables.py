@@ -182,6 +182,9 @@ def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable
 
 def _number(what: str, answer: Any) -> float:
     unmasked(what, answer, _FINITE)
+    # float() takes words for what they say, truths for 0 and 1, and of complex numbers a part.
+    if np.asarray(answer).dtype.kind in "bcSU":
+        raise wrong(what, answer, _FINITE)
     return float(answer)
 
 

@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value};
 
-use super::digits::{digits_within, with_digits};
+use super::digits::{digits_within, signed_digits, with_digits};
 use super::judge::measures_of;
 use super::scenario::Asked;
 use super::{Case, Run, Setup};
@@ -71,8 +71,8 @@ pub struct Outcome {
 
 /// A limit that the wanted share of cases breaks.
 ///
-/// `value` is `None` with a `reason`: too few cases, a share that the interval does not reach, a measure that no run
-/// has.
+/// `value` is `None` with a `reason`: too few cases, a share that the interval does not reach, values that are all the
+/// same up to there, a measure that no run has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
     /// The key.
@@ -83,6 +83,8 @@ pub struct Proposal {
     pub interval: Option<[f64; 2]>,
     /// Cases that it follows from.
     pub cases: usize,
+    /// Of these, cases that break `value`: beyond it, not at it.
+    pub broken_by: Option<usize>,
     /// Why there is none, in a sentence's part.
     pub reason: Option<String>,
 }
@@ -137,8 +139,14 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
     let propose = |(place, key): (usize, &&'static Key)| {
         let values: Vec<f64> = outcomes.iter().filter_map(|outcome| outcome.worst[place]).collect();
         let cases = values.len();
-        let none =
-            |reason: String| Proposal { field: key.key, value: None, interval: None, cases, reason: Some(reason) };
+        let none = |reason: String| Proposal {
+            field: key.key,
+            value: None,
+            interval: None,
+            cases,
+            broken_by: None,
+            reason: Some(reason),
+        };
         let few = format!("{cases} cases were measured");
         // Of what ends badly it is not known whether it would have been measured.
         let ended_well = || outcomes.iter().filter(|outcome| !outcome.ended_badly);
@@ -161,12 +169,23 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
         }
         let Quantile { value, low, high } = limit;
         let scale = if key.least { -key.factor } else { key.factor };
+        let broken_by = values.iter().filter(|worst| **worst > value).count();
+        if value == high {
+            // Of what is the same for many no limit divides a share: at it fewer break it, short of it far more.
+            let same = values.iter().filter(|worst| **worst == value).count();
+            return none(format!(
+                "{same} of {cases} cases come to the same {}, and {broken_by} to worse: no limit is one that {} % break",
+                signed_digits(scale * value),
+                100.0 * broken
+            ));
+        }
         let ends = if key.least { [high, low] } else { [low, high] };
         Proposal {
             field: key.key,
             value: Some(scale * value),
             interval: Some(ends.map(|end| scale * end)),
             cases,
+            broken_by: Some(broken_by),
             reason: None,
         }
     };
@@ -244,6 +263,7 @@ mod tests {
         let found = propose(&setup, &outcomes(200, 0), 0.05);
         let [only] = found.as_slice() else { panic!("{found:?}") };
         assert_eq!((only.field, only.cases, &only.reason), ("spec.deviation.max_m", 200, &None));
+        assert_eq!(only.broken_by, Some(10));
         assert!((only.value.unwrap() - 1.89).abs() < 1e-12, "{only:?}");
         let [low, high] = only.interval.unwrap();
         assert!((low - 1.83).abs() < 1e-12 && (high - 1.96).abs() < 1e-12, "{only:?}");
@@ -266,6 +286,26 @@ mod tests {
         let [low, high] = found[0].interval.unwrap();
         let told = json!(spec(&setup, &found))["acceleration"]["max_m_s2"].as_f64().unwrap();
         assert!((low..=high).contains(&told) && high - low < 1e-6, "{told} of {low} … {high}");
+    }
+
+    /// On flat ground all vehicles stand alike: none is beyond the value that all have.
+    #[test]
+    fn what_many_have_alike_is_no_limit_and_who_breaks_one_is_counted() {
+        let setup = setup(json!("none"));
+        let proposed = |worst: &dyn Fn(usize) -> f64| {
+            let one = |i| Outcome { worst: vec![Some(worst(i))], ended_badly: false, left_world: false };
+            propose(&setup, &(0..200).map(one).collect::<Vec<_>>(), 0.05).remove(0)
+        };
+        let alike = proposed(&|_| 0.05);
+        assert_eq!((alike.value, alike.interval, alike.broken_by), (None, None, None));
+        let reason = alike.reason.unwrap();
+        assert!(reason.starts_with("200 of 200 cases come to the same 0.0500, and 0 to worse"), "{reason}");
+        // Two are beyond it, up to the upper end of the interval (rank 197) nobody is.
+        let few = proposed(&|i| if i < 198 { 0.05 } else { 0.06 });
+        assert!(few.reason.unwrap().starts_with("198 of 200 cases come to the same 0.0500, and 2 to worse"));
+        // A handful that is the same about the limit: seven break it, not ten.
+        let some = proposed(&|i| if (185..193).contains(&i) { 1.9 } else { 0.01 * i as f64 });
+        assert_eq!((some.value, some.broken_by), (Some(1.9), Some(7)));
     }
 
     #[test]

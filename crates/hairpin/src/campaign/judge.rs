@@ -16,6 +16,7 @@ use std::cell::OnceCell;
 
 use super::gravity::Gravity;
 use super::hidden::{hidden, sampled};
+use super::impossible::too_fast;
 use super::influence::RunDeviation;
 use super::missed::missed;
 use super::scenario::{Asked, DeviationFrom, Terms};
@@ -204,7 +205,8 @@ fn judge_run(
         let unmeasured = || terms.limits.open(&measures);
         // What violates has an answer.
         let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
-        let open = unseen.and_then(|unseen| unseen.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
+        let too_fast = || too_fast(&own, &flight.track, &terms.limits);
+        let open = too_fast().or_else(|| unseen?.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }

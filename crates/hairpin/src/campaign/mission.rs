@@ -20,6 +20,15 @@ pub fn planned(setup: &Setup, case: &Case) -> Result<Track, PlanError> {
     setup.kind().planned(case)
 }
 
+/// The rows of the planned motion where it bends, and the time between its samples, s, of a plan that says where that
+/// is: straight legs bend where they meet. `None`: they are found in the [`planned`] motion.
+///
+/// # Errors
+/// As of [`planned`].
+pub fn planned_rows(setup: &Setup, case: &Case) -> Result<Option<(Track, f64)>, PlanError> {
+    setup.kind().planned_rows(case)
+}
+
 /// One run of a case, as it is flown: by our simulator or by an executor of the user's.
 ///
 /// What the executor protocol sends, and all that our simulator is told. SI units, world frame.

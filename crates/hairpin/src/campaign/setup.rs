@@ -304,6 +304,11 @@ impl Setup {
         self.kind.swiftness()
     }
 
+    /// A mean speed, m/s, over `span` s that no robot of its file comes to; `None` where nothing bounds it.
+    pub fn ceiling(&self, span: f64) -> Option<f64> {
+        self.kind.ceiling(span).filter(|ceiling| ceiling.is_finite())
+    }
+
     /// Why runs of other seeds are the same run, a sentence's part; `None` where they may differ, as by noise, gusts
     /// and code of the user's.
     pub fn repeats(&self) -> Option<&'static str> {

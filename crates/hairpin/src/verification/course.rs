@@ -65,8 +65,9 @@ impl Course<'_> {
     /// Roll φ, pitch θ, yaw ψ (z-y-x Euler angles); vx, vy, ωz are those in the body. What keeps the wheels on the
     /// ground (vz, ωx, ωy) is left out of it: that is the difference from `carry`.
     pub(super) fn rates(&self, rest: &Rest, yaw: f64, s: f64) -> [f64; 3] {
-        let [(sf, cf), (st, ct), (sp, cp)] = [rest.roll(), rest.pitch(), yaw].map(libm::sincos);
-        let [vx, vy, turn] = self.body_rates(&Place { roll: rest.roll(), pitch: rest.pitch() }, s);
+        let (place, (sp, cp)) = (Place::new(rest.roll(), rest.pitch()), libm::sincos(yaw));
+        let [vx, vy, turn] = self.body_rates(&place, s);
+        let ((sf, cf), (st, ct)) = (place.roll, place.pitch);
         let ahead = ct * vx + st * sf * vy;
         let left = cf * vy;
         [cp * ahead - sp * left, sp * ahead + cp * left, cf / ct * turn]
@@ -83,7 +84,7 @@ impl Course<'_> {
     /// linear in the sine: uphill it goes slower, downhill faster, across it slides down.
     pub(super) fn body_rates(&self, place: &Place, s: f64) -> [f64; 3] {
         let DrivePiece::Arc { direction, .. } = self.piece else { return [0.0, 0.0, 1.0] };
-        let [(sf, _), (st, ct), (sd, cd)] = [place.roll, place.pitch, self.crab(s)].map(libm::sincos);
+        let ((sf, _), (st, ct), (sd, cd)) = (place.roll, place.pitch, libm::sincos(self.crab(s)));
         // Unit vectors of the way and across it in the body, and how steeply each rises.
         let (along, across) = ([cd, sd], [-sd, cd]);
         let rises = [-st, ct * sf];

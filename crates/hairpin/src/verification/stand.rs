@@ -282,10 +282,8 @@ fn gaps<T: Terrain>(stand: &Stand, terrain: &T, place: [f64; 3], unknowns: &Unkn
     let mut gaps = Gaps::zeros();
     for (gap, wheel) in gaps.iter_mut().zip(&wheels[..count]) {
         let center = origin + world_from_body * wheel;
-        let ground = terrain.patch(center.x, center.y)?;
-        *gap = center.z
-            - ground.height
-            - radius * (1.0 + ground.slope[0] * ground.slope[0] + ground.slope[1] * ground.slope[1]).sqrt();
+        let (height, [east, north]) = terrain.tangent(center.x, center.y)?;
+        *gap = center.z - height - radius * (1.0 + east * east + north * north).sqrt();
     }
     Ok(gaps)
 }
@@ -310,10 +308,10 @@ fn wheels(stand: &Stand, unknowns: &Unknowns) -> ([Vector3<f64>; 6], usize, f64)
             (places, 4, *radius)
         }
         Stand::RockerBogie { pivot, rocker_wheel, bogie_joint, bogie_wheels, radius } => {
-            let sides = [(1.0, unknowns[3], unknowns[4]), (-1.0, -unknowns[3], unknowns[5])];
-            for (places, (side, rocker, bogie)) in places.chunks_exact_mut(3).zip(sides) {
+            let left = turn(1, unknowns[3]);
+            let sides = [(1.0, left, unknowns[4]), (-1.0, left.transpose(), unknowns[5])];
+            for (places, (side, at_rocker, bogie)) in places.chunks_exact_mut(3).zip(sides) {
                 let mirrored = |v: &Vector3<f64>| Vector3::new(v.x, side * v.y, v.z);
-                let at_rocker = turn(1, rocker);
                 let at_bogie = at_rocker * turn(1, bogie);
                 places[0] = mirrored(pivot) + at_rocker * mirrored(rocker_wheel);
                 let joint = mirrored(pivot) + at_rocker * mirrored(bogie_joint);

@@ -12,12 +12,19 @@ use nalgebra::{Matrix3, Vector3};
 use super::stand::{NoRest, Rest, Stand, turn};
 use crate::world::terrain::Terrain;
 
-/// How the body leans: roll and pitch, rad.
+/// How the body leans.
 pub(super) struct Place {
-    /// φ, rad.
-    pub(super) roll: f64,
-    /// θ, rad.
-    pub(super) pitch: f64,
+    /// sin φ, cos φ.
+    pub(super) roll: (f64, f64),
+    /// sin θ, cos θ.
+    pub(super) pitch: (f64, f64),
+}
+
+impl Place {
+    /// Of angles in rad.
+    pub(super) fn new(roll: f64, pitch: f64) -> Self {
+        Self { roll: libm::sincos(roll), pitch: libm::sincos(pitch) }
+    }
 }
 
 /// Tries of a rest.
@@ -52,7 +59,7 @@ pub(super) fn carry<T: Terrain>(
 ) -> Result<[f64; 3], NoRest> {
     rest.carry_on(stand, terrain, from)?;
     let (begun, origin) = (attitude(rest, from[2]), Vector3::new(from[0], from[1], rest.height()));
-    let leant = Place { roll: rest.roll(), pitch: rest.pitch() };
+    let leant = [rest.roll(), rest.pitch()];
     let mut place = ahead;
     let mut left = f64::INFINITY;
     for _ in 0..TRIES {
@@ -62,7 +69,7 @@ pub(super) fn carry<T: Terrain>(
         // In the frame halfway between the two.
         let halfway = begun * rotation(&(0.5 * turned));
         let moved = halfway.transpose() * (there - origin);
-        let middle = Place { roll: 0.5 * (leant.roll + rest.roll()), pitch: 0.5 * (leant.pitch + rest.pitch()) };
+        let middle = Place::new(0.5 * (leant[0] + rest.roll()), 0.5 * (leant[1] + rest.pitch()));
         let asked = body(&middle).map(|rate| h * rate);
         let lacks = Vector3::new(asked[0] - moved.x, asked[1] - moved.y, asked[2] - turned.z);
         left = lacks.amax();

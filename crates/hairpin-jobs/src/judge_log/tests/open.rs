@@ -72,6 +72,9 @@ fn bounds_that_the_log_itself_exceeds_bound_nothing() {
     let flown = judged.found.unwrap().flown.unwrap();
     assert_eq!((flown.swiftness.speed, flown.swiftness.acceleration), (None, None));
     assert!(flown.most_between.is_infinite() && flown.exceeded.is_some_and(|exceeded| exceeded.what == "speed"));
+    // What is told is the largest that the samples have, not where it is first in doubt.
+    let sentence = said(&with_velocities(8.0, 0.3)).0;
+    assert!(sentence.contains(": 0.30 m ≤ 0.50 m in samples at 800 Hz, but nothing bounds"), "{sentence}");
     // So do positions alone, whatever velocities stand beside them.
     for v_m_s in [None, Some(Vector3::x())] {
         let mut log = with_velocities(4.0, 0.0);
@@ -89,6 +92,23 @@ fn bounds_that_the_log_itself_exceeds_bound_nothing() {
     let flown = judged.found.unwrap().flown.unwrap();
     assert_eq!((flown.swiftness.speed, flown.swiftness.acceleration), (Some(18.0), None));
     assert_eq!(judged_as(&with_velocities(1.0, 0.3), |_, _| {}).unwrap().verdict.exit_code, 0);
+}
+
+/// Stamps in another unit keep every limit of duration.
+#[test]
+fn what_no_robot_of_the_file_flies_decides_nothing() {
+    let of = |share: f64| {
+        let mut log = log(100.0, 0.0);
+        log.motions[0].samples.iter_mut().for_each(|sample| sample.t_s *= share);
+        let brief =
+            |settings: &mut LogSettings, _: &Path| settings.sets = vec![("spec.total_time.max_s".into(), "9".into())];
+        let verdict = judged_as(&log, brief).unwrap().verdict;
+        (verdict.sentence, verdict.exit_code)
+    };
+    assert_eq!(of(1.0).1, 0, "{}", of(1.0).0);
+    let (sentence, code) = of(1e-3);
+    let words = "28.28 m in 0.0080 s from t = 0.00 s on are 3535.5 m/s, and ten times what its file allows is ";
+    assert!(code == 5 && sentence.contains(&format!("without accuracy): {words}")), "{sentence}");
 }
 
 #[test]

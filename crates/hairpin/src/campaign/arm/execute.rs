@@ -9,11 +9,12 @@ use crate::campaign::Case;
 use crate::campaign::kind::{Act, Fittable, Order, PassedOver, Same};
 use crate::campaign::placement::Placement;
 use crate::campaign::scenario::TimeLawName;
+use crate::judgement::moves::{MeasureSettings, measure_moves};
 use crate::robot::arm::{AXES, Joints};
 use crate::simulation::SimulationError;
 use crate::simulation::arm::{Fault, Noise, Plan, PlanSettings, RunSettings, Shape, Steering};
 use crate::trajectory::program::Program;
-use crate::trajectory::{Channel, Ended, Flight, Track};
+use crate::trajectory::{Channel, Ended, Flight, PlannedPath, Track};
 
 /// Time over which an s-curve averages the progress of a trapezoid, s: a usual one of controllers of this size.
 const S_CURVE: f64 = 0.04;
@@ -91,9 +92,13 @@ impl Act for ArmSetup {
         let plan = Plan::new(&self.station.arm, &nominal.station.home, &orders, &self.plan_settings())?;
         let steering = self.controller.as_ref().map(|controller| Steering { controller, waypoints: order.waypoints });
         let run = plan.execute_by(&self.run_settings(), &self.faults(), order.seed, steering)?;
-        let ended = if run.stop.is_some() { Ended::Halted } else { Ended::Done };
         let track = legs_of(&run.recording)?;
-        let reached = reached(&track, case.waypoints.len(), ended);
+        let waypoints = case.waypoints.len();
+        let (ended, reached) = match (run.stop, run.arrived) {
+            (None, false) => (Ended::Time, arrived(&plan.path(), &track, waypoints)?),
+            (None, true) => (Ended::Done, reached(&track, waypoints, Ended::Done)),
+            (Some(_), _) => (Ended::Halted, reached(&track, waypoints, Ended::Halted)),
+        };
         Ok(Flight { track, ended, left_world: None, reached })
     }
 
@@ -129,6 +134,21 @@ pub(super) fn legs_of(recording: &Track) -> Result<Track, SimulationError> {
     Track::new(recording.times().to_vec(), recording.poses().to_vec(), renamed.collect())
         .map(Track::with_velocities)
         .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))
+}
+
+/// When each waypoint was reached by an arm that did not come to its program's end, whatever its schedule says: when it
+/// arrived there on its way along `path`; `None` of those that it did not come to. What arcs only pass is told by the
+/// moves before and behind it, as programs have fewer moves then.
+fn arrived(path: &PlannedPath, track: &Track, waypoints: usize) -> Result<Vec<Option<f64>>, SimulationError> {
+    let measured = measure_moves(path, track, &MeasureSettings::default())
+        .map_err(|error| SimulationError::new("recording", error.to_string(), "one that moves are measured of"))?;
+    let arrivals = measured.moves.iter().map(|one| one.arrived);
+    let mut reached: Vec<Option<f64>> = std::iter::once(Some(0.0)).chain(arrivals).take(waypoints).collect();
+    reached.resize(waypoints, None);
+    if let Some(last) = reached.last_mut() {
+        *last = None;
+    }
+    Ok(reached)
 }
 
 /// When each waypoint was reached: when the next move began, and the last at the end.

@@ -12,9 +12,10 @@ use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::trial::{Sought, Trials};
-use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
+use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Status, Stop, execute_run, judge, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
+use crate::trajectory::Ended;
 use crate::trajectory::program::Program;
 
 /// A shipped arm before a fixture, and some points.
@@ -287,6 +288,24 @@ fn programs_execute_for_the_stresses_of_arms() {
     }
     let again = run();
     assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
+}
+
+/// Its schedule went on, and what was measured was within its limit.
+#[test]
+fn an_arm_that_does_not_come_to_its_programs_end_violates() {
+    let judged = |slower: f64| {
+        let wide = ("spec", json!({ "path": { "max_mm": 10_000.0 } }));
+        let setup = setup(&[("execute.faults", json!({ "axis": 1, "slower": slower })), wide]);
+        let case = ArmSolver::new(own(&setup)).draw(0, &Stop::never()).unwrap().case(7, 0, 0);
+        let run = execute_run(&setup, &case, 0);
+        let flight = run.outcome.clone().unwrap();
+        (judge(&setup, &case, &[run]).unwrap(), flight)
+    };
+    let (late, flight) = judged(0.3);
+    assert!(late.status == Status::Pass && flight.ended == Ended::Done, "{late:?}");
+    let (lost, flight) = judged(0.98);
+    assert!(lost.status == Status::Fail && lost.violations[0].is_unfinished(), "{lost:?}");
+    assert!(flight.ended == Ended::Time && flight.reached.last() == Some(&None));
 }
 
 const OWN_LAGS: &str = "the arm has lags of its own (robot.joints.lag_s)";

@@ -5,14 +5,24 @@ use serde_json::json;
 
 use super::{BoatSetup, assumptions, drawing};
 use crate::campaign::bounds::LARGEST_WATERS_M;
-use crate::campaign::kind::{Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say};
+use crate::campaign::kind::{
+    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say,
+};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
 use crate::robot::boat::Boat;
 use crate::simulation::Controlled;
 use crate::trajectory::Track;
 
+/// No boat is carried by a faster current, nor driven by wind at more than that, m/s.
+const CARRIED_M_S: f64 = 10.0;
+
 impl Say for BoatSetup {
+    /// Ten times its top speed through the water, and what carries it.
+    fn ceiling(&self, _span: f64) -> Option<f64> {
+        Some(BEYOND * self.boat.top_speed + CARRIED_M_S)
+    }
+
     fn robot_words(&self) -> RobotWords<'_> {
         let boat = &self.boat;
         let estimated = boat.estimated.iter().map(String::as_str).collect();

@@ -6,7 +6,7 @@ use serde_json::json;
 use super::{DriveSetup, assumptions, backwards, drawing};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say, reached_within, word,
+    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say, reached_within, word,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
@@ -132,6 +132,11 @@ impl Say for DriveSetup {
     /// The vehicle's own limit of speed. How suddenly bumps turn its velocity nothing bounds.
     fn swiftness(&self) -> Swiftness {
         Swiftness { speed: Some(self.rover.limits.speed).filter(|speed| speed.is_finite()), acceleration: None }
+    }
+
+    /// Ten times its limit of speed, as it may roll down a slope.
+    fn ceiling(&self, _span: f64) -> Option<f64> {
+        Some(BEYOND * self.swiftness().speed?)
     }
 }
 

@@ -35,6 +35,10 @@ impl Claim for FlightSetup {
         Ok(plan::track(&self.robot, case)?)
     }
 
+    fn planned_rows(&self, case: &Case) -> Result<Option<(Track, f64)>, PlanError> {
+        Ok(plan::straight_rows(&self.robot, case)?)
+    }
+
     fn followed(&self, case: &Case) -> Result<Track, PlanError> {
         let Some(curve) = own_curve(self, case) else { return self.planned(case) };
         let leg_times = curve.legs.iter().map(|leg| leg.duration).collect();

@@ -9,8 +9,8 @@ use super::figure::figure;
 use super::{FlightSetup, assumptions};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Rotor, Say, reached_within,
-    surface,
+    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Rotor, Say,
+    reached_within, surface,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
@@ -19,6 +19,9 @@ use crate::robot::battery::{Battery, BatteryDescription};
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription, QuadrotorKind, RotorDescription};
 use crate::simulation::{Acceptance, Controlled, ControllerKind};
 use crate::trajectory::Flight;
+
+/// No flight is carried by a faster wind, m/s.
+const WIND_M_S: f64 = 50.0;
 
 impl Say for FlightSetup {
     fn robot_words(&self) -> RobotWords<'_> {
@@ -143,6 +146,14 @@ impl Say for FlightSetup {
         let speed = Some(robot.max_speed).filter(|speed| speed.is_finite());
         let drag = speed.map_or(0.0, |v| robot.drag_linear * v + robot.drag_quadratic * v * v);
         Swiftness { speed, acceleration: Some((robot.max_thrust() + drag) / robot.mass + robot.gravity) }
+    }
+
+    /// The least of 10 v + w and v + w + 10 · ½ a h: by its top speed v, and by what it may gain in the time h from any
+    /// speed that it has, in wind w.
+    fn ceiling(&self, span: f64) -> Option<f64> {
+        let Swiftness { speed, acceleration } = self.swiftness();
+        let gained = acceleration.map_or(f64::INFINITY, |a| 0.5 * BEYOND * a * span);
+        Some(WIND_M_S + (BEYOND * speed?).min(speed? + gained))
     }
 }
 

@@ -3,8 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use super::log::Log;
+use crate::campaign::Setup;
+use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
-    self, Clearance, Close, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between, where_least,
+    self, Clearance, Close, Limits, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between,
+    where_least,
 };
 
 /// Why a limit that the samples keep, or break, is open.
@@ -35,6 +38,8 @@ pub enum Why {
     },
     /// When it ended is not seen: so many seconds of it were left out.
     End(f64),
+    /// No robot of its file is as fast: neither its times nor its places decide anything.
+    Impossible(Impossible),
 }
 
 /// A limit that is open; of leaving the world the distance to its edge, `edge`, which must not fall below 0.
@@ -94,25 +99,25 @@ impl Looked<'_> {
         (margin > 0.0 && least.is_finite()).then_some(least)
     }
 
+    /// Whether the limit of deviation is open. What is told is the largest of the samples, wherever it is in doubt.
     pub(super) fn deviation(&self, measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
         let limit = limit?;
         let samples = || {
             let all = self.close.iter().enumerate();
             all.filter_map(|(i, close)| Some((i, close.off?.norm(), self.sigma(i, close.off))))
         };
-        let value = |at: f64, value: f64, leg: usize| violation("deviation", value, limit, at, leg);
-        let worst = value(measures.t_worst, measures.max_deviation, measures.leg_worst);
-        let times = self.log.flight.track.times();
+        let worst = violation("deviation", measures.max_deviation, limit, measures.t_worst, measures.leg_worst);
         if measures.max_deviation > limit {
+            let times = self.log.flight.track.times();
             let certain = samples().any(|(_, off, sigma)| off - sigma.along > limit);
             let (_, _, sigma) = samples().find(|(i, ..)| times[*i] == measures.t_worst)?;
             return (!certain).then_some(Doubt { value: worst, why: sigma.doubt() });
         }
         let unsure = samples().filter(|(_, off, sigma)| off + sigma.along > limit);
-        if let Some((i, off, sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
-            return Some(Doubt { value: value(times[i], off, self.close[i].leg), why: sigma.doubt() });
+        if let Some((.., sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
+            return Some(Doubt { value: worst, why: sigma.doubt() });
         }
-        let (mut most, mut rate, mut at) = (0.0, Some(0.0_f64), 0);
+        let (mut most, mut rate) = (0.0_f64, Some(0.0_f64));
         for (i, close) in self.close.iter().enumerate() {
             let Some(bound) = close.until_next.map(|bound| bound + self.sigma(i, close.off).along) else { continue };
             if bound > limit {
@@ -120,14 +125,10 @@ impl Looked<'_> {
                     [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
                 let own = self.rate(limit - ends[0].max(ends[1]));
                 rate = rate.and_then(|rate| Some(rate.max(own?)));
-                if bound > most {
-                    (most, at) = (bound, i);
-                }
+                most = most.max(bound);
             }
         }
-        let off = self.close[at].off.map_or(0.0, |off| off.norm());
-        let value = value(times[at], off, self.close[at].leg);
-        (most > limit).then_some(Doubt { value, why: Why::Between { most, rate_hz: rate } })
+        (most > limit).then_some(Doubt { value: worst, why: Why::Between { most, rate_hz: rate } })
     }
 
     pub(super) fn overshoot(&self, measures: &Measures, limit: Option<f64>, settings: &Settings) -> Option<Doubt> {
@@ -195,6 +196,19 @@ impl Looked<'_> {
         }
         (most > f64::NEG_INFINITY).then(|| Doubt { value, why: Why::Between { most: turn(most), rate_hz: rate } })
     }
+}
+
+/// That a log is faster than any robot of the scenario's file, whatever is limited.
+pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Measures) -> Option<Doubt> {
+    let track = &log.flight.track;
+    let found = impossible(setup, track, &log.breaks, &|i| log.radius(i)).filter(|_| limits.are_given())?;
+    let mut past = 0.0;
+    let leg = measures.legs.iter().position(|leg| {
+        past += leg.time;
+        past > found.from_s - track.times()[0]
+    });
+    let value = violation("speed", found.speed(), found.bound_m_s, found.from_s, leg.unwrap_or(0));
+    Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
 }
 
 impl Sigma {

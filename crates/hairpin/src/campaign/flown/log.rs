@@ -25,4 +25,10 @@ impl Log {
     pub(super) fn sigma(&self, i: usize) -> [f64; 2] {
         self.accuracy.get(i).copied().flatten().unwrap_or([0.0; 2])
     }
+
+    /// Both of them in one, m: √(σ_h² + σ_v²).
+    pub(super) fn radius(&self, i: usize) -> f64 {
+        let [across, up] = self.sigma(i);
+        libm::hypot(across, up)
+    }
 }

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 use thiserror::Error;
 
-use self::doubts::{Looked, mean};
+use self::doubts::{Looked, mean, too_fast};
 use self::edge::left_world;
 use self::refuted::refuted;
 use super::judge::{reference, settings};
@@ -75,6 +75,8 @@ pub enum FlownError {
 /// means that are too long ([`is_seen`](judgement::is_seen)) is a doubt. Durations and attitudes are judged by the
 /// samples alone.
 ///
+/// What is faster than any robot of the scenario's file ([`Setup::ceiling`]) is a doubt about all of it.
+///
 /// An obstacle that it was in by more than that standard deviation it met, whatever is limited; one that it may have
 /// been in is a doubt about a clearance of 0 m, where nobody limits that.
 ///
@@ -104,7 +106,7 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let no_contact = Some(0.0).filter(|_| terms.limits.are_given() && !terms.limits.contact);
     let clear_by = terms.limits.clearance.or(no_contact);
     let mut broken = judgement::violations(&measures, &flight, &terms.limits);
-    let mut doubts = Vec::new();
+    let mut doubts: Vec<Doubt> = too_fast(setup, log, &terms.limits, &measures).into_iter().collect();
     for (what, doubt) in [
         ("deviation", looked.deviation(&measures, terms.limits.deviation)),
         ("overshoot", looked.overshoot(&measures, terms.limits.overshoot, &settings)),

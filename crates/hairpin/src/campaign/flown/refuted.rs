@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::log::Log;
+use crate::campaign::impossible::fastest;
 use crate::judgement::Swiftness;
 
 /// A bound of the robot's that a log of it exceeds.
@@ -20,8 +21,6 @@ pub struct Exceeded {
 
 /// So many times its largest speed is what noise and wind explain.
 const FASTER: f64 = 1.1;
-/// What positions come to over so long (s) is a speed.
-const LONG_S: f64 = 1.0;
 /// So much (m/s) of a change of velocity is what the noise of an estimate explains.
 const ROOM_M_S: f64 = 0.5;
 
@@ -72,24 +71,8 @@ pub(super) fn refuted(swiftness: Swiftness, log: &Log) -> (Swiftness, Option<Exc
     (left, sudden.or(faster))
 }
 
-/// The largest speed (m/s) that the positions come to in the mean over the least time from [`LONG_S`] on, without what
-/// their accuracy explains; 0 where nothing is as long. Over less it may be the noise of an estimate.
+/// The largest speed (m/s) that the positions come to in the mean over a second or little more, without what their
+/// accuracy explains; 0 where nothing is as long.
 fn over_seconds(log: &Log) -> f64 {
-    let track = &log.flight.track;
-    let sigma = |i: usize| libm::hypot(log.sigma(i)[0], log.sigma(i)[1]);
-    let (mut from, mut most) = (0, 0.0_f64);
-    for to in 0..track.len() {
-        if log.breaks.binary_search(&to).is_ok() {
-            from = to;
-        }
-        let since = |i: usize| track.times()[to] - track.times()[i];
-        while from < to && since(from + 1) >= LONG_S {
-            from += 1;
-        }
-        if since(from) >= LONG_S {
-            let way = (track.position(to) - track.position(from)).norm() - sigma(from) - sigma(to);
-            most = most.max(way / since(from));
-        }
-    }
-    most
+    fastest(&log.flight.track, &log.breaks, &|i| log.radius(i)).map_or(0.0, |fastest| fastest.speed())
 }

@@ -127,8 +127,9 @@ struct Limits {
 
 /// Searches unit after unit, from where `collector` stands.
 ///
-/// Two units for each thread at a time; of searches that execute no more than are needed for the cases that still
-/// lack.
+/// At a time two units for each thread or, where that takes no time worth mentioning, more: threads wait for each other
+/// at the end of each such batch. Never many more than are needed for the cases that still lack, and no more of searches
+/// that execute. What is found does not depend on it.
 fn search_units(
     graphs: &Graphs,
     mut collector: Collector,
@@ -138,14 +139,17 @@ fn search_units(
 ) -> Tally {
     let (setup, varied) = (graphs.setup, varies(&graphs.setup.scenario));
     let per_graph = setup.scenario.search().per_graph.max(1);
-    let batch = 2 * rayon::current_num_threads() as u64;
+    let least = 2 * rayon::current_num_threads() as u64;
+    let mut batch = least;
     let cut_short = setup.scenario.executes() || setup.user_score().is_some();
     (stop.progress)(collector.cases, wanted as usize);
     'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
         // What is executed is dear: no more graphs than may be needed.
         let needed = (wanted - collector.cases as u64).div_ceil(per_graph);
-        let last = units.min(first + if setup.scenario.executes() { batch.min(needed) } else { batch });
+        let begun = (stop.clock)();
+        let last =
+            units.min(first + if setup.scenario.executes() { least.min(needed) } else { batch.min(least.max(needed)) });
         let outcomes: Vec<Option<Outcome>> = (first..last)
             .into_par_iter()
             .map(|unit| {
@@ -171,6 +175,7 @@ fn search_units(
                 break;
             }
         }
+        batch = batch_after(batch, (stop.clock)() - begun, least);
         // One search gives its best so far where it is stopped.
         collector.tally.stopped |= setup.scenario.head().one_search && (stop.cancelled)();
         (stop.progress)(collector.cases, wanted as usize);
@@ -178,6 +183,16 @@ fn search_units(
     collector.finish(wanted);
     sink(&[], &collector.tally);
     collector.tally
+}
+
+/// How many units come after a batch of `batch` that took so many seconds: so many that it takes some tenths of one,
+/// which progress can wait for.
+fn batch_after(batch: u64, seconds: f64, least: u64) -> u64 {
+    match seconds {
+        _ if seconds < 0.1 => (2 * batch).min(32 * least),
+        _ if seconds > 0.5 => (batch / 2).max(least),
+        _ => batch,
+    }
 }
 
 /// Case number `case` of a scenario whose plan varies: its own scenario, its own graphs.

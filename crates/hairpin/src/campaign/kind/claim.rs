@@ -76,6 +76,17 @@ pub(in crate::campaign) trait Claim {
     /// prediction.
     fn planned(&self, case: &Case) -> Result<Track, PlanError>;
 
+    /// The rows of the planned motion where it bends, and the time between its samples, s; `None` where it must be
+    /// sampled to find them.
+    ///
+    /// # Errors
+    /// As [`Self::planned`].
+    ///
+    /// The rows that [`bends`](crate::trajectory::bends()) keeps of it.
+    fn planned_rows(&self, _case: &Case) -> Result<Option<(Track, f64)>, PlanError> {
+        Ok(None)
+    }
+
     /// The path that is followed where nothing goes wrong: the planned one, unless the controller of ours makes one of
     /// its own.
     ///

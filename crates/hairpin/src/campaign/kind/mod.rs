@@ -64,7 +64,7 @@ pub(super) use programs::Programs;
 pub use room::{Room, Wall};
 pub use rows::PlannedRows;
 pub(super) use same::Same;
-pub(super) use say::{Assumptions, Facts, Motion, RobotWords, Say, reached_within, word};
+pub(super) use say::{Assumptions, BEYOND, Facts, Motion, RobotWords, Say, reached_within, word};
 pub use say::{FrameWords, Handed};
 pub use solid::{Surface, surface};
 pub(super) use task::{Task, verify_task};

@@ -189,6 +189,12 @@ pub(in crate::campaign) trait Say {
         Swiftness::default()
     }
 
+    /// A mean speed, m/s, over `span` s that no robot of its file comes to, by a factor of [`BEYOND`] in what the file
+    /// says and with any wind or current besides; `None` where the file bounds nothing.
+    fn ceiling(&self, _span: f64) -> Option<f64> {
+        None
+    }
+
     /// Where its vehicle may be; `None` of what is none.
     fn room(&self) -> Option<Room> {
         None
@@ -199,6 +205,9 @@ pub(in crate::campaign) trait Say {
         None
     }
 }
+
+/// So many times what a robot's file says is beyond any robot of it.
+pub(in crate::campaign) const BEYOND: f64 = 10.0;
 
 /// A key's word, as it stands in scenario files.
 ///

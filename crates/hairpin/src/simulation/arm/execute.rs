@@ -27,7 +27,8 @@ pub enum Status {
 
 /// What came of a program.
 ///
-/// After the last set point samples go on for eight time constants of the slowest servo.
+/// After the last set point samples go on for eight time constants of the slowest servo, and, where the arm is still on
+/// its way then, until it rests: three times as long as the plan more at most.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// `base_from_tcp` over time, with `speed_m_s` (of the tool's point since the last sample), `q1_rad` … `q6_rad`,
@@ -35,12 +36,23 @@ pub struct Run {
     pub recording: Track,
     /// Where the program ended before its end, and why.
     pub stop: Option<Stop>,
+    /// Whether every joint ends within 0.01 rad of where the plan ends, plays and offsets of the tool aside.
+    pub arrived: bool,
     /// Set points of the servos.
     pub interpolation_steps: u64,
 }
 
 /// Time that is recorded after the last set point has come to rest, in time constants of the slowest servo.
 const LINGER: f64 = 8.0;
+/// Times the plan's duration that an arm is followed for beyond it while it is still on its way.
+const OVERRUN: f64 = 3.0;
+/// An arm that turns no faster than this rests, rad/s; one that is nearer to its plan's end than this is no longer on
+/// its way, rad.
+const RESTS: f64 = 0.01;
+const NEAR: f64 = 1e-3;
+/// An arm that ends farther than this from where its plan does has not arrived, rad: centimetres at a usual reach,
+/// many times what lags leave.
+const ARRIVED: f64 = 0.01;
 
 /// What follows the set points.
 struct Joint {
@@ -64,7 +76,7 @@ impl Plan<'_> {
     }
 
     /// The same where a controller of the caller's own gives the servos their set points, if one is given: it is told
-    /// the plan in time, and the run lasts as long as the plan does. As reproducible as the controller is.
+    /// the plan in time. As reproducible as the controller is.
     ///
     /// ```text
     /// u(t)  set point of the plan at t − pauses − delays, rad (or the caller's)
@@ -101,6 +113,7 @@ impl Plan<'_> {
             _ => 0.0,
         };
         let samples = ((end + LINGER * slowest) / settings.sample).ceil() as usize + 1;
+        let most = samples + (OVERRUN * end / settings.sample).ceil() as usize;
         let mut column = Columns::with_capacity(samples);
         let mut random = stream(named_seed(seed, "measured", 0));
         let steered = |steering| Steersman::new(self.arm, steering, self.joint_plan(step), step);
@@ -108,13 +121,15 @@ impl Plan<'_> {
         let mut cursor = Cursor { section: 0, span: 0 };
         let (mut from, mut measured): (Joints, Joints) = (*self.start(), *self.start());
         let mut rates = [0.0; AXES];
-        for sample in 0..samples {
+        let mut last = *self.start();
+        let mut sample = 0;
+        while sample < samples || sample < most && on_its_way(&joints, &last, &rates) {
             if sample > 0 {
                 for part in 1..=parts {
                     let t = ((sample - 1) * parts + part) as f64 * step;
-                    let planned = cursor.set_point(&self.timed, &begins, t);
+                    last = cursor.set_point(&self.timed, &begins, t);
                     let to = match &mut steersman {
-                        None => planned,
+                        None => last,
                         Some(steersman) => {
                             let state = ArmState { t: t - step, joints: measured, rates };
                             steersman.set_point(&from, step, state, cursor.order(self) + 1)?
@@ -132,9 +147,11 @@ impl Plan<'_> {
             let (order, status) = cursor.place(self, &begins, time, end);
             let pose = self.arm.forward(&measured) * self.orders[order].tool * offset;
             column.push(time, pose, &measured, order, status, &settings.noise, &mut random);
+            sample += 1;
         }
-        let interpolation_steps = ((samples - 1) * parts) as u64;
-        Ok(Run { recording: column.track(settings.sample), stop: self.stop().copied(), interpolation_steps })
+        let interpolation_steps = ((sample - 1) * parts) as u64;
+        let arrived = farthest(&joints, &last) <= ARRIVED;
+        Ok(Run { recording: column.track(settings.sample), stop: self.stop().copied(), arrived, interpolation_steps })
     }
 
     /// Set points every `step` s, without pauses and delays: what is planned.
@@ -191,6 +208,16 @@ impl Plan<'_> {
         }
         begins
     }
+}
+
+/// Whether an arm still turns that has not come to where its plan ended, `last` (rad).
+fn on_its_way(joints: &[Joint], last: &Joints, rates: &Joints) -> bool {
+    farthest(joints, last) > NEAR && rates.iter().any(|rate| rate.abs() > RESTS)
+}
+
+/// The largest distance of a servo from `to`, rad.
+fn farthest(joints: &[Joint], to: &Joints) -> f64 {
+    joints.iter().zip(to).map(|(joint, to)| (joint.servo.angle() - to).abs()).fold(0.0, f64::max)
 }
 
 /// What faults add to the lag of joint k (from 0), s.

@@ -22,6 +22,11 @@ impl Servo {
         Self { lag, decay, step, speed, angle }
     }
 
+    /// Where the joint is, rad.
+    pub(super) fn angle(&self) -> f64 {
+        self.angle
+    }
+
     /// One step, as the set point goes from `from` to `to` at a constant rate ρ. The error e = r − q obeys ė = ρ − e/τ,
     /// so e(h) = ρτ + (e(0) − ρτ) exp(−h/τ), exactly. A joint that would have to turn faster than it may turns as fast
     /// as it may.

@@ -245,6 +245,14 @@ impl ElevationMap {
         Self { heights, ..self.clone() }
     }
 
+    /// Row `j` of the 4 × 4 heights that those at `at` depend on.
+    #[inline(always)]
+    fn cells(&self, at: &Located, j: usize) -> [f64; 4] {
+        let from = (at.row + j) * self.stride + at.column;
+        let cells = &self.heights[from..from + 4];
+        [f64::from(cells[0]), f64::from(cells[1]), f64::from(cells[2]), f64::from(cells[3])]
+    }
+
     /// `None` outside the outermost cell centres, and of NaN.
     #[inline]
     fn locate(&self, x: f64, y: f64) -> Option<Located> {
@@ -314,9 +322,7 @@ impl Terrain for ElevationMap {
         // Value, slope and bend along x of each of the four rows.
         let mut rows = [[0.0; 4]; 3];
         for j in 0..4 {
-            let from = (at.row + j) * self.stride + at.column;
-            let cells = &self.heights[from..from + 4];
-            let h = [f64::from(cells[0]), f64::from(cells[1]), f64::from(cells[2]), f64::from(cells[3])];
+            let h = self.cells(&at, j);
             for (row, weight) in rows.iter_mut().zip(&along_x) {
                 row[j] = dot(weight, &h);
             }
@@ -338,14 +344,27 @@ impl Terrain for ElevationMap {
     }
 
     #[inline]
+    fn tangent(&self, x: f64, y: f64) -> Result<(f64, [f64; 2]), NoGround> {
+        let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };
+        let ([value_x, slope_x, _], [value_y, slope_y, _]) = (weights(at.u), weights(at.v));
+        let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);
+        for j in 0..4 {
+            let h = self.cells(&at, j);
+            (values[j], slopes[j]) = (dot(&value_x, &h), dot(&slope_x, &h));
+        }
+        let height = dot(&value_y, &values);
+        if height.is_nan() {
+            return Err(NoGround::Hole { x, y });
+        }
+        let [px, py] = self.per_cell;
+        Ok((height, [px * dot(&value_y, &slopes), py * dot(&slope_y, &values)]))
+    }
+
+    #[inline]
     fn height(&self, x: f64, y: f64) -> Result<f64, NoGround> {
         let Some(at) = self.locate(x, y) else { return Err(NoGround::OffMap { x, y }) };
         let ([along_x, ..], [along_y, ..]) = (weights(at.u), weights(at.v));
-        let row = |j: usize| {
-            let from = (at.row + j) * self.stride + at.column;
-            let cells = &self.heights[from..from + 4];
-            dot(&along_x, &[f64::from(cells[0]), f64::from(cells[1]), f64::from(cells[2]), f64::from(cells[3])])
-        };
+        let row = |j: usize| dot(&along_x, &self.cells(&at, j));
         let height = dot(&along_y, &[row(0), row(1), row(2), row(3)]);
         if height.is_nan() { Err(NoGround::Hole { x, y }) } else { Ok(height) }
     }

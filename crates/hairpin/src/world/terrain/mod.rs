@@ -83,6 +83,14 @@ pub trait Terrain: Sync {
     /// [`NoGround`] where nothing is known.
     fn patch(&self, x: f64, y: f64) -> Result<Patch, NoGround>;
 
+    /// Height and slope without the bend, to the bit, where there is a cheaper way to them.
+    ///
+    /// # Errors
+    /// As [`Self::patch`].
+    fn tangent(&self, x: f64, y: f64) -> Result<(f64, [f64; 2]), NoGround> {
+        self.patch(x, y).map(|patch| (patch.height, patch.slope))
+    }
+
     /// The height alone, to the bit, where there is a cheaper way to it.
     ///
     /// # Errors

@@ -41,6 +41,12 @@ impl<T: Terrain> Terrain for Rationed<'_, T> {
     }
 
     #[inline]
+    fn tangent(&self, x: f64, y: f64) -> Result<(f64, [f64; 2]), NoGround> {
+        self.take(x, y)?;
+        self.ground.tangent(x, y)
+    }
+
+    #[inline]
     fn height(&self, x: f64, y: f64) -> Result<f64, NoGround> {
         self.take(x, y)?;
         self.ground.height(x, y)

@@ -52,6 +52,18 @@ fn derivatives_are_those_of_the_height() {
 }
 
 #[test]
+fn height_and_tangent_are_the_patchs_to_the_bit() {
+    let map = map(9, 7, 0.5, [0.0, 0.0], |x, y| (3.0 * x).sin() + x * y - y * y).expect("a map");
+    for i in 0..200 {
+        let (x, y) = (f64::from(i) * 0.0199, (f64::from(i) * 0.37) % 3.0);
+        let patch = map.patch(x, y);
+        assert_eq!(map.tangent(x, y), patch.map(|patch| (patch.height, patch.slope)), "({x}, {y})");
+        assert_eq!(map.height(x, y), patch.map(|patch| patch.height), "({x}, {y})");
+    }
+    assert_eq!(map.tangent(-0.1, 0.0), Err(NoGround::OffMap { x: -0.1, y: 0.0 }));
+}
+
+#[test]
 fn slopes_are_continuous_across_cells_and_heights_met_at_their_centres() {
     let map = map(10, 10, 0.5, [0.0, 0.0], |x, y| (7.0 * x * y).sin()).expect("a map");
     let before = map.patch(2.0 - 1e-12, 1.3).expect("ground");

@@ -1,0 +1,188 @@
+//! Motions that no robot of the scenario's kind makes: times in another unit, or places of another run.
+//!
+//! Whoever tells times that are a thousandth of the truth keeps every limit of duration. Only what is beyond the
+//! robot's own numbers by a wide factor is refused ([`Setup::ceiling`]), over a time in which noise of places counts
+//! for little.
+
+use super::Setup;
+use crate::judgement::Limits;
+use crate::math::decimals::that_differ;
+use crate::trajectory::Track;
+
+/// What positions come to over so long (s) is a speed; over less it may be the noise of an estimate.
+pub(super) const LONG_S: f64 = 1.0;
+
+/// The fastest part of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fastest {
+    /// The sample that it begins at.
+    pub(super) from: usize,
+    /// Straight from there, m, without what the places' accuracy explains.
+    pub(super) way_m: f64,
+    /// In how long, s; > 0.
+    pub(super) over_s: f64,
+}
+
+impl Fastest {
+    /// m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.way_m / self.over_s
+    }
+}
+
+/// A mean speed that is beyond any of the robot's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impossible {
+    /// From when on, s.
+    pub from_s: f64,
+    /// In how long, s.
+    pub over_s: f64,
+    /// How far it came, m.
+    pub way_m: f64,
+    /// The most that is possible in that time, m/s.
+    pub bound_m_s: f64,
+}
+
+impl Impossible {
+    /// The mean speed, m/s.
+    pub fn speed(&self) -> f64 {
+        self.way_m / self.over_s
+    }
+
+    /// `31.02 m in 0.0157 s from t = 0.00 s on are 1975.8 m/s, and ten times what its file allows is 70.1 m/s: …`.
+    pub fn in_words(&self) -> String {
+        let Self { from_s, over_s, way_m, bound_m_s } = self;
+        let decimals = that_differ(self.speed(), *bound_m_s, 1..=6);
+        format!(
+            "{way_m:.2} m in {over_s:.4} s from t = {from_s:.2} s on are {:.decimals$} m/s, and ten times what its file \
+             allows is {bound_m_s:.decimals$} m/s: its times or its places are not this robot's",
+            self.speed()
+        )
+    }
+}
+
+/// The largest mean speed between two places of `track` over the least time from [`LONG_S`] on, within what lies
+/// between two of `breaks` (indices of samples, rising); `None` where nothing is as long.
+///
+/// `sigma` is the standard deviation of a sample's place, m. O(samples).
+pub(super) fn fastest(track: &Track, breaks: &[usize], sigma: &dyn Fn(usize) -> f64) -> Option<Fastest> {
+    let (mut from, mut most) = (0, None::<Fastest>);
+    for to in 0..track.len() {
+        if breaks.binary_search(&to).is_ok() {
+            from = to;
+        }
+        let since = |i: usize| track.times()[to] - track.times()[i];
+        while from < to && since(from + 1) >= LONG_S {
+            from += 1;
+        }
+        if since(from) >= LONG_S {
+            let found = between(track, [from, to], since(from), sigma);
+            most = most.filter(|so_far| so_far.speed() >= found.speed()).or(Some(found));
+        }
+    }
+    most
+}
+
+/// Of a track that is shorter than [`LONG_S`]: how far it comes from its first place, in all of its time.
+fn of_all(track: &Track, sigma: &dyn Fn(usize) -> f64) -> Option<Fastest> {
+    let over_s = track.times().last()? - track.times().first()?;
+    let all = (1..track.len()).map(|to| between(track, [0, to], over_s, sigma));
+    all.max_by(|a, b| a.way_m.total_cmp(&b.way_m)).filter(|_| over_s > 0.0 && over_s < LONG_S)
+}
+
+fn between(track: &Track, [from, to]: [usize; 2], over_s: f64, sigma: &dyn Fn(usize) -> f64) -> Fastest {
+    let way = (track.position(to) - track.position(from)).norm() - sigma(from) - sigma(to);
+    Fastest { from, way_m: way.max(0.0), over_s }
+}
+
+/// What of a motion is beyond the ceiling of the scenario's robot; `None` where nothing is, or nothing bounds it.
+pub(super) fn impossible(
+    setup: &Setup,
+    track: &Track,
+    breaks: &[usize],
+    sigma: &dyn Fn(usize) -> f64,
+) -> Option<Impossible> {
+    let Fastest { from, way_m, over_s } = fastest(track, breaks, sigma).or_else(|| of_all(track, sigma))?;
+    let bound_m_s = setup.ceiling(over_s).filter(|bound| way_m > bound * over_s)?;
+    Some(Impossible { from_s: track.times()[from], over_s, way_m, bound_m_s })
+}
+
+/// Why the run of a program of the user's decides nothing: it is faster than anything of its kind. Our own simulators
+/// are not asked, nor is who asks for nothing.
+pub(super) fn too_fast(setup: &Setup, track: &Track, limits: &Limits) -> Option<String> {
+    if setup.program().is_none() || !limits.are_given() {
+        return None;
+    }
+    impossible(setup, track, &[], &|_| 0.0).map(|impossible| impossible.in_words())
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Point3};
+    use serde_json::json;
+
+    use super::*;
+    use crate::campaign::testing::quadrotor;
+    use crate::campaign::{Case, CaseNumber, CaseResult, Run, Scenario, Status, judge};
+    use crate::trajectory::{Ended, Flight};
+
+    const WAY: [[f64; 3]; 2] = [[3.0, 3.0, 3.0], [23.0, 3.0, 3.0]];
+
+    /// 20 m at 2 m/s, with times that are `share` of that.
+    fn track(share: f64) -> Track {
+        let times: Vec<f64> = (0..=500).map(|i| f64::from(i) * 0.02 * share).collect();
+        let poses = (0..=500).map(|i| Isometry3::translation(3.0 + 0.04 * f64::from(i), 3.0, 3.0)).collect();
+        Track::new(times, poses, vec![]).unwrap()
+    }
+
+    fn setup(command: Option<&str>) -> Setup {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+            "task": { "start_m": WAY[0], "end_m": WAY[1], "length": 2 },
+            "execute": command.map_or_else(|| json!({}), |command| json!({ "command": command })),
+            "spec": { "total_time": { "max_s": 100.0 } },
+        }))
+        .unwrap();
+        Setup::new(scenario).unwrap()
+    }
+
+    fn judged(command: Option<&str>, share: f64) -> CaseResult {
+        let case = Case::bare(CaseNumber(0), 1, WAY.map(Point3::from).to_vec());
+        let track = track(share);
+        let end = track.times().last().copied();
+        let flight = Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0), end] };
+        let run = Run { case: CaseNumber(0), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
+        judge(&setup(command), &case, &[run]).unwrap()
+    }
+
+    #[test]
+    fn times_of_another_unit_are_no_pass() {
+        assert_eq!(judged(Some("sim"), 1.0).status, Status::Pass);
+        let thousandth = judged(Some("sim"), 1e-3);
+        assert_eq!(thousandth.status, Status::Inconclusive, "{thousandth:?}");
+        let why = thousandth.message.unwrap();
+        let words =
+            "run 0: 20.00 m in 0.0100 s from t = 0.00 s on are 2000.0 m/s, and ten times what its file allows is ";
+        assert!(why.starts_with(words), "{why}");
+        // Our own simulator is not asked.
+        assert_eq!(judged(None, 1e-3).status, Status::Pass);
+    }
+
+    /// Ten times as fast as the file says is not refused, and neither is a jump, which is no speed.
+    #[test]
+    fn what_is_only_fast_is_left_alone() {
+        let setup = setup(Some("sim"));
+        let most = setup.swiftness().speed.unwrap();
+        let times: Vec<f64> = (0..=100).map(|i| f64::from(i) * 0.02).collect();
+        let at = |speed: f64, jump: f64| {
+            let place = |t: &f64| Isometry3::translation(speed * t + if *t > 1.0 { jump } else { 0.0 }, 0.0, 0.0);
+            let poses = times.iter().map(place).collect();
+            impossible(&setup, &Track::new(times.clone(), poses, vec![]).unwrap(), &[], &|_| 0.0)
+        };
+        assert_eq!((at(1.1 * most, 0.0), at(1.0, 5.0)), (None, None));
+        let ceiling = setup.ceiling(1.0).unwrap();
+        assert!(ceiling > 2.0 * most && setup.ceiling(0.01).unwrap() < ceiling, "{ceiling} {most}");
+        let beyond = at(1.1 * ceiling, 0.0).unwrap();
+        assert!((beyond.speed() - 1.1 * ceiling).abs() < 1e-6 && beyond.over_s >= LONG_S, "{beyond:?}");
+    }
+}
