@@ -169,7 +169,11 @@ mod tests {
             Piece::write(&path, &names, &[None, None]).unwrap();
             assert_eq!(Piece::read(&path, &names).unwrap(), Piece::Whole(vec![None, None]));
         }
-        assert!(["00003-01.tsv", "00003-1.0.lease", "alive-x", ".hairpin-x.tmp"].iter().all(|n| is_ours(n.as_ref())));
+        assert!(
+            ["00003-01.tsv", "00003-1.0.lease", "alive-x", ".hairpin-x.tmp", EXECUTOR]
+                .iter()
+                .all(|n| is_ours(n.as_ref()))
+        );
         assert!(!is_ours("notes.tsv".as_ref()));
     }
 }
