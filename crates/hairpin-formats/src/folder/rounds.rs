@@ -76,8 +76,8 @@ impl Piece {
     }
 }
 
-/// The program that executes for all shards whose rounds are kept in `folder`, as it calls itself; `None` where none has
-/// been started.
+/// The program that executes for all shards whose rounds are kept in `folder`, as it calls itself; `None` where none was
+/// started.
 ///
 /// # Errors
 /// What is kept of it is broken.
@@ -169,7 +169,11 @@ mod tests {
             Piece::write(&path, &names, &[None, None]).unwrap();
             assert_eq!(Piece::read(&path, &names).unwrap(), Piece::Whole(vec![None, None]));
         }
-        assert!(["00003-01.tsv", "00003-1.0.lease", "alive-x", ".hairpin-x.tmp"].iter().all(|n| is_ours(n.as_ref())));
+        assert!(
+            ["00003-01.tsv", "00003-1.0.lease", "alive-x", ".hairpin-x.tmp", EXECUTOR]
+                .iter()
+                .all(|n| is_ours(n.as_ref()))
+        );
         assert!(!is_ours("notes.tsv".as_ref()));
     }
 }

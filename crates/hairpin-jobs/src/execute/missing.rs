@@ -103,6 +103,17 @@ fn known_reruns(work: &Work, case: &Case) -> Result<usize, Problem> {
     Ok(if known == 0 { work.folder.read_reruns(case.number)?.len() } else { known })
 }
 
+/// Whether the folder has all runs of `cases` that the scenario asks for.
+pub(super) fn all_flown(work: &Work, cases: &[Case]) -> bool {
+    let repeat = work.setup.scenario.executor().repeat as usize;
+    cases.iter().all(|case| (0..repeat).all(|run| work.folder.has_valid_run(case.number, run)))
+}
+
+/// How often violations of `cases` were run again in all.
+pub(super) fn count_reruns(work: &Work, cases: &[Case]) -> Result<usize, Problem> {
+    cases.iter().map(|case| known_reruns(work, case)).sum()
+}
+
 /// What the runs of `cases` that are in the folder came to.
 pub(crate) fn count_flown(work: &Work, cases: &[Case]) -> Result<Flown, Problem> {
     count(work, cases, work.setup.scenario.executor().repeat as usize)

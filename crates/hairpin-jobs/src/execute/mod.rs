@@ -36,6 +36,7 @@ pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use job::comes_again;
 pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
 pub use missing::Flown;
+use missing::{all_flown, count_reruns};
 pub(crate) use missing::{attitude_unknown, count_flown, fly_missing};
 pub(crate) use recorded::check_recordings;
 pub(crate) use to_judge::{ToJudge, measured_runs, reruns_to_judge, runs_to_judge};
@@ -146,6 +147,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         }
     };
     let before = if settings.resume { count_flown(&work, &cases).ok() } else { None };
+    let all_there = settings.resume && missions.is_none() && all_flown(&work, &cases);
+    let reruns = if all_there { count_reruns(&work, &cases)? } else { 0 };
     let judged = if before.is_some() { work.folder.read_results()? } else { Vec::new() };
     // What was judged was judged on other runs, or on fewer. Where this cannot be written, the runs stay with it.
     work.folder.write_results(&cases, &[])?;
@@ -165,6 +168,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
             drop(work.folder.write_results(&cases, &judged));
         }
     })?;
+    if all_there && !judged.is_empty() && reruns == count_reruns(&work, &cases)? {
+        // Nothing was executed: what was judged is what it was.
+        work.folder.write_results(&cases, &judged)?;
+    }
     let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { tally };
     fly_baseline(&work, &tally, flown, watch)?;
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
@@ -284,8 +291,10 @@ mod tests {
         crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
         let resumed = ExecuteSettings { resume: true, ..settings.clone() };
         named("name=\"sim 2\", version=\"2\"");
+        let results = || format!("{:?}", CampaignFolder::open(&folder).unwrap().read_results().unwrap());
+        let judged = results();
         assert_eq!(execute(&resumed, &Unwatched).unwrap().flown.runs, 2, "none is missing, and it is not asked");
-        crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
+        assert!(judged.len() > 2 && results() == judged, "and what was judged stays: {judged}");
         // As where it was stopped before they landed.
         for part in ["runs", "executions"] {
             std::fs::remove_dir_all(folder.join(part)).unwrap();

@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Shrunk, Status};
 use hairpin::judgement::{Measures, Violation};
 use hairpin_formats::checksum::sha256;
-use hairpin_formats::executor::was_never_asked;
+use hairpin_formats::executor::{Greeting, was_never_asked};
 use hairpin_formats::{atomic, bounds};
 use serde::{Deserialize, Serialize};
 
 use super::settings::ShrinkSettings;
-use crate::execute::fly_one;
+use crate::execute::fly_told;
+use crate::program::another_than;
 use crate::work::Work;
 use crate::{Deadline, Problem, Watch};
 
@@ -66,23 +67,28 @@ pub(super) struct Answers<'a> {
     fresh: u64,
     /// Of [`Self::fresh`], those that were not flown, and why the first was not.
     unflown: (u64, Option<String>),
+    /// What the program that flew last says of itself: at first the campaign's.
+    flown_by: Option<Greeting>,
     watch: &'a dyn Watch,
 }
 
 impl<'a> Answers<'a> {
     /// Those of the folder's file, if it is about the same question.
+    ///
+    /// # Errors
+    /// What the folder keeps of who executed is broken.
     pub(super) fn take_up(
         work: &Work,
         case: &Case,
         result: &CaseResult,
         settings: &ShrinkSettings,
         watch: &'a dyn Watch,
-    ) -> Self {
+    ) -> Result<Self, Problem> {
         let path = work.folder.file(&format!("repro/{}-shrink.state", case.id()));
         let question = fingerprint(&work.setup, case, result.run);
         let kept = bounds::read_json_text(&path).ok().and_then(|text| serde_json::from_str::<State>(&text).ok());
         let state = kept.filter(|state| state.question == question);
-        Self {
+        Ok(Self {
             run: result.run,
             path,
             state: state.unwrap_or(State { question, answers: BTreeMap::new() }),
@@ -90,8 +96,9 @@ impl<'a> Answers<'a> {
             deadline: Deadline::after(settings.time_limit_s),
             fresh: 0,
             unflown: (0, None),
+            flown_by: work.folder.read_executor()?,
             watch,
-        }
+        })
     }
 
     /// Shrinks `case` with these answers and as many new ones as there may be.
@@ -122,6 +129,11 @@ impl<'a> Answers<'a> {
         self.state.answers.len() as u64
     }
 
+    /// What the program that flew last says of itself.
+    pub(super) fn flown_by(&self) -> Option<Greeting> {
+        self.flown_by.clone()
+    }
+
     /// Executions of this command.
     pub(super) fn fresh(&self) -> u64 {
         self.fresh
@@ -136,9 +148,16 @@ impl<'a> Answers<'a> {
         if self.fresh >= self.budget || self.deadline.passed() || self.watch.stopped() {
             return Ok(None);
         }
-        let flown = fly_one(setup, candidate, self.run, self.watch)?;
-        let result = campaign::judge(setup, candidate, std::slice::from_ref(&flown))?;
-        if let Err(message) = &flown.outcome {
+        let (flown, now) = fly_told(&[(setup, candidate, self.run)], self.watch)?;
+        let result = campaign::judge(setup, candidate, &flown)?;
+        // One whose name is another each time that it is started is told of once.
+        if self.fresh == 0
+            && let Some(told) = another_than(self.flown_by.as_ref(), now.as_ref())
+        {
+            self.watch.warn(&format!("Warning: case {}: {told}", candidate.id()));
+        }
+        self.flown_by = now.or(self.flown_by.take());
+        if let Some(Err(message)) = flown.first().map(|run| &run.outcome) {
             self.note_unflown(candidate, message)?;
         }
         self.fresh += 1;

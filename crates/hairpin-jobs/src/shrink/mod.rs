@@ -73,16 +73,16 @@ impl Shrinking {
                 work.folder.file(&format!("repro/{}-shrunk.json", case.id()))
             }
         };
-        let mut answers = Answers::take_up(work, case, result, settings, watch);
+        let mut answers = Answers::take_up(work, case, result, settings, watch)?;
         let shrunk = answers.search(&work.setup, case, result)?;
-        self.repro(&shrunk, answers.runs())?.write(&target)?;
+        let repro = Repro { flown_by: answers.flown_by(), ..self.repro(&shrunk, answers.runs())? };
+        repro.write(&target)?;
         Ok(ShrunkCase { shrunk, target, runs: answers.runs(), fresh: answers.fresh(), time: began.elapsed() })
     }
 
     fn repro(&self, shrunk: &Shrunk, runs: u64) -> Result<Repro, Problem> {
         let setup = self.work.setup.changed(shrunk.scenario.clone())?;
         Ok(Repro {
-            flown_by: self.work.folder.read_executor()?,
             shrunk: Some(ShrunkFrom {
                 waypoints: self.case.waypoints.len(),
                 violations: self.result.violations.iter().map(violation).collect(),
@@ -120,7 +120,10 @@ mod tests {
 
     use super::*;
     use crate::Unwatched;
-    use crate::testing::violating;
+    use crate::consent::Consent;
+    use crate::execute::{ExecuteSettings, execute};
+    use crate::judge::judge;
+    use crate::testing::{generated, program, violating};
 
     #[test]
     fn a_violating_case_gets_smaller_and_its_answers_stay_known() {
@@ -136,5 +139,35 @@ mod tests {
         let refused =
             Shrinking::open(ShrinkSettings { case: CaseNumber(7), ..settings }).map(|_| ()).unwrap_err().to_string();
         assert!(refused.ends_with("has the cases 0000, 0001"), "{refused}");
+    }
+
+    /// Keeps what it is told.
+    #[derive(Default)]
+    struct Told(std::sync::Mutex<Vec<String>>);
+
+    impl Watch for Told {
+        fn warn(&self, line: &str) {
+            self.0.lock().unwrap().push(line.to_owned());
+        }
+    }
+
+    #[test]
+    fn what_another_program_shrinks_is_told_and_written_as_its_own() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let sets = vec![program(&file, "name=\"sim 1\"")];
+        execute(&ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        judge(&folder, &[("spec.total_time.max_s".to_owned(), "0.01".to_owned())]).unwrap();
+        let consent = Consent { allow_commands: true, ..Consent::default() };
+        let settings = ShrinkSettings { folder, budget: 2, consent, ..ShrinkSettings::default() };
+        let shrunk = || {
+            let told = Told::default();
+            let found = Shrinking::open(settings.clone()).unwrap().search(&told).unwrap();
+            (told.0.into_inner().unwrap(), Repro::read(&found.target).unwrap().flown_by.unwrap().name)
+        };
+        assert_eq!(shrunk(), (Vec::new(), "sim 1".to_owned()));
+        program(&file, "name=\"sim 2\"");
+        let (told, name) = shrunk();
+        assert!(told.len() == 1 && told[0].contains("before it was `sim 1`") && name == "sim 2", "{told:?} {name}");
     }
 }

@@ -121,6 +121,21 @@ fn body_of(robot: &Quadrotor) -> Body {
     }
 }
 
+/// A shape that a search places, along the cage's axes: centre, and radius or edges, m.
+enum Sought {
+    Ball([f64; 3], f64),
+    Box([f64; 3], [f64; 3]),
+}
+
+impl Sought {
+    fn solid(&self) -> ClearSolid {
+        match *self {
+            Self::Ball(centre, radius) => ClearSolid::Ball(centre, radius),
+            Self::Box(centre, size) => ClearSolid::Box(centre, size),
+        }
+    }
+}
+
 /// What does not hold of the environment of `case`: the plan keeps the robot's radius from its obstacles, everywhere,
 /// they are in the world, no more and no larger than was `asked` for, and wind and gust are no faster. Where nothing
 /// was asked for, as with missions from elsewhere, any is as good as another. Nothing for a case without one.
@@ -133,20 +148,20 @@ fn body_of(robot: &Quadrotor) -> Body {
 pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentSection>, case: &Case) -> Vec<Finding> {
     let Some(environment) = &case.environment else { return Vec::new() };
     let mut findings = Vec::new();
-    let solids: Vec<ClearSolid> = environment
+    let solids: Vec<Sought> = environment
         .obstacles
         .iter()
         .filter_map(|obstacle| {
-            let ball = obstacle.sphere.map(|ball| ClearSolid::Ball(ball.center_m, ball.radius_m));
-            ball.or(obstacle.cuboid.map(|cuboid| ClearSolid::Box(cuboid.center_m, cuboid.size_m)))
+            let ball = obstacle.sphere.map(|ball| Sought::Ball(ball.center_m, ball.radius_m));
+            ball.or(obstacle.cuboid.map(|cuboid| Sought::Box(cuboid.center_m, cuboid.size_m)))
         })
         .collect();
     let mut found = Collector::about(&mut findings, "environment");
     // What has no size is met by nothing.
     for (number, solid) in solids.iter().enumerate() {
         let (key, least) = match solid {
-            ClearSolid::Ball(_, radius) => ("radius_m", *radius),
-            ClearSolid::Box(_, size) => ("size_m", size.iter().copied().fold(f64::INFINITY, f64::min)),
+            Sought::Ball(_, radius) => ("radius_m", *radius),
+            Sought::Box(_, size) => ("size_m", size.iter().copied().fold(f64::INFINITY, f64::min)),
         };
         found.unless(least > 0.0, format_args!("obstacles[{number}].{key}"), least, 0.0, "m");
     }
@@ -158,8 +173,8 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
     found.above("external_force_n", force, 0.0, "N");
     for (number, solid) in solids.iter().enumerate() {
         let (centre, half) = match solid {
-            ClearSolid::Ball(centre, radius) => (centre, [*radius; 3]),
-            ClearSolid::Box(centre, size) => (centre, size.map(|edge| 0.5 * edge)),
+            Sought::Ball(centre, radius) => (centre, [*radius; 3]),
+            Sought::Box(centre, size) => (centre, size.map(|edge| 0.5 * edge)),
         };
         let size = setup.world.size();
         let outside = |i: usize| (half[i] - centre[i]).max(centre[i] + half[i] - size[i]);
@@ -172,7 +187,7 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
         for (number, solid) in solids.iter().enumerate() {
             // A shape that was not asked for has no size at all.
             match solid {
-                ClearSolid::Ball(_, radius) => {
+                Sought::Ball(_, radius) => {
                     found.above(
                         format_args!("obstacles[{number}].radius_m"),
                         *radius,
@@ -180,7 +195,7 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
                         "m",
                     );
                 }
-                ClearSolid::Box(_, size) => {
+                Sought::Box(_, size) => {
                     for (axis, (edge, most)) in size.iter().zip(placed.size_m.unwrap_or_default()).enumerate() {
                         found.above(format_args!("obstacles[{number}].size_m[{axis}]"), *edge, most, "m");
                     }
@@ -208,7 +223,7 @@ pub(super) fn verify_environment(setup: &FlightSetup, asked: Option<EnvironmentS
     };
     findings.extend(verify_clear(&ClearClaim {
         legs: &legs,
-        solids: &solids,
+        solids: &solids.iter().map(Sought::solid).collect::<Vec<_>>(),
         clearance: setup.robot.clearance_radius,
     }));
     findings
