@@ -6,6 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::digits::{digits_within, signed_digits, with_digits};
+use super::impossible::of_program;
 use super::judge::measures_of;
 use super::scenario::Asked;
 use super::{Case, Run, Setup};
@@ -106,6 +107,10 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
     for run in runs {
         let measures = measures_of(setup, case, run)?;
         let flight = run.outcome.as_ref().ok()?;
+        // What no robot of the file does says nothing of what is ordinary.
+        if of_program(setup, &flight.track).is_some() {
+            return None;
+        }
         let events = Limits {
             unfinished: setup.scenario.asked() != Asked::Nothing,
             contact: setup.program().is_some(),
@@ -230,11 +235,13 @@ pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Isometry3, Point3};
     use serde_json::json;
 
     use super::*;
-    use crate::campaign::Scenario;
     use crate::campaign::testing::quadrotor;
+    use crate::campaign::{CaseNumber, Scenario};
+    use crate::trajectory::{Ended, Flight, Track};
 
     fn setup(spec: Value) -> Setup {
         let scenario: Scenario = serde_json::from_value(json!({
@@ -306,6 +313,31 @@ mod tests {
         // A handful that is the same about the limit: seven break it, not ten.
         let some = proposed(&|i| if (185..193).contains(&i) { 1.9 } else { 0.01 * i as f64 });
         assert_eq!((some.value, some.broken_by), (Some(1.9), Some(7)));
+    }
+
+    /// A program's stamps in another unit are no duration to limit.
+    #[test]
+    fn what_no_robot_does_gives_no_limit() {
+        let scenario: Scenario = serde_json::from_value(json!({
+            "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+            "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
+            "execute": { "command": "sim" }, "spec": { "total_time": { "max_s": 100.0 } },
+        }))
+        .unwrap();
+        let setup = Setup::new(scenario).unwrap();
+        let waypoints = [3.0, 23.0].map(|x| Point3::new(x, 3.0, 3.0)).to_vec();
+        let case = Case::bare(CaseNumber(0), 1, waypoints);
+        let of = |share: f64| {
+            let times = (0..=500).map(|i| f64::from(i) * 0.02 * share).collect();
+            let poses = (0..=500).map(|i| Isometry3::translation(3.0 + 0.04 * f64::from(i), 3.0, 3.0)).collect();
+            let track = Track::new(times, poses, vec![]).unwrap();
+            let reached = vec![Some(0.0), Some(10.0 * share)];
+            let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
+            let run = Run { case: CaseNumber(0), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
+            outcome(&setup, &case, &[run])
+        };
+        assert!((of(1.0).unwrap().worst.last().unwrap().unwrap() - 10.0).abs() < 1e-9, "{:?}", of(1.0));
+        assert_eq!(of(1e-3), None);
     }
 
     #[test]

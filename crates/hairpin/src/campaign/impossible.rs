@@ -107,13 +107,15 @@ pub(super) fn impossible(
     Some(Impossible { from_s: track.times()[from], over_s, way_m, bound_m_s })
 }
 
-/// Why the run of a program of the user's decides nothing: it is faster than anything of its kind. Our own simulators
-/// are not asked, nor is who asks for nothing.
+/// What of the run of a program of the user's is faster than anything of its kind. Our own simulators are not asked.
+pub(super) fn of_program(setup: &Setup, track: &Track) -> Option<Impossible> {
+    setup.program()?;
+    impossible(setup, track, &[], &|_| 0.0)
+}
+
+/// Why such a run decides nothing, where anything is asked.
 pub(super) fn too_fast(setup: &Setup, track: &Track, limits: &Limits) -> Option<String> {
-    if setup.program().is_none() || !limits.are_given() {
-        return None;
-    }
-    impossible(setup, track, &[], &|_| 0.0).map(|impossible| impossible.in_words())
+    of_program(setup, track).filter(|_| limits.are_given()).map(|impossible| impossible.in_words())
 }
 
 #[cfg(test)]
