@@ -14,7 +14,6 @@ use super::proven_legs::{Judged, ProveLegs, WitnessLegs, WitnessNode};
 use super::{Leg, LegFeatures};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream};
-use crate::math::rotation::angle_between;
 use crate::trajectory::Profile;
 
 /// How velocities are drawn: each waypoint from a stream of its own.
@@ -255,30 +254,21 @@ impl<'a, J: ProveLegs> States<'a, J> {
         out: &mut Vec<Leg<WitnessNode>>,
     ) {
         assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
-        let here = self.points[from.waypoint as usize];
-        let incoming = here - self.points[from.previous as usize];
-        let left = self.number(from);
-        let (v_in, length_in) = (J::speed(&self.states[left]), incoming.norm());
+        let (here, left) = (self.points[from.waypoint as usize], self.number(from));
+        let v_in = J::speed(&self.states[left]);
         // States of a waypoint follow on one another: they share the straight way to it, and the turn into that.
-        let (mut to, mut outgoing, mut turn) = (from.waypoint, Vector3::zeros(), 0.0);
+        let (mut to, mut outgoing, mut way) = (from.waypoint, Vector3::zeros(), LegFeatures::default());
         let legs = self.kept_legs(left);
         out.reserve(legs.len());
         for leg in legs.iter() {
             if leg.state >= self.first[to as usize + 1] || to == from.waypoint {
                 to = self.place(leg.state).0;
                 outgoing = self.points[to as usize] - here;
-                turn = if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) };
+                way = LegFeatures { v_in, length: outgoing.norm(), climb: outgoing.z, ..LegFeatures::default() }
+                    .entered(&self.points, [from.previous, from.waypoint, to]);
             }
             let (waypoint, velocity) = (to, leg.state - self.first[to as usize]);
-            let features = LegFeatures {
-                v_in,
-                v_out: J::speed(&self.states[leg.state as usize]),
-                turn,
-                length: outgoing.norm(),
-                climb: outgoing.z,
-                slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },
-                ground: 0.0,
-            };
+            let features = LegFeatures { v_out: J::speed(&self.states[leg.state as usize]), ..way };
             out.push(Leg {
                 to: WitnessNode { previous: from.waypoint, waypoint, velocity },
                 waypoint,
