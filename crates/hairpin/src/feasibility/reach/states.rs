@@ -5,6 +5,7 @@
 //! the robot's.
 
 use std::cell::{OnceCell, RefCell};
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
@@ -109,7 +110,7 @@ impl<'a, J: ProveLegs> States<'a, J> {
     }
 
     /// Numbers of the states of waypoint `w`.
-    pub(in crate::feasibility) fn of(&self, w: usize) -> std::ops::Range<u32> {
+    pub(in crate::feasibility) fn of(&self, w: usize) -> Range<u32> {
         self.first[w]..self.first[w + 1]
     }
 
@@ -197,9 +198,19 @@ impl<'a, J: ProveLegs> States<'a, J> {
 
     /// The shortest feasible rung between two states, of those that are no shorter than `least`.
     fn shortest(&self, from: usize, to: usize, least: f64) -> Option<u32> {
+        let mut found = None;
+        self.each_shortest(from, to..to + 1, least, |_, rung| found = Some(rung));
+        found
+    }
+
+    /// Calls `found` with each of the states `to` to which there is a leg and its shortest rung, of those that are no
+    /// shorter than `least`.
+    fn each_shortest(&self, from: usize, to: Range<usize>, least: f64, mut found: impl FnMut(u32, u32)) {
         let begin = self.rungs.partition_point(|rung| *rung < least);
-        let found = self.judge.first(&self.states[from], &self.states[to], &self.rungs[begin..]);
-        found.map(|rung| (begin + rung) as u32)
+        let first = to.start;
+        self.judge.firsts(&self.states[from], &self.states[to], &self.rungs[begin..], |state, rung| {
+            found((first + state) as u32, (begin + rung) as u32);
+        });
     }
 
     /// Time of the straight line between two waypoints at the largest speed, s.
@@ -220,9 +231,9 @@ impl<'a, J: ProveLegs> States<'a, J> {
             if least > self.longest() {
                 continue;
             }
-            for state in self.of(w) {
-                legs.extend(self.shortest(from, state as usize, least).map(|rung| Judged { state, rung }));
-            }
+            let states = self.of(w);
+            let states = states.start as usize..states.end as usize;
+            self.each_shortest(from, states, least, |state, rung| legs.push(Judged { state, rung }));
         }
         let legs: Arc<[Judged]> = legs.into();
         self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));

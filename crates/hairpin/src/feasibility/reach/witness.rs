@@ -74,8 +74,8 @@ impl ProveLegs for LegJudge {
         self.judge(from, to, duration)
     }
 
-    fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
-        self.first(from, to, durations)
+    fn firsts(&self, from: &LegEnd, to: &[LegEnd], durations: &[f64], found: impl FnMut(usize, usize)) {
+        self.firsts(from, to, durations, found);
     }
 
     fn fastest(&self) -> f64 {

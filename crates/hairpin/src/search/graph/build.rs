@@ -105,6 +105,7 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
                 self.waypoints.push(leg.waypoint);
             }
             self.rows.to.push(to);
+            self.rows.look.push(self.rows.seen.len() as u32);
             self.rows.seen.push((leg.duration, leg.features));
         }
         self.rows.end_row()

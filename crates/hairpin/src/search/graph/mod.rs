@@ -38,7 +38,7 @@ pub(super) use value::{LegScores, Values};
 
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
 ///
-/// Memory: that of the nodes, and 68 bytes a leg; legs that nodes share count once. u32 numbers: at most four billion
+/// Memory: that of the nodes, and 72 bytes a leg; legs that nodes share count once. u32 numbers: at most four billion
 /// legs.
 ///
 /// ```
@@ -161,7 +161,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
 
     /// s; `from` must be the node that `leg` starts from: it is not looked up, since rows are walked anyway.
     pub(super) fn duration(&self, from: u32, leg: usize) -> f64 {
-        self.rows.seen[self.rows.place(from, leg)].0
+        self.rows.seen_at(self.rows.place(from, leg)).0
     }
 
     /// `from` must be the node that `leg` starts from.
@@ -172,13 +172,15 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     }
 
     /// The leg at a place of the row of `from`, as one of those sees it that share the row.
+    #[inline]
     fn kept_view(&self, from: u32, place: usize) -> LegView<'a> {
-        let (duration, features) = self.rows.seen[place];
+        let (duration, features) = self.rows.seen_at(place);
         let to = self.waypoint(self.rows.to[place]);
         LegView { candidates: self.candidates, from: self.waypoint(from), to, duration, features }
     }
 
     /// What scores see of a leg to waypoint `to` as `from` sees it.
+    #[inline]
     fn entered(&self, features: LegFeatures, from: u32, to: u32) -> LegFeatures {
         match self.previous[from as usize] {
             OWN => features,
@@ -191,7 +193,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         let (mut nodes, mut leg_times) = (vec![0], Vec::with_capacity(legs.len()));
         for &leg in legs {
             let place = self.rows.place(nodes[nodes.len() - 1], leg as usize);
-            leg_times.push(self.rows.seen[place].0);
+            leg_times.push(self.rows.seen_at(place).0);
             nodes.push(self.rows.to[place]);
         }
         Found {

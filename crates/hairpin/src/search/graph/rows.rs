@@ -12,7 +12,7 @@ pub(super) const EMPTY: u32 = 0;
 
 /// Kept rows, and which of them every node has. Legs are numbered through, node by node, as if each had its own.
 ///
-/// Memory: 68 bytes a leg that is kept, 16 a node.
+/// Memory: 72 bytes a leg that is kept, 16 a node.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
     /// Legs from node v are `first[v]..first[v + 1]`.
@@ -22,7 +22,10 @@ pub(super) struct Rows {
     begin: Vec<u32>,
     /// Node that a leg leads to; waypoints rise along a row.
     pub(super) to: Vec<u32>,
-    /// Duration, s, and what scores see; of nodes that share a row, as one of them sees it.
+    /// Number of what is seen of a leg.
+    pub(super) look: Vec<u32>,
+    /// Duration, s, and what scores see; of nodes that share a row, as one of them sees it. Legs may be gone that are
+    /// still seen: moving what stays would cost more than its room.
     pub(super) seen: Vec<(f64, LegFeatures)>,
 }
 
@@ -36,12 +39,18 @@ struct Row {
 
 impl Default for Rows {
     fn default() -> Self {
-        Self { first: vec![0], of: Vec::new(), begin: vec![0, 0], to: Vec::new(), seen: Vec::new() }
+        Self { first: vec![0], of: Vec::new(), begin: vec![0, 0], to: Vec::new(), look: Vec::new(), seen: Vec::new() }
     }
 }
 
 impl Rows {
-    /// Ends the row that was appended to `to` and `seen`; its number.
+    /// Duration, s, and what scores see of the leg at a place.
+    #[inline]
+    pub(super) fn seen_at(&self, place: usize) -> (f64, LegFeatures) {
+        self.seen[self.look[place] as usize]
+    }
+
+    /// Ends the row that was appended to `to` and `look`; its number.
     pub(super) fn end_row(&mut self) -> u32 {
         self.begin.push(self.to.len() as u32);
         self.begin.len() as u32 - 2
@@ -56,16 +65,19 @@ impl Rows {
     }
 
     /// Of all nodes.
+    #[inline]
     pub(super) fn legs(&self) -> usize {
         self.first[self.first.len() - 1] as usize
     }
 
     /// Numbers of a node's legs.
+    #[inline]
     pub(super) fn legs_from(&self, node: u32) -> Range<usize> {
         self.first[node as usize] as usize..self.first[node as usize + 1] as usize
     }
 
     /// The node that has the leg, by halving: O(log nodes).
+    #[inline]
     pub(super) fn source(&self, leg: usize) -> u32 {
         (self.first.partition_point(|&first| first as usize <= leg) - 1) as u32
     }
@@ -76,40 +88,47 @@ impl Rows {
     }
 
     /// Places of a kept row.
+    #[inline]
     pub(super) fn kept(&self, number: u32) -> Range<usize> {
         self.begin[number as usize] as usize..self.begin[number as usize + 1] as usize
     }
 
     /// Number of a node's row.
+    #[inline]
     pub(super) fn number(&self, node: u32) -> u32 {
         self.of[node as usize].number
     }
 
     /// Places of its row that a node leaves out.
+    #[inline]
     pub(super) fn gap(&self, node: u32) -> Range<usize> {
         let [begin, end] = self.of[node as usize].gap;
         begin as usize..end as usize
     }
 
     /// Places of a node's legs, in their order.
+    #[inline]
     pub(super) fn places(&self, node: u32) -> [Range<usize>; 2] {
         let (row, gap) = (self.kept(self.number(node)), self.gap(node));
         [row.start..gap.start, gap.end..row.end]
     }
 
     /// Nodes that the legs of a node lead to.
+    #[inline]
     pub(super) fn targets(&self, node: u32) -> impl Iterator<Item = u32> {
         let [before, after] = self.places(node);
         self.to[before].iter().chain(&self.to[after]).copied()
     }
 
     /// Place of leg number `leg`, which `node` has.
+    #[inline]
     pub(super) fn place(&self, node: u32, leg: usize) -> usize {
         let ([before, after], number) = (self.places(node), leg - self.legs_from(node).start);
         if number < before.len() { before.start + number } else { after.start + number - before.len() }
     }
 
     /// Number of the leg of `node` at `place`, which is not in its gap.
+    #[inline]
     pub(super) fn leg_at(&self, node: u32, place: usize) -> usize {
         let ([before, after], first) = (self.places(node), self.legs_from(node).start);
         first + if place < before.end { place - before.start } else { place - after.start + before.len() }

@@ -99,8 +99,8 @@ impl<N: Copy> LegGraph<'_, N> {
             return self;
         }
         let (end, entered_from) = (self.candidates.len() as u32 - 1, self.only_entries());
-        let stays = Onward { waypoints: &self.waypoints, end, entered_from };
-        Self { without_returns: Some(length), ..self.retain(&stays).trimmed(length) }
+        let fewer = self.what_stays(&Onward { waypoints: &self.waypoints, end, entered_from });
+        Self { without_returns: Some(length), ..self.cut(fewer).trimmed(length) }
     }
 
     /// Only nodes and legs on a walk from the start to the end of at most `length` waypoints.
@@ -108,14 +108,22 @@ impl<N: Copy> LegGraph<'_, N> {
     /// Two breadth-first passes and a copy; a leg that is gone cannot bring back another, so once is enough.
     pub(super) fn trimmed(self, length: usize) -> Self {
         let most = length.saturating_sub(1) as u32;
-        self.retain(&Short { after: self.distances_from_start(), before: self.distances_to_end(), most })
+        let short = Short { after: self.distances_from_start(), before: self.distances_to_end(), most };
+        let fewer = self.what_stays(&short);
+        self.cut(fewer)
     }
 
-    /// The legs that stay, and the nodes that they lead to or start from.
+    /// What stays, with what is seen of its legs, which is not copied.
+    fn cut(self, mut fewer: Self) -> Self {
+        fewer.rows.seen = self.rows.seen;
+        fewer
+    }
+
+    /// The legs that stay, and the nodes that they lead to or start from, without what is seen of them.
     ///
     /// Nodes that shared a row and are of one kind share what stays of it. A node to which a waypoint was barred before
     /// can only be entered from there, so no other one is barred to it later.
-    fn retain(&self, stays: &impl Stays) -> Self {
+    fn what_stays(&self, stays: &impl Stays) -> Self {
         let (of, sharing) = self.sharing(stays);
         let mut rows = Rows::default();
         for Shared { row, kind, barred } in &sharing {
@@ -123,7 +131,7 @@ impl<N: Copy> LegGraph<'_, N> {
                 let to = self.rows.to[place];
                 if stays.leg(*kind, to) && self.waypoint(to) != *barred {
                     rows.to.push(to);
-                    rows.seen.push(self.rows.seen[place]);
+                    rows.look.push(self.rows.look[place]);
                 }
             }
             rows.end_row();
