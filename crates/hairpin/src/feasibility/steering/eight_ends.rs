@@ -108,14 +108,26 @@ pub(super) struct Ends {
 impl Ends {
     /// One to eight states; lanes beyond the last repeat it.
     pub(super) fn new(ends: &[LegEnd]) -> Self {
-        let lanes = |of: &dyn Fn(&LegEnd) -> f64| std::array::from_fn(|lane| of(&ends[lane.min(ends.len() - 1)]));
-        Self {
-            position: unrolled!(|axis| lanes(&|end| end.position[axis])),
-            velocity: unrolled!(|axis| lanes(&|end| end.velocity[axis])),
-            acceleration: unrolled!(|axis| lanes(&|end| end.acceleration[axis])),
-            jerk: unrolled!(|axis| lanes(&|end| end.jerk[axis])),
-            drag_second: unrolled!([0, 1], |axis| lanes(&|end| end.drag_second[axis])),
+        let none = [0.0; LANES];
+        let mut lanes = Self {
+            position: [none; 3],
+            velocity: [none; 3],
+            acceleration: [none; 3],
+            jerk: [none; 3],
+            drag_second: [none; 2],
+        };
+        for lane in 0..LANES {
+            let end = &ends[lane.min(ends.len() - 1)];
+            for axis in 0..3 {
+                lanes.position[axis][lane] = end.position[axis];
+                lanes.velocity[axis][lane] = end.velocity[axis];
+                lanes.acceleration[axis][lane] = end.acceleration[axis];
+                lanes.jerk[axis][lane] = end.jerk[axis];
+            }
+            lanes.drag_second[0][lane] = end.drag_second[0];
+            lanes.drag_second[1][lane] = end.drag_second[1];
         }
+        lanes
     }
 }
 
@@ -136,8 +148,8 @@ impl Leaving {
     #[inline(always)]
     fn new(from: &LegEnd, t: f64) -> Self {
         let (t2, t3) = (t * t, t * t * t);
-        let c = |i: usize| [t * from.velocity[i], t2 * (0.5 * from.acceleration[i]), t3 * (from.jerk[i] / 6.0)];
-        Self { t, c: unrolled!(|i| c(i)) }
+        let c = unrolled!(|i| [t * from.velocity[i], t2 * (0.5 * from.acceleration[i]), t3 * (from.jerk[i] / 6.0)]);
+        Self { t, c }
     }
 
     /// The residues of the legs to `to`.
@@ -233,8 +245,8 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 
 /// Bit i for lane number i: lanes are numbers, so that the loops over them have no branch and are compiled to vectors.
 #[inline(always)]
-fn mask(lanes: &[u64; LANES]) -> u32 {
-    (0..).zip(lanes).fold(0, |mask, (lane, bit)| mask | (*bit as u32) << lane)
+fn mask(&[a, b, c, d, e, f, g, h]: &[u64; LANES]) -> u32 {
+    (a | b << 1 | c << 2 | d << 3 | e << 4 | f << 5 | g << 6 | h << 7) as u32
 }
 
 #[cfg(test)]

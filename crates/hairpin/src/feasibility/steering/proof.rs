@@ -226,8 +226,10 @@ at_every_level! {
     /// `batch` holds centre and half width, s. An interval may be in neither mask, and one whose centre violates is
     /// never in the first, since its lower bound is no higher than its centre.
     fn evaluate(body: &BodyLimits, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
-        let (tau, half) = (batch.map(|(center, _)| center), batch.map(|(_, half)| half));
-        let d = unrolled!(|axis| derivatives(&leg.coefficients[axis], f64x4::new(tau)).map(f64x4::to_array));
+        let tau = f64x4::new(unrolled!([0, 1, 2, 3], |lane| batch[lane].0));
+        let half = unrolled!([0, 1, 2, 3], |lane| batch[lane].1);
+        let d = unrolled!(|axis| derivatives(&leg.coefficients[axis], tau));
+        let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order].to_array()));
         let (mut proven, mut violated) = ([0; 4], [0; 4]);
         for lane in 0..4 {
             let half = half[lane];
@@ -240,9 +242,14 @@ at_every_level! {
             });
             (proven[lane], violated[lane]) = body.decide(&demand);
         }
-        let mask = |lanes: [u64; 4]| lanes.iter().rev().fold(0, |mask, lane| 2 * mask + *lane as u32);
-        (mask(proven), mask(violated))
+        (mask(&proven), mask(&violated))
     }
+}
+
+/// Bit i for lane number i, each 1 or 0.
+#[inline(always)]
+fn mask(&[a, b, c, d]: &[u64; 4]) -> u32 {
+    (a | b << 1 | c << 2 | d << 3) as u32
 }
 
 /// Root of |x| with the sign of x: a negative demand stays visible as a negative speed.
