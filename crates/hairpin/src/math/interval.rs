@@ -401,7 +401,7 @@ mod tests {
 
     #[test]
     fn a_vanishing_vector_has_every_direction() {
-        let zero = Enclosure::constant(0.0);
+        let zero: Enclosure = Enclosure::constant(0.0);
         let bound = zero.direction(zero);
         assert!(bound.lower().to_array()[0] <= -1.0 && bound.upper().to_array()[0] >= 1.0);
         assert_eq!(0.0f64.direction(0.0), 0.0);

@@ -274,7 +274,7 @@ mod tests {
             let judge = judge_of(robot, limits);
             let mut random = stream(seed as u64);
             let (mut legs, mut none, mut refused) = (0, 0, 0);
-            for draw in 0..100 {
+            for draw in 0..400 {
                 let (from, to) = random_ends(&judge, &mut random, 4.0, 8.0);
                 let others = (0..draw % 5).map(|_| random_ends(&judge, &mut random, 4.0, 8.0).1);
                 let to: Vec<LegEnd> = std::iter::once(to).chain(others).collect();
