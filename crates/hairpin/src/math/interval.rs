@@ -6,7 +6,7 @@
 //! proven up to rounding; else the piece is halved. The excess of upper(f) over the true maximum is O(h²), so that
 //! pieces near no limit are settled at once. Four pieces are looked at together, one in each lane.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x4;
 
@@ -37,7 +37,67 @@ pub trait Smooth:
     fn direction(self, norm: Self) -> Self;
 }
 
-/// Four intervals at once: on lane k the function is `middle + slope·u + r`, |u| ≤ 1, |r| ≤ `rest`.
+/// The numbers of an enclosure: one interval's (`f64`) or four intervals' (`f64x4`).
+///
+/// Loops over single intervals are compiled to vectors as wide as the machine's, where `f64x4` is two halves of it.
+pub trait Lanes:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The same number on all lanes.
+    fn splat(value: f64) -> Self;
+    /// |x|.
+    fn abs(self) -> Self;
+    /// √x, NaN below 0.
+    fn sqrt(self) -> Self;
+    /// `yes` on the lanes that are greater than `limit`, `no` on the others, which includes NaN.
+    fn above(self, limit: Self, yes: Self, no: Self) -> Self;
+}
+
+impl Lanes for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn above(self, limit: Self, yes: Self, no: Self) -> Self {
+        if self > limit { yes } else { no }
+    }
+}
+
+impl Lanes for f64x4 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        f64x4::splat(value)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64x4::abs(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64x4::sqrt(self)
+    }
+    #[inline(always)]
+    fn above(self, limit: Self, yes: Self, no: Self) -> Self {
+        either(self.simd_gt(limit), yes, no)
+    }
+}
+
+/// An interval, or four at once: on each the function is `middle + slope·u + r`, |u| ≤ 1, |r| ≤ `rest`.
 ///
 /// A Taylor model of degree 1 (Makino, Berz, "Taylor models and other validated functional inclusion methods", 2003):
 /// `middle` is the function's value at the interval's centre, so a violation there is real, and the bounds converge
@@ -57,45 +117,45 @@ pub trait Smooth:
 /// assert!(square.upper().to_array()[0] < 1.22);
 /// ```
 #[derive(Debug, Clone, Copy)]
-pub struct Enclosure {
+pub struct Enclosure<V = f64x4> {
     /// Value at the centre.
-    pub middle: f64x4,
+    pub middle: V,
     /// Slope times half the width.
-    pub slope: f64x4,
+    pub slope: V,
     /// Bound of what the line misses.
-    pub rest: f64x4,
+    pub rest: V,
 }
 
-impl Enclosure {
+impl<V: Lanes> Enclosure<V> {
     /// The enclosure of Σ d_k h^k/k! u^k, from the derivatives `d` at the centre and half the width `h`.
     ///
     /// Exact for polynomials whose derivatives are all given: `rest` = Σ_{k ≥ 2} |d_k| hᵏ/k!. `d[k]` has the unit of
     /// the value over sᵏ, `h` is in s and > 0. Of anything else the last derivative must be a bound over the whole
     /// interval, not its value at the centre.
     #[inline(always)]
-    pub fn taylor(d: &[f64x4], h: f64x4) -> Self {
-        let mut rest = f64x4::ZERO;
+    pub fn taylor(d: &[V], h: V) -> Self {
+        let mut rest = V::splat(0.0);
         for k in (2..d.len()).rev() {
             rest = (rest + d[k].abs()) * h * (1.0 / k as f64);
         }
         // The loop nests |d₂| h/2 + |d₃| h²/(2·3) + …; one factor h is left.
-        Self { middle: d[0], slope: d.get(1).map_or(f64x4::ZERO, |d1| *d1 * h), rest: rest * h }
+        Self { middle: d[0], slope: d.get(1).map_or(V::splat(0.0), |d1| *d1 * h), rest: rest * h }
     }
 
-    /// Lower bounds of the four intervals.
+    /// Lower bounds of the intervals.
     #[inline(always)]
-    pub fn lower(&self) -> f64x4 {
+    pub fn lower(&self) -> V {
         self.middle - self.slope.abs() - self.rest
     }
 
-    /// Upper bounds of the four intervals.
+    /// Upper bounds of the intervals.
     #[inline(always)]
-    pub fn upper(&self) -> f64x4 {
+    pub fn upper(&self) -> V {
         self.middle + self.slope.abs() + self.rest
     }
 }
 
-impl Add for Enclosure {
+impl<V: Lanes> Add for Enclosure<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -103,7 +163,7 @@ impl Add for Enclosure {
     }
 }
 
-impl Sub for Enclosure {
+impl<V: Lanes> Sub for Enclosure<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
@@ -111,7 +171,7 @@ impl Sub for Enclosure {
     }
 }
 
-impl Neg for Enclosure {
+impl<V: Lanes> Neg for Enclosure<V> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -119,7 +179,7 @@ impl Neg for Enclosure {
     }
 }
 
-impl Mul<f64> for Enclosure {
+impl<V: Lanes> Mul<f64> for Enclosure<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, k: f64) -> Self {
@@ -127,7 +187,7 @@ impl Mul<f64> for Enclosure {
     }
 }
 
-impl Mul for Enclosure {
+impl<V: Lanes> Mul for Enclosure<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
@@ -142,10 +202,10 @@ impl Mul for Enclosure {
     }
 }
 
-impl Smooth for Enclosure {
+impl<V: Lanes> Smooth for Enclosure<V> {
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        Self { middle: f64x4::splat(value), slope: f64x4::ZERO, rest: f64x4::ZERO }
+        Self { middle: V::splat(value), slope: V::splat(0.0), rest: V::splat(0.0) }
     }
 
     #[inline(always)]
@@ -161,39 +221,39 @@ impl Smooth for Enclosure {
     #[inline(always)]
     fn sqrt(self) -> Self {
         // √(x₀ + δ) = √x₀ + δ/(2√x₀) − δ²/(8 ξ^{3/2}), ξ ≥ the lower bound; or, near zero, just [0, √upper].
-        let (lower, upper) = (self.lower(), self.upper());
-        let root = positive_part(self.middle).sqrt();
-        let half_inverse = f64x4::splat(0.5) / root;
+        let (none, lower, upper) = (V::splat(0.0), self.lower(), self.upper());
+        let root = self.middle.above(none, self.middle, none).sqrt();
+        let half_inverse = V::splat(0.5) / root;
         let spread = self.slope.abs() + self.rest;
         let rest = self.rest * half_inverse + spread * spread / (lower * lower.sqrt() * 8.0);
         let slope = self.slope * half_inverse;
-        let highest = positive_part(upper).sqrt();
-        let tame = lower.simd_gt(f64x4::ZERO) & (slope.abs() + rest).simd_lt(highest);
+        let highest = upper.above(none, upper, none).sqrt();
         let above = highest - root;
-        let widest = either(above.simd_gt(root), above, root);
-        Self { middle: root, slope: tame & slope, rest: either(tame, rest, widest) }
+        let widest = above.above(root, above, root);
+        let tame = |yes, no| lower.above(none, highest.above(slope.abs() + rest, yes, no), no);
+        Self { middle: root, slope: tame(slope, none), rest: tame(rest, widest) }
     }
 
     #[inline(always)]
     fn recip(self) -> Self {
         // 1/(x₀ + δ) = 1/x₀ − δ/x₀² + δ²/(x₀² (x₀ + δ)).
         let lower = self.lower();
-        let inverse = f64x4::ONE / self.middle;
+        let inverse = V::splat(1.0) / self.middle;
         let square = inverse * inverse;
         let spread = self.slope.abs() + self.rest;
         let rest = square * (self.rest + spread * spread / lower);
-        let positive = lower.simd_gt(f64x4::ZERO);
-        Self { middle: inverse, slope: -self.slope * square, rest: either(positive, rest, f64x4::splat(f64::INFINITY)) }
+        let rest = lower.above(V::splat(0.0), rest, V::splat(f64::INFINITY));
+        Self { middle: inverse, slope: -self.slope * square, rest }
     }
 
     #[inline(always)]
     fn direction(self, norm: Self) -> Self {
-        let ratio = self * norm.recip();
+        let (none, ratio) = (V::splat(0.0), self * norm.recip());
         // The centre keeps its direction where it has one; NaN and infinity are not tame.
-        let middle = norm.middle.simd_gt(f64x4::ZERO) & ratio.middle;
-        let all = f64x4::ONE + middle.abs();
-        let tame = (ratio.slope.abs() + ratio.rest).simd_lt(all);
-        Self { middle, slope: tame & ratio.slope, rest: either(tame, ratio.rest, all) }
+        let middle = norm.middle.above(none, ratio.middle, none);
+        let all = V::splat(1.0) + middle.abs();
+        let tame = |yes, no| all.above(ratio.slope.abs() + ratio.rest, yes, no);
+        Self { middle, slope: tame(ratio.slope, none), rest: tame(ratio.rest, all) }
     }
 }
 
@@ -341,7 +401,7 @@ mod tests {
 
     #[test]
     fn a_vanishing_vector_has_every_direction() {
-        let zero = Enclosure::constant(0.0);
+        let zero: Enclosure = Enclosure::constant(0.0);
         let bound = zero.direction(zero);
         assert!(bound.lower().to_array()[0] <= -1.0 && bound.upper().to_array()[0] >= 1.0);
         assert_eq!(0.0f64.direction(0.0), 0.0);

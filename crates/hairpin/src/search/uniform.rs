@@ -96,8 +96,8 @@ impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
             let leg = match (self.counts.layer(steps).at(node), after) {
                 (Count::Exact(total), Layer::Exact(after)) => {
                     let mut left = rank.take().unwrap_or_else(|| below(rng, total));
-                    let leg = self.graph.legs_from(node).find(|&leg| {
-                        let count = after[self.graph.target(leg) as usize];
+                    let leg = self.graph.steps(node).find(|&(_, to)| {
+                        let count = after[to as usize];
                         let here = left < count;
                         if !here {
                             left -= count;
@@ -108,19 +108,19 @@ impl<'g, 'a, N: Copy> Sampler<'g, 'a, N> {
                     leg
                 }
                 (total, after) => {
-                    let weight = |leg: &usize| after.at(self.graph.target(*leg)).as_f64();
+                    let weight = |&(_, to): &(usize, u32)| after.at(to).as_f64();
                     let mut left = rng.random::<f64>() * total.as_f64();
-                    let live = || self.graph.legs_from(node).filter(|leg| weight(leg) > 0.0);
-                    let chosen = live().find(|leg| {
-                        left -= weight(leg);
+                    let live = || self.graph.steps(node).filter(|step| weight(step) > 0.0);
+                    let chosen = live().find(|step| {
+                        left -= weight(step);
                         left < 0.0
                     });
-                    chosen.or_else(|| live().next_back())
+                    chosen.or_else(|| live().last())
                 }
             };
-            let leg = leg.expect("a node's walks are those over its legs");
+            let (leg, to) = leg.expect("a node's walks are those over its legs");
             legs.push(leg as u32);
-            node = self.graph.target(leg);
+            node = to;
         }
     }
 }

@@ -46,6 +46,8 @@ pub mod witness;
 
 use nalgebra::Point3;
 
+use crate::math::rotation::angle_between;
+
 pub use body_hull::{BodyGrid, BodyHull, BodyNode, NoBodyHull};
 pub use brute_force::{BruteForce, BruteForceSettings, CarriedNode};
 pub use drive::{DriveNode, DriveRoadmap, DriveSettings, DriveSite};
@@ -82,6 +84,29 @@ pub struct LegFeatures {
     pub ground: f64,
 }
 
+impl LegFeatures {
+    /// The same, entered from `points[previous]` for a leg from `points[here]` to `points[next]`: `turn` and
+    /// `slope_in`, which are 0 where `previous` is `here`.
+    ///
+    /// turn = ∠(here − previous, next − here), slope_in = climb/length of the way in.
+    pub(crate) fn entered(self, points: &[Point3<f64>], [previous, here, next]: [u32; 3]) -> Self {
+        let [before, at, to] = [previous, here, next].map(|point| points[point as usize]);
+        let incoming = at - before;
+        let length = incoming.norm();
+        let turn = if previous == here { 0.0 } else { angle_between(&incoming, &(to - at)) };
+        Self { turn, slope_in: if length > 0.0 { incoming.z / length } else { 0.0 }, ..self }
+    }
+}
+
+/// What a node is entered from, of the nodes of one state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// Number of the state.
+    pub state: usize,
+    /// Index of the waypoint before.
+    pub previous: u32,
+}
+
 /// A leg from a node to the node `to`, which stands at candidate number `waypoint`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg<N> {
@@ -102,11 +127,24 @@ pub struct Leg<N> {
 pub trait Reach<N> {
     /// Appends the feasible legs from `from` to `out`.
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>);
+
+    /// How `from` is entered, where all nodes of its state stand at one waypoint and have the same legs but for `turn`
+    /// and `slope_in`, which follow from the waypoint before; `None` where legs are each node's own.
+    ///
+    /// Who asks for all nodes then asks for the legs of each state once.
+    fn entry(&self, from: &N) -> Option<Entry> {
+        let _ = from;
+        None
+    }
 }
 
 impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
         (**self).legs(from, candidates, out);
+    }
+
+    fn entry(&self, from: &N) -> Option<Entry> {
+        (**self).entry(from)
     }
 }
 

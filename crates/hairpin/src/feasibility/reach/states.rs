@@ -5,6 +5,7 @@
 //! the robot's.
 
 use std::cell::{OnceCell, RefCell};
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
@@ -14,7 +15,6 @@ use super::proven_legs::{Judged, ProveLegs, WitnessLegs, WitnessNode};
 use super::{Leg, LegFeatures};
 use crate::feasibility::steering::LegTiming;
 use crate::math::random::{Stream, named_seed, stream};
-use crate::math::rotation::angle_between;
 use crate::trajectory::Profile;
 
 /// How velocities are drawn: each waypoint from a stream of its own.
@@ -110,7 +110,7 @@ impl<'a, J: ProveLegs> States<'a, J> {
     }
 
     /// Numbers of the states of waypoint `w`.
-    pub(in crate::feasibility) fn of(&self, w: usize) -> std::ops::Range<u32> {
+    pub(in crate::feasibility) fn of(&self, w: usize) -> Range<u32> {
         self.first[w]..self.first[w + 1]
     }
 
@@ -198,9 +198,19 @@ impl<'a, J: ProveLegs> States<'a, J> {
 
     /// The shortest feasible rung between two states, of those that are no shorter than `least`.
     fn shortest(&self, from: usize, to: usize, least: f64) -> Option<u32> {
+        let mut found = None;
+        self.each_shortest(from, to..to + 1, least, |_, rung| found = Some(rung));
+        found
+    }
+
+    /// Calls `found` with each of the states `to` to which there is a leg and its shortest rung, of those that are no
+    /// shorter than `least`.
+    fn each_shortest(&self, from: usize, to: Range<usize>, least: f64, mut found: impl FnMut(u32, u32)) {
         let begin = self.rungs.partition_point(|rung| *rung < least);
-        let found = self.judge.first(&self.states[from], &self.states[to], &self.rungs[begin..]);
-        found.map(|rung| (begin + rung) as u32)
+        let first = to.start;
+        self.judge.firsts(&self.states[from], &self.states[to], &self.rungs[begin..], |state, rung| {
+            found((first + state) as u32, (begin + rung) as u32);
+        });
     }
 
     /// Time of the straight line between two waypoints at the largest speed, s.
@@ -221,9 +231,9 @@ impl<'a, J: ProveLegs> States<'a, J> {
             if least > self.longest() {
                 continue;
             }
-            for state in self.of(w) {
-                legs.extend(self.shortest(from, state as usize, least).map(|rung| Judged { state, rung }));
-            }
+            let states = self.of(w);
+            let states = states.start as usize..states.end as usize;
+            self.each_shortest(from, states, least, |state, rung| legs.push(Judged { state, rung }));
         }
         let legs: Arc<[Judged]> = legs.into();
         self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
@@ -255,30 +265,21 @@ impl<'a, J: ProveLegs> States<'a, J> {
         out: &mut Vec<Leg<WitnessNode>>,
     ) {
         assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
-        let here = self.points[from.waypoint as usize];
-        let incoming = here - self.points[from.previous as usize];
-        let left = self.number(from);
-        let (v_in, length_in) = (J::speed(&self.states[left]), incoming.norm());
+        let (here, left) = (self.points[from.waypoint as usize], self.number(from));
+        let v_in = J::speed(&self.states[left]);
         // States of a waypoint follow on one another: they share the straight way to it, and the turn into that.
-        let (mut to, mut outgoing, mut turn) = (from.waypoint, Vector3::zeros(), 0.0);
+        let (mut to, mut outgoing, mut way) = (from.waypoint, Vector3::zeros(), LegFeatures::default());
         let legs = self.kept_legs(left);
         out.reserve(legs.len());
         for leg in legs.iter() {
             if leg.state >= self.first[to as usize + 1] || to == from.waypoint {
                 to = self.place(leg.state).0;
                 outgoing = self.points[to as usize] - here;
-                turn = if from.previous == from.waypoint { 0.0 } else { angle_between(&incoming, &outgoing) };
+                way = LegFeatures { v_in, length: outgoing.norm(), climb: outgoing.z, ..LegFeatures::default() }
+                    .entered(&self.points, [from.previous, from.waypoint, to]);
             }
             let (waypoint, velocity) = (to, leg.state - self.first[to as usize]);
-            let features = LegFeatures {
-                v_in,
-                v_out: J::speed(&self.states[leg.state as usize]),
-                turn,
-                length: outgoing.norm(),
-                climb: outgoing.z,
-                slope_in: if length_in > 0.0 { incoming.z / length_in } else { 0.0 },
-                ground: 0.0,
-            };
+            let features = LegFeatures { v_out: J::speed(&self.states[leg.state as usize]), ..way };
             out.push(Leg {
                 to: WitnessNode { previous: from.waypoint, waypoint, velocity },
                 waypoint,

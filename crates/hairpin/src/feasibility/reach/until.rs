@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use nalgebra::Point3;
 
-use super::{Leg, Reach};
+use super::{Entry, Leg, Reach};
 
 /// The legs of another set until `over` says that nobody waits any longer, and none from then on: whatever searches it
 /// runs dry. What was found then says nothing of the graph, so that who asks must ask [`Until::cut`] as well.
@@ -53,5 +53,9 @@ impl<N> Reach<N> for Until<'_, N> {
         if !self.cut.get() {
             self.inner.legs(from, candidates, out);
         }
+    }
+
+    fn entry(&self, from: &N) -> Option<Entry> {
+        self.inner.entry(from)
     }
 }

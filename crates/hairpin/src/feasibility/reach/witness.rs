@@ -15,7 +15,7 @@ use rand::RngExt;
 use super::proven_legs::{ProveLegs, WitnessLegs, WitnessNode};
 use super::states::{States, Velocities};
 use super::wander::another;
-use super::{Leg, Reach};
+use super::{Entry, Leg, Reach};
 use crate::feasibility::limits::Infeasible;
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
 use crate::math::random::Stream;
@@ -74,8 +74,8 @@ impl ProveLegs for LegJudge {
         self.judge(from, to, duration)
     }
 
-    fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
-        self.first(from, to, durations)
+    fn firsts(&self, from: &LegEnd, to: &[LegEnd], durations: &[f64], found: impl FnMut(usize, usize)) {
+        self.firsts(from, to, durations, found);
     }
 
     fn fastest(&self) -> f64 {
@@ -242,5 +242,9 @@ fn target(points: &[Point3<f64>], own: usize, radius: f64, draw: f64) -> usize {
 impl Reach<WitnessNode> for Roadmap<'_> {
     fn legs(&self, from: &WitnessNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<WitnessNode>>) {
         self.states.legs(from, candidates, |_, _| 0.0, out);
+    }
+
+    fn entry(&self, from: &WitnessNode) -> Option<Entry> {
+        Some(Entry { state: self.states.number(from), previous: from.previous })
     }
 }

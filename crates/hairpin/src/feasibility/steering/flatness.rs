@@ -156,6 +156,7 @@ impl Flatness {
     }
 
     /// The robot's weight, N.
+    #[inline(always)]
     pub fn weight(&self) -> f64 {
         self.mass * self.gravity
     }
@@ -223,7 +224,7 @@ impl Flatness {
     ///
     /// At such an end θ̈ = F̈x/(m g) and φ̈ = −F̈y/(m g); ω = 0 takes gyroscopic and aerodynamic moments away, and
     /// F̈z does not turn the body. Exact, without the quotients of [`Self::demand`].
-    #[inline]
+    #[inline(always)]
     pub(super) fn level_rotors<N: Smooth>(&self, second: &[N; 2]) -> [N; 4] {
         let inverse = 1.0 / self.weight();
         let roll = -second[1] * inverse * self.inertia[0];

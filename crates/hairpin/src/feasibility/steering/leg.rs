@@ -13,8 +13,8 @@
 use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
+use super::eight_ends::{Ends, LANES, refused};
 use super::flatness::{DependentRotors, Flatness};
-use super::four_times::refused;
 use super::halving::ProofSettings;
 use super::leg_end::LegEnd;
 use super::proof::BodyLimits;
@@ -146,23 +146,39 @@ impl LegJudge {
         Ok(leg)
     }
 
-    /// The number of the first of `durations` (s) in which the leg is one by [`Self::judge`].
+    /// Calls `found` with the number of each of `to` to which there is a leg by [`Self::judge`], and the number of the
+    /// first of `durations` (s) in which there is one.
     ///
-    /// Most are refused four at a time, for what the body would have to do at the ends and at nine instants.
+    /// Most are refused eight at a time, for what the body would have to do at the ends and at nine instants.
     ///
-    /// Same answer as judging them one after the other: the filter refuses only what the judge would. The order is that
-    /// of `durations`; `None` where none is a leg or there are none.
-    pub fn first(&self, from: &LegEnd, to: &LegEnd, durations: &[f64]) -> Option<usize> {
-        durations.chunks(4).enumerate().find_map(|(k, few)| {
-            let refused = self.refused(from, to, few);
-            let asked = (0..few.len()).filter(|i| refused >> i & 1 == 0);
-            asked.into_iter().find(|i| self.judge(from, to, few[*i]).is_ok()).map(|i| 4 * k + i)
-        })
+    /// Same answer as judging them one after the other: the filter refuses only what the judge would. In the order of
+    /// `to`.
+    pub fn firsts(&self, from: &LegEnd, to: &[LegEnd], durations: &[f64], mut found: impl FnMut(usize, usize)) {
+        for (k, few) in to.chunks(LANES).enumerate() {
+            let (ends, mut firsts) = (Ends::new(few), [None; LANES]);
+            let mut open = u32::MAX >> (u32::BITS as usize - few.len());
+            for (number, &duration) in durations.iter().enumerate() {
+                if open == 0 {
+                    break;
+                }
+                let asked = open & !self.refused(from, &ends, duration, open);
+                for lane in (0..few.len()).filter(|lane| asked >> lane & 1 == 1) {
+                    if self.judge(from, &few[lane], duration).is_ok() {
+                        (firsts[lane], open) = (Some(number), open & !(1 << lane));
+                    }
+                }
+            }
+            let firsts = firsts.into_iter().enumerate();
+            firsts
+                .filter_map(|(lane, first)| Some((lane, first?)))
+                .for_each(|(lane, first)| found(k * LANES + lane, first));
+        }
     }
 
-    /// Which of one to four durations [`Self::judge`] would refuse, by the cheapest of its tests: bit i for number i.
-    pub(super) fn refused(&self, from: &LegEnd, to: &LegEnd, few: &[f64]) -> u32 {
-        refused((&self.flatness, &self.body, self.mass), from, to, few)
+    /// Which of the legs to one to eight ends [`Self::judge`] would refuse, by the cheapest of its tests: bit i for
+    /// number i; no more than is needed to refuse all of `open`.
+    pub(super) fn refused(&self, from: &LegEnd, to: &Ends, duration: f64, open: u32) -> u32 {
+        refused((&self.flatness, &self.body, self.mass), from, to, duration, open)
     }
 
     /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.

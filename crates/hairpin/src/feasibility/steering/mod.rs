@@ -13,8 +13,8 @@
 //! answered is either a leg with its proof or the evidence against it.
 
 pub mod clear;
+mod eight_ends;
 pub mod flatness;
-mod four_times;
 pub mod halving;
 pub mod leg;
 pub mod leg_end;

@@ -100,21 +100,27 @@ impl BodyLimits {
         Some((Limit::RotorMin, part, if speed.is_nan() { f64::NEG_INFINITY } else { speed - self.rotor_speed.0 }))
     }
 
-    /// The lanes on which a squared rotor speed is out of its limits by more than `share` of the largest. NaN is not.
+    /// Whether a squared rotor speed is out of its limits by more than `share` of the largest. NaN is not.
     #[inline(always)]
-    pub(super) fn rotors_beyond(&self, squares: &[f64x4; 4], share: f64) -> u32 {
+    pub(super) fn rotors_beyond(&self, squares: &[f64; 4], share: f64) -> bool {
         let room = share * self.rotor_high;
-        let (low, high) = (f64x4::splat(self.rotor_low - room), f64x4::splat(self.rotor_high + room));
-        let beyond = unrolled!([0, 1, 2, 3], |i| squares[i].simd_lt(low) | squares[i].simd_gt(high));
-        (beyond[0] | beyond[1] | beyond[2] | beyond[3]).to_bitmask()
+        let beyond = |square: f64| (square < self.rotor_low - room) | (square > self.rotor_high + room);
+        let [a, b, c, d] = *squares;
+        beyond(a) | beyond(b) | beyond(c) | beyond(d)
     }
 
-    /// The lanes on which speed, vertical thrust or tilt is beyond its limit by more than `share` of it. NaN is not.
+    /// Whether a speed, given its square, is beyond its limit by more than `share` of it. NaN is not.
     #[inline(always)]
-    pub(super) fn force_beyond(&self, speed: f64x4, vertical: f64x4, thrust: f64x4, share: f64) -> u32 {
+    pub(super) fn is_faster(&self, speed_square: f64, share: f64) -> bool {
+        speed_square > square(self.limits.max_speed + share * self.limits.max_speed.min(1e3))
+    }
+
+    /// Whether speed, vertical thrust or tilt is beyond its limit by more than `share` of it. NaN is not.
+    #[inline(always)]
+    pub(super) fn force_beyond(&self, speed: f64, vertical: f64, thrust: f64, share: f64) -> bool {
         let [speed, least, tilt] = self.force_margins(speed, vertical, thrust);
-        let beyond = |(margin, room): (f64x4, f64)| margin.simd_lt(f64x4::splat(-room * (share / ROUNDING)));
-        (beyond(speed) | beyond(least) | beyond(tilt)).to_bitmask()
+        let beyond = |(margin, room): (f64, f64)| margin < -room * (share / ROUNDING);
+        beyond(speed) | beyond(least) | beyond(tilt)
     }
 
     /// The first of four instants that violates speed, thrust or tilt, with the margin in the limit's unit.
@@ -173,6 +179,29 @@ impl BodyLimits {
         (worst.0, worst.1, worst.2)
     }
 
+    /// Whether (1 or 0) every limit is proven of `demand`, and whether one is violated at its centre.
+    ///
+    /// Comparisons with NaN are false, so what is undefined is never proven.
+    #[inline(always)]
+    fn decide(&self, demand: &Demand<Enclosure<f64>>) -> (u64, u64) {
+        let (mut proven, mut violated) = (true, false);
+        let mut require = |margin: Enclosure<f64>, room: f64| {
+            proven &= margin.lower() >= room;
+            violated |= margin.middle < 0.0;
+        };
+        let [speed, thrust, tilt] = self.force_margins(demand.speed, demand.force[2], demand.thrust);
+        require(speed.0, speed.1);
+        require(thrust.0, thrust.1);
+        require(tilt.0, tilt.1);
+        let (low, high) = (Enclosure::constant(self.rotor_low), Enclosure::constant(self.rotor_high));
+        let mut rotor = |i: usize| {
+            require(demand.rotors[i] - low, ROUNDING * self.rotor_high);
+            require(high - demand.rotors[i], ROUNDING * self.rotor_high);
+        };
+        unrolled!([0, 1, 2, 3], |i| rotor(i));
+        (u64::from(proven), u64::from(violated))
+    }
+
     /// Proves speed, thrust, tilt and rotor limits on the whole leg.
     ///
     /// Four intervals at a time in lanes, each degree-1 Taylor models of all demands; halved in two where neither
@@ -197,33 +226,30 @@ at_every_level! {
     /// `batch` holds centre and half width, s. An interval may be in neither mask, and one whose centre violates is
     /// never in the first, since its lower bound is no higher than its centre.
     fn evaluate(body: &BodyLimits, flatness: &Flatness, leg: &ProfileLeg, batch: &[(f64, f64); 4]) -> (u32, u32) {
-        let tau = f64x4::new(batch.map(|(center, _)| center));
-        let half = f64x4::new(batch.map(|(_, half)| half));
+        let tau = f64x4::new(unrolled!([0, 1, 2, 3], |lane| batch[lane].0));
+        let half = unrolled!([0, 1, 2, 3], |lane| batch[lane].1);
         let d = unrolled!(|axis| derivatives(&leg.coefficients[axis], tau));
-        let flat = FlatState {
-            velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
-            acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
-            jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
-            snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
-        };
-        let demand = flatness.demand(&flat);
-        // All ones; comparisons with NaN are false, so what is undefined is never proven.
-        let mut proven = f64x4::ZERO.simd_eq(f64x4::ZERO);
-        let mut violated = f64x4::ZERO;
-        let mut require = |margin: &Enclosure, room: f64| {
-            proven &= margin.lower().simd_ge(f64x4::splat(room));
-            violated |= margin.middle.simd_lt(f64x4::ZERO);
-        };
-        for (margin, room) in &body.force_margins(demand.speed, demand.force[2], demand.thrust) {
-            require(margin, *room);
+        let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order].to_array()));
+        let (mut proven, mut violated) = ([0; 4], [0; 4]);
+        for lane in 0..4 {
+            let half = half[lane];
+            let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order][lane]));
+            let demand = flatness.demand(&FlatState {
+                velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
+                acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
+                jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
+                snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
+            });
+            (proven[lane], violated[lane]) = body.decide(&demand);
         }
-        let (low, high) = (Enclosure::constant(body.rotor_low), Enclosure::constant(body.rotor_high));
-        for square in &demand.rotors {
-            require(&(*square - low), ROUNDING * body.rotor_high);
-            require(&(high - *square), ROUNDING * body.rotor_high);
-        }
-        (proven.to_bitmask(), violated.to_bitmask())
+        (mask(&proven), mask(&violated))
     }
+}
+
+/// Bit i for lane number i, each 1 or 0.
+#[inline(always)]
+fn mask(&[a, b, c, d]: &[u64; 4]) -> u32 {
+    (a | b << 1 | c << 2 | d << 3) as u32
 }
 
 /// Root of |x| with the sign of x: a negative demand stays visible as a negative speed.

@@ -84,8 +84,7 @@ pub(super) fn best_first<N: Copy>(
             tree.backwards(entry.id).for_each(|p| visited[p.waypoint as usize] = true);
         }
         let (mut grown, before) = (false, *tree.memory(entry.id));
-        for leg in graph.legs_from(partial.node) {
-            let to = graph.target(leg);
+        for (leg, to) in graph.steps(partial.node) {
             if visited[graph.waypoint(to) as usize] {
                 continue;
             }
@@ -96,7 +95,7 @@ pub(super) fn best_first<N: Copy>(
             // Rounding must not lift a bound above that of what it continues.
             let bound = bound.min(entry.bound);
             let place = (to, graph.waypoint(to));
-            let id = tree.grow(entry.id, place, graph.duration(leg), score, left);
+            let id = tree.grow(entry.id, place, graph.duration(partial.node, leg), score, left);
             queue.push(Entry { bound, length: entry.length + 1, id }, order(&tree));
             grown = true;
         }

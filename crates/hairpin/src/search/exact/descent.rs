@@ -56,8 +56,7 @@ pub(super) fn descent<N: Copy>(
         for (parent, label) in layer.iter().enumerate() {
             expansions += 1;
             let visited = &visited[parent * words..(parent + 1) * words];
-            for leg in graph.legs_from(label.node) {
-                let to = graph.target(leg);
+            for (leg, to) in graph.steps(label.node) {
                 let waypoint = graph.waypoint(to) as usize;
                 if visited[waypoint / 64] >> (waypoint % 64) & 1 == 1 {
                     continue;

@@ -126,21 +126,27 @@ impl<N: Copy> LegGraph<'_, N> {
     }
 
     /// Walks that are one leg longer than those of `after`.
+    ///
+    /// Of a row that nodes share one sum is taken, in integers: of a node's it is all but what its gap has.
     fn layer_before(&self, after: &Layer) -> Layer {
         let nodes = 0..self.nodes() as u32;
         match after {
             Layer::Exact(after) => {
-                let sum = |node| {
-                    self.to[self.legs_from(node)].iter().try_fold(0u128, |sum, &to| sum.checked_add(after[to as usize]))
+                let sum = |to: &[u32]| to.iter().try_fold(0u128, |sum, &to| sum.checked_add(after[to as usize]));
+                let rows = &self.rows;
+                let all: Vec<Option<u128>> = (0..rows.count()).map(|row| sum(&rows.to[rows.kept(row)])).collect();
+                let of_node = |node| match all[rows.number(node) as usize] {
+                    Some(all) => Some(all - sum(&rows.to[rows.gap(node)])?),
+                    None => rows.targets(node).try_fold(0u128, |sum, to| sum.checked_add(after[to as usize])),
                 };
-                match nodes.map(sum).collect() {
+                match nodes.map(of_node).collect() {
                     Some(counts) => Layer::Exact(counts),
                     None => self.layer_before(&Layer::About(after.iter().map(|&count| count as f64).collect())),
                 }
             }
-            Layer::About(after) => Layer::About(
-                nodes.map(|node| self.to[self.legs_from(node)].iter().map(|&to| after[to as usize]).sum()).collect(),
-            ),
+            Layer::About(after) => {
+                Layer::About(nodes.map(|node| self.rows.targets(node).map(|to| after[to as usize]).sum()).collect())
+            }
         }
     }
 }

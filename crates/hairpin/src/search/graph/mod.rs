@@ -18,9 +18,10 @@
 
 mod build;
 mod count;
-mod details;
+mod rows;
 #[cfg(test)]
 mod tests;
+mod trim;
 mod value;
 
 use std::ops::Range;
@@ -29,15 +30,16 @@ use nalgebra::Point3;
 
 use super::objective::LegView;
 use super::task::Found;
+use crate::feasibility::reach::LegFeatures;
 pub(super) use count::Layer;
 pub use count::{Count, Counts};
-use details::Details;
+use rows::Rows;
 pub(super) use value::{LegScores, Values};
 
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.
 ///
-/// Memory: 12 bytes a leg, 48 for each that differs in more than what it turns from, 16 for each turn, and the nodes;
-/// 76 a leg where none are alike. u32 numbers: at most four billion legs.
+/// Memory: that of the nodes, and 72 bytes a leg; legs that nodes share count once. u32 numbers: at most four billion
+/// legs.
 ///
 /// ```
 /// use hairpin::feasibility::reach::{Sphere, StepNode, StepReach, StepSettings};
@@ -58,14 +60,16 @@ pub struct LegGraph<'a, N> {
     nodes: Vec<N>,
     /// Waypoint of every node.
     waypoints: Vec<u32>,
-    /// Legs from node v are `first[v]..first[v + 1]`, in rising order of waypoint.
-    first: Vec<u32>,
-    /// Node that a leg leads to.
-    to: Vec<u32>,
-    details: Details,
+    /// Waypoint before that of every node, from which its legs are seen; `OWN` where they are kept as it sees them.
+    previous: Vec<u32>,
+    /// Legs, in rising order of waypoint.
+    rows: Rows,
     /// The length for which the legs that no trajectory without revisits has were taken out.
     without_returns: Option<usize>,
 }
+
+/// No waypoint before.
+const OWN: u32 = u32::MAX;
 
 impl<'a, N: Copy> LegGraph<'a, N> {
     /// Number of nodes.
@@ -79,7 +83,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     ///
     /// 0 proves that there is no trajectory of the length that the graph was built for, nor of a shorter one.
     pub fn legs(&self) -> usize {
-        self.to.len()
+        self.rows.legs()
     }
 
     /// Waypoints of the graph, m.
@@ -104,26 +108,33 @@ impl<'a, N: Copy> LegGraph<'a, N> {
 
     /// Numbers of legs; empty for nodes at the end that nothing leads on from.
     pub(super) fn legs_from(&self, node: u32) -> Range<usize> {
-        self.first[node as usize] as usize..self.first[node as usize + 1] as usize
+        self.rows.legs_from(node)
     }
 
-    /// Node that the leg leads to.
+    /// Numbers of legs from `node`, and the nodes that they lead to.
+    pub(super) fn steps(&self, node: u32) -> impl Iterator<Item = (usize, u32)> {
+        self.legs_from(node).zip(self.rows.targets(node))
+    }
+
+    /// Node that the leg leads to; [`Self::steps`] knows it of all legs of a node.
     pub(super) fn target(&self, leg: usize) -> u32 {
-        self.to[leg]
+        self.rows.to[self.rows.place(self.rows.source(leg), leg)]
     }
 
-    /// The legs from `node` to any node at `waypoint`: rows rise with the waypoint, so the first is found by halving.
-    pub(super) fn legs_to(&self, node: u32, waypoint: u32) -> impl Iterator<Item = usize> {
-        let row = self.legs_from(node);
-        let before = self.to[row.clone()].partition_point(|&to| self.waypoint(to) < waypoint);
-        (row.start + before..row.end).take_while(move |&leg| self.waypoint(self.target(leg)) == waypoint)
+    /// The legs from `node` to any node at `waypoint`, and these nodes: rows rise with the waypoint, so the first is
+    /// found by halving.
+    pub(super) fn legs_to(&self, node: u32, waypoint: u32) -> impl Iterator<Item = (usize, u32)> {
+        let places = self.rows.to_waypoint(self.rows.number(node), waypoint, |node| self.waypoint(node));
+        let gap = self.rows.gap(node);
+        let there = places.filter(move |place| !gap.contains(place));
+        there.map(move |place| (self.rows.leg_at(node, place), self.rows.to[place]))
     }
 
     /// The node that a leg starts from.
     ///
     /// By halving over the rows: O(log nodes).
     pub(super) fn source(&self, leg: u32) -> u32 {
-        (self.first.partition_point(|&first| first <= leg) - 1) as u32
+        self.rows.source(leg as usize)
     }
 
     /// The legs along `nodes`, the first of which is the start's; `None` where there is no such leg.
@@ -136,9 +147,9 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         let mut here = 0;
         let mut legs = Vec::with_capacity(nodes.len());
         for node in nodes.get(1..)? {
-            let leg = self.legs_from(here).find(|&leg| self.nodes[self.target(leg) as usize] == *node)?;
+            let (leg, to) = self.steps(here).find(|&(_, to)| self.nodes[to as usize] == *node)?;
             legs.push(leg as u32);
-            here = self.target(leg);
+            here = to;
         }
         Some(legs)
     }
@@ -148,25 +159,47 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         self.waypoint(node) as usize + 1 == self.candidates.len()
     }
 
-    /// s.
-    pub(super) fn duration(&self, leg: usize) -> f64 {
-        self.details.duration(leg)
+    /// s; `from` must be the node that `leg` starts from: it is not looked up, since rows are walked anyway.
+    pub(super) fn duration(&self, from: u32, leg: usize) -> f64 {
+        self.rows.seen_at(self.rows.place(from, leg)).0
     }
 
-    /// `from` must be the node that `leg` starts from: it is not looked up, since rows are walked anyway.
+    /// `from` must be the node that `leg` starts from.
     pub(super) fn view(&self, from: u32, leg: usize) -> LegView<'a> {
-        let (duration, features) = self.details.of(leg);
-        let to = self.waypoint(self.target(leg));
+        let place = self.rows.place(from, leg);
+        let view = self.kept_view(from, place);
+        LegView { features: self.entered(view.features, from, view.to), ..view }
+    }
+
+    /// The leg at a place of the row of `from`, as one of those sees it that share the row.
+    #[inline]
+    fn kept_view(&self, from: u32, place: usize) -> LegView<'a> {
+        let (duration, features) = self.rows.seen_at(place);
+        let to = self.waypoint(self.rows.to[place]);
         LegView { candidates: self.candidates, from: self.waypoint(from), to, duration, features }
+    }
+
+    /// What scores see of a leg to waypoint `to` as `from` sees it.
+    #[inline]
+    fn entered(&self, features: LegFeatures, from: u32, to: u32) -> LegFeatures {
+        match self.previous[from as usize] {
+            OWN => features,
+            previous => features.entered(self.candidates, [previous, self.waypoint(from), to]),
+        }
     }
 
     /// The trajectory along `legs` from the start.
     pub(super) fn found(&self, legs: &[u32], score: f64) -> Found<N> {
-        let targets = || legs.iter().map(|&leg| self.target(leg as usize));
+        let (mut nodes, mut leg_times) = (vec![0], Vec::with_capacity(legs.len()));
+        for &leg in legs {
+            let place = self.rows.place(nodes[nodes.len() - 1], leg as usize);
+            leg_times.push(self.rows.seen_at(place).0);
+            nodes.push(self.rows.to[place]);
+        }
         Found {
-            waypoints: std::iter::once(0).chain(targets().map(|node| self.waypoint(node))).collect(),
-            nodes: std::iter::once(self.nodes[0]).chain(targets().map(|node| self.nodes[node as usize])).collect(),
-            leg_times: legs.iter().map(|&leg| self.duration(leg as usize)).collect(),
+            waypoints: nodes.iter().map(|&node| self.waypoint(node)).collect(),
+            nodes: nodes.iter().map(|&node| self.node(node)).collect(),
+            leg_times,
             score,
         }
     }

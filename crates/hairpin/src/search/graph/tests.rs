@@ -5,7 +5,7 @@ use super::super::score::Score;
 use super::super::small::{Octahedron, START, enumerate, points};
 use super::super::task::Task;
 use super::*;
-use crate::feasibility::reach::{Leg, Reach, StepNode};
+use crate::feasibility::reach::{Entry, Leg, Reach, StepNode};
 
 const SMALL: Octahedron = Octahedron::WIDE;
 
@@ -82,4 +82,66 @@ fn counts_beyond_128_bits_are_marked() {
     let expected = 21f64.powi(49) / 22.0;
     assert!((about / expected - 1.0).abs() < 1e-9, "{about} {expected}");
     assert!(counts[50].to_string().starts_with('~'), "{}", counts[50]);
+}
+
+/// Legs of at most 7 m; nodes of one waypoint are of one state, which is told or not.
+struct Near {
+    told: bool,
+}
+
+impl Reach<StepNode> for Near {
+    fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+        let StepNode { previous, current } = *from;
+        for next in (0..candidates.len() as u32).filter(|&next| next != current) {
+            let way = candidates[next as usize] - candidates[current as usize];
+            if way.norm() <= 7.0 {
+                let features =
+                    LegFeatures { v_out: way.norm(), length: way.norm(), climb: way.z, ..Default::default() }
+                        .entered(candidates, [previous, current, next]);
+                let to = StepNode { previous: current, current: next };
+                out.push(Leg { to, waypoint: next, duration: way.norm(), features });
+            }
+        }
+    }
+
+    fn entry(&self, from: &StepNode) -> Option<Entry> {
+        self.told.then_some(Entry { state: from.current as usize, previous: from.previous })
+    }
+}
+
+#[test]
+fn nodes_that_share_their_legs_have_those_of_their_own() {
+    let mut legs = 0;
+    for (seed, length) in (0..40).zip([2, 4, 5, 7].into_iter().cycle()) {
+        let points = points(seed, 12, 11.0);
+        let both = [true, false].map(|told| LegGraph::explore(START, &points, &Near { told }, length));
+        let kept = both.each_ref().map(|graph| graph.rows.to.len());
+        assert!(length == 2 || kept[0] < kept[1], "{kept:?}");
+        for [shared, own] in [both.clone(), both.map(|graph| graph.into_without_returns(length))] {
+            assert_eq!((shared.nodes(), shared.legs()), (own.nodes(), own.legs()), "seed {seed}");
+            assert_eq!(shared.counts_by_length(length), own.counts_by_length(length), "seed {seed}");
+            let score = Score::HighVelocityTurn { v_max: 7.0, turn: 1.0, product: false };
+            let [a, b] = [&shared, &own].map(|graph| graph.scores(&score));
+            for node in 0..own.nodes() as u32 {
+                assert_eq!(shared.node(node), own.node(node));
+                assert!(shared.steps(node).eq(own.steps(node)), "seed {seed}");
+                for (leg, to) in own.steps(node) {
+                    let views = [&shared, &own].map(|graph| graph.view(node, leg));
+                    assert_eq!((views[0].features, views[0].duration), (views[1].features, views[1].duration));
+                    assert_eq!(a.own(leg).to_bits(), b.own(leg).to_bits());
+                    assert_eq!((shared.target(leg), shared.source(leg as u32)), (to, node));
+                    assert!(shared.legs_to(node, shared.waypoint(to)).eq([(leg, to)]));
+                    legs += 1;
+                }
+            }
+            for aggregate in [Aggregate::Sum, Aggregate::Max] {
+                let [a, b] = [(&shared, &a), (&own, &b)].map(|(graph, scores)| {
+                    let values = graph.values(length, scores, aggregate, &graph.near_start(length));
+                    values.best((aggregate.neutral(), 0.0), 0, length - 1)
+                });
+                assert_eq!(a, b, "seed {seed}");
+            }
+        }
+    }
+    assert!(legs > 2_000, "{legs}");
 }

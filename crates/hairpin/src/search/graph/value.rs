@@ -3,8 +3,12 @@
 //! Backwards from the end, so that what a partial trajectory can still become is looked up and not searched (Bellman
 //! 1957). Layers near the start hold values only of the few nodes that a walk meets there.
 
-use super::super::objective::{Additive, Aggregate};
+use std::ops::Range;
+
+use super::super::objective::{Additive, Aggregate, LegView};
 use super::LegGraph;
+use super::rows::Groups;
+use crate::feasibility::reach::LegFeatures;
 
 /// The scores of a graph's legs under one [`super::super::objective::Additive`].
 #[derive(Debug, Clone)]
@@ -83,7 +87,7 @@ impl Values {
     }
 }
 
-impl<N: Copy> LegGraph<'_, N> {
+impl<'a, N: Copy> LegGraph<'a, N> {
     /// The score of every leg.
     ///
     /// A row at a time, all legs of a node together, which is what scores that are asked of a program or are made in
@@ -92,8 +96,7 @@ impl<N: Copy> LegGraph<'_, N> {
         let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::new());
         let mut views = Vec::new();
         for node in 0..self.nodes() as u32 {
-            views.clear();
-            views.extend(self.legs_from(node).map(|leg| self.view(node, leg)));
+            self.views(node, &mut views);
             for [of_leg, to_next] in objective.own_and_left(&views) {
                 // Most scores leave nothing: no room is taken for that.
                 if !left.is_empty() || to_next.to_bits() != 0 {
@@ -106,6 +109,23 @@ impl<N: Copy> LegGraph<'_, N> {
         LegScores::new(own, left, objective.has_sink())
     }
 
+    /// Views of the legs of `node`, in the place of what `views` had.
+    ///
+    /// Legs to the states of one waypoint follow on one another, and share how they are entered.
+    fn views(&self, node: u32, views: &mut Vec<LegView<'a>>) {
+        views.clear();
+        for place in self.rows.places(node).into_iter().flatten() {
+            let view = self.kept_view(node, place);
+            let features = match views.last() {
+                Some(LegView { to, features: LegFeatures { turn, slope_in, .. }, .. }) if *to == view.to => {
+                    LegFeatures { turn: *turn, slope_in: *slope_in, ..view.features }
+                }
+                _ => self.entered(view.features, node, view.to),
+            };
+            views.push(LegView { features, ..view });
+        }
+    }
+
     /// The nodes that walks of 0, 1, 2 … legs from the start lead to, as long as these are few and the walks have no
     /// more than `length` waypoints.
     ///
@@ -115,7 +135,7 @@ impl<N: Copy> LegGraph<'_, N> {
         let legs = |nodes: &[u32]| nodes.iter().map(|&node| self.legs_from(node).len()).sum::<usize>();
         while layers.len() < length && legs(&layers[layers.len() - 1]) <= self.legs() / FEW {
             let here = &layers[layers.len() - 1];
-            let mut next: Vec<u32> = here.iter().flat_map(|&node| &self.to[self.legs_from(node)]).copied().collect();
+            let mut next: Vec<u32> = here.iter().flat_map(|&node| self.rows.targets(node)).collect();
             next.sort_unstable();
             next.dedup();
             layers.push(next);
@@ -146,79 +166,90 @@ impl<N: Copy> LegGraph<'_, N> {
         let both = scores.left.as_ref().filter(|_| aggregate == Aggregate::Sum);
         let both: Option<Vec<f64>> =
             both.map(|left| scores.own.iter().zip(left).map(|(own, left)| aggregate.add(*own, *left)).collect());
+        let all = self.rows.groups(0..self.nodes() as u32);
         while rest.len() < length {
             let after = &rest[rest.len() - 1];
-            let near = near_start.get(length - 1 - rest.len()).map(Vec::as_slice);
+            let few = near_start.get(length - 1 - rest.len());
+            let few = few.map(|nodes| self.rows.groups(nodes.iter().copied()));
+            let nodes = few.as_ref().unwrap_or(&all);
             let layer = match (aggregate, &mut first, &scores.left) {
                 (Aggregate::Sum, ..) => {
                     let last = !scores.inherits(rest.len() - 1);
                     let scores = both.as_ref().filter(|_| !last).unwrap_or(&scores.own);
-                    self.layer_of_values(rest.len(), after, scores, near, |_, rest, leg| Aggregate::Sum.add(rest, leg))
+                    self.layer_of_values(after, scores, nodes, |_, rest, leg| Aggregate::Sum.add(rest, leg))
                 }
                 (Aggregate::Max, Some(first), Some(left)) => {
-                    let own = self.layer_of_values(rest.len(), after, &scores.own, near, |_, _, leg| leg);
+                    let own = self.layer_of_values(after, &scores.own, nodes, |_, _, leg| leg);
                     let next = &first[rest.len() - 1];
                     let layer = if rest.len() == 1 {
                         let none = |value: &f64| if value.is_nan() { NO_WALK } else { aggregate.neutral() };
                         own.iter().map(none).collect()
                     } else {
-                        self.layer_of_values(rest.len(), after, left, near, |to, rest, leg| {
+                        self.layer_of_values(after, left, nodes, |to, rest, leg| {
                             Aggregate::Max.add(rest, leg + next[to as usize])
                         })
                     };
                     first.push(own);
                     layer
                 }
-                (Aggregate::Max, ..) => self.layer_of_values(rest.len(), after, &scores.own, near, |_, rest, leg| {
-                    Aggregate::Max.add(rest, leg)
-                }),
+                (Aggregate::Max, ..) => {
+                    self.layer_of_values(after, &scores.own, nodes, |_, rest, leg| Aggregate::Max.add(rest, leg))
+                }
             };
             rest.push(layer);
         }
         Values { aggregate, rest, first }
     }
 
-    /// The layer of walks of `legs` legs, before that of one leg less, of the `nodes` given or of all; `add` is
+    /// The layer of walks that are one leg longer than those of `after`, of the `nodes` given or of all; `add` is
     /// compiled into the loop.
     ///
-    /// Rows are looked at in four lanes with a maximum each; no order of the maxima matters, so that lanes and plain
-    /// loops give the same bits.
+    /// What is to come is looked up once for all nodes that share a row. No order of the maxima matters, so that rows
+    /// and their lanes give the same bits in any.
     fn layer_of_values(
         &self,
-        legs: usize,
         after: &[f64],
         scores: &[f64],
-        nodes: Option<&[u32]>,
+        nodes: &Groups,
         add: impl Fn(u32, f64, f64) -> f64,
     ) -> Vec<f64> {
-        let best = |node| {
-            let mut row = self.legs_from(node);
-            if legs == 1 {
-                // The end is the last waypoint: no leg before those to it ends a walk.
-                row.start = row.clone().rev().take_while(|&leg| self.at_end(self.to[leg])).last().unwrap_or(row.end);
+        let (mut layer, mut rest) = (vec![NO_WALK; self.nodes()], Vec::new());
+        for (row, nodes) in nodes.iter() {
+            let row = self.rows.kept(row);
+            let to = &self.rows.to[row.clone()];
+            rest.clear();
+            rest.extend(to.iter().map(|&to| after[to as usize]));
+            let Some(first) = rest.iter().position(|rest| !rest.is_nan()) else { continue };
+            for &node in nodes {
+                let legs = self.legs_from(node);
+                let [before, behind] = self.rows.places(node);
+                let (from, gap) = (first.min(before.len()), behind.start - row.start);
+                let best =
+                    |places: Range<usize>, scores: &[f64]| best_of(&to[places.clone()], &rest[places], scores, &add);
+                let scores = &scores[legs];
+                let early = best(from..before.len(), &scores[from..before.len()]);
+                let late = best(gap..row.len(), &scores[before.len()..]);
+                layer[node as usize] = early.max(late);
             }
-            let value = |(&to, &score): (&u32, &f64)| {
-                let rest = after[to as usize];
-                if rest.is_nan() { NO_WALK } else { add(to, rest, score) }
-            };
-            let (to, scores) = (self.to[row.clone()].chunks_exact(LANES), scores[row].chunks_exact(LANES));
-            let left = to.remainder().iter().zip(scores.remainder()).map(value).fold(NO_WALK, f64::max);
-            let mut lanes = [NO_WALK; LANES];
-            for (to, scores) in to.zip(scores) {
-                for (lane, leg) in lanes.iter_mut().zip(to.iter().zip(scores)) {
-                    // No walk is no number, which a maximum passes over.
-                    *lane = lane.max(value(leg));
-                }
-            }
-            lanes.into_iter().fold(left, f64::max)
-        };
-        match nodes {
-            Some(nodes) => {
-                let mut layer = vec![NO_WALK; self.nodes()];
-                nodes.iter().for_each(|&node| layer[node as usize] = best(node));
-                layer
-            }
-            None => (0..self.nodes() as u32).map(best).collect(),
+        }
+        layer
+    }
+}
+
+/// The best of some legs of one row.
+///
+/// In four lanes with a maximum each.
+#[inline(always)]
+fn best_of(to: &[u32], rest: &[f64], scores: &[f64], add: impl Fn(u32, f64, f64) -> f64) -> f64 {
+    // No walk is no number, which a maximum passes over.
+    let value = |to: u32, rest: f64, score: f64| if rest.is_nan() { NO_WALK } else { add(to, rest, score) };
+    let mut lanes = [NO_WALK; LANES];
+    let whole = to.len() / LANES * LANES;
+    for begin in (0..whole).step_by(LANES) {
+        for (k, lane) in lanes.iter_mut().enumerate() {
+            *lane = lane.max(value(to[begin + k], rest[begin + k], scores[begin + k]));
         }
     }
+    let left = (whole..to.len()).map(|leg| value(to[leg], rest[leg], scores[leg])).fold(NO_WALK, f64::max);
+    lanes.into_iter().fold(left, f64::max)
 }

@@ -34,9 +34,9 @@ pub(super) fn nearby<N: Copy>(
             changed.extend_from_slice(&legs[changed.len()..]);
             break;
         }
-        let leg = graph.legs_to(node, waypoint).next()?;
+        let (leg, to) = graph.legs_to(node, waypoint).next()?;
         changed.push(leg as u32);
-        node = graph.target(leg);
+        node = to;
     }
     Some(changed)
 }

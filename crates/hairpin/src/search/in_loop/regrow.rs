@@ -49,19 +49,17 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
     /// Neither uniform over stretches nor complete: `false` is no proof that there is none. `taken` is as before
     /// afterwards.
     pub(super) fn grow(&mut self, node: u32, steps: usize, legs: &mut Vec<u32>) -> bool {
-        let row = self.graph.legs_from(node);
-        if steps == 0 || row.is_empty() {
+        if steps == 0 || self.graph.legs_from(node).is_empty() {
             return false;
         }
         if let (1, Goal::Node(goal)) = (steps, self.goal) {
             return self.last(node, goal, legs);
         }
-        for leg in self.order(node, row) {
+        for (leg, to) in self.order(node) {
             self.spent += 1;
             if self.spent > BUDGET {
                 return false;
             }
-            let to = self.graph.target(leg);
             if steps == 1 {
                 if !self.graph.at_end(to) {
                     continue;
@@ -85,13 +83,13 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
         false
     }
 
-    /// The legs of `row` in the order in which they are tried: from a random one on, or one of the shortest and on to
-    /// the longest.
-    fn order(&mut self, node: u32, row: std::ops::Range<usize>) -> Vec<usize> {
-        let mut legs: Vec<usize> = row.collect();
+    /// The legs from `node`, and where they lead, in the order in which they are tried: from a random one on, or one of
+    /// the shortest and on to the longest.
+    fn order(&mut self, node: u32) -> Vec<(usize, u32)> {
+        let mut legs: Vec<(usize, u32)> = self.graph.steps(node).collect();
         if unit(self.rng) < SHORT {
             let place = |node: u32| self.graph.candidates()[self.graph.waypoint(node) as usize];
-            let length = |leg: usize| (place(self.graph.target(leg)) - place(node)).norm_squared();
+            let length = |to: u32| (place(to) - place(node)).norm_squared();
             shortest_first(&mut legs, &length);
             let first = self.rng.random_range(0..legs.len().min(SHORTEST));
             legs.swap(0, first);
@@ -112,13 +110,13 @@ impl<'g, 'a, N: Copy> Regrow<'g, 'a, N> {
     /// The leg to the goal.
     fn last(&mut self, node: u32, goal: u32, legs: &mut Vec<u32>) -> bool {
         self.spent += 1;
-        let found = self.graph.legs_to(node, self.graph.waypoint(goal)).find(|&leg| self.graph.target(leg) == goal);
-        legs.extend(found.map(|leg| leg as u32));
+        let found = self.graph.legs_to(node, self.graph.waypoint(goal)).find(|&(_, to)| to == goal);
+        legs.extend(found.map(|(leg, _)| leg as u32));
         found.is_some()
     }
 }
 
 /// Beside the searches, which are compiled for each kind of node: a sort is as large as they are.
-fn shortest_first(legs: &mut [usize], length: &dyn Fn(usize) -> f64) {
-    legs.sort_by(|&a, &b| length(a).total_cmp(&length(b)));
+fn shortest_first(legs: &mut [(usize, u32)], length: &dyn Fn(u32) -> f64) {
+    legs.sort_by(|&(_, a), &(_, b)| length(a).total_cmp(&length(b)));
 }
