@@ -89,7 +89,7 @@ impl<T: Terrain> Stretch<'_, T> {
         followed: &mut Followed,
     ) -> Option<Rest> {
         let count = (SHOWN * (to.s - from.s).abs() / self.extent).ceil().max(1.0) as usize;
-        let mut rest = rest.unwrap_or_else(|| from.rest);
+        let mut rest = rest.unwrap_or(from.rest);
         for i in 1..=count {
             let s = from.s + (to.s - from.s) * i as f64 / count as f64;
             rest.carry_on(&self.course.vehicle.stand, self.terrain, pose_at(taken, s)?, &self.asked()).ok()?;

@@ -38,7 +38,7 @@ impl<T: Terrain> Stretch<'_, T> {
         if !length.is_finite() {
             return Err((0.0, NoRest::NotFound));
         }
-        let mut looks = vec![self.seen(0.0, at.1.clone())];
+        let mut looks = vec![self.seen(0.0, at.1)];
         let mut taken: Vec<Taken> = Vec::new();
         let (mut pose, mut done, mut stride, mut ended) = (at.0, 0.0, LONGEST, false);
         // What the strides before left of their share.

@@ -154,6 +154,7 @@ impl Leaving {
 
     /// The residues of the legs to `to`.
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "lanes of several arrays, which become one vector each")]
     fn residues(&self, from: &LegEnd, to: &Ends) -> Residues {
         let (t, t2, t3) = (self.t, self.t * self.t, self.t * self.t * self.t);
         let mut e = [[[0.0; LANES]; 4]; 3];
