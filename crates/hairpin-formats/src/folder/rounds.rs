@@ -76,8 +76,8 @@ impl Piece {
     }
 }
 
-/// The program that executes for all shards whose rounds are kept in `folder`, as it calls itself; `None` where none was
-/// started.
+/// The program that executes for all shards whose rounds are kept in `folder`, as it calls itself; `None` where none
+/// was started.
 ///
 /// # Errors
 /// What is kept of it is broken.

@@ -68,9 +68,8 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
                     fly(job);
                 }
             };
-            while_wanted(&work.setup, watch, || {
-                rayon::broadcast(|_| fly_on());
-            });
+            let threads = 0..rayon::current_num_threads();
+            while_wanted(&work.setup, watch, || threads.into_par_iter().for_each(|_| fly_on()));
         }
         Some((command, limits)) => {
             fly_with(work, missing, (&command, limits, &executing), &landed, &stop, watch);

@@ -58,8 +58,8 @@ pub fn verify_clear(claim: &ClearClaim) -> Vec<Finding> {
     findings
 }
 
-/// Whether a path comes too near to a closed surface of `triangles`, or begins within it: the place where it is nearest,
-/// as `field`.
+/// Whether a path comes too near to a closed surface of `triangles`, or begins within it: the place where it is
+/// nearest, as `field`.
 ///
 /// As [`verify_clear`], each triangle being a solid; a path that begins outside comes inside only through one. A path
 /// without a leg keeps away from everything.

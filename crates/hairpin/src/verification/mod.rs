@@ -12,7 +12,7 @@
 //! | claimed | proven by | asked of |
 //! | --- | --- | --- |
 //! | a flight's polynomials are flyable | [`verify`], [`open_loop_with_lag`] | knots, rotor speeds, end states, path |
-//! | a flight keeps off solids | [`verify_clear`], [`verify_clear_of_surface`] | distances between samples, Taylor sums |
+//! | a flight keeps off solids | [`verify_clear`], [`verify_clear_of_surface`] | distances, Taylor sums |
 //! | a flight keeps speed and tilt | [`verify_flight_limits`] | places of each leg |
 //! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, v, tilt, places |
 //! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |

@@ -1,5 +1,5 @@
-//! How a vehicle is built, for the proof: its wheels' centres by a chain of rotations, their gaps over the ground, and how
-//! these change.
+//! How a vehicle is built, for the proof: its wheels' centres by a chain of rotations, their gaps over the ground, and
+//! how these change.
 //!
 //! Nothing is shared with the robot's own suspension: wheels are placed by frames that are turned about their own axes,
 //! and move about those, whatever joint it is.

@@ -1,7 +1,7 @@
 //! How a vehicle stands on the ground, for the proof: Newton's method.
 //!
-//! Nothing is shared with the robot's own suspension: linear systems are solved by a general decomposition, and where the
-//! ground's own derivatives swing from cell to cell they are differences.
+//! Nothing is shared with the robot's own suspension: linear systems are solved by a general decomposition, and where
+//! the ground's own derivatives swing from cell to cell they are differences.
 //!
 //! F(q) = 0 by steps with the Jacobian where they begin, as long as they shrink; then by Newton with derivatives and
 //! with central differences of 1e-4 to 1e-2 m, halved steps, and the same order of falls as the claim's own, typed
@@ -189,10 +189,10 @@ impl Rest {
 
     /// Newton's method for F(q) = 0 from where the last place came to rest: q ← q − J⁺ F(q).
     ///
-    /// First with the Jacobian where it begins (not on four wheels, whose gaps end at a least that depends on it). Then a
-    /// J of its own is taken at each iteration, by the ground's derivatives, later by central differences, and the step,
-    /// at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`] iterations take it whole, which leads out
-    /// of corners. At rest where a step is below what is asked for.
+    /// First with the Jacobian where it begins (not on four wheels, whose gaps end at a least that depends on it). Then
+    /// a J of its own is taken at each iteration, by the ground's derivatives, later by central differences, and the
+    /// step, at most [`FARTHEST`], is halved until ‖F‖ falls; every other [`LEAPS`] iterations take it whole, which
+    /// leads out of corners. At rest where a step is below what is asked for.
     fn approach<T: Terrain>(
         &mut self,
         stand: &Stand,

@@ -80,7 +80,8 @@ impl<T: Terrain> Stretch<'_, T> {
         Look { s, rates: self.course.rates(&rest, s), rest }
     }
 
-    /// The body at rest at `pose`, looked for from what the last `looks` lead to there, and whether it is far from that.
+    /// The body at rest at `pose`, looked for from what the last `looks` lead to there, and whether it is far from
+    /// that.
     ///
     /// # Errors
     /// [`NoRest`]: no rest is found there from either.

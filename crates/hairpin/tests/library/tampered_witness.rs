@@ -4,6 +4,7 @@ use crate::campaigns::{asked, of, run, scenario, setup};
 use hairpin::campaign::generate::Known;
 use hairpin::campaign::{Case, Evidence, Witness, verify};
 use hairpin::trajectory::Profile;
+use hairpin::verification::Finding;
 use serde_json::json;
 
 fn profile_of(case: &mut Case) -> &mut Profile {
@@ -50,11 +51,19 @@ fn flights_are_held_to_the_limits_and_the_world_that_are_asked() {
     let [x, y, z] = [case.waypoints[1].x, case.waypoints[1].y, case.waypoints[1].z];
     let ball = json!({ "name": "ball", "sphere": { "center_m": [x, y, z], "radius_m": 0.1 } });
     let cuboid = json!({ "name": "box", "box": { "center_m": [x, y, z], "size_m": [0.1, 0.1, 0.1] } });
+    let capsule = json!({ "a_m": [x, y, z - 0.1], "b_m": [x, y, z + 0.1], "radius_m": 0.05 });
+    let capsule = json!({ "name": "capsule", "capsule": capsule });
+    let corners = [[x - 0.1, y - 0.1, z - 0.1], [x + 0.2, y, z], [x, y + 0.2, z], [x, y, z + 0.2]];
+    let hull = json!({ "name": "hull", "hull": { "points_m": corners } });
     for (key, value, told) in [
         ("/generate/limits/max_speed_m_s", json!(0.1), ".speed"),
         ("/generate/limits/max_tilt_deg", json!(0.1), ".tilt"),
         ("/world/obstacles", json!([ball]), "world.obstacles[0].clearance"),
         ("/world/obstacles", json!([cuboid]), "world.obstacles[0].clearance"),
+        ("/world/obstacles", json!([capsule]), "world.obstacles[0].clearance"),
+        ("/world/obstacles", json!([hull]), "world.obstacles[0].clearance"),
+        ("/task/length", json!(11), "task.length"),
+        ("/task/end_m/0", json!(18.0), "task.end"),
     ] {
         let mut other = scenario("flightgoggles", 4, wide.clone());
         *other.pointer_mut(key).expect(key) = value;
@@ -68,5 +77,6 @@ fn flights_are_held_to_the_limits_and_the_world_that_are_asked() {
     profile_of(&mut aside).legs.iter_mut().for_each(|leg| leg.coefficients[0][0] += 10.0);
     let findings = verify(&setup("flightgoggles", 4, wide), &aside).proof.expect("a proof").findings;
     assert!(findings.iter().any(|one| one.field == "world.walls[0].high.clearance"), "{findings:?}");
-    assert!(findings.iter().all(|one| one.field.starts_with("world.")), "{findings:?}");
+    let is_of = |one: &Finding| one.field.starts_with("world.") || ["task.start", "task.end"].contains(&&*one.field);
+    assert!(findings.iter().all(is_of), "{findings:?}");
 }

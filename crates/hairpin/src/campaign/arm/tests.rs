@@ -294,7 +294,7 @@ fn programs_execute_for_the_stresses_of_arms() {
 #[test]
 fn an_arm_that_does_not_come_to_its_programs_end_violates() {
     let judged = |slower: f64| {
-        let wide = ("spec", json!({ "path": { "max_mm": 10_000.0 } }));
+        let wide = ("spec", json!({ "arrival": { "max_late_ms": 100_000.0 } }));
         let setup = setup(&[("execute.faults", json!({ "axis": 1, "slower": slower })), wide]);
         let case = ArmSolver::new(own(&setup)).draw(0, &Stop::never()).unwrap().case(7, 0, 0);
         let run = execute_run(&setup, &case, 0);

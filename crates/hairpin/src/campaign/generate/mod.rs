@@ -128,8 +128,8 @@ struct Limits {
 /// Searches unit after unit, from where `collector` stands.
 ///
 /// At a time two units for each thread or, where that takes no time worth mentioning, more: threads wait for each other
-/// at the end of each such batch. Never many more than are needed for the cases that still lack, and no more of searches
-/// that execute. What is found does not depend on it.
+/// at the end of each such batch. Never many more than are needed for the cases that still lack, and no more of
+/// searches that execute. What is found does not depend on it.
 fn search_units(
     graphs: &Graphs,
     mut collector: Collector,

@@ -54,8 +54,8 @@ pub(crate) trait ProveLegs {
     /// The leg from `from` to `to` in `duration` (s), if every limit holds at every instant of it.
     fn leg(&self, from: &Self::End, to: &Self::End, duration: f64) -> Result<ProfileLeg, Self::Why>;
 
-    /// Calls `found` with the number of each of `to` to which there is a leg, and the number of the first of `durations`
-    /// (s) in which there is one; in the order of `to`.
+    /// Calls `found` with the number of each of `to` to which there is a leg, and the number of the first of
+    /// `durations` (s) in which there is one; in the order of `to`.
     fn firsts(&self, from: &Self::End, to: &[Self::End], durations: &[f64], mut found: impl FnMut(usize, usize)) {
         for (number, to) in to.iter().enumerate() {
             let first = durations.iter().position(|duration| self.leg(from, to, *duration).is_ok());

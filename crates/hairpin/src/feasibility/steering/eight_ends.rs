@@ -1,7 +1,8 @@
 //! The legs from one state to eight others at one duration: which of them cannot be, told without making any.
 //!
-//! Of all pairs of states and durations of a ladder nearly all are none, and nearly all of these for what the body would
-//! have to do at a few instants. With u = τ/T and e the residues of [`crate::math::polynomial::septic`], an axis is
+//! Of all pairs of states and durations of a ladder nearly all are none, and nearly all of these for what the body
+//! would have to do at a few instants. With u = τ/T and e the residues of [`crate::math::polynomial::septic`], an axis
+//! is
 //!
 //! ```text
 //! p = c₀ + c₁u + c₂u² + c₃u³ + Σ_{k=4}^{7} b_k uᵏ,      b = M e
@@ -139,8 +140,8 @@ type Residues = [[[f64; LANES]; 4]; 3];
 struct Leaving {
     /// Duration, s.
     t: f64,
-    /// c₁, c₂, c₃ of every axis: coefficients of u, u², u³, m: velocity T, half the acceleration T², a sixth of the jerk
-    /// T³ at the start.
+    /// c₁, c₂, c₃ of every axis: coefficients of u, u², u³, m: velocity T, half the acceleration T², a sixth of the
+    /// jerk T³ at the start.
     c: [[f64; 3]; 3],
 }
 
@@ -261,7 +262,8 @@ mod tests {
     use crate::feasibility::steering::LegTiming;
     use crate::math::random::stream;
 
-    /// Legs are those that are judged one by one, whatever lies beside them, and nearly all that are none are not judged.
+    /// Legs are those that are judged one by one, whatever lies beside them, and nearly all that are none are not
+    /// judged.
     #[test]
     fn what_is_refused_is_no_leg() {
         let limits = |max_speed, max_tilt| Limits { max_speed, max_tilt };

@@ -217,7 +217,7 @@ fn on_its_way(joints: &[Joint], last: &Joints, rates: &Joints) -> bool {
 
 /// The largest distance of a servo from `to`, rad.
 fn farthest(joints: &[Joint], to: &Joints) -> f64 {
-    joints.iter().zip(to).map(|(joint, to)| (joint.servo.angle() - to).abs()).fold(0.0, f64::max)
+    joints.iter().zip(to).map(|(joint, to)| (joint.servo.at() - to).abs()).fold(0.0, f64::max)
 }
 
 /// What faults add to the lag of joint k (from 0), s.

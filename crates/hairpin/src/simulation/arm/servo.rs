@@ -23,7 +23,7 @@ impl Servo {
     }
 
     /// Where the joint is, rad.
-    pub(super) fn angle(&self) -> f64 {
+    pub(super) fn at(&self) -> f64 {
         self.angle
     }
 
