@@ -174,10 +174,11 @@ fn the_worst_is_searched_by_a_target_of_the_users() {
     with_target(here, "def target(run):\n    return 1 / 0\n");
     let words = ["`generate.search.target` = python:my target.py: File", "line 2", "ZeroDivisionError"];
     refused(here, &["generate", "q.toml", "--out", "d"], &words);
-    for (told, words) in [("'5'", "'5' is no number, of the run"), ("True", "True is no number, of the run")] {
+    for (out, told) in [("words", "'5'"), ("truth", "True")] {
         with_target(here, &format!("def target(run):\n    return {told}\n"));
-        let words = ["`generate.search.target` = python:my target.py: File", words];
-        refused(here, &["generate", "q.toml", "--out", "e"], &words);
+        let no_number = format!("{told} is no number, of the run");
+        let words = ["`generate.search.target` = python:my target.py: File", &no_number];
+        refused(here, &["generate", "q.toml", "--out", out], &words);
     }
     with_target(here, "def score(leg):\n    return 1\n");
     refused(here, &["generate", "q.toml", "--out", "e"], &["it defines no function target(run)"]);

@@ -5,7 +5,7 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use hairpin::campaign::{CaseNumber, Run};
@@ -81,7 +81,7 @@ pub struct RunWriter<'f> {
     cases_per_part: usize,
     /// Runs that each part has once it is whole.
     whole: BTreeMap<usize, usize>,
-    open: Mutex<BTreeMap<usize, Open>>,
+    open: Mutex<BTreeMap<usize, Arc<Mutex<Open>>>>,
 }
 
 impl CampaignFolder {
@@ -126,28 +126,36 @@ impl<'f> RunWriter<'f> {
     pub fn land(&self, landed: Landed) -> Result<(), FolderError> {
         let key = (landed.facts.case, landed.facts.run);
         let number = self.part_of(key.0);
-        let mut all = self.open.lock().unwrap_or_else(PoisonError::into_inner);
-        let open = match all.entry(number) {
-            Entry::Occupied(open) => open.into_mut(),
-            Entry::Vacant(place) => place.insert(self.begun(number)?),
-        };
+        let part = self.part(number)?;
+        // Others land in other parts meanwhile, whatever this one has to write.
+        let mut open = part.lock().unwrap_or_else(PoisonError::into_inner);
         open.facts.insert(key, landed.facts);
         open.motion.leave_out(key);
         if let Some(piece) = landed.motion {
             self.folder.put(&mut open.motion, self.tables.motion, (key, piece))?;
         }
         if Some(&open.facts.len()) == self.whole.get(&number) {
-            let whole = all.remove(&number);
-            // Others land meanwhile.
-            drop(all);
-            return whole.map_or(Ok(()), |mut whole| self.save(number, &mut whole));
-        }
-        if open.saved.elapsed() > open.next {
+            self.save(number, &mut open)?;
+            let mut all = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+            // The map's and this one: nobody else waits to land in it, who would be alone with what was forgotten.
+            if Arc::strong_count(&part) == 2 {
+                all.remove(&number);
+            }
+        } else if open.saved.elapsed() > open.next {
             let begun = Instant::now();
-            self.save(number, open)?;
+            self.save(number, &mut open)?;
             (open.saved, open.next) = (Instant::now(), CHECKPOINT.max(SELDOM * begun.elapsed()));
         }
         Ok(())
+    }
+
+    /// The part of this number, which is open from now on.
+    fn part(&self, number: usize) -> Result<Arc<Mutex<Open>>, FolderError> {
+        let mut all = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(match all.entry(number) {
+            Entry::Occupied(open) => open.get().clone(),
+            Entry::Vacant(place) => place.insert(Arc::new(Mutex::new(self.begun(number)?))).clone(),
+        })
     }
 
     /// Writes the parts that are not whole, so that what has landed stays.
@@ -156,7 +164,8 @@ impl<'f> RunWriter<'f> {
     /// One cannot be written.
     pub fn finish(self) -> Result<(), FolderError> {
         let open = std::mem::take(&mut *self.open.lock().unwrap_or_else(PoisonError::into_inner));
-        open.into_iter().try_for_each(|(number, mut open)| self.save(number, &mut open))
+        open.into_iter()
+            .try_for_each(|(number, open)| self.save(number, &mut open.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 
     /// A part with the runs that are in the folder already and sound.
