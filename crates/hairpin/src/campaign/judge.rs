@@ -23,7 +23,7 @@ use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
 use crate::judgement::{self, Clearance, JudgementError, Late, Measures, Reference, Settings, Violation};
-use crate::trajectory::{Flight, PlannedPath, Track};
+use crate::trajectory::{Ended, Flight, PlannedPath, Track};
 
 /// The result of a case: its worst run by its gravity. A run with a violation is worse than one without, a crash is
 /// worse than any other violation, and among equals what breaks a limit by the larger share of it; of runs within spec
@@ -197,6 +197,10 @@ fn judge_run(
         let moves_of = moves.iter().flat_map(|moves| &moves.moves);
         measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
         let mut violations = judgement::violations(&measures, flight, &terms.limits);
+        let ours = programs.is_some_and(|programs| programs.recordings().is_none());
+        if let Some(moves) = moves.as_ref().filter(|_| ours && terms.limits.unfinished && flight.ended == Ended::Done) {
+            violations.splice(..0, left_out(moves));
+        }
         let unseen = moves.as_ref().and_then(|moves| moves.unseen.as_ref());
         if let (Some(unseen), Some(moves)) = (unseen, &moves) {
             proven(&mut violations, unseen.late_proven, moves);
@@ -220,6 +224,21 @@ fn judge_run(
             moves,
         }
     }))
+}
+
+/// The first target on the way that an arm did not come to though its program's time was over and it ended where that
+/// does: who stands at home has ended there. Whether it came to the last is told by how it ended.
+fn left_out(moves: &Measured) -> Option<Violation> {
+    let (_, on_the_way) = moves.moves.split_last()?;
+    let leg = on_the_way.iter().position(|one| one.arrived.is_none())?;
+    Some(Violation {
+        what: "unfinished".into(),
+        value: (leg + 1) as f64,
+        limit: (moves.moves.len() + 1) as f64,
+        unit: "waypoints".into(),
+        at: on_the_way[leg].planned,
+        leg,
+    })
 }
 
 /// What a run is judged by, with what was drawn for it.
