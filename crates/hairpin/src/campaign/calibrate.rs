@@ -108,7 +108,7 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
         let measures = measures_of(setup, case, run)?;
         let flight = run.outcome.as_ref().ok()?;
         // What no robot of the file does says nothing of what is ordinary.
-        if of_program(setup, &flight.track).is_some() {
+        if of_program(setup, case, flight).is_some() {
             return None;
         }
         let events = Limits {

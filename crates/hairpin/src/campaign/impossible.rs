@@ -4,10 +4,12 @@
 //! robot's own numbers by a wide factor is refused ([`Setup::ceiling`]), over a time in which noise of places counts
 //! for little.
 
-use super::Setup;
+use nalgebra::Isometry3;
+
+use super::{Case, Setup};
 use crate::judgement::Limits;
 use crate::math::decimals::that_differ;
-use crate::trajectory::Track;
+use crate::trajectory::{Flight, Track};
 
 /// What positions come to over so long (s) is a speed; over less it may be the noise of an estimate.
 pub(super) const LONG_S: f64 = 1.0;
@@ -108,25 +110,42 @@ pub(super) fn impossible(
 }
 
 /// What of the run of a program of the user's is faster than anything of its kind. Our own simulators are not asked.
-pub(super) fn of_program(setup: &Setup, track: &Track) -> Option<Impossible> {
+///
+/// Rows are not read where what was measured of a run suffices: the waypoints that it reached are places as well, each
+/// known to the radius within which it counts as reached.
+pub(super) fn of_program(setup: &Setup, case: &Case, flight: &Flight) -> Option<Impossible> {
     setup.program()?;
-    impossible(setup, track, &[], &|_| 0.0)
+    let accept = setup.scenario.executor().accept;
+    let by_waypoints = || impossible(setup, &of_waypoints(case, flight)?, &[], &|_| accept);
+    impossible(setup, &flight.track, &[], &|_| 0.0).or_else(by_waypoints)
+}
+
+/// Where `flight` was when it reached its waypoints, those of one stamp but once; `None` where that is no motion.
+fn of_waypoints(case: &Case, flight: &Flight) -> Option<Track> {
+    let (mut times, mut poses) = (Vec::new(), Vec::new());
+    for (place, time) in case.waypoints.iter().zip(&flight.reached) {
+        if let Some(time) = time.filter(|time| times.last().is_none_or(|last| time > last)) {
+            times.push(time);
+            poses.push(Isometry3::translation(place.x, place.y, place.z));
+        }
+    }
+    Track::new(times, poses, Vec::new()).ok()
 }
 
 /// Why such a run decides nothing, where anything is asked.
-pub(super) fn too_fast(setup: &Setup, track: &Track, limits: &Limits) -> Option<String> {
-    of_program(setup, track).filter(|_| limits.are_given()).map(|impossible| impossible.in_words())
+pub(super) fn too_fast(setup: &Setup, case: &Case, flight: &Flight, limits: &Limits) -> Option<String> {
+    of_program(setup, case, flight).filter(|_| limits.are_given()).map(|impossible| impossible.in_words())
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry3, Point3};
+    use nalgebra::Point3;
     use serde_json::json;
 
     use super::*;
     use crate::campaign::testing::quadrotor;
-    use crate::campaign::{Case, CaseNumber, CaseResult, Run, Scenario, Status, judge};
-    use crate::trajectory::{Ended, Flight};
+    use crate::campaign::{CaseNumber, CaseResult, Run, Scenario, Status, judge};
+    use crate::trajectory::Ended;
 
     const WAY: [[f64; 3]; 2] = [[3.0, 3.0, 3.0], [23.0, 3.0, 3.0]];
 
@@ -168,6 +187,20 @@ mod tests {
         assert!(why.starts_with(words), "{why}");
         // Our own simulator is not asked.
         assert_eq!(judged(None, 1e-3).status, Status::Pass);
+    }
+
+    /// What was measured suffices for the limits, and rows are not read: the waypoints tell as much.
+    #[test]
+    fn who_reaches_waypoints_too_soon_is_found_without_rows() {
+        let (setup, case) = (setup(Some("sim")), Case::bare(CaseNumber(0), 1, WAY.map(Point3::from).to_vec()));
+        let at = |end: f64| {
+            let track = Track::new(Vec::new(), Vec::new(), Vec::new()).unwrap();
+            let flight = Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0), Some(end)] };
+            of_program(&setup, &case, &flight)
+        };
+        assert_eq!(at(10.0), None);
+        let found = at(0.01).unwrap();
+        assert!(found.way_m < 20.0 && found.way_m > 15.0 && found.over_s == 0.01, "{found:?}");
     }
 
     /// Ten times as fast as the file says is not refused, and neither is a jump, which is no speed.

@@ -209,7 +209,7 @@ fn judge_run(
         let unmeasured = || terms.limits.open(&measures);
         // What violates has an answer.
         let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
-        let too_fast = || too_fast(&own, &flight.track, &terms.limits);
+        let too_fast = || too_fast(&own, case, flight, &terms.limits);
         let open = too_fast().or_else(|| unseen?.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
