@@ -209,8 +209,14 @@ fn judge_run(
         let unmeasured = || terms.limits.open(&measures);
         // What violates has an answer.
         let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
+        let beside = || moves.as_ref().filter(|_| terms.limits.unfinished)?.beside(terms.limits.deviation.is_some());
         let too_fast = || too_fast(&own, case, flight, &terms.limits);
-        let open = too_fast().or_else(|| unseen?.open.clone()).or_else(missed).or_else(hidden).or_else(unmeasured);
+        let open = too_fast()
+            .or_else(|| unseen?.open.clone())
+            .or_else(beside)
+            .or_else(missed)
+            .or_else(hidden)
+            .or_else(unmeasured);
         if let Some(programs) = programs {
             violations = violations.into_iter().map(|violation| programs.in_their_units(violation)).collect();
         }

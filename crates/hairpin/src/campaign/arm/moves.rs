@@ -52,6 +52,7 @@ impl CaseMoves {
                     planned: 0.0,
                     duration: *duration,
                     planned_duration: 0.0,
+                    approach: None,
                 })
                 .collect(),
             offset: run.offset(),

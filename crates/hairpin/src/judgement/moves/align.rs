@@ -26,7 +26,7 @@ pub(super) struct Way {
     /// Length at the end of each move.
     pub(super) ends: Vec<f64>,
     /// Index of the pose at the end of each move.
-    end_poses: Vec<usize>,
+    pub(super) end_poses: Vec<usize>,
     /// Length at every stamp of the plan.
     pub(super) planned: Vec<f64>,
     /// 1 rad counts as so many metres.
@@ -64,6 +64,11 @@ impl Way {
         let ends = end_poses.iter().map(|end| along[*end]).collect();
         let planned = kept.iter().map(|index| along[*index]).collect();
         Self { poses, along, ends, end_poses, planned, weight }
+    }
+
+    /// Pose `i`.
+    pub(super) fn pose(&self, i: usize) -> &Isometry3<f64> {
+        &self.poses[i]
     }
 
     /// Where pose `i` is.

@@ -2,6 +2,7 @@
 
 use super::MovesError;
 use super::align::Way;
+use super::approach::{Approach, approaches};
 use super::gap::Unseen;
 use crate::trajectory::{PlannedPath, Track};
 
@@ -62,6 +63,8 @@ pub struct MoveMeasures {
     pub duration: Option<f64>,
     /// The same as planned, s.
     pub planned_duration: f64,
+    /// How near it came to the target; `None` without a sample about it.
+    pub approach: Option<Approach>,
 }
 
 impl MoveMeasures {
@@ -169,6 +172,7 @@ pub fn measure_moves(
             set_out(path.track().times(), &way.planned),
         ],
     };
+    let approaches = approaches(&way, recording, &progress, settings.arrival, settings.turn_weight > 0.0);
     let mut moves: Vec<MoveMeasures> = Vec::with_capacity(targets.len());
     for (index, given) in path.moves().iter().enumerate() {
         let before = if index == 0 { begins } else { [arrived[index - 1], planned[index - 1]] };
@@ -183,6 +187,7 @@ pub fn measure_moves(
             planned: planned[index].unwrap_or_else(|| path.passes(index)),
             duration: since(arrived[index], before[0]),
             planned_duration: since(planned[index], before[1]).unwrap_or(0.0),
+            approach: approaches[index],
         });
     }
     for (sample, deviation) in deviations.iter().enumerate() {

@@ -6,7 +6,7 @@
 //! | where on the path each sample is | `align`: monotone, in position and orientation |
 //! | deviation, arrival and duration of each move | [`measure_moves`] |
 //! | gaps, and what they may hide | [`unseen`] |
-//! | against limits | [`move_violations`], [`moves_verdict`] |
+//! | how near it came to each target | [`Approach`] |
 //! | against an earlier release's repeats | [`compare`], [`Regression`] |
 //! | over all releases | [`trend`] |
 //!
@@ -16,28 +16,28 @@
 //! earlier versions.
 
 mod align;
+mod approach;
 mod compare;
 mod gap;
 mod measure;
 mod regression;
-mod spec;
+mod told;
 mod trend;
 mod unseen;
-mod verdict;
 
 #[cfg(test)]
 mod tests;
 
 use thiserror::Error;
 
+pub use approach::Approach;
 pub use compare::{Band, Comparison, Metric, MoveComparison, Outcome, Release, compare};
 pub use gap::{Gap, Unseen};
 pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measure_moves};
 pub use regression::{ProgramComparison, Regression};
-pub use spec::{MoveLimits, move_violations, worst_of};
+pub use told::{estimate_told, offset_told};
 pub use trend::{Trend, trend};
 pub use unseen::{Between, Hidden, unseen};
-pub use verdict::{JudgedMoves, estimate_told, moves_verdict, offset_told};
 
 /// Why recordings cannot be judged.
 #[derive(Debug, Clone, PartialEq, Error)]

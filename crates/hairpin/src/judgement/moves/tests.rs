@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::*;
-use crate::judgement::Violation;
+use crate::judgement::Verdict;
 use crate::math::random::{Stream, standard_normals, stream};
 use crate::trajectory::{Channel, PlannedMove, PlannedPath, Track};
 
@@ -62,7 +62,20 @@ fn measure(path: &PlannedPath, recording: &Track) -> Measured {
     measure_moves(path, recording, &MeasureSettings::default()).unwrap()
 }
 
-const LIMITS: MoveLimits = MoveLimits { path: Some(5e-4), late: Some(0.02) };
+/// Within both.
+const NONE: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
+
+/// Moves farther off than 0.5 mm, and those later than 20 ms.
+fn beyond(measured: &Measured) -> [Vec<usize>; 2] {
+    let moves = |is_beyond: fn(&MoveMeasures) -> bool| {
+        let all = measured.moves.iter().enumerate();
+        all.filter(|(_, one)| is_beyond(one)).map(|(index, _)| index).collect()
+    };
+    [
+        moves(|one| one.deviation.is_some_and(|most| most > 5e-4)),
+        moves(|one| one.late().is_some_and(|late| late > 0.02)),
+    ]
+}
 
 #[test]
 fn what_was_planned_is_on_time_and_on_its_path() {
@@ -73,7 +86,7 @@ fn what_was_planned_is_on_time_and_on_its_path() {
         assert!((one.duration.unwrap() - one.planned_duration).abs() < 3e-4);
     }
     assert!((measured.moves[1].planned - 2.1).abs() < 0.01 && (measured.sample - 0.01).abs() < 1e-12);
-    assert_eq!(move_violations(&measured, &LIMITS), vec![]);
+    assert_eq!(beyond(&measured), NONE);
 }
 
 #[test]
@@ -82,10 +95,8 @@ fn a_deviation_belongs_to_its_move_even_where_paths_are_revisited() {
     // On the way back only, aside by 0.8 mm at most, at 1.6 s.
     let aside = |t: f64| Vector3::y() * 8e-4 * (1.0 - (t - 1.6).abs() / 0.3).max(0.0);
     let measured = measure(&path, &record(&path, 4.6, |t| t, aside));
-    let found = move_violations(&measured, &LIMITS);
-    assert_eq!(found.len(), 1, "{found:?}");
-    assert!(found[0].what == "deviation" && found[0].leg == 1 && (found[0].value - 0.8).abs() < 1e-6);
-    assert!((found[0].at - 1.6).abs() < 0.011 && found[0].limit == 0.5 && found[0].unit == "mm");
+    let back = &measured.moves[1];
+    assert!((back.deviation.unwrap() - 8e-4).abs() < 1e-9 && (back.deviation_at - 1.6).abs() < 0.011, "{back:?}");
     for index in [0, 2, 3] {
         assert!(measured.moves[index].deviation.unwrap() < 1e-9);
     }
@@ -98,10 +109,10 @@ fn offsets_are_told_and_removed_only_when_asked() {
     let measured = measure(&path, &late);
     let offset = measured.offset.unwrap();
     assert!((offset.seconds - 0.05).abs() < 3e-4 && offset.spread < 1e-3 && !offset.removed, "{offset:?}");
-    assert_eq!(move_violations(&measured, &LIMITS).len(), 4);
+    assert_eq!(beyond(&measured), [vec![], vec![0, 1, 2, 3]]);
     let settings = MeasureSettings { clock: Clock::OffsetRemoved, ..MeasureSettings::default() };
     let removed = measure_moves(&path, &late, &settings).unwrap();
-    assert!(removed.offset.unwrap().removed && move_violations(&removed, &LIMITS).is_empty());
+    assert!(removed.offset.unwrap().removed && beyond(&removed) == NONE);
     // One late move of four does not move the median.
     let once = measure(&path, &record(&path, 4.8, |t| if t < 3.5 { t } else { t - 0.2 }, still));
     assert!(once.offset.unwrap().seconds.abs() < 1e-3, "{:?}", once.offset);
@@ -117,26 +128,49 @@ fn a_slow_move_is_late_itself_and_makes_the_later_ones_late() {
     assert_eq!(late, [0, 0, 60, 60]);
     let longer = |one: &MoveMeasures| (1e3 * (one.duration.unwrap() - one.planned_duration)).round() as i64;
     assert_eq!(measured.moves.iter().map(longer).collect::<Vec<_>>(), [0, 0, 60, 0]);
-    let arrivals: Vec<usize> = move_violations(&measured, &LIMITS).iter().map(|violation| violation.leg).collect();
-    assert_eq!(arrivals, [2, 3]);
+    assert_eq!(beyond(&measured), [vec![], vec![2, 3]]);
 }
 
 #[test]
-fn targets_that_are_not_reached_are_told_once() {
+fn targets_behind_the_end_of_a_recording_are_not_arrived_at() {
     let path = revisiting();
     let measured = measure(&path, &record(&path, 2.5, |t| t, still));
-    let found = move_violations(&measured, &LIMITS);
-    assert_eq!(found.len(), 1);
-    assert_eq!((found[0].what.as_str(), found[0].leg, found[0].value, found[0].limit), ("unreached", 2, 2.0, 4.0));
-    let verdict = moves_verdict(&JudgedMoves {
-        how: &["simulated"],
-        runs: &[measured],
-        limits: &LIMITS,
-        comparison: None,
-        evidence: &[],
-    });
-    assert_eq!(verdict.sentence, "FAIL 1/4 moves (simulated, 1 run): p2→p3 not reached, 2 of 4 targets were");
-    assert_eq!(verdict.exit_code, 1);
+    let arrived: Vec<bool> = measured.moves.iter().map(|one| one.arrived.is_some()).collect();
+    assert_eq!(arrived, [true, true, false, false]);
+}
+
+/// Who runs beside the path is on time along it, at whatever distance.
+#[test]
+fn who_is_never_near_a_target_has_not_come_to_it() {
+    let path = revisiting();
+    let beside = |aside: f64, is_limited: bool| {
+        measure(&path, &record(&path, 4.6, |t| t, |_| Vector3::z() * aside)).beside(is_limited)
+    };
+    // The longer move beside the first target is 0.3 m long.
+    let told = beside(0.04, false).unwrap();
+    assert!(
+        told.starts_with(
+            "the target of move 1 (p0→p1) was passed and never come to: 40.0 mm at the nearest, 30.0 mm taken"
+        ),
+        "{told}"
+    );
+    assert_eq!((beside(0.02, false), beside(0.04, true)), (None, None));
+    // Turns are looked at whatever limits positions: the third move turns by 0.3 rad.
+    let unturned: Vec<Isometry3<f64>> = (record(&path, 4.6, |t| t, still).poses().iter())
+        .map(|pose| Isometry3::from_parts(pose.translation, UnitQuaternion::identity()))
+        .collect();
+    let times = (0..unturned.len()).map(|i| i as f64 * 0.01).collect();
+    let unturned = Track::new(times, unturned, Vec::new()).unwrap();
+    let told = measure(&path, &unturned).beside(true).unwrap();
+    assert!(
+        told.starts_with("the target of move 3 (p2→p3)") && told.contains("17.2° at the nearest, 1.7° taken"),
+        "{told}"
+    );
+    let places_alone = MeasureSettings { turn_weight: 0.0, ..MeasureSettings::default() };
+    assert_eq!(measure_moves(&path, &unturned, &places_alone).unwrap().beside(true), None);
+    // What was passed before the recording begins is not seen.
+    let begun = thinned(&record(&path, 4.6, |t| t, still), |_, t| t > 1.3);
+    assert_eq!(measure(&path, &begun).beside(false), None);
 }
 
 #[test]
@@ -201,15 +235,12 @@ fn regressions_read_as_designed() {
     let (old, new) = (Release { name: "7.14", runs: &old }, Release { name: "7.15", runs: &new });
     let comparison = compare(&old, &new, &Band::default()).unwrap();
     assert_eq!((comparison.count(Outcome::Worse), comparison.worst().unwrap().index), (3, 17));
-    let limits = MoveLimits { path: Some(5e-4), late: Some(0.5) };
-    let judged = JudgedMoves {
-        how: &["simulated"],
-        runs: new.runs,
-        limits: &limits,
-        comparison: Some(&comparison),
-        evidence: &[],
+    let joined = |comparison: &Comparison| {
+        let program = ProgramComparison { program: "0000".into(), comparison: comparison.clone(), trends: Vec::new() };
+        let releases = vec![comparison.baseline.clone(), comparison.new.clone()];
+        Regression { releases, programs: vec![program] }.join(Verdict::of("PASS 1/1", 0), true)
     };
-    let verdict = moves_verdict(&judged);
+    let verdict = joined(&comparison);
     let worst = comparison.worst().unwrap();
     assert_eq!(
         verdict.sentence,
@@ -224,9 +255,8 @@ fn regressions_read_as_designed() {
     assert!((worst.difference() - 0.041).abs() < 3e-3 && (0.004..0.012).contains(&worst.band), "{worst:?}");
     // The other way round everything is better, and that is told.
     let back = compare(&new, &old, &Band::default()).unwrap();
-    let judged = JudgedMoves { runs: old.runs, comparison: Some(&back), ..judged };
-    let verdict = moves_verdict(&judged);
-    assert!(verdict.sentence.starts_with("PASS 48/48 moves (simulated, 5 runs): worst "), "{}", verdict.sentence);
+    let verdict = joined(&back);
+    assert!(verdict.sentence.starts_with("PASS 1/1; against "), "{}", verdict.sentence);
     assert!(verdict.sentence.ends_with("against 7.15: no move outside the baseline's band; 3 better than the band"));
     assert_eq!(verdict.exit_code, 0);
 }
@@ -254,24 +284,15 @@ fn violations_come_before_regressions() {
     let aside = |t: f64| Vector3::z() * 6.5e-4 * (1.0 - (t - 1.6).abs() / 0.3).max(0.0);
     let (good, bad) =
         (measure(&path, &record(&path, 4.6, |t| t, still)), measure(&path, &record(&path, 4.6, |t| t, aside)));
-    let (old, new) = ([good.clone(), good.clone()], [good.clone(), bad]);
+    let (old, new) = ([good.clone(), good.clone()], [good, bad]);
     let comparison =
         compare(&Release { name: "1", runs: &old }, &Release { name: "2", runs: &new[1..] }, &Band::default()).unwrap();
-    let judged = JudgedMoves {
-        how: &["simulated", "virtual controller"],
-        runs: &new,
-        limits: &LIMITS,
-        comparison: Some(&comparison),
-        evidence: &["all links clear"],
-    };
-    let verdict = moves_verdict(&judged);
-    assert_eq!(
-        verdict.sentence,
-        "FAIL 1/4 moves (simulated, virtual controller, 2 runs): worst 0.65 mm > 0.50 mm, p1→p2, t = 1.60 s, run 1; against 1: \
-         1/4 moves outside the baseline's band, worst p1→p2 +0.65 mm (band ±0.02 mm); all links clear"
-    );
-    let nothing = JudgedMoves { limits: &MoveLimits::default(), comparison: None, ..judged };
-    assert_eq!(moves_verdict(&nothing).exit_code, 5);
+    let program = ProgramComparison { program: "0000".into(), comparison, trends: Vec::new() };
+    let joined = Regression { releases: vec!["1".into(), "2".into()], programs: vec![program] };
+    let verdict = joined.join(Verdict::of("FAIL 1/1", 1), true);
+    assert!(verdict.sentence.starts_with("FAIL 1/1; against 1: 1/4 moves outside the baseline's band"), "{verdict:?}");
+    assert!(verdict.sentence.ends_with("worst p1→p2 +0.65 mm (band ±0.02 mm)"), "{verdict:?}");
+    assert_eq!(verdict.exit_code, 1);
     let lost = measure(&path, &record(&path, 2.5, |t| t, still));
     let comparison =
         compare(&Release { name: "1", runs: &old }, &Release { name: "2", runs: &[lost] }, &Band::default());
@@ -315,8 +336,6 @@ fn what_cannot_be_judged_is_refused() {
     let runs = [good, other];
     let error = compare(&Release { name: "7.14", runs: &runs }, &release, &Band::default()).unwrap_err();
     assert_eq!(error.to_string(), "`7.14`, run 1: move 1 is `elsewhere`, expected `p1→p2`");
-    let violation: Option<(usize, Violation)> = worst_of(&[], &LIMITS);
-    assert!(violation.is_none());
 }
 
 /// A point of which the acceleration alone is known.
@@ -505,7 +524,7 @@ fn what_was_passed_before_the_recording_begins_is_not_late() {
     assert_eq!(measured.moves[0].late(), None);
     assert!(measured.moves[0].late_between().unwrap()[0] == f64::NEG_INFINITY);
     assert!(measured.moves[1].late().unwrap().abs() < 1e-3 && measured.offset.unwrap().seconds.abs() < 1e-3);
-    assert_eq!(move_violations(&measured, &LIMITS), vec![]);
+    assert_eq!(beyond(&measured), NONE);
     let unseen = not_shown(&path, &begun, 1.0, true, [None, Some(0.08)]);
     let told = unseen.open.unwrap();
     assert!(told.starts_with("the log begins at t = 1.310 s, behind p0→p1: it arrived at most 31"), "{told}");

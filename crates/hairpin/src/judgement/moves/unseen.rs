@@ -43,10 +43,8 @@ pub trait Between {
 #[derive(Clone, Copy)]
 pub struct Hidden<'a> {
     /// Largest distance from the path, m.
-    /// As of [`super::MoveLimits::path`].
     pub path: Option<f64>,
     /// Latest arrival, s.
-    /// As of [`super::MoveLimits::late`].
     pub late: Option<f64>,
     /// How far what deviations are measured from may be from the planned path itself, m.
     pub corner: f64,

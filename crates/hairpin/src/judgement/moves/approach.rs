@@ -1,0 +1,144 @@
+//! How near a recording came to each target: who runs along the path at whatever distance arrives on time, and was
+//! nowhere.
+
+use std::ops::Range;
+
+use nalgebra::{Isometry3, Vector4};
+
+use super::align::Way;
+use super::measure::Measured;
+use crate::math::segment::point_distance;
+use crate::trajectory::Track;
+
+/// A target is come to within this share of the longer move beside it: servos that lag cut corners.
+const SHARE: f64 = 0.1;
+/// Or within this turn, rad, where moves turn less.
+const LEAST_TURN: f64 = 0.02;
+
+/// How near a recording came to a target while it was on the move to it or the one behind, straight between samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approach {
+    /// Least distance of positions, m.
+    pub distance: f64,
+    /// Within so much it was there, m: a tenth of the longer move beside the target, or what an arrival is told by.
+    pub distance_within: f64,
+    /// Least angle between orientations, rad; 0 where the recording has none.
+    pub turn: f64,
+    /// Within so much it was turned so, rad: a tenth of the larger turn beside the target, or 0.02.
+    pub turn_within: f64,
+}
+
+/// Of every target the nearest approach; `None` of those that no sample is about.
+///
+/// `progress` of the samples, rising; `arrival` in m.
+pub(super) fn approaches(
+    way: &Way,
+    recording: &Track,
+    progress: &[f64],
+    arrival: f64,
+    turns: bool,
+) -> Vec<Option<Approach>> {
+    let targets = way.ends.len();
+    let pose = |target: Option<usize>| way.pose(target.map_or(0, |target| way.end_poses[target]));
+    let beside = |of: &dyn Fn(&Isometry3<f64>, &Isometry3<f64>) -> f64, target: usize| {
+        let moves = target..(target + 2).min(targets);
+        moves.map(|index| of(pose(index.checked_sub(1)), pose(Some(index)))).fold(0.0, f64::max)
+    };
+    let length = |a: &Isometry3<f64>, b: &Isometry3<f64>| (a.translation.vector - b.translation.vector).norm();
+    let one = |target: usize| {
+        let about = about(way, progress, target)?;
+        let to = pose(Some(target));
+        let at = |i: usize| &recording.poses()[i];
+        let pairs = || about.clone().map(|i| (at(i.saturating_sub(1)), at(i)));
+        let place = |of: &Isometry3<f64>| of.translation.vector.into();
+        let distance = pairs().map(|(a, b)| point_distance(&place(to), &place(a), &place(b))).fold(f64::MAX, f64::min);
+        let turn = if turns { pairs().map(|(a, b)| least_turn(to, a, b)).fold(f64::MAX, f64::min) } else { 0.0 };
+        Some(Approach {
+            distance,
+            distance_within: (SHARE * beside(&length, target)).max(arrival),
+            turn,
+            turn_within: (SHARE * beside(&turned, target)).max(LEAST_TURN),
+        })
+    };
+    (0..targets).map(one).collect()
+}
+
+/// The samples on the move to `target` and the one behind it.
+fn about(way: &Way, progress: &[f64], target: usize) -> Option<Range<usize>> {
+    let first = target.checked_sub(1).map_or(0, |before| progress.partition_point(|along| *along <= way.ends[before]));
+    let behind = (target + 1).min(way.ends.len() - 1);
+    let last =
+        if behind == target { progress.len() } else { progress.partition_point(|along| *along <= way.ends[behind]) };
+    // The line that leads there is looked at as well.
+    let last = last.max(first + 1).min(progress.len());
+    (first < last).then_some(first..last)
+}
+
+/// Angle between two orientations, rad: 2 acos |q · r|, by the chord where it is small.
+fn turned(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    least_turn(a, b, b)
+}
+
+/// Least angle (rad) of `to` from the orientations between `a` and `b`, by the chord of their quaternions:
+/// θ = 4 asin(|q − r| / 2).
+fn least_turn(to: &Isometry3<f64>, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    let to = to.rotation.coords;
+    let near = |q: Vector4<f64>| if q.dot(&to) < 0.0 { -q } else { q };
+    let (a, b) = (near(a.rotation.coords), near(b.rotation.coords));
+    let chord = b - a;
+    let share = ((to - a).dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    4.0 * (0.5 * (to - a - chord * share).norm()).min(1.0).asin()
+}
+
+impl Measured {
+    /// Why arrivals are none: the first target that counts as arrived at along the path and that the recording was
+    /// never near. Where the path `is_limited` its limit says how near positions have to come.
+    pub fn beside(&self, is_limited: bool) -> Option<String> {
+        // What was passed before the recording begins is not seen.
+        let moves = self.moves.iter().enumerate().filter(|(_, one)| one.arrived.is_some() && one.after.is_some());
+        let mut approaches = moves.filter_map(|(index, one)| Some((index, one, one.approach?)));
+        approaches.find_map(|(index, one, near)| {
+            let target = format!("the target of move {} ({})", index + 1, one.name);
+            let least = |most: &str, within: String, of: &str| {
+                Some(format!(
+                    "{target} was passed and never come to: {most} at the nearest, {within} taken for there ({of})"
+                ))
+            };
+            if !is_limited && near.distance > near.distance_within {
+                let [most, within] = [near.distance, near.distance_within].map(|m| format!("{:.1} mm", 1e3 * m));
+                return least(
+                    &most,
+                    within,
+                    "a tenth of the longer move beside it; no limit of the path says how near",
+                );
+            }
+            if near.turn > near.turn_within {
+                let [most, within] = [near.turn, near.turn_within].map(|rad| format!("{:.1}°", rad.to_degrees()));
+                return least(&most, within, "a tenth of the larger turn beside it, or 0.02 rad");
+            }
+            None
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn turns_are_angles_whichever_sign_a_quaternion_has() {
+        let turn = |angle: f64| {
+            Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_axis_angle(&Vector3::x_axis(), angle))
+        };
+        for angle in [1e-9, 0.1, 1.0, 3.0] {
+            assert!((turned(&turn(0.0), &turn(angle)) - angle).abs() < 1e-9, "{angle}");
+            assert!((turned(&turn(0.2), &turn(0.2 + angle)) - angle).abs() < 1e-9, "{angle}");
+        }
+        assert!((turned(&turn(3.0), &turn(-3.0)) - (std::f64::consts::TAU - 6.0)).abs() < 1e-9);
+        // Half-way between both, though neither sample is there.
+        assert!(least_turn(&turn(0.1), &turn(0.0), &turn(0.2)) < 0.01);
+        assert!((least_turn(&turn(0.5), &turn(0.0), &turn(0.2)) - 0.3).abs() < 1e-9);
+    }
+}
