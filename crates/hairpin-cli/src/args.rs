@@ -269,6 +269,9 @@ pub(crate) struct Schema {
     /// The kind of file
     #[arg(value_enum, default_value_t = Document::Scenario)]
     pub(crate) document: Document,
+    /// Scenarios of robots whose file says this `kind`
+    #[arg(long, value_name = "WORD", conflicts_with = "document")]
+    pub(crate) kind: Option<String>,
 }
 
 #[derive(Debug, Args)]

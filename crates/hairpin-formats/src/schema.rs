@@ -19,14 +19,14 @@ pub fn drive_scenario_schema() -> Value {
 
 /// The schema of a scenario file of an arm.
 pub fn arm_scenario_schema() -> Value {
-    let mut schema = scenario_schema_of(Some("arm"));
-    schema.pointer_mut("/$defs/ArmDescription").into_iter().for_each(or_by_urdf);
-    schema
+    scenario_schema_of(Some("arm"))
 }
 
 /// The schema of the scenario files of robots whose `kind` is `word`.
 pub fn scenario_schema_of(word: Option<&str>) -> Value {
-    with_made_by(RobotKind::of_word(word).schema())
+    let mut schema = with_made_by(RobotKind::of_word(word).schema());
+    schema.pointer_mut("/$defs/ArmDescription").into_iter().for_each(or_by_urdf);
+    schema
 }
 
 fn with_made_by(mut schema: Value) -> Value {

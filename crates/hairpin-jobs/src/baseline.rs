@@ -28,11 +28,7 @@ pub(crate) fn fly_baseline(work: &Work, tally: &Tally, flown: Flown, watch: &dyn
     if cases.is_empty() {
         return Ok(());
     }
-    let measured: Result<Vec<CaseResult>, Problem> =
-        fly_by_case((setup, Some(&work.folder)), &cases, &|case, runs| measure(setup, case, runs), (WHAT, watch))?
-            .into_iter()
-            .collect();
-    Ok(work.folder.write_baseline(&cases, &measured?)?)
+    Ok(work.folder.write_baseline(&cases, &flown_beside(work, &cases, (WHAT, watch))?)?)
 }
 
 /// Searches as the scenario says and runs what is found, for missions to be compared with; the file is written once all
@@ -41,13 +37,15 @@ pub(crate) fn fly_searched(work: &Work, deadline: Deadline, watch: &dyn Watch) -
     if work.folder.read_searched()?.is_some() {
         return Ok(());
     }
-    let setup = &work.setup;
     let cases = found_beside(work, deadline, watch)?;
-    let measured: Result<Vec<CaseResult>, Problem> =
-        fly_by_case((setup, Some(&work.folder)), &cases, &|case, runs| measure(setup, case, runs), (SEARCHED, watch))?
-            .into_iter()
-            .collect();
-    Ok(work.folder.write_searched(&cases, &measured?)?)
+    Ok(work.folder.write_searched(&cases, &flown_beside(work, &cases, (SEARCHED, watch))?)?)
+}
+
+/// Runs `cases` as the campaign's are, and measures them.
+fn flown_beside(work: &Work, cases: &[Case], told: (&'static str, &dyn Watch)) -> Result<Vec<CaseResult>, Problem> {
+    let setup = &work.setup;
+    let flown = fly_by_case((setup, Some(&work.folder)), cases, &|case, runs| measure(setup, case, runs), told)?;
+    flown.into_iter().collect()
 }
 
 /// What the cases by chance of a campaign's folder measured; `None` where there are none.

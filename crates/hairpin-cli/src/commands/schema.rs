@@ -1,9 +1,10 @@
 //! `hairpin schema`: JSON Schema from the types that read the files.
 
+use hairpin::campaign::scenario::RobotKind;
 use hairpin_formats::atomic::json_text;
 use hairpin_formats::schema::{
     arm_scenario_schema, arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema,
-    rover_schema, scenario_schema,
+    rover_schema, scenario_schema, scenario_schema_of,
 };
 use hairpin_jobs::Problem;
 
@@ -13,16 +14,24 @@ use crate::exit::DONE;
 
 /// Runs the command.
 pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
-    let schema = match schema.document {
-        Document::Scenario => scenario_schema(),
-        Document::RoverScenario => drive_scenario_schema(),
-        Document::ArmScenario => arm_scenario_schema(),
-        Document::Robot => robot_schema(),
-        Document::Rover => rover_schema(),
-        Document::Arm => arm_schema(),
-        Document::Car => car_schema(),
-        Document::DifferentialDrive => differential_drive_schema(),
+    let schema = match (&schema.kind, schema.document) {
+        (Some(word), _) => scenario_schema_of(Some(known(word)?)),
+        (None, Document::Scenario) => scenario_schema(),
+        (None, Document::RoverScenario) => drive_scenario_schema(),
+        (None, Document::ArmScenario) => arm_scenario_schema(),
+        (None, Document::Robot) => robot_schema(),
+        (None, Document::Rover) => rover_schema(),
+        (None, Document::Arm) => arm_schema(),
+        (None, Document::Car) => car_schema(),
+        (None, Document::DifferentialDrive) => differential_drive_schema(),
     };
     console::say_text(&json_text(&schema).map_err(Problem::input)?);
     Ok(DONE)
+}
+
+/// `word`, if robots' files may say it.
+fn known(word: &str) -> Result<&str, Problem> {
+    let words: Vec<&str> = RobotKind::all().flat_map(|kind| kind.words.iter().copied()).collect();
+    let refuse = || Problem::input(format!("--kind {word}: must be one of {}", words.join(", ")));
+    words.contains(&word).then_some(word).ok_or_else(refuse)
 }

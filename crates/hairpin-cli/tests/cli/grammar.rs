@@ -109,6 +109,10 @@ fn schemas_and_completions_are_printed() {
         let schema: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert!(code == 0 && schema["properties"][key].is_object(), "{document}");
     }
+    let (code, out, _) = run(folder.path(), &["schema", "--kind", "boat"]);
+    assert!(code == 0 && out.contains("BoatDescription"), "{out}");
+    let (code, _, error) = run(folder.path(), &["schema", "--kind", "ship"]);
+    assert!(code == 2 && error.contains("--kind ship: must be one of quadrotor, "), "{error}");
     for shell in ["bash", "zsh", "fish"] {
         let (code, out, _) = run(folder.path(), &["completions", shell]);
         assert!(code == 0 && out.contains("stress"));

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::answers::Answer;
 
 use super::executed::{read, row};
+use super::json::read_json_if_there;
 use super::names::stands_for;
 use super::{CampaignFolder, EXECUTOR, FolderError, entries};
 use crate::atomic::{self, WriteError, is_temporary};
@@ -82,13 +83,7 @@ impl Piece {
 /// # Errors
 /// What is kept of it is broken.
 pub fn executor_of_rounds(folder: &Path) -> Result<Option<Greeting>, FolderError> {
-    let path = folder.join(EXECUTOR);
-    if !path.exists() {
-        return Ok(None);
-    }
-    let refuse = |cause| FolderError::Unreadable { path: path.clone(), cause };
-    let text = bounds::read_json_text(&path).map_err(refuse)?;
-    serde_json::from_str(&text).map(Some).map_err(|broken| refuse(broken.into()))
+    read_json_if_there(folder.join(EXECUTOR))
 }
 
 /// The same with the program that says `now` of itself where no other was before it.

@@ -6,7 +6,7 @@ use hairpin::campaign::drive::DriveSetup;
 use hairpin::campaign::scenario::{FlightScenario, RobotSource};
 use hairpin::campaign::{Scenario, Setup};
 use hairpin_formats::scenario::{Report, read_setup, setup_for, to_toml};
-use hairpin_formats::{library, schema, template};
+use hairpin_formats::{library, template};
 
 fn setup(name: &str, sets: &[(&str, &str)]) -> Result<Setup, Report> {
     let sets: Vec<_> = sets.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
@@ -47,45 +47,6 @@ fn every_shipped_scenario_is_fine_and_survives_its_own_writing() {
         assert_eq!(again.scenario, read, "{name}");
         Setup::new(read).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
     }
-}
-
-#[test]
-fn every_shipped_file_validates_against_its_schema() {
-    let scenarios = jsonschema::validator_for(&schema::scenario_schema()).unwrap();
-    let robots = jsonschema::validator_for(&schema::robot_schema()).unwrap();
-    let value = |text: &str| serde_json::to_value(text.parse::<toml::Table>().unwrap()).unwrap();
-    for shipped in library::scenarios() {
-        let read = serde_json::to_value(fine(shipped.name, &[])).unwrap();
-        let schema = schema::scenario_schema_of(read["robot"]["kind"].as_str());
-        let scenarios = jsonschema::validator_for(&schema).unwrap();
-        let told: Vec<_> = scenarios.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
-        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
-    }
-    let rovers = jsonschema::validator_for(&schema::rover_schema()).unwrap();
-    for shipped in library::rovers() {
-        let told: Vec<_> = rovers.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
-        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
-    }
-    let arms = jsonschema::validator_for(&schema::arm_schema()).unwrap();
-    for shipped in library::arms() {
-        let told: Vec<_> = arms.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
-        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
-    }
-    let cars = jsonschema::validator_for(&schema::car_schema()).unwrap();
-    let drives = jsonschema::validator_for(&schema::differential_drive_schema()).unwrap();
-    let ground = library::cars().map(|car| (&cars, car)).chain(library::differential_drives().map(|d| (&drives, d)));
-    let ground: Vec<_> = ground.collect();
-    assert_eq!(ground.iter().map(|(_, shipped)| shipped.name).collect::<Vec<_>>(), ["car", "differential-drive"]);
-    for (validator, shipped) in ground {
-        let told: Vec<_> = validator.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
-        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
-    }
-    for shipped in library::quadrotors() {
-        let told: Vec<_> = robots.iter_errors(&value(shipped.text)).map(|error| error.to_string()).collect();
-        assert!(told.is_empty(), "{}: {told:?}", shipped.path);
-    }
-    let broken = template::template("quadrotor").unwrap().replace("cases = 20", "cases = -20");
-    assert!(!scenarios.is_valid(&value(&broken)));
 }
 
 #[test]

@@ -264,9 +264,15 @@ pub(crate) fn keep_cases(work: &Work, cases: &[Case], from: usize, tally: &Tally
         };
         Ok((case.number, piece.map_err(|error| refuse(&error))?))
     };
-    for block in cases[from..].chunks(AT_ONCE) {
-        let packed: Result<Vec<_>, Problem> = block.par_iter().map(pack).collect();
-        work.folder.write_planned(packed?)?;
+    let packed = |block: &[Case]| block.par_iter().map(pack).collect::<Result<Vec<_>, Problem>>();
+    let mut blocks = cases[from..].chunks(AT_ONCE);
+    let mut ready = blocks.next().map(packed).transpose()?;
+    while let Some(pieces) = ready {
+        // One thread writes a part while the others pack the next.
+        let next = blocks.next();
+        let (written, after) = rayon::join(|| work.folder.write_planned(pieces), || next.map(packed).transpose());
+        written?;
+        ready = after?;
     }
     work.folder.write_new_cases(cases, from)?;
     Ok(work.folder.write_tally(tally)?)
