@@ -142,7 +142,7 @@ fn check(work: &Work, case: &Case) -> Answer {
     if let Err(error) = work.folder.read_witness(&mut case) {
         return finding(error.to_string());
     }
-    let claims = matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere);
+    let claims = case.evidence.is_of_a_witness();
     let witness = case.witness.is_some();
     if case.environment.is_none() && !witness && !claims {
         return Answer::NothingClaimed;
@@ -221,6 +221,12 @@ mod tests {
         assert_eq!((broken.checked(), broken.failed().count(), broken.witnesses()), (2, 2, [2, 0]));
         assert_eq!(broken.worst(), broken.failed().next());
         assert_eq!(broken.planned(), [0, 0], "rows are held to what holds");
+        std::fs::remove_dir_all(folder.join("profiles")).unwrap();
+        let lost = verify(&folder).unwrap();
+        assert_eq!((lost.checked(), lost.failed().count()), (2, 2));
+        // Nothing else is flown in its place either.
+        let refused = open_to_read(&folder).unwrap().folder.read_cases().unwrap_err().to_string();
+        assert!(refused.contains("profiles: case 0000 is witnessed and has no witness"), "{refused}");
     }
 
     fn made(place: &TempDir, scenario: &str, sets: &[(&str, &str)]) -> PathBuf {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::{fs, io};
 
-use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Witness};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Evidence, Scenario, Witness};
 use hairpin::trajectory::Track;
 use hairpin::trajectory::program::Program;
 
@@ -126,10 +126,10 @@ impl CampaignFolder {
     }
 
     /// Reads the control witness of `case`, of a flight or of a drive, into it; leaves it without one where there is
-    /// none.
+    /// none and none is claimed.
     ///
     /// # Errors
-    /// The file is broken.
+    /// The file is broken; what is claimed of the case is that of a witness, and there is none.
     pub fn read_witness(&self, case: &mut Case) -> Result<(), FolderError> {
         if let Some(program) = self.read_program(case.number)? {
             case.witness = Some(program.into());
@@ -137,6 +137,13 @@ impl CampaignFolder {
             let drive = drive::is_drive(&rows);
             let witness = if drive { drive::from_table(&rows)?.into() } else { profile::from_table(&rows)?.into() };
             case.witness = Some(witness);
+        } else if case.evidence.is_of_a_witness() {
+            // Another motion would be flown in its place, and told as witnessed.
+            let (table, what) = match case.evidence {
+                Evidence::Witnessed => (PROFILES, "is witnessed and has no witness"),
+                _ => (PROGRAMS, "is of a program and has none"),
+            };
+            return Err(FolderError::Contradiction { path: self.path.join(table), case: case.number, what });
         }
         Ok(())
     }

@@ -107,7 +107,7 @@ pub(super) fn write_tum(work: &Work, place: &Path, cases: &[&Case]) -> Result<Wr
 
 /// Whether attitudes are planned: a witness has them, and so has an arm's program.
 fn is_planned(case: &Case) -> bool {
-    matches!(case.evidence, Evidence::Witnessed | Evidence::ClearAllLinks | Evidence::ClearToolSphere)
+    case.evidence.is_of_a_witness()
 }
 
 /// Whether the executor sent no attitudes.

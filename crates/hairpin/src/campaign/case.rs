@@ -57,6 +57,11 @@ impl Evidence {
         }
     }
 
+    /// Whether what is claimed is that of a witness: a control profile, commands or a program.
+    pub fn is_of_a_witness(self) -> bool {
+        matches!(self, Evidence::Witnessed | Evidence::ClearToolSphere | Evidence::ClearAllLinks)
+    }
+
     /// The evidence whose word in files is `word`.
     ///
     /// The inverse of [`Self::word`]; `None` of any other word.

@@ -11,7 +11,7 @@ use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::DriveScenario;
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
-use crate::verification::{EndError, Proof};
+use crate::verification::{EndError, Finding, Proof};
 
 /// Cells along a side of level ground without end, and the least of them, m.
 /// Enough for any scale of mission, and few enough to be made at once.
@@ -52,6 +52,10 @@ impl Claim for DriveSetup {
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));
         }
         (proof, None)
+    }
+
+    fn strays(&self, case: &Case, planned: &Track) -> Vec<Finding> {
+        case.commands().map_or_else(Vec::new, |drive| verify::strays(self, drive, planned))
     }
 
     fn passes(&self, asked: &Demands) -> Result<Passage, String> {

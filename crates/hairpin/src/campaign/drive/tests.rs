@@ -243,6 +243,28 @@ fn cars_bend_as_slowly_as_they_steer() {
     hold(&setup, &solver(&setup).draw(0, &Stop::never()).unwrap(), "at 4 m/s");
 }
 
+/// At one speed wheels swing with their lag where the gear changes, in the plan as in the witness.
+#[test]
+fn planned_motions_end_legs_where_their_witness_does() {
+    let at_one_speed = json!({ "profile": "constant" });
+    let setup = setup(car(), &[("generate.speed", at_one_speed)]);
+    let own = setup.own::<DriveSetup>().unwrap();
+    let (solver, mut changes) = (solver(&setup), 0);
+    for number in 0..4 {
+        let case = solver.draw(number, &Stop::never()).unwrap().case(7, 0, 0);
+        let drive = case.commands().unwrap();
+        let gears: Vec<Gear> = drive.legs.iter().flat_map(|leg| &leg.segments).map(|segment| segment.gear).collect();
+        changes += gears.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let track = super::plan::track(own, &case).unwrap();
+        assert_eq!(super::verify::strays(own, drive, &track), vec![]);
+        let aside = track.poses().iter().map(|pose| Isometry3::translation(0.0, 0.04, 0.0) * pose).collect();
+        let aside = Track::new(track.times().to_vec(), aside, track.channels().to_vec()).unwrap();
+        let found = super::verify::strays(own, drive, &aside);
+        assert!(found.iter().any(|finding| finding.field.ends_with("planned.waypoint")), "{found:?}");
+    }
+    assert!(changes > 0);
+}
+
 /// The plan's speeds are those of its timing, from rest to rest: no difference of places tells them.
 #[test]
 fn planned_velocities_are_those_of_the_timing() {

@@ -9,8 +9,8 @@ use crate::campaign::kind::{Task, flat_places, verify_task};
 use crate::campaign::scenario::{DriveEnvironmentSection, DriveTask};
 use crate::campaign::{Case, Environment};
 use crate::feasibility::reach::drive::{Manoeuvres, Pace};
-use crate::trajectory::Drive;
 use crate::trajectory::drive::Planar;
+use crate::trajectory::{Drive, Track};
 use crate::verification::{
     ClearDisc, ClearDrive, ClearGroundClaim, Collector, DriveLegClaim, DriveManoeuvres, DriveTolerances, DrivesClaim,
     Finding, Proof, verify_clear_ground, verify_drives,
@@ -159,6 +159,28 @@ pub(super) fn verify_environment(
         extent: setup.map.extent(),
     };
     findings.extend(verify_clear_ground(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim));
+    findings
+}
+
+/// What the steps of a planned motion may come to along a leg, m: it is followed by the act's own steps, some
+/// millimetres from the solver's.
+const STEPS: f64 = 0.02;
+
+/// Legs of `drive` that the motion it is `planned` as ends elsewhere than the witness, which holds.
+///
+/// ```text
+/// |p(last row of leg k) − to_k| ≤ generate.solver.position_m + 0.02 m, on the map
+/// ```
+pub(super) fn strays(setup: &DriveSetup, drive: &Drive, planned: &Track) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let legs = planned.channel("leg").unwrap_or_default();
+    for (number, leg) in drive.legs.iter().enumerate() {
+        let Some(last) = legs.iter().rposition(|of| *of == number as f64) else { continue };
+        let at = planned.position(last);
+        let off = libm::hypot(at.x - leg.to.x, at.y - leg.to.y);
+        let bound = setup.scenario.generate.solver.position_m + STEPS;
+        Collector::on_leg(&mut findings, number, planned.times()[last]).above("planned.waypoint", off, bound, "m");
+    }
     findings
 }
 

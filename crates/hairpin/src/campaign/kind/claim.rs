@@ -121,13 +121,23 @@ pub(in crate::campaign) trait Claim {
             return Vec::new();
         }
         match self.planned(case) {
-            Ok(planned) => kept.against(&planned, &self.row_tolerances()),
+            Ok(planned) => {
+                let mut findings = kept.against(&planned, &self.row_tolerances());
+                findings.extend(self.strays(case, &planned));
+                findings
+            }
             Err(error) => {
                 let mut findings = Vec::new();
                 Collector::about(&mut findings, "planned").refuse(format!("its motion cannot be planned: {error}"));
                 findings
             }
         }
+    }
+
+    /// Where the motion that the witness of `case` is `planned` as leads elsewhere than the witness does: rows that are
+    /// those of a wrong motion hold to it. Nothing of kinds whose motion is the witness.
+    fn strays(&self, _case: &Case, _planned: &Track) -> Vec<Finding> {
+        Vec::new()
     }
 
     /// What rows may be off the motion that their witness is planned as once more.

@@ -26,6 +26,11 @@ impl Rims {
         (2.0 * (self.speed - speed) / (self.track * speed)).max(0.0)
     }
 
+    /// The largest |v| on `curvature` (1/m) that the outer wheel can go at, m/s: v_w/(1 + |κ| b/2).
+    pub fn most_speed(&self, curvature: f64) -> f64 {
+        self.speed / self.outer(curvature)
+    }
+
     /// The largest |κ′| at `speed` (m/s) beside `acceleration` (m/s²) on `curvature` (1/m), 1/m²:
     /// 2 (a_w − v̇ (1 + κ b/2))/(b v²).
     ///

@@ -12,7 +12,7 @@ use nalgebra::Isometry3;
 use super::command::DriveCommand;
 use super::plant::{Lost, Plant};
 use crate::math::power::square;
-use crate::robot::rover::Rover;
+use crate::robot::rover::{Rims, Rover};
 use crate::simulation::SimulationError;
 use crate::trajectory::drive::{Motion, Planar, Segment};
 use crate::trajectory::{Channel, Direction, Drive, DriveLeg, Timing, Track};
@@ -120,6 +120,7 @@ impl Plan {
         at_once.limits.speed = f64::INFINITY;
         at_once.limits.curvature = f64::INFINITY;
         at_once.limits.turns_in_place = true;
+        at_once.rims = nominal.rims.map(|rims| Rims { speed: f64::INFINITY, ..rims });
         at_once.response = nominal.response.as_planned();
         let mut draft = Draft::default();
         for leg in 0..drive.legs.len() {
@@ -201,6 +202,7 @@ impl Draft {
                         self.note(&plant, [0.0, rate], leg);
                     }
                     plant.turn_rate = 0.0;
+                    plant.steer_at_once(0.0);
                 }
                 _ => {}
             }
@@ -220,7 +222,7 @@ impl Draft {
         leg: usize,
     ) -> Result<(), Lost> {
         let (length, gear) = (segment.length_m(), segment.gear.sign());
-        let first = segment.curvature_at(0.0);
+        let (first, lags) = (segment.curvature_at(0.0), plant.vehicle.response.lags());
         let direction_at = |done: f64| direction.at(driven + done, timing.length());
         let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
         let station = |plant: &Plant, s: f64, done: f64| Station {
@@ -232,11 +234,12 @@ impl Draft {
             leg,
         };
         if !goes_on {
-            // Where the vehicle stands its wheels may swing.
-            plant.steer_at_once(first);
+            // Where the vehicle stands its wheels swing to what comes. At one speed it never stands.
+            if !(timing.is_constant() && lags) {
+                plant.steer_at_once(first);
+            }
             self.sections.push(Section::Way { sign: gear, stations: vec![station(plant, 0.0, 0.0)] });
         }
-        let lags = plant.vehicle.response.lags();
         let parts = (length / SPACING).ceil();
         let step = length / parts / STEPS as f64;
         for part in 0..parts as usize {

@@ -165,9 +165,13 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
-    /// The commanded speed within the vehicle's largest, m/s.
+    /// The commanded speed within the vehicle's largest, m/s; of driven rims what the outer one can on the bend that is
+    /// commanded, |v| (1 + |κ| b/2) ≤ v_wheel: both wheels are slowed alike, so that the bend stays.
     fn bounded_speed(&self, command: &DriveCommand) -> f64 {
-        command.speed.clamp(-self.vehicle.limits.speed, self.vehicle.limits.speed)
+        let limits = &self.vehicle.limits;
+        let bend = command.curvature.abs().min(limits.curvature);
+        let most = self.vehicle.rims.map_or(limits.speed, |rims| limits.speed.min(rims.most_speed(bend)));
+        command.speed.clamp(-most, most)
     }
 
     /// One step by the midpoint rule; the pose at its middle is extrapolated by the suspension's gradient, the one at
@@ -216,10 +220,12 @@ impl<'a> Plant<'a> {
 
     /// Turns the wheels for `h` s towards `curvature`.
     ///
-    /// δ ← δ + clamp((1 − e^(−h/T)) (δ* − δ), ±δ̇_max h), δ* = atan(clamp(κ*, ±κ_max) L): the lag exactly.
+    /// δ ← δ + clamp((1 − e^(−h/T)) (δ* − δ), ±δ̇_max h), δ* = atan(clamp(κ*, ±κ_max) L): the lag exactly. Of driven
+    /// rims κ_max is what the outer one can at the speed that there is.
     fn steer(&mut self, curvature: f64, h: f64) {
         let response = &self.vehicle.response;
         let most = self.vehicle.limits.curvature;
+        let most = self.vehicle.rims.map_or(most, |rims| most.min(rims.curvature(self.speed.abs())));
         let wanted = libm::atan(curvature.clamp(-most, most) * response.steered_axle);
         let lag = response.steering_time_constant;
         let share = if lag > 0.0 { -libm::expm1(-h / lag) } else { 1.0 };

@@ -2,7 +2,7 @@ use nalgebra::Vector3;
 
 use super::command::DriveCommand;
 use super::plant::{Lost, Plant};
-use crate::robot::rover::{Response, Rover, RoverDescription, Slip, Weight, Wheels};
+use crate::robot::rover::{Response, Rims, Rover, RoverDescription, Slip, Suspension, Weight, Wheels};
 use crate::trajectory::drive::Planar;
 use crate::world::terrain::{ElevationMap, Grid, HoleRule};
 
@@ -65,6 +65,27 @@ fn steering_lags_by_its_time_constant_and_rate() {
     // Never beyond what the wheels can.
     plant.advance(&DriveCommand { curvature: 9.0, ..GO }, 60.0).unwrap();
     assert!((plant.curvature() - vehicle.limits.curvature).abs() < 1e-9);
+}
+
+/// Whoever commands more than the wheels can is slowed on the bend, which comes as the speed falls.
+#[test]
+fn the_outer_rim_keeps_its_speed_whatever_is_commanded() {
+    let level = plane(0.0, 0.0);
+    let rims = Rims { track: 0.16, speed: 0.22, acceleration: 2.5 };
+    let mut vehicle = shipped("rocky8");
+    (vehicle.rims, vehicle.suspension, vehicle.response) = (Some(rims), Suspension::Level, Response::default());
+    (vehicle.limits.speed, vehicle.limits.curvature, vehicle.limits.acceleration) = (0.2178, 9.0, 1.0);
+    let mut plant = Plant::new(&vehicle, &level, 0.0, &Planar::default()).unwrap();
+    let rim = |plant: &Plant| plant.speed.abs() * (1.0 + 0.08 * plant.curvature().abs());
+    for (speed, curvature) in [(0.22, 0.0), (0.22, 9.0), (0.22, -9.0), (-0.22, 4.0)] {
+        for _ in 0..200 {
+            plant.advance(&DriveCommand { speed, curvature, ..GO }, 5e-3).unwrap();
+            assert!(rim(&plant) <= 0.22 + 1e-9, "{} m/s at {speed}, {curvature}", rim(&plant));
+        }
+        let wanted = 0.2178_f64.min(0.22 / (1.0 + 0.08 * curvature.abs()));
+        assert!((plant.speed.abs() - wanted).abs() < 1e-6, "{} {wanted}", plant.speed);
+        assert!((plant.curvature() - curvature).abs() < 1e-6, "the bend is driven: {}", plant.curvature());
+    }
 }
 
 /// x = s v (t − T (1 − e^(−t/T))) of a speed that lags by T on a scale s; a circle of the scaled curvature; and a wheel
