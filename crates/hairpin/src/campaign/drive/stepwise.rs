@@ -14,6 +14,7 @@ use nalgebra::Point3;
 
 use super::DriveSetup;
 use super::ask::{Asked, Graph, ask, beside};
+use super::plan::track;
 use super::walking::Walking;
 use crate::campaign::graph::{Counter, Explored, Outcome, Plan, Stage, in_order, learned};
 use crate::campaign::learn::AnyScore;
@@ -257,8 +258,13 @@ impl<'a> Stepwise<'a> {
         let (scenario, points) = (&self.setup.scenario, graph.points);
         let keep = |from: &N, leg: &Leg<N>| self.allows(&points[place(from) as usize], &points[leg.waypoint as usize]);
         let filtered = Filtered { inner: reach, keep };
-        let evidence = self.evidence();
-        let plan = |found: Found<N>| Some(Plan::new(&found, points, evidence));
+        let (evidence, number) = (self.evidence(), graph.graph);
+        // Nothing is claimed of the ground, and without rest on it there is no motion to run or to judge by.
+        let plan = |found: Found<N>| {
+            let plan = Plan::new(&found, points, evidence);
+            let case = plan.clone().case(scenario.seed, number, 0);
+            track(self.setup, &case).is_ok().then_some(plan)
+        };
         let (reach, lookahead) = (&filtered, 1);
         if let Some(score) = learned(&graph.looped, &self.setup.attachments, &self.setup.scenario.generate.search.score)
         {

@@ -36,8 +36,10 @@ pub(in crate::campaign) struct Outcome {
 impl Outcome {
     /// The outcome of graph number `graph`.
     pub(in crate::campaign) fn of(graph: u64, answer: Answer) -> Self {
-        let too_long = answer.plans.is_empty() && answer.refused > 0;
-        let too_long = too_long.then(|| "`max_flight_time_s` is exceeded".to_string());
+        let all_refused = answer.plans.is_empty() && answer.refused > 0;
+        let broken = "what was found breaks a limit of whole trajectories: it takes longer than generate.limits allows, or not all \
+                      of its ground carries it; others of the graph were not looked for";
+        let refused = all_refused.then(|| broken.to_owned());
         Self {
             plans: answer.plans.into_iter().map(|plan| (graph, plan)).collect(),
             graphs: 1,
@@ -51,7 +53,7 @@ impl Outcome {
                 .then(|| Curve::of(graph, &answer.best_so_far))
                 .into_iter()
                 .collect(),
-            reason: answer.reason.or(too_long),
+            reason: answer.reason.or(refused),
             stopped: answer.stopped,
         }
     }
