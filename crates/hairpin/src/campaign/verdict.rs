@@ -261,11 +261,14 @@ fn nothing_measured(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
 ///
 /// "proof" where every graph was proven empty.
 pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str>) -> Verdict {
-    let rests_on = match tally.proven_empty {
-        proven if proven > 0 && proven == tally.graphs => "proof".into(),
-        _ => format!("{} graphs searched", tally.graphs),
-    };
-    let chain = setup.kind().facts().nothing;
+    let is_proven = tally.proven_empty > 0 && tally.proven_empty == tally.graphs;
+    let rests_on = if is_proven { "proof".into() } else { format!("{} graphs searched", tally.graphs) };
+    let mut chain = setup.kind().facts().nothing;
+    if is_proven && !setup.has_programs() {
+        // Others, drawn for more cases, may have one.
+        chain +=
+            &format!(" in {} {} that were drawn", tally.graphs, if tally.graphs == 1 { "graph" } else { "graphs" });
+    }
     let what = match &tally.nothing {
         Some(reason) => format!("{chain}: {reason}"),
         None => chain,
