@@ -12,7 +12,8 @@ CONTROLLERS = Path(__file__).parents[2] / "examples/controllers"
 HAIRPIN = os.environ.get("HAIRPIN_BIN", str(Path(__file__).parents[2] / "target/debug/hairpin"))
 # The Python that has NumPy is the one that runs this.
 PLACES = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
-SETS = ['generate.search={ method = "uniform", waypoints = 60, cases = 4 }', "execute.repeat=2", "execute.baseline=0", "spec.deviation.max_m=50"]
+SETS = ['generate.search={ method = "uniform", waypoints = 60, cases = 4 }', "execute.repeat=2", "execute.baseline=0", "spec.deviation.max_m=50",
+        "execute.control_rate_hz=25"]
 
 
 def stress(out, controller, threads):
@@ -40,7 +41,7 @@ def test_a_callable_does_what_its_file_does(tmp_path):
     space = {"__name__": "pd_many"}
     exec((CONTROLLERS / "pd_many.py").read_text(), space)
     values = {"generate.search": {"method": "uniform", "waypoints": 60, "cases": 4}, "execute.repeat": 2, "execute.baseline": 0,
-              "spec.deviation.max_m": 50}
+              "spec.deviation.max_m": 50, "execute.control_rate_hz": 25}
     found = hairpin.stress("demo-quadrotor", controller=hairpin.vectorised(space["control"]), out=tmp_path / "own", values=values, threads=3)
     assert stress(tmp_path / "file", CONTROLLERS / "pd_many.py", 3)[0] == 0
     assert [case.max_deviation_m for case in found] == deviations(tmp_path / "file")

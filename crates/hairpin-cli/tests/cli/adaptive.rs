@@ -102,8 +102,10 @@ fn rounds_beat_as_many_uniform_draws_in_the_same_graphs() {
 fn rounds_are_the_same_on_any_number_of_threads_and_begin_anew_where_they_were_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let small = ["--set", "generate.search.cases=2", "--set", "generate.search.executions=39"];
-    let with = |out: &str, more: &[&str]| adaptive(here, "stress", out, &[&small, more].concat());
+    let small = ["cases=2", "executions=39", "waypoints=80"].map(|set| format!("generate.search.{set}"));
+    let small = small.each_ref().map(|set| ["--set", set]);
+    let small = small.as_flattened();
+    let with = |out: &str, more: &[&str]| adaptive(here, "stress", out, &[small, more].concat());
     with("two", &["--threads", "2"]);
     with("one", &["--threads", "1"]);
     assert_same(&here.join("one"), &here.join("two"));
@@ -119,9 +121,9 @@ fn rounds_are_the_same_on_any_number_of_threads_and_begin_anew_where_they_were_s
     assert_eq!((told["exit_code"].as_u64(), &told["counts"]["cases"]), (Some(5), &Value::from(0)), "{told}");
     assert!(told["verdict"].as_str().unwrap().starts_with("INCONCLUSIVE 0/2"), "{told}");
     // More than there is time for: no round is told that executed nothing. How many there are is up to the machine.
-    let more = ["generate.search.executions=90000", "generate.search.rounds=3", "generate.search.time_s=1.5"];
+    let more = ["generate.search.executions=90000", "generate.search.rounds=3", "generate.search.time_s=0.6"];
     let more: Vec<&str> = more.iter().flat_map(|set| ["--set", set]).collect();
-    let told = adaptive(here, "generate", "long", &[&small, &more[..]].concat());
+    let told = adaptive(here, "generate", "long", &[small, &more[..]].concat());
     let rounds = told["generation"]["rounds"].as_array().unwrap();
     assert!(!rounds.is_empty() && rounds.iter().all(|round| round["executions"].as_u64().unwrap() > 0), "{told}");
     let executed: u64 = rounds.iter().map(|round| round["executions"].as_u64().unwrap()).sum();

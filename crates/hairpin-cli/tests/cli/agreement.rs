@@ -268,11 +268,11 @@ fn a_fast_car_is_read_back() {
     let sedan = "kind = \"car\"\nname = \"mid-size sedan\"\nwheelbase_m = 2.58\nlength_m = 4.5\nwidth_m = 1.61\nspeed_m_s = 15.0\n\
                  [limits]\nsteering_deg = 61.0\nsteering_rate_deg_s = 22.9\nspeed_m_s = 50.8\nacceleration_m_s2 = 11.5\n";
     fs::write(here.join("sedan.toml"), sedan).unwrap();
-    let scenario = "hairpin = 1\nrobot = \"sedan.toml\"\nseed = 2\n[world]\nterrain = { generator = \"flat\", size_m = 600, cell_m = 1.0 }\n\
+    let scenario = "hairpin = 1\nrobot = \"sedan.toml\"\nseed = 2\n[world]\nterrain = { generator = \"flat\", size_m = 600, cell_m = 4.0 }\n\
                     [task]\nstart = { x_m = 300, y_m = 300, yaw_deg = 0 }\nlength = 5\nleg_m = [40, 120]\n[generate]\nreach = \"witness\"\n\
                     manoeuvres = [\"forward\"]\nheadings = 4\nspeed = { profile = \"trapezoid\" }\n\
                     limits = { speed_m_s = 15, curvature_1_m = 0.15, curvature_rate_1_m2 = 0.05 }\n\
-                    search = { method = \"beam\", score = \"curvature-change\", waypoints = 40, cases = 2 }\n\
+                    search = { method = \"beam\", score = \"curvature-change\", waypoints = 24, cases = 2 }\n\
                     [execute]\ncontroller = \"stanley\"\nrepeat = 1\n[spec]\nlimits = { path_deviation_m = 0.001 }\n";
     fs::write(here.join("fast.toml"), scenario).unwrap();
     assert_eq!(json(here, &["stress", "fast.toml", "--out", "a"])["counts"]["fail"], 2);

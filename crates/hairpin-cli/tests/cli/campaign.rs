@@ -155,7 +155,7 @@ fn waypoints_on_earth_need_the_cages_place() {
 fn a_time_limit_keeps_what_exists() {
     let folder = tempfile::tempdir().unwrap();
     let arguments =
-        ["generate", "demo-quadrotor", "--set", "generate.search.cases=1000000", "--time-limit", "3", "--out", "a"];
+        ["generate", "demo-quadrotor", "--set", "generate.search.cases=1000000", "--time-limit", "1.5", "--out", "a"];
     let object = json(folder.path(), &arguments);
     assert_eq!(object["exit_code"], 0);
     assert!(object["counts"]["cases"].as_u64().unwrap() > 0);

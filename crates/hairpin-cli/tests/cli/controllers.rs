@@ -102,7 +102,7 @@ fn the_default_search_stresses_it() {
     let here = folder.path();
     example("pd.py", here);
     let search = "{ method = \"worst\", waypoints = 80, cases = 2, executions = 40 }";
-    let text = small_hull(search).replace("\"minimum-snap\"", "\"python:pd.py\"");
+    let text = small_hull(search).replace("\"minimum-snap\"", "\"python:pd.py\"\ncontrol_rate_hz = 25.0");
     fs::write(here.join("q.toml"), text).unwrap();
     let told = json(here, &["stress", "q.toml", "--out", "a", "--set", "execute.baseline=8"]);
     let verdict = told["verdict"].as_str().unwrap();
@@ -141,7 +141,8 @@ fn what_goes_wrong_costs_its_own_run() {
         ("os.write(1, b'x' * 100); sys.stdout.write('y' * 3_000_000); raise OSError('flooded')", "OSError: flooded"),
     ] {
         fs::write(here.join("sick.py"), sick(what)).unwrap();
-        fs::write(here.join("q.toml"), scenario("python:sick.py")).unwrap();
+        let text = scenario("python:sick.py").replace("timeout_s", "control_rate_hz = 25.0\ntimeout_s");
+        fs::write(here.join("q.toml"), text).unwrap();
         let (code, out, error) =
             run(here, &["stress", "q.toml", "--out", "a", "--force", "--set", "spec.deviation.max_m=50"]);
         assert_eq!(code, 4, "{what}: {out}{error}");
@@ -304,6 +305,8 @@ fn what_drives_and_what_sails_is_steered_too() {
             "--set",
             "generate.search.method=\"uniform\"",
             "--set",
+            "generate.search.waypoints=16",
+            "--set",
             "execute.repeat=1",
             "--set",
             "task.length=3",
@@ -359,7 +362,7 @@ fn a_search_that_ran_out_of_time_is_executed_all_the_same() {
     let search = "{ method = \"worst\", waypoints = 60, cases = 2, executions = 4000 }";
     let text = small_hull(search).replace("\"minimum-snap\"", "\"python:pd.py\"");
     fs::write(here.join("q.toml"), text).unwrap();
-    let told = json(here, &["stress", "q.toml", "--out", "a", "--time-limit", "4"]);
+    let told = json(here, &["stress", "q.toml", "--out", "a", "--time-limit", "2"]);
     assert!(told["counts"]["cases"].as_u64().unwrap() > 0, "{told}");
     assert_eq!(told["counts"]["executor_failed"], 0, "{told}");
 }

@@ -13,7 +13,16 @@ use serde_json::Value;
 const SLUGGISH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/sluggish.py");
 const IN_LOOP: &str = r#"{ method = "in-loop", waypoints = 120, cases = 3, executions = 24 }"#;
 const ADAPTIVE: &str = r#"{ method = "adaptive", waypoints = 150, cases = 3, executions = 42, rounds = 2 }"#;
-const EXECUTED: &str = r#"{ method = "beam", waypoints = 40, cases = 2, executions = 8 }"#;
+/// As few of each as they can do with.
+const LITTLE: [(&str, &str, &str); 3] = [
+    ("loop", r#"{ method = "in-loop", waypoints = 60, cases = 2, executions = 8 }"#, "high-velocity-90"),
+    (
+        "rounds",
+        r#"{ method = "adaptive", waypoints = 60, cases = 2, executions = 26, rounds = 2 }"#,
+        "high-velocity-90",
+    ),
+    ("grown", r#"{ method = "beam", waypoints = 40, cases = 2, executions = 8 }"#, "executed"),
+];
 
 /// Hull legs under `search`, flown by the sluggish point with `more` of its options.
 fn scenario(search: &str, score: &str, more: &str) -> String {
@@ -39,11 +48,7 @@ fn whatever_flies(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn threads_and_processes_change_nothing_and_what_is_found_flies_again() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    for (name, search, score) in [
-        ("loop", IN_LOOP, "high-velocity-90"),
-        ("rounds", ADAPTIVE, "high-velocity-90"),
-        ("grown", EXECUTED, "executed"),
-    ] {
+    for (name, search, score) in LITTLE {
         fs::write(here.join("q.toml"), scenario(search, score, "")).unwrap();
         let mut first = None;
         for (threads, processes) in [("1", "1"), ("1", "3"), ("2", "1"), ("2", "3")] {

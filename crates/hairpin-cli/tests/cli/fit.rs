@@ -84,6 +84,8 @@ fn a_fit_helps_on_logs_that_it_has_not_seen() {
             "generate.search.method=\"uniform\"",
             "--set",
             "generate.search.cases=1",
+            "--set",
+            "generate.search.waypoints=60",
         ],
     );
     assert_eq!(code, 0, "{errors}");

@@ -65,7 +65,8 @@ fn what_a_user_has_run_himself_runs_again_and_for_nobody_else() {
     let here = folder.path();
     beside(here);
     let limit = ["--set", "spec.deviation.max_m=0.5", "--set", "execute.accept_m=3"];
-    let begun = run(here, &[&SMALL[..], &limit, &["--executor", "python3 beside.py", "--out", "a"]].concat());
+    let few = [&SMALL[..], &["--set", "generate.search.cases=2"]].concat();
+    let begun = run(here, &[&few[..], &limit, &["--executor", "python3 beside.py", "--out", "a"]].concat());
     assert!(begun.0 == 1 && !begun.2.contains("asks to"), "what is typed runs: {begun:?}");
     let all: [&[&str]; 6] = [
         &["replay", "a/repro/0000.json"],
@@ -95,7 +96,7 @@ fn what_a_user_has_run_himself_runs_again_and_for_nobody_else() {
     }
 
     // A choice of its cases is his as well, a copy is not.
-    run(here, &["select", "a", "--cases", "2", "--out", "few"]);
+    run(here, &["select", "a", "--cases", "1", "--out", "few"]);
     assert_eq!(run(here, &["execute", "few"]).0, 0);
     copy(&here.join("a"), &here.join("copy"));
     refused(here, &["execute", "copy"], &["python3 beside.py", "--allow-commands"]);

@@ -9,7 +9,7 @@ const BY_THE_CLOCK: [&str; 8] = ["R-2", "R-5", "R-7", "R-17", "R6", "R8", "R14",
 #[test]
 fn every_requirement_and_test_is_measured_and_those_without_a_clock_are_met() {
     let folder = tempdir().unwrap();
-    let object = json(folder.path(), &["requirements", "rover", "--queries", "60"]);
+    let object = json(folder.path(), &["requirements", "rover", "--queries", "30"]);
     let ids = |table: &str| -> Vec<String> {
         object[table].as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect()
     };

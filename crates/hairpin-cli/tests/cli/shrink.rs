@@ -143,7 +143,7 @@ fn a_program_that_refuses_candidates_does_not_end_the_search() {
     let object = json(here, &[&SMALL[..], &fly, &fast].concat());
     assert_eq!(object["worst"]["status"], "fail", "{object}");
     let case = object["worst"]["case"].as_str().unwrap();
-    let (code, out, error) = run(here, &["shrink", "a", "--case", case, "--budget", "40", "--json"]);
+    let (code, out, error) = run(here, &["shrink", "a", "--case", case, "--budget", "15", "--json"]);
     let shrunk: Value = serde_json::from_str(&out).unwrap();
     let waypoints = shrunk["waypoints"].as_u64().unwrap();
     assert!(code == 0 && (5..8).contains(&waypoints), "{out}{error}");

@@ -48,18 +48,23 @@ fn a_program_that_hangs_is_given_up_and_resumed() {
     let minimal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/executors/minimal_executor.py");
     let good = fs::read_to_string(minimal).unwrap();
     let head = "def fly(mission, speed=2.0, step=0.02):\n";
-    let hangs = good.replace(head, &format!("{head}    import time; time.sleep(600)\n"));
-    let silent = "import time\ntime.sleep(600)\n".to_owned();
-    let asked = ["stress", "demo-quadrotor", "--set", "generate.search.cases=9", "--set", "execute.repeat=1"];
+    let waits = "open('waited', 'a').write('.'); import time; time.sleep(600)\n";
+    let hangs = good.replace(head, &format!("{head}    {waits}"));
+    let silent = waits.to_owned();
+    let waited = || {
+        let marks = fs::read(here.join("waited")).unwrap();
+        fs::remove_file(here.join("waited")).unwrap();
+        marks.len()
+    };
+    let asked = ["stress", "demo-quadrotor", "--set", "generate.search.cases=5", "--set", "execute.repeat=1"];
     let limited = ["--set", "execute.timeout_s=2", "--set", "execute.workers=1", "--executor", "python3 program.py"];
     for (out, text, left) in [("hung", &hangs, 3), ("silent", &silent, 0)] {
         fs::write(here.join("program.py"), text).unwrap();
         let arguments = [&asked[..], &limited, &["--out", out]].concat();
-        let begun = Instant::now();
         let object = json(here, &arguments);
-        // Three times two seconds, and the search; nine times would be more.
-        assert!(begun.elapsed() < Duration::from_secs(16), "{:?}", begun.elapsed());
-        assert_eq!((&object["exit_code"], &object["counts"]["executor_failed"]), (&4.into(), &9.into()), "{object}");
+        assert_eq!((&object["exit_code"], &object["counts"]["executor_failed"]), (&4.into(), &5.into()), "{object}");
+        // On a machine that is busy enough one is given up before it says so.
+        assert!((1..=3).contains(&waited()), "{out}: of five the last two are not waited for");
         fs::write(here.join("program.py"), &good).unwrap();
         let object = json(here, &[&arguments[..], &["--resume"]].concat());
         let code = if left == 0 { 0 } else { 4 };
@@ -75,12 +80,12 @@ fn a_program_that_hangs_is_given_up_and_resumed() {
     // Saved cases are waited for no longer.
     let far = ["--set", "spec.deviation.max_m=0.0001"];
     run(here, &[&asked[..], &far, &["--out", "saved"]].concat());
-    assert!(fs::read_dir(here.join("saved/repro")).unwrap().count() >= 9);
+    assert!(fs::read_dir(here.join("saved/repro")).unwrap().count() >= 5);
     fs::write(here.join("program.py"), &hangs).unwrap();
-    let begun = Instant::now();
-    let arguments = ["execute", "silent", "--repro", "saved/repro", "--set", "execute.timeout_s=1"];
+    let arguments = ["execute", "silent", "--repro", "saved/repro", "--set", "execute.timeout_s=2"];
     assert_eq!(run(here, &arguments).0, 4);
-    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    let waited = waited();
+    assert!((1..=6).contains(&waited), "{waited}: three saved ones, and as many of the campaign at most");
 }
 
 fn is_alive(pid: &str) -> bool {

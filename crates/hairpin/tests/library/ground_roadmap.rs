@@ -405,7 +405,7 @@ fn hulls_of_a_car_are_searched_as_those_of_flyers() {
     let (mut found, mut proven) = (0, 0);
     for seed in 0..6 {
         let at = |i: u64, k: u64| 10.0 * hashed_unit(seed, &[i, k]);
-        let drawn = (0..150).map(|i| Point3::new(at(i, 0), at(i, 1) - 5.0, 0.0));
+        let drawn = (0..100).map(|i| Point3::new(at(i, 0), at(i, 1) - 5.0, 0.0));
         let points: Vec<_> = [Point3::origin()].into_iter().chain(drawn).chain([Point3::new(8.0, 2.0, 0.0)]).collect();
         let start = hull.start(0.0, [0.0, 0.0]);
         let task = Task { start, candidates: &points, reach: &hull };

@@ -245,6 +245,11 @@ proptest! {
         prop_assert!(read(&all, &Options::default()).is_ok());
         let _ = read(&bytes, &Options::default());
     }
+}
+
+proptest! {
+    // Loops that no longer end take their million steps each; two thousand more are read in tests/fuzz.
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
     #[test]
     fn changed_modules_are_read(cuts in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..12)) {

@@ -85,7 +85,7 @@ fn all_methods_find_what_enumeration_finds() {
 
 #[test]
 fn branch_and_bound_agrees_with_dynamic_programming() {
-    for seed in 1000..5000 {
+    for seed in 1000..2500 {
         let (arcs, ends) = question(seed, 14, seed % 2 == 0);
         let (one, other) = (by(Method::Subsets, &arcs, ends), by(Method::Branch, &arcs, ends));
         assert_eq!(essence(&arcs, ends, &one), essence(&arcs, ends, &other), "seed {seed}");
@@ -94,7 +94,7 @@ fn branch_and_bound_agrees_with_dynamic_programming() {
 
 #[test]
 fn no_path_is_heavier_than_the_bound_at_the_root() {
-    for seed in 10_000..13_000 {
+    for seed in 10_000..11_200 {
         let (arcs, ends) = question(seed, 14, seed % 2 == 0);
         let (exact, local) = (by(Method::Subsets, &arcs, ends), by(Method::Local, &arcs, ends));
         assert!(exact.bound <= local.bound, "seed {seed}: {:?} > {:?}", exact.bound, local.bound);

@@ -49,7 +49,7 @@ fn near_tangent(random: &mut Stream, centre: &Place, radius: i128, most: i128) -
 fn proofs_never_contradict_exact_arithmetic() {
     let mut random = stream(named_seed(7, "segments", 0));
     let (mut undecided, mut touching, mut clear) = (0, 0, 0);
-    let total = 50_000;
+    let total = 20_000;
     for case in 0..total {
         let scale = [40, 3000, 1 << 20][case % 3];
         let centre = integers(&mut random, scale);
