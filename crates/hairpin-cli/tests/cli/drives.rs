@@ -101,6 +101,7 @@ fn a_map_is_kept_with_the_campaign_and_a_changed_one_refused() {
     let at = folder.path();
     fs::write(at.join("yard.asc"), map(40, 0.5)).unwrap();
     let scenario = "hairpin = 1\nrobot = \"rocky8\"\nseed = 3\nspec = \"none\"\n[world]\nterrain = { file = \"yard.asc\" }\nframe = \"ned\"\n\
+                    origin = { lat_deg = 0.0, lon_deg = 0.0, alt_amsl_m = 0.0, x_axis_heading_deg = 0.0 }\n\
                     keep_out = [{ name = \"rock\", circle = { center_m = [12.0, 8.0], radius_m = 0.5 } }]\n\
                     [task]\nstart = { x_m = 10.0, y_m = 9.0, yaw_deg = 90 }\nlength = 3\nleg_m = [2, 5]\n\
                     [generate]\nsearch = { waypoints = 16, cases = 1 }\n[execute]\ncontroller = \"stanley\"\n";
@@ -111,6 +112,12 @@ fn a_map_is_kept_with_the_campaign_and_a_changed_one_refused() {
     let resolved = fs::read_to_string(at.join("a/scenario.toml")).unwrap();
     assert!(resolved.contains("x_m = 9.0") && resolved.contains("y_m = 10.0"), "{resolved}");
     assert!(resolved.contains("frame = \"enu\"") && resolved.contains("file = \"terrain.asc\""), "{resolved}");
+    assert!(resolved.contains("x_axis_heading_deg = 90.0"), "{resolved}");
+    // 10 m north and 9 m east where a degree is 110.574 km and 111.319 km.
+    assert_eq!(run(at, &["export", "a", "--to", "geodetic"]).0, 0);
+    let table = fs::read_to_string(at.join("a/export/0000.geodetic.csv")).unwrap();
+    let start: Vec<f64> = table.lines().nth(1).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    assert!((start[0] * 110_574.0 - 10.0).abs() < 1e-3 && (start[1] * 111_319.5 - 9.0).abs() < 1e-3, "{table}");
     // The folder is enough.
     fs::remove_file(at.join("yard.asc")).unwrap();
     assert_eq!(json(at, &["verify", "a"])["failed"], 0);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use hairpin::campaign::scenario::{DriveScenario, Frame, MapUnit, TerrainSection};
+use hairpin::campaign::scenario::{DriveScenario, Frame, KeyPath, MapUnit, TerrainSection};
 use hairpin::campaign::{Attached, Scenario};
 use hairpin::world::terrain::ElevationMap;
 
@@ -79,11 +79,12 @@ pub(super) fn in_own_coordinates(scenario: &mut Scenario) -> bool {
 /// Gives the poses of a file in another frame, or in the map's own coordinates, those of the map as it was read.
 ///
 /// # Errors
-/// What cannot be told to be in the map's own coordinates: draws of places, and an origin on Earth.
+/// What cannot be told to be in the map's own coordinates: draws of places, and an origin on Earth. Draws of poses in
+/// a file that is not in the map's frame.
 pub(super) fn place(scenario: &mut Scenario, own_coordinates: bool) -> Result<(), Wrong> {
     let Some(drive) = scenario.own_mut::<DriveScenario>() else { return Ok(()) };
     if drive.world.frame == Frame::Ned {
-        turn_poses(drive);
+        turn_poses(drive)?;
     }
     if own_coordinates { shift_poses(drive) } else { Ok(()) }
 }
@@ -101,12 +102,7 @@ fn shift_poses(drive: &mut DriveScenario) -> Result<(), Wrong> {
     if drive.world.origin.is_some() {
         return given("world.origin".into(), "the origin on Earth is then");
     }
-    let is_place = |key: &&String| {
-        let place = ["task.start.x_m", "task.start.y_m", "task.end_m"];
-        place.iter().any(|place| key.starts_with(place))
-            || key.starts_with("world.keep_out") && !key.ends_with("radius_m")
-    };
-    if let Some(key) = drive.vary.keys().find(is_place) {
+    if let Some(key) = drawn(drive, &["task.start.x_m", "task.start.y_m", "task.end_m", "world.keep_out"]) {
         return given(format!("vary.\"{key}\""), "places are then drawn");
     }
     let place = |p: &mut [f64; 2]| *p = [p[0] - east, p[1] - north];
@@ -120,8 +116,31 @@ fn shift_poses(drive: &mut DriveScenario) -> Result<(), Wrong> {
     Ok(())
 }
 
+/// A key of `[vary]` that draws one of `places`, a part of it or more than it; the size of a keep-out is no place.
+fn drawn<'a>(drive: &'a DriveScenario, places: &[&str]) -> Option<&'a String> {
+    drive.vary.keys().find(|key| {
+        let path = KeyPath::parse(key);
+        let parts = path.as_ref().map_or(&[][..], KeyPath::segments);
+        let is_of = |place: &&str| parts.iter().zip(place.split('.')).all(|(part, of)| part == of);
+        parts.last().is_some_and(|last| last != "radius_m") && places.iter().any(is_of)
+    })
+}
+
 /// From x north, y east, yaw clockwise from north to x east, y north, yaw counter-clockwise from east.
-fn turn_poses(scenario: &mut DriveScenario) {
+///
+/// What is x afterwards was y, a right angle clockwise of the x that `world.origin` gives the heading of.
+///
+/// # Errors
+/// Draws of poses: they are drawn later, in the frame of the map.
+fn turn_poses(scenario: &mut DriveScenario) -> Result<(), Wrong> {
+    if let Some(key) = drawn(scenario, &["task.start", "task.end_m", "world.keep_out"]) {
+        return Err(Wrong {
+            key: format!("vary.\"{key}\""),
+            value: "given".into(),
+            bound: "left out, or the file's poses in world.frame = \"enu\", in which they are drawn".into(),
+            at: None,
+        });
+    }
     let start = &mut scenario.task.start;
     (start.x_m, start.y_m) = (start.y_m, start.x_m);
     start.yaw_deg = other_yaw(start.yaw_deg.to_radians()).to_degrees();
@@ -132,5 +151,18 @@ fn turn_poses(scenario: &mut DriveScenario) {
         keep_out.circle.iter_mut().for_each(|circle| place(&mut circle.center_m));
         keep_out.polygon.iter_mut().flat_map(|polygon| &mut polygon.points_m).for_each(place);
     }
+    if let Some(origin) = &mut scenario.world.origin {
+        origin.x_axis_heading_deg = beside(origin.x_axis_heading_deg);
+    }
     scenario.world.frame = Frame::Enu;
+    Ok(())
+}
+
+/// A right angle clockwise of a heading, °. One that is none stays, to be refused as it was given.
+fn beside(heading: f64) -> f64 {
+    match heading {
+        0.0..270.0 => heading + 90.0,
+        270.0..=360.0 => heading - 270.0,
+        _ => heading,
+    }
 }

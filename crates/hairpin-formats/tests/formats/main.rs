@@ -4,6 +4,7 @@
 //! what starts and kills itself (`out_atomic`).
 
 mod mars_yard;
+mod ned;
 mod out_agreement;
 mod out_campaign;
 mod out_folder;

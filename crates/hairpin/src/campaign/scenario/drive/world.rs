@@ -13,13 +13,15 @@ use crate::world::terrain::KeepOuts;
 pub struct GroundSection {
     /// The ground.
     pub terrain: TerrainSection,
-    /// Frame of the poses in this file: enu | ned (z down, yaw clockwise from north). Resolved scenarios are in enu.
+    /// Frame of the poses in this file: enu | ned (z down, yaw clockwise from north). Resolved scenarios are in enu,
+    /// their origin's heading with them.
     #[serde(default)]
     pub frame: Frame,
     /// Where nothing may drive.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keep_out: Vec<KeepOutSection>,
-    /// Where on Earth the map's origin lies: used by geodetic exports.
+    /// Where on Earth the map's origin lies: used by geodetic exports. The x axis is that of `frame`: with a map whose
+    /// y is north its heading is 90 in enu and 0 in ned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
 }
