@@ -1,8 +1,10 @@
 //! `repro/CASE.json`: one violating run in one file that can be read, sent and flown again.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::bounds::{FARTHEST_ON_EARTH_M, MOST_TURN_RATE, MOST_WAYPOINTS};
+use hairpin::campaign::report::violation;
 use hairpin::campaign::{Case, CaseResult, Evidence, Scenario, Setup, Witness, vary};
 use hairpin::robot::rover::MOST_SPEED;
 use hairpin::trajectory::Drive;
@@ -97,6 +99,38 @@ pub struct Expected {
     pub ended: String,
 }
 
+impl Expected {
+    /// What was seen of `result`.
+    pub fn of(result: &CaseResult) -> Self {
+        let measures = result.measures.clone().unwrap_or_default();
+        Self {
+            violations: result.violations.iter().map(violation).collect(),
+            max_deviation_m: measures.max_deviation,
+            t_worst_s: measures.t_worst,
+            leg_worst: measures.leg_worst,
+            ended: result.ended.clone(),
+        }
+    }
+
+    /// Whether `now` is the same: how it ended, the kinds of what it violates, the leg of the largest deviation, and
+    /// that deviation and its time to within `most` m and s. The digits of a sentence are not compared: versions print
+    /// them differently.
+    pub fn is_within(&self, most: f64, now: &Self) -> bool {
+        let is_near = |then: f64, now: f64| (then - now).abs() <= most;
+        let kinds = |seen: &Self| seen.violations.iter().map(|told| kind(told)).collect::<BTreeSet<String>>();
+        (&self.ended, self.leg_worst, kinds(self)) == (&now.ended, now.leg_worst, kinds(now))
+            && is_near(self.max_deviation_m, now.max_deviation_m)
+            && is_near(self.t_worst_s, now.t_worst_s)
+    }
+}
+
+/// What a sentence of a violation says is violated: its words before the first number, or before its time.
+fn kind(told: &str) -> String {
+    let told = told.split_once(" at t=").map_or(told, |(before, _)| before);
+    let is_number = |word: &str| word.trim_start_matches(['-', '+']).starts_with(|c: char| c.is_ascii_digit());
+    told.split(' ').take_while(|word| !is_number(word)).collect::<Vec<_>>().join(" ")
+}
+
 /// One leg of the witness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Leg {
@@ -113,20 +147,13 @@ fn scenario_of(setup: &Setup, case: &Case, result: &CaseResult) -> Scenario {
 impl Repro {
     /// The worst run of `result`.
     pub fn of(setup: &Setup, case: &Case, result: &CaseResult) -> Self {
-        let measures = result.measures.clone().unwrap_or_default();
         let leg = |leg: &ProfileLeg| Leg { duration_s: leg.duration, coefficients: leg.coefficients };
         Self {
             hairpin_repro: 1,
             case: case.id(),
             run: result.run,
             seed: case.seed,
-            expected: Expected {
-                violations: result.violations.iter().map(hairpin::campaign::report::violation).collect(),
-                max_deviation_m: measures.max_deviation,
-                t_worst_s: measures.t_worst,
-                leg_worst: measures.leg_worst,
-                ended: result.ended.clone(),
-            },
+            expected: Expected::of(result),
             waypoints_m: case.waypoints.iter().map(|p| p.coords.into()).collect(),
             leg_times_s: case.leg_times.clone(),
             evidence: case.evidence.word().into(),
@@ -241,5 +268,38 @@ impl Repro {
                 .or(program.map(Witness::from)),
             ..Case::bare(number, self.seed, waypoints)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a sentence only what it is about; of the rest all.
+    #[test]
+    fn what_was_seen_is_the_same_where_all_of_it_is() {
+        let seen = Expected {
+            violations: vec!["mean deviation 0.31 m > 0.30 m at t=8.64 s".into(), "left the world at t=9.00 s".into()],
+            max_deviation_m: 1.5,
+            t_worst_s: 8.64,
+            leg_worst: 2,
+            ended: "done".into(),
+        };
+        let same = |now: &Expected| seen.is_within(1e-6, now);
+        let told = vec!["left the world at t=9.0 s".into(), "mean deviation 310 mm > 300 mm at t=8.6 s".into()];
+        assert!(same(&Expected { violations: told, max_deviation_m: 1.500_000_4, ..seen.clone() }));
+        let others = [
+            Expected { violations: Vec::new(), ..seen.clone() },
+            Expected { violations: seen.violations[..1].to_vec(), ..seen.clone() },
+            Expected { violations: vec!["crash at t=9.00 s".into()], ..seen.clone() },
+            Expected { ended: "time".into(), ..seen.clone() },
+            Expected { leg_worst: 3, ..seen.clone() },
+            Expected { max_deviation_m: 1.51, ..seen.clone() },
+            Expected { t_worst_s: 8.65, ..seen.clone() },
+        ];
+        for other in others {
+            assert!(!same(&other), "{other:?}");
+        }
+        assert_eq!(kind("met an obstacle: clearance -0.10 m at t=1.00 s"), "met an obstacle: clearance");
     }
 }

@@ -14,6 +14,11 @@ pub(crate) fn replay_command(place: &Path, case: Option<&str>) -> String {
     of_case("replay", place, case)
 }
 
+/// `hairpin report OUT`, which writes the page of the judgement that is in the folder.
+pub fn report_command(folder: &Path) -> String {
+    format!("hairpin report {}", quoted(folder))
+}
+
 /// What to do next about the judged campaign `work`, a line for each thing.
 pub fn next_commands(work: &Work, results: &[CaseResult]) -> Vec<String> {
     let (setup, folder) = (&work.setup, work.folder.path());
@@ -30,7 +35,7 @@ pub fn next_commands(work: &Work, results: &[CaseResult]) -> Vec<String> {
         }
     }
     if work.folder.file("report.html").is_file() {
-        commands.push(format!("hairpin report {} --open", quoted(folder)));
+        commands.push(format!("{} --open", report_command(folder)));
     }
     if worst.is_some() {
         let to = if setup.has_programs() { "rapid" } else { "csv,mcap" };

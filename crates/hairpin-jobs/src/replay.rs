@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Status};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
-use hairpin_formats::repro::Repro;
-use hairpin_formats::scenario;
+use hairpin_formats::repro::{Expected, Repro};
+use hairpin_formats::scenario::{self, check_asked};
 
 use crate::consent::{Consent, Wish};
 use crate::execute::fly_told;
@@ -16,7 +16,8 @@ use crate::work::open_to_read;
 use crate::{Problem, Watch};
 
 /// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
-const SAME_M: f64 = 1e-6;
+/// In m and s.
+const SAME: f64 = 1e-6;
 
 /// A saved violation beside what it comes to now.
 #[derive(Debug)]
@@ -25,7 +26,7 @@ pub struct ReplayedRepro {
     pub repro: Repro,
     /// What it comes to.
     pub result: CaseResult,
-    /// Whether it deviates as it did.
+    /// Whether it violates, ends and deviates as it did.
     pub same: bool,
     /// That another program flew it now than before, by what they say of themselves: a sentence.
     pub another: Option<String>,
@@ -46,12 +47,13 @@ impl ReplayedRepro {
 /// Flies the run of the repro file `file` again, by the kernels `simd`.
 ///
 /// # Errors
-/// A file that is none, or asks to run what its user has not allowed; recordings, which cannot be made again; it was
-/// asked to stop.
+/// A file that is none, that limits nothing, or that asks to run what its user has not allowed; recordings, which cannot
+/// be made again; it was asked to stop.
 pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
     let mut repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
     let setup = Setup::new(resolved).map_err(|mistake| Problem::of_file(file, format!("scenario.{mistake}")))?;
+    check_asked(&setup.scenario, file)?;
     let setup = setup.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| Problem::of_file(file, why))?;
     let folder = campaign_of(file);
@@ -76,6 +78,7 @@ pub fn replay_case(
     watch: &dyn Watch,
 ) -> Result<ReplayedRepro, Problem> {
     let work = open_to_read(folder)?;
+    check_asked(&work.setup.scenario, &work.folder.file("scenario.toml"))?;
     let refuse = |why: &str| Problem::input(format!("--case {case}: {why}"));
     let mut found = work.folder.read_cases_without_profiles()?.into_iter().find(|one| one.number == case);
     let found = found.as_mut().ok_or_else(|| refuse("the campaign has no such case"))?;
@@ -108,8 +111,7 @@ fn fly(
         result.status = Status::Inconclusive;
         result.message = Some("it broke a fence of its mission, which its campaign's folder keeps".into());
     }
-    let deviation = result.measures.as_ref().map(|measures| measures.max_deviation);
-    let same = deviation.is_some_and(|deviation| (deviation - repro.expected.max_deviation_m).abs() <= SAME_M);
+    let same = result.measures.is_some() && repro.expected.is_within(SAME, &Expected::of(&result));
     Ok(ReplayedRepro { repro, result, same, another })
 }
 
@@ -143,6 +145,25 @@ mod tests {
         let same = by_case(0).unwrap();
         assert!(same.reproduces() && same.result == again.result, "{same:?}");
         assert!(by_case(7).unwrap_err().to_string().contains("no such case"));
+        // What the file expects is what is compared, and one that limits nothing expects nothing.
+        let saved = Repro::read(&file).unwrap();
+        let edited = |change: &dyn Fn(&mut Expected)| {
+            let mut repro = saved.clone();
+            change(&mut repro.expected);
+            let place = folder.join("repro/edited.json");
+            repro.write(&place).unwrap();
+            replay(&place, Simd::Widest, &Consent::default(), &Unwatched).unwrap()
+        };
+        assert!(edited(&|_| ()).reproduces());
+        assert!(!edited(&|expected| expected.violations.clear()).reproduces());
+        assert!(!edited(&|expected| expected.ended = "time".into()).reproduces());
+        assert!(!edited(&|expected| expected.leg_worst += 1).reproduces());
+        let mut without: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+        without["scenario"].as_object_mut().unwrap().remove("spec").unwrap();
+        let unlimited = folder.join("repro/unlimited.json");
+        std::fs::write(&unlimited, without.to_string()).unwrap();
+        let refused = replay(&unlimited, Simd::Widest, &Consent::default(), &Unwatched).unwrap_err().to_string();
+        assert!(refused.contains("unlimited.json") && refused.contains("spec.deviation.max_m"), "{refused}");
         let other = std::fs::read_to_string(&file).unwrap().replacen("\"hairpin_repro\": 1", "\"hairpin_repro\": 2", 1);
         std::fs::write(&file, other).unwrap();
         let refused = replay(&file, Simd::Portable, &Consent::default(), &Unwatched).unwrap_err();

@@ -34,6 +34,8 @@ pub struct Answer<'a> {
     pub spent: Option<&'a Spent>,
     /// Where JUnit was asked for as well.
     pub junit: Option<&'a Path>,
+    /// Whether `report.html` was written of this judgement: one that is there otherwise is of an earlier one.
+    pub reported: bool,
 }
 
 impl Answer<'_> {
@@ -86,7 +88,7 @@ impl Answer<'_> {
             "scenario": file("scenario.toml"),
             "results": file("results.parquet"),
             "junit": file("junit.xml"),
-            "report": file("report.html"),
+            "report": if self.reported { file("report.html") } else { Value::Null },
         });
         // Only searches that execute have one.
         if let curve @ Value::String(_) = file("best-so-far.tsv") {

@@ -99,6 +99,7 @@ pub(crate) fn run_merge(asked: &Merge, watch: &dyn Watch) -> Result<u8, Problem>
             replayed: &[],
             spent: None,
             junit: None,
+            reported: true,
         };
         let judged = judged.object();
         let object = json!({

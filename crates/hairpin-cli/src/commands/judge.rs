@@ -20,7 +20,7 @@ pub(crate) fn run(asked: &Judge, watch: &dyn Watch) -> Result<u8, Problem> {
     told.iter().for_each(|line| console::warn(&format!("Warning: {line}")));
     junit::keep(asked.junit.path(), work)?;
     let (verdict, junit) = (&judgement.verdict, asked.junit.path());
-    let answer = Answer { work, cases, tally, judgement, verdict, replayed: &[], spent: None, junit };
+    let answer = Answer { work, cases, tally, judgement, verdict, replayed: &[], spent: None, junit, reported: false };
     Ok(answer.say(asked.json))
 }
 

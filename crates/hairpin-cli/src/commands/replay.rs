@@ -31,6 +31,9 @@ pub(crate) fn run(asked: &Replay, watch: &dyn Watch) -> Result<u8, Problem> {
     };
     let (code, sentence) = match result.status {
         Status::Fail if replayed.same => (FINDING, format!("FAIL 1/1: reproduces: {}", again.join("; "))),
+        Status::Fail if replayed.was_fine() => {
+            (FINDING, format!("FAIL 1/1: violates now: {} (was: {was})", again.join("; ")))
+        }
         Status::Fail => {
             (FINDING, format!("FAIL 1/1: violates again, but not equally: {} (was: {was})", again.join("; ")))
         }

@@ -29,5 +29,5 @@ pub(crate) fn run(asked: &Stress, watch: &dyn Watch) -> Result<u8, Problem> {
 /// Says what came of a whole campaign, and gives the exit code.
 pub(super) fn say(stressed: &Stressed, junit: Option<&Path>, json: bool) -> u8 {
     let Stressed { work, cases, tally, judgement, verdict, replayed, spent } = stressed;
-    Answer { work, cases, tally, judgement, verdict, replayed, spent: spent.as_ref(), junit }.say(json)
+    Answer { work, cases, tally, judgement, verdict, replayed, spent: spent.as_ref(), junit, reported: true }.say(json)
 }

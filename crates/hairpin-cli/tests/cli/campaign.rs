@@ -33,6 +33,22 @@ fn the_verdict_is_a_line_and_the_exit_code() {
     assert_eq!(run(folder.path(), &[&strict[..], &["--force"]].concat()).0, 1);
 }
 
+/// The page of one verdict is not pointed at beside another.
+#[test]
+fn a_report_of_an_earlier_judgement_is_told_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let (_, _, error) = run(here, &[&SMALL[..], &["--set", "spec.deviation.max_m=20", "--out", "a"]].concat());
+    assert!(error.contains("report: a/report.html"), "{error}");
+    let strict = ["judge", "a", "--set", "spec.deviation.max_m=0.01"];
+    let (code, _, error) = run(here, &strict);
+    let told = "a/report.html is of an earlier judgement: hairpin report a writes it anew";
+    assert!(code == 1 && error.contains(told) && !error.contains("report: "), "{error}");
+    assert_eq!(json(here, &strict)["paths"]["report"], Value::Null);
+    run(here, &["report", "a"]);
+    assert!(fs::read_to_string(here.join("a/report.html")).unwrap().contains("FAIL 4/4"));
+}
+
 #[test]
 fn a_violation_can_be_flown_again() {
     let folder = tempfile::tempdir().unwrap();

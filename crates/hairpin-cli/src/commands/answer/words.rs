@@ -2,7 +2,7 @@
 
 use hairpin::campaign::digits::number;
 use hairpin::campaign::report::{cells_in, columns_in, length, worst_first};
-use hairpin_jobs::next::next_commands;
+use hairpin_jobs::next::{next_commands, report_command};
 use hairpin_jobs::report::worst_in_full;
 
 use super::super::course::course;
@@ -75,8 +75,15 @@ impl Answer<'_> {
         }
         point_to_explain(self.work, self.judgement.verdict.exit_code);
         let report = self.work.folder.path().join("report.html");
-        if report.is_file() {
-            console::warn(&format!("report: {}", report.display()));
+        match (report.is_file(), self.reported) {
+            (true, true) => console::warn(&format!("report: {}", report.display())),
+            // To write one takes longer than to judge, and may execute runs again.
+            (true, false) => console::warn(&format!(
+                "{} is of an earlier judgement: {} writes it anew",
+                report.display(),
+                report_command(self.work.folder.path())
+            )),
+            (false, _) => {}
         }
         for command in next_commands(self.work, &self.judgement.results) {
             console::warn(&format!("next: {command}"));
