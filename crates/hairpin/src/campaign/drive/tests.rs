@@ -284,6 +284,25 @@ fn keys_without_meaning_for_its_ground_are_refused() {
     setup(car(), &[("world.terrain.relief_m", json!(0))]);
 }
 
+/// Exports would write places past the poles, wrapped.
+#[test]
+fn origins_lie_on_earth() {
+    let origin = json!({ "lat_deg": 47.0, "lon_deg": 8.0, "alt_amsl_m": 400.0, "x_axis_heading_deg": 90.0 });
+    let key = |part: &str| format!("world.origin.{part}");
+    for vehicle in [car(), two_wheels()] {
+        setup(vehicle.clone(), &[("world.origin", origin.clone())]);
+        for (part, value, bound) in [
+            ("lat_deg", -122.3, "≥ -90 and ≤ 90°"),
+            ("lon_deg", 375.0, "≥ -180 and ≤ 180°"),
+            ("alt_amsl_m", 1e9, "≥ -1000 and ≤ 20000 m"),
+            ("x_axis_heading_deg", 730.0, "≥ 0 and ≤ 360°"),
+        ] {
+            let told = wrong(vehicle.clone(), &[("world.origin", origin.clone()), (key(part).as_str(), json!(value))]);
+            assert_eq!(told, [(key(part), bound.to_owned())]);
+        }
+    }
+}
+
 /// A plan in reverse is told as that; one that goes forward, driven with the nose behind, as what was not planned.
 #[test]
 fn what_goes_backwards_is_told() {
