@@ -306,6 +306,25 @@ fn keys_without_meaning_for_its_ground_are_refused() {
     setup(car(), &[("world.terrain.relief_m", json!(0))]);
 }
 
+/// Exports would write places past the poles, wrapped.
+#[test]
+fn origins_lie_on_earth() {
+    let origin = json!({ "lat_deg": 47.0, "lon_deg": 8.0, "alt_amsl_m": 400.0, "x_axis_heading_deg": 90.0 });
+    let key = |part: &str| format!("world.origin.{part}");
+    for vehicle in [car(), two_wheels()] {
+        setup(vehicle.clone(), &[("world.origin", origin.clone())]);
+        for (part, value, bound) in [
+            ("lat_deg", -122.3, "≥ -90 and ≤ 90°"),
+            ("lon_deg", 375.0, "≥ -180 and ≤ 180°"),
+            ("alt_amsl_m", 1e9, "≥ -1000 and ≤ 20000 m"),
+            ("x_axis_heading_deg", 730.0, "≥ 0 and ≤ 360°"),
+        ] {
+            let told = wrong(vehicle.clone(), &[("world.origin", origin.clone()), (key(part).as_str(), json!(value))]);
+            assert_eq!(told, [(key(part), bound.to_owned())]);
+        }
+    }
+}
+
 /// A plan in reverse is told as that; one that goes forward, driven with the nose behind, as what was not planned.
 #[test]
 fn what_goes_backwards_is_told() {
@@ -466,6 +485,45 @@ fn what_no_run_reads_is_not_drawn() {
         assert!(found.iter().any(|told| told.contains(key) && told.contains(why)), "{key}: {found:?}");
     }
     assert!(mistakes("robot.slip_at_20_deg", json!([0.1, 0.3])).is_empty());
+}
+
+/// Runs were the same whatever was drawn, and counted as draws.
+#[test]
+fn what_of_cars_and_plains_no_run_reads_is_not_drawn() {
+    let mistakes = |changes: &[(&str, Value)]| {
+        let mut scenario = car();
+        for (key, value) in changes {
+            KeyPath::parse(key).unwrap().put(&mut scenario, value.clone()).unwrap();
+        }
+        let scenario: Scenario = serde_json::from_value(scenario).unwrap();
+        let found = Setup::build(scenario.into()).err().unwrap_or_default();
+        found.into_iter().map(|mistake| mistake.to_string()).collect::<Vec<_>>().join("; ")
+    };
+    let drawn = |key: &str, ends: [f64; 2]| ("vary", json!({ key: { "uniform": ends } }));
+    let open = || ("world.keep_out", json!([]));
+    let late = || ("execute.latency_s", json!(0.1));
+    let own = || ("execute.controller", json!("python:mine.py"));
+    let hills = || ("world.terrain", json!({ "generator": "fractal", "size_m": 40, "cell_m": 0.25, "seed": 3 }));
+    for (changes, why) in [
+        (vec![drawn("robot.speed_m_s", [1.0, 1.5])], "plans command it"),
+        (vec![drawn("robot.speed_m_s", [1.0, 1.5]), own()], "plans command it"),
+        (vec![drawn("world.terrain.seed", [1.0, 9.0])], "flat ground is the same"),
+        (vec![drawn("world.terrain.size_m", [40.0, 50.0])], "flat ground is the same"),
+        (vec![drawn("robot.length_m", [0.5, 0.6]), open()], "there are none"),
+        (vec![drawn("robot.response.latency_s", [0.0, 0.1]), late()], "execute.latency_s takes its place"),
+        (vec![("vary", json!({ "world.keep_out[0].name": { "choice": ["a", "b"] } }))], "it is a word"),
+    ] {
+        let found = mistakes(&changes);
+        assert!(found.contains(why), "{changes:?}: {found}");
+    }
+    for changes in [
+        vec![drawn("robot.length_m", [0.5, 0.6])],
+        vec![drawn("robot.response.latency_s", [0.0, 0.1])],
+        vec![drawn("robot.limits.acceleration_m_s2", [2.0, 9.0])],
+        vec![drawn("world.terrain.seed", [1.0, 9.0]), hills()],
+    ] {
+        assert_eq!(mistakes(&changes), "", "{changes:?}");
+    }
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn check_score(keys: &DriveScenario, files: &Attachments, found: &mut Findings) 
 /// No plane of the Earth has coordinates beyond, m.
 const MOST_OFFSET: f64 = 1e8;
 
-/// A file or a generator; the generator's keys only with one.
+/// A file or a generator; the generator's keys only with one; an origin that is on Earth.
 ///
 /// Whether its file can be read, or what the generator makes of its numbers, is not asked here.
 fn check_ground(world: &GroundSection, found: &mut Findings) {
@@ -145,6 +145,9 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
     }
     for (axis, part) in terrain.offset_m.iter().flatten().enumerate() {
         found.from(&format!("world.terrain.offset_m[{axis}]"), *part, -MOST_OFFSET, MOST_OFFSET, " m");
+    }
+    if let Some(origin) = &world.origin {
+        found.origin(origin);
     }
 }
 
