@@ -102,7 +102,7 @@ fn is_air(key: &str) -> bool {
 }
 
 /// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs; a
-/// controller of the user's knows the nominal ones, and flies ours.
+/// controller of the user's is told numbers of the robot, and these are none of them.
 pub(super) fn check_varied(keys: &FlightScenario, robot: Option<&Quadrotor>, found: &mut Findings) {
     if keys.execute.command.is_none() {
         found.drawn_for_nobody(&keys.vary, |path| unread(path, keys, robot));
