@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{GraphAgain, graph_of};
-use hairpin::campaign::{self, Case, CaseNumber, Evidence, PlannedRows, Setup, Tally};
+use hairpin::campaign::{self, Case, CaseNumber, PlannedRows, Setup, Tally};
 use hairpin::verification::Finding;
 use rayon::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Case, Evidence};
+use hairpin::campaign::Case;
 use hairpin::math::rotation::between;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::{atomic, csv, geodetic, missions, tum, waypoints};
