@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::arm::{GraphAgain, graph_of};
-use hairpin::campaign::{self, Case, CaseNumber, Evidence, PlannedRows};
+use hairpin::campaign::{self, Case, CaseNumber, Evidence, PlannedRows, Setup, Tally};
 use hairpin::verification::Finding;
 use rayon::prelude::*;
 
@@ -67,11 +67,14 @@ impl Answer {
 /// Verifies every case of the campaign in `folder`.
 ///
 /// # Errors
-/// The folder is no campaign's, or broken; a broken witness is a finding.
+/// The folder is no campaign's, or its scenario, cases or tally are broken; a broken witness is a finding.
 pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let work = open_to_read(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
-    let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case)).collect();
+    // A folder's cases are missions, or were searched for; without a tally a search has not yet come to one.
+    let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
+    let hold = if tally.missions.is_empty() { campaign::verify } else { campaign::verify_mission };
+    let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case, hold)).collect();
     let optimum = work.setup.own::<ArmSetup>().and_then(|arm| optimum::verify(&work, arm, &cases));
     let graph = work
         .setup
@@ -130,7 +133,8 @@ impl Verified {
     }
 }
 
-fn check(work: &Work, case: &Case) -> Answer {
+/// `hold` proves a case against the scenario.
+fn check(work: &Work, case: &Case, hold: fn(&Setup, &Case) -> campaign::Verified) -> Answer {
     let finding = |what: String| Answer::Checked {
         case: case.number,
         witness: true,
@@ -147,7 +151,7 @@ fn check(work: &Work, case: &Case) -> Answer {
     if case.environment.is_none() && !witness && !claims {
         return Answer::NothingClaimed;
     }
-    let verified = campaign::verify(&work.setup, &case);
+    let verified = hold(&work.setup, &case);
     match verified.proof {
         Some(proof) if witness || !claims => {
             let mut findings: Vec<String> = proof.findings.iter().map(words).collect();
@@ -221,6 +225,28 @@ mod tests {
         assert_eq!((broken.checked(), broken.failed().count(), broken.witnesses()), (2, 2, [2, 0]));
         assert_eq!(broken.worst(), broken.failed().next());
         assert_eq!(broken.planned(), [0, 0], "rows are held to what holds");
+    }
+
+    /// The task in the folder's scenario is changed: who was searched for by another is none of it.
+    #[test]
+    fn what_was_searched_for_is_held_to_the_task_and_missions_are_not() {
+        let (_place, folder) = generated();
+        let file = folder.join("scenario.toml");
+        let text = std::fs::read_to_string(&file).unwrap();
+        let length = text.lines().find(|line| line.starts_with("length = ")).unwrap();
+        std::fs::write(&file, text.replace(length, "length = 4")).unwrap();
+        let searched = verify(&folder).unwrap();
+        assert_eq!(searched.failed().count(), 2);
+        let told = |answer: &Answer| matches!(answer, Answer::Checked { findings, .. } if findings[0].starts_with("task.length = "));
+        assert!(searched.failed().all(told), "{searched:?}");
+        let missions = vec!["a".into(), "b".into()];
+        let kept = CampaignFolder::open_to_write(&folder).unwrap();
+        kept.write_tally(&Tally { missions, ..kept.read_tally().unwrap() }).unwrap();
+        drop(kept);
+        let given = verify(&folder).unwrap();
+        assert_eq!((given.witnesses(), given.has_findings()), ([2, 2], false), "{given:?}");
+        std::fs::remove_file(folder.join("generation.json")).unwrap();
+        assert_eq!(verify(&folder).unwrap().failed().count(), 2, "what no tally says was given was searched for");
     }
 
     fn made(place: &TempDir, scenario: &str, sets: &[(&str, &str)]) -> PathBuf {

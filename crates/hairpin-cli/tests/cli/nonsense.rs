@@ -78,7 +78,7 @@ fn campaign_folders_with_a_broken_file() {
     let resume = [&SMALL[..], &["--out", "a", "--set", "spec.deviation.max_m=0.01", "--resume"]].concat();
     let reads: [(&str, &[&[&str]]); 7] = [
         ("scenario.toml", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
-        ("generation.json", &[&resume, &["judge", "a"], &["report", "a"]]),
+        ("generation.json", &[&resume, &["judge", "a"], &["verify", "a"], &["report", "a"]]),
         ("results.parquet", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
         ("waypoints.parquet", &[&resume, &["execute", "a"], &["judge", "a"], &["verify", "a"], &["report", "a"]]),
         ("runs/part-00000.parquet", &[&["judge", "a"], &["report", "a"], &["export", "a", "--to", "csv"]]),

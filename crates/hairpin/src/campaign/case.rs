@@ -182,7 +182,8 @@ pub struct Case {
     /// Planned duration of each leg, s.
     /// One fewer than waypoints; empty where nothing is timed.
     pub leg_times: Vec<f64>,
-    /// What the search saw of each leg; empty for missions made elsewhere and for arms.
+    /// What the search saw of each leg; empty for missions made elsewhere, for arms, and where a search that executes
+    /// moved waypoints or made the case of others.
     pub seen: Vec<SeenLeg>,
     /// Score under the scenario's objective; of `in-loop` the stress that was executed.
     /// No unit for scores by hand; the unit of the stress where it was executed. 0 of missions made elsewhere, of

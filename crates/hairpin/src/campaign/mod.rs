@@ -121,4 +121,4 @@ pub use user_controller::UserController;
 pub use user_score::LegScorer;
 pub use user_target::RunMeter;
 pub use verdict::{how_obtained, verdict, verdict_on};
-pub use verify::{verify, verify_planned};
+pub use verify::{verify, verify_mission, verify_planned};

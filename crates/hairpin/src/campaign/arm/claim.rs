@@ -3,7 +3,7 @@
 use super::solver::ArmSolver;
 use super::{ArmSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Solver};
+use crate::campaign::kind::{Claim, Knobs, Made, PlanError, Replanner, Solver};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
 use crate::verification::{EndError, Proof, RowTolerances};
@@ -35,7 +35,8 @@ impl Claim for ArmSetup {
         Vec::new()
     }
 
-    fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
+    /// An arm's task is a cloud: a program is held to the waypoints of its case.
+    fn verify(&self, case: &Case, _: &Scenario, _: Made) -> (Option<Proof>, Option<EndError>) {
         let mut proof = verify::verify(self, case);
         if case.environment.is_some() {
             proof.get_or_insert_default();

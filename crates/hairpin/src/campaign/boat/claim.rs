@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::solve::BoatSolver;
 use super::{BoatSetup, knobs, losses, passes, plan, through, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, PlannedRows, Replanner, Same, Solver};
+use crate::campaign::kind::{Claim, Knobs, Made, PlanError, PlannedRows, Replanner, Same, Solver};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
@@ -40,8 +40,8 @@ impl Claim for BoatSetup {
         plan::headings(case)
     }
 
-    fn verify(&self, case: &Case, _: &Scenario) -> (Option<Proof>, Option<EndError>) {
-        verify::verify(self, case)
+    fn verify(&self, case: &Case, _: &Scenario, made: Made) -> (Option<Proof>, Option<EndError>) {
+        verify::verify(self, case, made)
     }
 
     fn verify_planned(&self, case: &Case, kept: &PlannedRows) -> Vec<Finding> {

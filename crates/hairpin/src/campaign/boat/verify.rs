@@ -2,7 +2,7 @@
 
 use super::BoatSetup;
 use crate::campaign::Case;
-use crate::campaign::kind::{PlannedRows, Task, flat_places, verify_task};
+use crate::campaign::kind::{Made, PlannedRows, Task, flat_places, verify_task};
 use crate::robot::boat::Boat;
 use crate::trajectory::Profile;
 use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, boat_with_lag, verify_boat, verify_boat_rows};
@@ -17,8 +17,14 @@ const ACCURACY: f64 = 1e-8;
 /// An environment is found by no search of boats: that it acts, or is clear, is not known.
 ///
 /// Limits are those of the setup that is asked: the share of thrust, the top speed, the waters less their margin.
-pub(super) fn verify(setup: &BoatSetup, case: &Case) -> (Option<Proof>, Option<EndError>) {
+///
+/// What was searched for begins, ends and is as long as the task has it.
+pub(super) fn verify(setup: &BoatSetup, case: &Case, made: Made) -> (Option<Proof>, Option<EndError>) {
     let (mut proof, with_lag) = witness(setup, case).unzip();
+    if let Some(proof) = proof.as_mut().filter(|_| made == Made::Searched) {
+        let task = &setup.scenario.task;
+        verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, proof);
+    }
     if case.environment.is_some() {
         let findings = &mut proof.get_or_insert_default().findings;
         Collector::about(findings, "environment").unless(false, "given", 1.0, 0.0, "");
@@ -57,8 +63,6 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
     let hull = hull_of(&setup.boat, generate.limits.thrust_share.unwrap_or(1.0));
     let tolerances = Tolerances { accuracy: ACCURACY, ..Tolerances::default() };
     let mut proof = verify_boat(&hull, &claim, &tolerances);
-    let task = &setup.scenario.task;
-    verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);
     // What others read of the case are its leg times, and its path lies in the plane.
     for (number, leg) in legs.iter().enumerate() {
         let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::solve::DriveSolver;
 use super::{DriveSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, Replanner, Same, Solver};
+use crate::campaign::kind::{Claim, Knobs, Made, PlanError, Replanner, Same, Solver};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::DriveScenario;
 use crate::campaign::{Case, Scenario, Timed};
@@ -45,8 +45,8 @@ impl Claim for DriveSetup {
         plan::headings(self, case)
     }
 
-    fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
-        let mut proof = verify::verify(self, case);
+    fn verify(&self, case: &Case, drawn: &Scenario, made: Made) -> (Option<Proof>, Option<EndError>) {
+        let mut proof = verify::verify(self, case, made);
         if case.environment.is_some() {
             let asked = drawn.own::<DriveScenario>().and_then(|drawn| drawn.generate.environment);
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::DriveSetup;
 use super::site::{drive_piece, ground_vehicle, wheel_rims};
 use super::solve::allowed;
-use crate::campaign::kind::{Task, flat_places, verify_task};
+use crate::campaign::kind::{Made, Task, flat_places, verify_task};
 use crate::campaign::scenario::{DriveEnvironmentSection, DriveTask};
 use crate::campaign::{Case, Environment};
 use crate::feasibility::reach::drive::{Manoeuvres, Pace};
@@ -29,7 +29,7 @@ use crate::world::terrain::Terrain;
 /// The limits are those of the setup that is asked, not of the case: what was planned under wider ones fails, of speed
 /// and rate of turns, gears and turns in place, tilt and joints, and of the world's keep-outs, from which the vehicle's
 /// radius is kept to within `generate.solver.position_m`. With a constant pace accelerations are not bounded.
-pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
+pub(super) fn verify(setup: &DriveSetup, case: &Case, made: Made) -> Option<Proof> {
     let drive = case.commands()?;
     let legs = leg_claims(case, drive);
     let waypoints = waypoints_of(case);
@@ -57,7 +57,7 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
         },
         rims: setup.rover.rims.as_ref().map(wheel_rims),
-        most_speed: most_speed(setup, case),
+        most_speed: most_speed(setup, made),
         most_turn_rate: setup.turn_rate(),
         manoeuvres: manoeuvres(setup),
         // The motion that is held clear is known to what a leg's end is.
@@ -65,17 +65,18 @@ pub(super) fn verify(setup: &DriveSetup, case: &Case) -> Option<Proof> {
     };
     let mut proof = verify_drives(&ground_vehicle(&setup.planner), setup.map.as_ref(), &claim, &tolerances);
     check_heights(setup, case, &mut proof);
-    check_task(setup, case, drive, &mut proof);
+    if made == Made::Searched {
+        check_task(setup, case, drive, &mut proof);
+    }
     Some(proof)
 }
 
 /// The highest speed that may be commanded, m/s.
 ///
-/// Searches command one speed; missions made elsewhere, of whose legs no search saw anything, may ask for up to the
-/// limit where none is given.
-fn most_speed(setup: &DriveSetup, case: &Case) -> f64 {
+/// Searches command one speed; missions made elsewhere may ask for up to the limit where none is given.
+fn most_speed(setup: &DriveSetup, made: Made) -> f64 {
     match setup.scenario.generate.limits.speed_m_s {
-        None if case.seen.is_empty() => setup.rover.limits.speed,
+        None if made == Made::Elsewhere => setup.rover.limits.speed,
         _ => setup.speed(),
     }
 }
@@ -92,7 +93,7 @@ fn check_task(setup: &DriveSetup, case: &Case, drive: &Drive, proof: &mut Proof)
     let DriveTask { start, end_m, length, .. } = &setup.scenario.task;
     let end = end_m.as_ref().map(|end| &end[..]);
     verify_task(&Task { start: &[start.x_m, start.y_m], end, length: *length }, case, proof);
-    let Some(first) = drive.legs.first().filter(|_| !case.seen.is_empty()) else { return };
+    let Some(first) = drive.legs.first() else { return };
     let yaw = libm::remainder(first.from.yaw - start.yaw_deg.to_radians(), TAU);
     let mut found = Collector::about(&mut proof.findings, "task");
     found.above("start.yaw", yaw.abs(), 1e-9, "rad");

@@ -7,7 +7,7 @@ use super::fly::own_curve;
 use super::solve::FlightSolver;
 use super::{FlightSetup, knobs, losses, passes, plan, replan, verify};
 use crate::campaign::graph::Losses;
-use crate::campaign::kind::{Claim, Knobs, PlanError, PlannedRows, Replanner, Same, Solver};
+use crate::campaign::kind::{Claim, Knobs, Made, PlanError, PlannedRows, Replanner, Same, Solver};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::scenario::FlightScenario;
 use crate::campaign::{Case, Scenario, Timed};
@@ -55,8 +55,8 @@ impl Claim for FlightSetup {
         vec![0.0; case.waypoints.len()]
     }
 
-    fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>) {
-        let (mut proof, with_lag) = verify::verify(self, case).unzip();
+    fn verify(&self, case: &Case, drawn: &Scenario, made: Made) -> (Option<Proof>, Option<EndError>) {
+        let (mut proof, with_lag) = verify::verify(self, case, made).unzip();
         if case.environment.is_some() {
             let asked = drawn.own::<FlightScenario>().and_then(|drawn| drawn.generate.environment);
             proof.get_or_insert_default().findings.extend(verify::verify_environment(self, asked, case));

@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::campaign::Case;
-use crate::campaign::kind::{PlannedRows, Task, verify_task};
+use crate::campaign::kind::{Made, PlannedRows, Task, verify_task};
 use crate::campaign::scenario::EnvironmentSection;
 use crate::feasibility::Limits;
 use crate::robot::quadrotor::Quadrotor;
@@ -26,7 +26,9 @@ use crate::world::{Shape, Solid};
 /// The tolerances are 0.1 mm, 0.1 mm/s and 0.001° a leg; they are the room's own defaults.
 ///
 /// Limits and world are those of the setup that is asked, not of the case: what was planned under wider ones fails.
-pub(super) fn verify(setup: &FlightSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
+///
+/// What was searched for begins, ends and is as long as the task has it.
+pub(super) fn verify(setup: &FlightSetup, case: &Case, made: Made) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let body = body_of(&setup.robot);
     let waypoints: Vec<[f64; 3]> = case.waypoints.iter().map(|p| [p.x, p.y, p.z]).collect();
@@ -35,8 +37,10 @@ pub(super) fn verify(setup: &FlightSetup, case: &Case) -> Option<(Proof, Option<
     let mut proof = verification::verify(&body, &claim, &Tolerances::default());
     proof.findings.extend(verify_flight_limits(&body, &legs, &limits(setup)));
     proof.findings.extend(outside(setup, &legs));
-    let task = &setup.scenario.task;
-    verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);
+    if made == Made::Searched {
+        let task = &setup.scenario.task;
+        verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);
+    }
     Some((proof, verification::open_loop_with_lag(&body, &claim)))
 }
 

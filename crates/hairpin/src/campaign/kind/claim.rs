@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::{Knobs, PlannedRows, Same};
+use super::{Knobs, Made, PlannedRows, Same};
 use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
@@ -110,8 +110,8 @@ pub(in crate::campaign) trait Claim {
     /// the scenario that the case was searched with. What is found of the two is one proof.
     ///
     /// `None` where nothing is claimed. The environment's numbers (wind, gusts, obstacles) are held to the bounds
-    /// that `drawn` gave the search.
-    fn verify(&self, case: &Case, drawn: &Scenario) -> (Option<Proof>, Option<EndError>);
+    /// that `drawn` gave the search; what was [`Made::Searched`] to the task.
+    fn verify(&self, case: &Case, drawn: &Scenario, made: Made) -> (Option<Proof>, Option<EndError>);
 
     /// Holds the rows of its planned motion that are kept to the witness of `case`, which itself holds: to the
     /// polynomials by independent code, where a witness is polynomials, or else to the motion that the witness is
