@@ -2,6 +2,7 @@
 
 use super::BoatSetup;
 use super::keys::{ACROSS_CURRENT, BoatExecute, BoatGenerate, BoatScenario, WatersSection};
+use super::varied::check_varied;
 use crate::campaign::attachments::Attachments;
 use crate::campaign::bounds::{LARGEST_WATERS_M, LONGEST_PASSAGE_S, LONGEST_TRIP_S, MOST_WAYPOINTS};
 use crate::campaign::check::{Findings, check_executed, check_places_within, check_search, check_spec};
@@ -46,6 +47,7 @@ impl Build for BoatSetup {
         check_score(keys, files, &mut found);
         check_execute(&keys.execute, boat.as_deref(), &mut found);
         check_spec(&keys.spec, LONGEST_TRIP_S, &mut found);
+        check_varied(keys, keys.robot.resolved().ok(), &mut found);
         match (boat, keep_out) {
             (Some(boat), Some(keep_out)) if found.0.is_empty() => Ok(Self::of(given, boat, keep_out)),
             _ => Err(found.0),

@@ -35,6 +35,7 @@ mod steered;
 #[cfg(test)]
 mod tests;
 mod through;
+mod varied;
 mod verify;
 
 pub use keys::BoatScenario;

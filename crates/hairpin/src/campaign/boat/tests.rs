@@ -96,6 +96,32 @@ fn cases_are_proven_sailed_and_judged_and_what_is_tampered_with_is_found() {
     }
 }
 
+/// Runs were the same whatever was drawn, and counted as draws.
+#[test]
+fn what_no_run_reads_is_not_drawn() {
+    let mistakes = |key: &str, ends: [f64; 2], changes: &[(&str, Value)]| {
+        let drawn = ("vary", json!({ key: { "uniform": ends } }));
+        changed(&[&[drawn][..], changes].concat()).err().unwrap_or_default().join("; ")
+    };
+    let (open, tracked) = (("world.keep_out", json!([])), ("execute.controller", json!("tracking")));
+    let round = ("robot.radius_m", json!(0.7));
+    for (key, ends, changes, why) in [
+        ("world.keep_in_margin_m", [0.5, 1.0], vec![], "a key that runs read: plans keep the margin"),
+        ("robot.speed_m_s", [0.1, 0.3], vec![], "a key that runs read: who steers knows the nominal boat's"),
+        ("robot.radius_m", [0.6, 0.7], vec![open], "there are none"),
+        ("robot.length_m", [1.2, 1.3], vec![round], "a radius of its own"),
+        ("execute.speed_m_s", [0.1, 0.3], vec![tracked], "`tracking` has no use for it"),
+    ] {
+        let found = mistakes(key, ends, &changes);
+        assert!(found.contains(why), "{key}: {found}");
+    }
+    for (key, ends) in
+        [("robot.radius_m", [0.6, 0.7]), ("robot.mass_kg", [23.0, 24.0]), ("execute.speed_m_s", [0.1, 0.3])]
+    {
+        assert_eq!(mistakes(key, ends, &[]), "", "{key}");
+    }
+}
+
 /// A boat that stops amid a mission does not turn there in no time, whichever way the water flows.
 #[test]
 fn a_stop_leaves_the_bow_where_it_is() {

@@ -43,9 +43,12 @@ const FIXED: &[(&str, &str)] = &[
     ("world.frame", "it is the frame of the whole file"),
     ("world.terrain.file", "one map is read for all cases"),
     ("world.terrain.checksum", "one map is read for all cases"),
+    ("world.terrain.epsg", "it is where all cases lie on Earth"),
 ];
 /// Those of which nothing may that is within them.
-const FIXED_WITHIN: [&str; 3] = ["vary", "world.origin", "execute.flaky"];
+const FIXED_WITHIN: [&str; 4] = ["vary", "world.origin", "execute.flaky", "robot.estimated"];
+/// What anything is called, wherever it stands.
+const NAME: &str = "name";
 /// Each is tried before anything flies.
 const MOST_CHOICES: usize = 1000;
 /// Smallest share of draws that a truncation may keep.
@@ -107,7 +110,9 @@ fn check_entry(
     let is_within = |fixed: &str| {
         FIXED_WITHIN.contains(&fixed) && whole_key.strip_prefix(fixed).is_some_and(|rest| rest.starts_with(['.', '[']))
     };
-    if let Some((_, why)) = FIXED.iter().find(|(fixed, _)| *fixed == whole_key || is_within(fixed)) {
+    let fixed = FIXED.iter().find(|(fixed, _)| *fixed == whole_key || is_within(fixed)).map(|(_, why)| *why);
+    let is_name = path.segments().last().is_some_and(|last| last == NAME);
+    if let Some(why) = fixed.or(is_name.then_some("it is a word, which no run reads")) {
         return refuse(
             format!("\"{key}\""),
             format!("a key that may differ between cases or runs; this one may not: {why}"),

@@ -465,6 +465,45 @@ fn what_no_run_reads_is_not_drawn() {
     assert!(mistakes("robot.slip_at_20_deg", json!([0.1, 0.3])).is_empty());
 }
 
+/// Runs were the same whatever was drawn, and counted as draws.
+#[test]
+fn what_of_cars_and_plains_no_run_reads_is_not_drawn() {
+    let mistakes = |changes: &[(&str, Value)]| {
+        let mut scenario = car();
+        for (key, value) in changes {
+            KeyPath::parse(key).unwrap().put(&mut scenario, value.clone()).unwrap();
+        }
+        let scenario: Scenario = serde_json::from_value(scenario).unwrap();
+        let found = Setup::build(scenario.into()).err().unwrap_or_default();
+        found.into_iter().map(|mistake| mistake.to_string()).collect::<Vec<_>>().join("; ")
+    };
+    let drawn = |key: &str, ends: [f64; 2]| ("vary", json!({ key: { "uniform": ends } }));
+    let open = || ("world.keep_out", json!([]));
+    let late = || ("execute.latency_s", json!(0.1));
+    let own = || ("execute.controller", json!("python:mine.py"));
+    let hills = || ("world.terrain", json!({ "generator": "fractal", "size_m": 40, "cell_m": 0.25, "seed": 3 }));
+    for (changes, why) in [
+        (vec![drawn("robot.speed_m_s", [1.0, 1.5])], "plans command it"),
+        (vec![drawn("robot.speed_m_s", [1.0, 1.5]), own()], "plans command it"),
+        (vec![drawn("world.terrain.seed", [1.0, 9.0])], "flat ground is the same"),
+        (vec![drawn("world.terrain.size_m", [40.0, 50.0])], "flat ground is the same"),
+        (vec![drawn("robot.length_m", [0.5, 0.6]), open()], "there are none"),
+        (vec![drawn("robot.response.latency_s", [0.0, 0.1]), late()], "execute.latency_s takes its place"),
+        (vec![("vary", json!({ "world.keep_out[0].name": { "choice": ["a", "b"] } }))], "it is a word"),
+    ] {
+        let found = mistakes(&changes);
+        assert!(found.contains(why), "{changes:?}: {found}");
+    }
+    for changes in [
+        vec![drawn("robot.length_m", [0.5, 0.6])],
+        vec![drawn("robot.response.latency_s", [0.0, 0.1])],
+        vec![drawn("robot.limits.acceleration_m_s2", [2.0, 9.0])],
+        vec![drawn("world.terrain.seed", [1.0, 9.0]), hills()],
+    ] {
+        assert_eq!(mistakes(&changes), "", "{changes:?}");
+    }
+}
+
 #[test]
 fn what_is_kept_is_confirmed_under_what_varies() {
     let stress = |changes: &[(&str, Value)]| {

@@ -101,9 +101,10 @@ fn is_air(key: &str) -> bool {
     ["world.wind_m_s", "world.gusts", "world.discrete_gust"].iter().any(|air| key.starts_with(air))
 }
 
-/// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs.
+/// Keys of `[vary]` that no run reads. A program of the user's is handed robot and world, and may read any of theirs; a
+/// controller of the user's is told numbers of the robot, and these are none of them.
 pub(super) fn check_varied(keys: &FlightScenario, robot: Option<&Quadrotor>, found: &mut Findings) {
-    if keys.execute.controller_in_force().is_some() {
+    if keys.execute.command.is_none() {
         found.drawn_for_nobody(&keys.vary, |path| unread(path, keys, robot));
     }
 }

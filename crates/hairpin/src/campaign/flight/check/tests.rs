@@ -209,6 +209,9 @@ fn vary_is_tried_before_anything_flies() {
         let found = mistakes(&[("vary", Value::Object(entry))]);
         assert!(found.iter().any(|m| m.contains(words)), "{key} = {distribution}: {found:?} should say {words:?}");
     }
+    let margin = ("vary", json!({ "world.keep_in_margin_m": { "uniform": [1, 2] } }));
+    let found = mistakes(&[margin, ("execute.controller", json!("python:mine.py"))]);
+    assert!(found.iter().any(|m| m.contains("plans keep the margin")), "it is not told to who steers: {found:?}");
     let fine = json!({ "world.wind_m_s": { "uniform": [[-3, -3, 0], [3, 3, 0]] },
         "robot.mass_kg": { "normal": [1, 0.1], "min": 0.8 }, "world.obstacles.0.box.size_m[2]": { "choice": [4, 8] },
         "generate.limits.max_speed_m_s": { "uniform": [5, 8] } });
