@@ -5,7 +5,8 @@
 //! The leg's ends stand in each of its rows, and its speeds: `profile` (constant, ramp, trapezoid) with
 //! `start_speed_m_s`, `cruise_speed_m_s`, `end_speed_m_s`, `acceleration_m_s2`, NaN where a profile has none; and the
 //! direction of travel in the body there, `travel_direction_rad` and `travel_direction_end_rad`. The highest speed and
-//! the turn rate stand in every row.
+//! the turn rate stand in every row. Rows that differ in what is their leg's are refused: who reads another row than we
+//! do would have another drive.
 
 use std::io;
 use std::path::Path;
@@ -14,8 +15,9 @@ use std::sync::Arc;
 use arrow_array::{Float64Array, Int64Array, StringArray};
 use hairpin::campaign::CaseNumber;
 use hairpin::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment};
-use hairpin::trajectory::{Direction, Drive, DriveLeg, SpeedProfile};
+use hairpin::trajectory::{Drive, DriveLeg};
 
+use super::drive_legs::{OfLegs, SPEEDS, profile_word};
 use super::piece::Piece;
 use super::table::{CASE, Columns, Table, TableError};
 
@@ -75,51 +77,6 @@ pub fn piece(case: CaseNumber, drive: &Drive) -> io::Result<Piece> {
     Piece::of(columns)
 }
 
-/// A number of a leg's speeds.
-type Of = fn(&SpeedProfile) -> f64;
-/// The columns of a leg's speeds.
-const SPEEDS: [(&str, Of); 4] = [
-    ("start_speed_m_s", SpeedProfile::start),
-    ("cruise_speed_m_s", SpeedProfile::top),
-    ("end_speed_m_s", SpeedProfile::end),
-    ("acceleration_m_s2", |profile| match profile {
-        SpeedProfile::Trapezoid { acceleration, .. } => *acceleration,
-        SpeedProfile::Constant { .. } | SpeedProfile::Ramp { .. } => f64::NAN,
-    }),
-];
-const CONSTANT: &str = "constant";
-const RAMP: &str = "ramp";
-const TRAPEZOID: &str = "trapezoid";
-
-fn profile_word(profile: &SpeedProfile) -> &'static str {
-    match profile {
-        SpeedProfile::Constant { .. } => CONSTANT,
-        SpeedProfile::Ramp { .. } => RAMP,
-        SpeedProfile::Trapezoid { .. } => TRAPEZOID,
-    }
-}
-
-/// The speeds of each row's leg.
-fn read_speeds(table: &Table) -> Result<Vec<SpeedProfile>, TableError> {
-    let words = table.texts("profile")?;
-    let [starts, cruises, ends] = [0, 1, 2].map(|i| table.numbers(SPEEDS[i].0));
-    let (starts, cruises, ends) = (starts?, cruises?, ends?);
-    let accelerations = table.optional_numbers(SPEEDS[3].0)?;
-    let profile = |row: usize| {
-        let (start, cruise, end) = (starts[row], cruises[row], ends[row]);
-        let profile = match words[row].as_str() {
-            CONSTANT => SpeedProfile::Constant { speed: cruise },
-            RAMP => SpeedProfile::Ramp { start, end },
-            TRAPEZOID => {
-                SpeedProfile::Trapezoid { start, cruise, end, acceleration: accelerations[row].unwrap_or(f64::NAN) }
-            }
-            other => return Err(table.refuse("profile", row, format!("`{other}`"), "constant, ramp or trapezoid")),
-        };
-        profile.checked().map_err(|error| table.refuse("profile", row, error, "speeds that make a profile"))
-    };
-    (0..table.rows()).map(profile).collect()
-}
-
 /// Whether a witness is a drive's: it has segments.
 pub(crate) fn is_drive(table: &Table) -> bool {
     table.has("segment")
@@ -128,7 +85,8 @@ pub(crate) fn is_drive(table: &Table) -> bool {
 /// Reads a drive, its rows in any order.
 ///
 /// # Errors
-/// Missing columns, values out of bounds, a leg or segment that is missing or twice there.
+/// Missing columns, values out of bounds, a leg or segment that is missing or twice there, rows of one leg that differ in
+/// what is the leg's.
 pub fn read(path: &Path) -> Result<Drive, TableError> {
     from_table(&Table::read(path)?)
 }
@@ -138,18 +96,8 @@ pub(crate) fn from_table(table: &Table) -> Result<Drive, TableError> {
     let (kinds, directions) = (table.texts("kind")?, table.numbers("direction")?);
     let (lengths, turns) = (table.numbers("length_m")?, table.numbers("turn_rad")?);
     let polynomial = (0..6).map(|i| table.numbers(&format!("a{i}"))).collect::<Result<Vec<_>, _>>()?;
-    let end = |end: &str| -> Result<Vec<Planar>, TableError> {
-        let [x, y, yaw, curvature] = ["x_m", "y_m", "yaw_rad", "curvature_1_m"].map(|name| format!("{end}_{name}"));
-        let (x, y) = (table.numbers(&x)?, table.numbers(&y)?);
-        let (yaw, curvature) = (table.numbers(&yaw)?, table.numbers(&curvature)?);
-        Ok((0..table.rows()).map(|i| Planar { x: x[i], y: y[i], yaw: yaw[i], curvature: curvature[i] }).collect())
-    };
-    let (from, to) = (end("from")?, end("to")?);
     let (speeds, turn_rates) = (table.numbers("speed_m_s")?, table.numbers("turn_rate_rad_s")?);
-    // Folders of before directions could turn have the first alone.
-    let (travel, travel_end) =
-        (table.numbers("travel_direction_rad")?, table.numbers_or_none("travel_direction_end_rad")?);
-    let profiles = read_speeds(table)?;
+    let of_legs = OfLegs::read(table)?;
     if table.rows() == 0 {
         return Err(table.refuse("leg", 0, "missing", "one row for each segment"));
     }
@@ -161,11 +109,11 @@ pub(crate) fn from_table(table: &Table) -> Result<Drive, TableError> {
             return Err(table.refuse(name, row, values[row], "> 0, and the same in every row"));
         }
     }
+    let mut first = order[0];
     for row in order {
         if segments[row] == 0 {
-            let direction = Direction { start: travel[row], end: travel_end[row].unwrap_or(travel[row]) };
-            let (from, to, speed) = (from[row], to[row], profiles[row]);
-            drive.legs.push(DriveLeg { from, to, segments: Vec::new(), speed, direction });
+            first = row;
+            drive.legs.push(of_legs.leg(row));
         }
         let number = drive.legs.len();
         let Some(leg) =
@@ -174,6 +122,7 @@ pub(crate) fn from_table(table: &Table) -> Result<Drive, TableError> {
             let found = format!("{} (segment {})", legs[row], segments[row]);
             return Err(table.refuse("leg", row, found, "legs from 0 on, each with segments from 0 on, each once"));
         };
+        of_legs.check(table, row, first)?;
         let gear = match directions[row] {
             1.0 => Gear::Forward,
             -1.0 => Gear::Reverse,
@@ -197,6 +146,11 @@ pub(crate) fn from_table(table: &Table) -> Result<Drive, TableError> {
 
 #[cfg(test)]
 mod tests {
+    use arrow_array::ArrayRef;
+    use arrow_array::cast::AsArray;
+    use arrow_array::types::Float64Type;
+    use hairpin::trajectory::{Direction, SpeedProfile};
+
     use super::*;
     use crate::parquet::part_writer::write_one;
 
@@ -253,5 +207,60 @@ mod tests {
         broken.legs[0].speed = SpeedProfile::Ramp { start: 0.0, end: 0.0 };
         write(&path, &broken).unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("profile"));
+    }
+
+    /// Three segments of one leg: its own numbers stand in each of the rows, and another reader may take them from any.
+    #[test]
+    fn rows_that_differ_in_what_is_their_legs_are_refused() {
+        let at = |x: f64| Planar { x, y: 0.0, yaw: 0.0, curvature: 0.0 };
+        let straight = Segment { motion: Motion::Arc { length_m: 1.0, curvature: [0.0; 6] }, gear: Gear::Forward };
+        let speed = SpeedProfile::Trapezoid { start: 0.0, cruise: 0.5, end: 0.0, acceleration: 1.0 };
+        let direction = Direction { start: 0.0, end: 0.0 };
+        let leg = DriveLeg { from: at(0.0), to: at(3.0), segments: vec![straight; 3], speed, direction };
+        let drive = Drive { legs: vec![leg], speed: 0.5, turn_rate: 0.1 };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("0000.parquet");
+        let of_leg = [
+            ("from_yaw_rad", 0.01, "0, as in the leg's first row"),
+            ("to_x_m", 2.0, "3, as in the leg's first row"),
+            ("travel_direction_rad", 0.1, "0, as in the leg's first row"),
+            ("travel_direction_end_rad", 0.1, "0, as in the leg's first row"),
+            ("cruise_speed_m_s", 0.4, "0.5, as in the leg's first row"),
+            ("end_speed_m_s", 0.1, "0, as in the leg's first row"),
+            ("acceleration_m_s2", 2.0, "1, as in the leg's first row"),
+        ];
+        for (column, value, bound) in of_leg {
+            write_changed(&path, &drive, column, value);
+            let told = read(&path).unwrap_err().to_string();
+            let place = [path.to_str().unwrap(), column, "row 2", &value.to_string(), bound];
+            assert!(place.iter().all(|part| told.contains(part)), "{column}: {told}");
+        }
+        let mut steady = drive;
+        steady.legs[0].speed = SpeedProfile::Constant { speed: 0.5 };
+        write_changed(&path, &steady, "start_speed_m_s", 0.2);
+        let told = read(&path).unwrap_err().to_string();
+        assert!(
+            told.contains("start_speed_m_s") && told.contains("0.5, as the leg's profile, constant, has it"),
+            "{told}"
+        );
+    }
+
+    /// `drive` with `value` in the last row of `column`.
+    fn write_changed(path: &Path, drive: &Drive, column: &str, value: f64) {
+        write_one(path, "drive", piece(CaseNumber(0), drive).unwrap()).unwrap();
+        let batch = Table::read(path).unwrap().batch;
+        let mut columns = Columns::default();
+        for (field, array) in batch.schema().fields().iter().zip(batch.columns()) {
+            let array: ArrayRef = match field.name() == column {
+                true => {
+                    let mut numbers = array.as_primitive::<Float64Type>().values().to_vec();
+                    *numbers.last_mut().unwrap() = value;
+                    Arc::new(Float64Array::from(numbers))
+                }
+                false => array.clone(),
+            };
+            columns.push(field.name(), array);
+        }
+        columns.write(path, "drive").unwrap();
     }
 }

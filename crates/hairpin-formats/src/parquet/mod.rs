@@ -5,6 +5,7 @@ pub mod cases;
 mod compressed;
 pub mod drawn;
 pub mod drive;
+mod drive_legs;
 mod groups;
 mod guard;
 mod measures;
