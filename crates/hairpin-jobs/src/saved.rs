@@ -124,17 +124,16 @@ impl Saved {
         let repro = Repro::read(file).map_err(Problem::input)?;
         let refuse = |why: String| Problem::of_file(file, why);
         let case = repro.case().map_err(refuse)?;
+        // What is left out needs none of its files.
+        if repro.scenario.clone().adopt(&*now.scenario).is_none() {
+            return Ok(Self { file: file.into(), repro, case, setup: None });
+        }
         let mut saved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;
-        let setup = if saved.scenario.adopt(&*now.scenario).is_some() {
-            let Attachments { user_controller, baseline, .. } = &*now.attachments;
-            (saved.attachments.user_controller, saved.attachments.baseline) =
-                (user_controller.clone(), baseline.clone());
-            let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
-            Some(setup.with_simd(now.simd))
-        } else {
-            None
-        };
-        Ok(Self { file: file.into(), repro, case, setup })
+        let adopted = saved.scenario.adopt(&*now.scenario);
+        let Attachments { user_controller, baseline, .. } = &*now.attachments;
+        (saved.attachments.user_controller, saved.attachments.baseline) = (user_controller.clone(), baseline.clone());
+        let setup = Setup::new(saved).map_err(|mistake| refuse(format!("scenario.{mistake}")))?;
+        Ok(Self { file: file.into(), repro, case, setup: adopted.map(|()| setup.with_simd(now.simd)) })
     }
 
     fn replay(&self, watch: &dyn Watch) -> Result<Option<Replayed>, Problem> {

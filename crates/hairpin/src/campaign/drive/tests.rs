@@ -465,6 +465,16 @@ fn what_no_run_reads_is_not_drawn() {
     assert!(mistakes("robot.slip_at_20_deg", json!([0.1, 0.3])).is_empty());
 }
 
+/// What was saved of a car is nothing that another kind of vehicle could be asked to drive.
+#[test]
+fn vehicles_take_over_scenarios_of_their_own_kind_alone() {
+    let all: Vec<Scenario> = [car(), two_wheels(), rover()].map(|value| serde_json::from_value(value).unwrap()).into();
+    for (own, saved) in all.iter().enumerate() {
+        let takes = |now: &Scenario| saved.clone().adopt(&**now).is_some();
+        assert_eq!(all.iter().map(takes).collect::<Vec<_>>(), [0, 1, 2].map(|other| own == other), "{own}");
+    }
+}
+
 /// Runs were the same whatever was drawn, and counted as draws.
 #[test]
 fn what_of_cars_and_plains_no_run_reads_is_not_drawn() {

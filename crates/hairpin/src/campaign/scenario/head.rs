@@ -122,7 +122,7 @@ pub trait Keys: Any {
     fn set_noisy(&mut self);
 
     /// Takes over who executes and what is within spec from a scenario of its kind; noise and force, which no
-    /// controller chooses, stay. `None`: it is of another kind.
+    /// controller chooses, stay. `None`, and nothing is taken over: it is of another kind.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()>;
 
     /// Puts what was searched beside the waypoints into the world, and leaves nothing to be searched for there.

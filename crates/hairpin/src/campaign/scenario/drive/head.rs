@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{DriveExecute, DriveScenario, GroundReach};
+use super::{DriveExecute, DriveScenario, GroundDescription, GroundReach};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Steering,
@@ -88,9 +88,14 @@ impl Keys for DriveScenario {
         &mut self.vary
     }
 
-    /// Noise and the steady force stay the scenario's own. `None` for a scenario of another kind.
+    /// Noise and the steady force stay the scenario's own. `None` for a scenario of another kind: rovers, cars and
+    /// differential drives share their keys, and none drives what was planned for another.
     fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
         let now: &Self = (now as &dyn Any).downcast_ref()?;
+        let [own, other] = [&self.robot, &now.robot].map(|robot| robot.resolved().ok().map(GroundDescription::kind));
+        if own != other {
+            return None;
+        }
         let (noise, force) = (self.execute.noise, self.execute.external_force_n);
         (self.robot, self.execute, self.spec) = (now.robot.clone(), now.execute.clone(), now.spec.clone());
         (self.execute.noise, self.execute.external_force_n) = (noise, force);

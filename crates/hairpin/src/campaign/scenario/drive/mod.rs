@@ -75,6 +75,15 @@ impl GroundDescription {
     /// Words of `kind`.
     pub const KINDS: &'static [&'static str] = &["rover", "car", "differential-drive"];
 
+    /// Its word of `kind`.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Rover(_) => Self::KINDS[0],
+            Self::Car(_) => Self::KINDS[1],
+            Self::DifferentialDrive(_) => Self::KINDS[2],
+        }
+    }
+
     /// The robot's name.
     pub fn name(&self) -> &str {
         match self {
