@@ -169,7 +169,7 @@ fn rerun_words(results: &[CaseResult], confidence: f64, the_same: Option<&str>) 
 
 /// `simulated, anafi stand-in, minimum-snap`, or `executor my simulator`; of logs `hardware, irb120, nightly/*.csv`.
 ///
-/// Two or three words: how, what robot, who steered.
+/// Two or three words: how, what robot, who steered; of controllers that `[vary]` draws all.
 pub fn how_obtained(setup: &Setup) -> Vec<String> {
     if let Some(logs) = setup.recordings() {
         // What was recorded was no stand-in, only what it is held against is computed with one.
@@ -178,11 +178,11 @@ pub fn how_obtained(setup: &Setup) -> Vec<String> {
     }
     let name = setup.robot_name();
     let stand_in = if setup.caveat().is_empty() { name.to_owned() } else { format!("{name} stand-in") };
-    let who = match (setup.program(), setup.controller()) {
+    let who = match (setup.program(), setup.controllers()) {
         (Some(program), None) => format!("executor {program}"),
         (_, Some(controller)) => match setup.loops() {
             Some(loops) => format!("{controller} on {loops}"),
-            None => controller.into(),
+            None => controller,
         },
         (None, None) => "no controller".into(),
     };

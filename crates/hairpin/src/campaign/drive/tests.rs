@@ -12,7 +12,7 @@ use crate::campaign::graph::Plan;
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::trial::{Sought, Trials};
-use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, verify};
+use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, how_obtained, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
 use crate::trajectory::drive::{Gear, Motion};
@@ -463,6 +463,19 @@ fn what_no_run_reads_is_not_drawn() {
         assert!(found.iter().any(|told| told.contains(key) && told.contains(why)), "{key}: {found:?}");
     }
     assert!(mistakes("robot.slip_at_20_deg", json!([0.1, 0.3])).is_empty());
+}
+
+/// No run of the worst cases may have had the scenario's own.
+#[test]
+fn controllers_that_are_drawn_are_told() {
+    let told = |choice: Value, repeat: u64| {
+        let drawn = ("vary", json!({ "execute.controller": { "choice": choice } }));
+        how_obtained(&setup(car(), &[drawn, ("execute.repeat", json!(repeat))]))[2].clone()
+    };
+    assert_eq!(told(json!(["stanley", "pure-pursuit"]), 4), "stanley or pure-pursuit, as drawn");
+    assert_eq!(told(json!(["pure-pursuit"]), 2), "stanley or pure-pursuit, as drawn");
+    assert_eq!(told(json!(["stanley"]), 4), "stanley", "there is no other");
+    assert_eq!(told(json!(["pure-pursuit"]), 1), "stanley", "run 0 is nominal");
 }
 
 /// What was saved of a car is nothing that another kind of vehicle could be asked to drive.

@@ -103,7 +103,7 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     let setup = pieces.setup;
     let scenario = &setup.scenario;
     let caveat = if setup.caveat().is_empty() { String::new() } else { format!(" ({})", setup.caveat()) };
-    let executor = match (setup.controller(), setup.program()) {
+    let executor = match (setup.controllers(), setup.program()) {
         (Some(controller), _) => format!("{controller}, simulated"),
         (None, Some(program)) => program,
         (None, None) => setup.recordings().map_or("none".into(), |logs| format!("logs `{logs}`, hardware")),

@@ -1,5 +1,7 @@
 //! Who steers: a controller of ours, one of the caller's, or the one that the scenario names.
 
+use serde_json::Value;
+
 use super::Setup;
 use crate::campaign::own_controller::AnyController;
 use crate::campaign::scenario::{COMMAND, CONTROLLER_KEY, Mistake, PYTHON};
@@ -69,5 +71,21 @@ impl Setup {
     /// The word of the controller that executes, the caller's or ours; `None` where a command does.
     pub fn controller(&self) -> Option<&str> {
         self.own_controller().map(AnyController::name).or(self.scenario.controller())
+    }
+
+    /// The same with what `[vary]` draws in its place, as runs are told: run 0 is the scenario's own, and others need
+    /// not be.
+    ///
+    /// `stanley or pure-pursuit, as drawn`.
+    pub(in crate::campaign) fn controllers(&self) -> Option<String> {
+        let nominal = self.controller()?;
+        let drawn = self.scenario.vary().get(CONTROLLER_KEY).filter(|_| self.scenario.executor().repeat > 1);
+        let mut words = vec![nominal];
+        for word in drawn.into_iter().flat_map(|drawn| drawn.choice.iter().flatten()).filter_map(Value::as_str) {
+            if !words.contains(&word) {
+                words.push(word);
+            }
+        }
+        Some(if words.len() > 1 { format!("{}, as drawn", words.join(" or ")) } else { nominal.into() })
     }
 }
