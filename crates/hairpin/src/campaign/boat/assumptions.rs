@@ -20,9 +20,20 @@ pub(super) fn claim(setup: &BoatSetup, said: &mut Vec<String>) {
         "The current, ({east}, {north}) m/s, is steady, the same everywhere, and known to the plan. At waypoints the bow points \
          into the boat's motion through the water."
     ));
+    let (margin, radius) = (setup.scenario.world.keep_in_margin_m, setup.boat.radius);
+    let over = if reaches_over(setup) { ", so that it may reach over them" } else { "" };
+    said.push(format!(
+        "The middle of the hull's disc, {radius:.3} m in radius, keeps {margin} m from the edges of the waters{over}; all of it keeps out of \
+         what is to be kept out of."
+    ));
     if let Some(share) = setup.scenario.generate.limits.thrust_share {
         said.push(format!("Plans use {share} of the thrusters' limits."));
     }
+}
+
+/// Whether the edges, from which the middle of the hull's disc keeps the margin, may lie within the disc.
+pub(super) fn reaches_over(setup: &BoatSetup) -> bool {
+    setup.scenario.world.keep_in_margin_m < setup.boat.radius
 }
 
 /// Who sailed them.

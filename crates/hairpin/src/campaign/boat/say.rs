@@ -32,7 +32,7 @@ impl Say for BoatSetup {
             caveat: &boat.caveat,
             estimated,
             has_sides: false,
-            unknown_shapes: None,
+            unknown_shapes: assumptions::reaches_over(self).then_some("the hull may reach over the waters' edges"),
             loops,
             battery: None,
         }

@@ -122,6 +122,19 @@ fn what_no_run_reads_is_not_drawn() {
     }
 }
 
+/// The disc is 0.644 m in radius: its middle alone keeps the margin.
+#[test]
+fn a_hull_that_may_reach_over_the_edges_is_named() {
+    for (margin, named) in [(1.0, false), (0.65, false), (0.64, true), (0.0, true)] {
+        let setup = changed(&[("world.keep_in_margin_m", json!(margin))]).expect("a setup");
+        assert_eq!(setup.unknown_shapes().is_some(), named, "{margin}");
+        let mut said = Vec::new();
+        super::assumptions::claim(setup.own().expect("a boat"), &mut said);
+        let told = said.iter().find(|sentence| sentence.contains(&format!("keeps {margin} m from the edges")));
+        assert_eq!(told.expect("a sentence").contains("may reach over them"), named, "{margin}");
+    }
+}
+
 /// A boat that stops amid a mission does not turn there in no time, whichever way the water flows.
 #[test]
 fn a_stop_leaves_the_bow_where_it_is() {

@@ -67,7 +67,7 @@ pub(super) fn replan(setup: &BoatSetup, case: &Case, indices: &[usize], points: 
 
 /// Whether the hull's disc may lie at `place`.
 ///
-/// At least the margin within every edge, and the hull's radius from every keep-out; touching is free.
+/// Its middle at least the margin within every edge, and the hull's radius from every keep-out; touching is free.
 pub(super) fn is_free(setup: &BoatSetup, place: &Point3<f64>) -> bool {
     let world = &setup.scenario.world;
     let margin = world.keep_in_margin_m;
