@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::parquet::part_writer::write_one;
 
-    /// The column is written by a profile with other durations, whose rows are otherwise the same.
+    /// Of what was written `t0_s` alone is changed.
     #[test]
     fn legs_begin_where_those_before_them_end() {
         let leg = |duration: f64| ProfileLeg { duration, coefficients: [[0.0; 8]; 3] };

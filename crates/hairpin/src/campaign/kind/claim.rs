@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::{Knobs, PlannedRows, Same};
+use super::{Knobs, Made, PlannedRows, Same};
 use crate::campaign::graph::{Executions, Losses, Outcome, Plan, Wanted};
 use crate::campaign::passage::{Demands, Passage};
 use crate::campaign::{Case, CaseNumber, Scenario, Stop, Timed};
