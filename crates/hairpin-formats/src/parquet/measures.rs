@@ -6,6 +6,7 @@ use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray};
 use hairpin::judgement::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};
 
+use super::possible;
 use super::table::{Table, TableError};
 
 /// The columns of what was measured, a row each; of joints where any run told them.
@@ -121,7 +122,7 @@ fn acceleration_source_word(source: AccelerationSource) -> &'static str {
 /// Reads what was measured; a row has all of it or nothing.
 ///
 /// # Errors
-/// Missing columns, values that contradict each other.
+/// Missing columns, values that contradict each other, or that no run can have.
 pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     // A row has all of these measures or none: `max_deviation_m` tells which.
     let names = ["max_deviation_m", "t_worst_s", "mean_deviation_m", "max_acceleration_m_s2", "t_acceleration_s"];
@@ -166,7 +167,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
             }
             let [max_deviation, t_worst, mean_deviation, max_acceleration, t_acceleration, ..] = given;
             let [.., max_speed_rate, total_time, t_overshoot, t_clearance] = given;
-            Ok(Some(Measures {
+            let measures = Measures {
                 max_deviation,
                 t_worst,
                 leg_worst: leg_worst[row].ok_or_else(|| table.refuse("leg_worst", row, "empty", "a leg's number"))?,
@@ -200,7 +201,9 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 leg_source: leg_source[row].unwrap_or_default(),
                 acceleration_source: acceleration_source[row].unwrap_or_default(),
                 legs: legs[row].clone(),
-            }))
+            };
+            possible::check(table, row, &measures)?;
+            Ok(Some(measures))
         })
         .collect()
 }

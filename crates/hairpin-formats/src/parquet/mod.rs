@@ -11,6 +11,7 @@ mod measures;
 pub(crate) mod part;
 pub mod part_writer;
 pub mod piece;
+mod possible;
 pub mod profile;
 pub(crate) mod program;
 pub mod results;

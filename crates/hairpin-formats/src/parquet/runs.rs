@@ -18,7 +18,7 @@ use serde_json::Value;
 
 use super::piece::Piece;
 use super::table::{Columns, Table, TableError};
-use super::{drawn, measures, track};
+use super::{drawn, measures, possible, track};
 use crate::atomic::WriteError;
 
 const FACTS_KEY: &str = "hairpin.run";
@@ -259,7 +259,8 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
 /// Reads the facts of runs.
 ///
 /// # Errors
-/// Missing columns, values of another type, a run twice: which of its rows is right nobody knows.
+/// Missing columns, values of another type, or that no run can have; a run twice: which of its rows is right nobody
+/// knows.
 pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>, TableError> {
     let table = Table::read(path)?;
     let cases = table.cases()?;
@@ -290,6 +291,9 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
         }
         if ended != EXECUTOR_FAILED && Ended::from_word(&ended).is_none() {
             return Err(table.refuse("ended", row, format!("`{ended}`"), "done, time, ground, obstacle, wall, …"));
+        }
+        if let Some(found) = &full_rate {
+            possible::check_run(&table, row, (found, end[row]))?;
         }
         let facts = RunFacts {
             case: cases[row],

@@ -20,6 +20,7 @@ pub(crate) struct ToJudge {
 /// The runs of `case` with what was measured of them; with their motion where that is asked for otherwise.
 pub(crate) fn runs_to_judge(work: &Work, case: &Case) -> Result<ToJudge, Problem> {
     let measured = work.folder.read_measured(case.number)?;
+    check_mission(work, case, measured.as_deref().unwrap_or_default())?;
     let otherwise = measured.is_some();
     if let Some(runs) = measured
         && are_measured(work, case, &runs)?
@@ -34,7 +35,35 @@ pub(crate) fn runs_to_judge(work: &Work, case: &Case) -> Result<ToJudge, Problem
 
 /// The runs of `case` with what was measured of them when they were flown; with their motion where nothing was.
 pub(crate) fn measured_runs(work: &Work, case: &Case) -> Result<Vec<Run>, Problem> {
-    work.folder.read_measured(case.number)?.map_or_else(|| runs_with_motion(work, case), Ok)
+    let measured = work.folder.read_measured(case.number)?;
+    check_mission(work, case, measured.as_deref().unwrap_or_default())?;
+    measured.map_or_else(|| runs_with_motion(work, case), Ok)
+}
+
+/// That what is known of `runs` is of the mission of `case`: a leg for every leg, a time for every waypoint, and no run
+/// that nobody asked for.
+///
+/// Programs of arms may have other moves than legs: arcs only pass some waypoints.
+fn check_mission(work: &Work, case: &Case, runs: &[Run]) -> Result<(), Problem> {
+    let (waypoints, repeat) = (case.waypoints.len(), work.setup.scenario.executor().repeat as usize);
+    for run in runs {
+        let refuse = |what: String| {
+            let table = work.folder.file("runs");
+            Err(Problem::of_file(&table, format!("case {case}, run {run}: {what}", case = case.id(), run = run.run)))
+        };
+        if run.run >= repeat && work.setup.recordings().is_none() {
+            return refuse(format!("`run` = {}: must be below `execute.repeat` = {repeat}", run.run));
+        }
+        let legs = run.full_rate.as_ref().map_or(waypoints.saturating_sub(1), |found| found.measures.legs.len());
+        if legs + 1 != waypoints {
+            return refuse(format!("`leg_max_deviation_m` has {legs} legs: must be {}", waypoints.saturating_sub(1)));
+        }
+        let reached = run.outcome.as_ref().map_or(waypoints, |flight| flight.reached.len());
+        if run.full_rate.is_some() && !work.setup.has_programs() && reached != waypoints {
+            return refuse(format!("`reached_s` has {reached} waypoints: must be {waypoints}, each a time or null"));
+        }
+    }
+    Ok(())
 }
 
 /// As [`runs_to_judge`] those that were flown again.
@@ -57,4 +86,34 @@ fn measured_otherwise(work: &Work, case: &Case, runs: &[Run]) -> Result<usize, P
         count += usize::from(!is_at_full_rate(&work.setup, case, run)?);
     }
     Ok(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use hairpin::campaign::FullRate;
+
+    use super::*;
+    use crate::testing::executed;
+    use crate::work::open_to_read;
+
+    /// A run of another mission passed: one that ended "done" after three waypoints of five had come to its last.
+    #[test]
+    fn what_is_of_another_mission_is_refused() {
+        let (_place, folder) = executed();
+        let work = open_to_read(&folder).unwrap();
+        let case = &work.folder.read_cases().unwrap()[0];
+        let run = &work.folder.read_measured(case.number).unwrap().unwrap()[0];
+        check_mission(&work, case, std::slice::from_ref(run)).unwrap();
+        let told = |run: Run| check_mission(&work, case, &[run]).unwrap_err().to_string();
+        let flight = run.outcome.clone().unwrap();
+        let reached = flight.reached[..2].to_vec();
+        let shorter = Run { outcome: Ok(hairpin::trajectory::Flight { reached, ..flight }), ..run.clone() };
+        assert!(told(shorter).contains("case 0000, run 0: `reached_s` has 2 waypoints: must be"));
+        let known = run.full_rate.clone().unwrap();
+        let mut measures = known.measures.clone();
+        measures.legs.pop();
+        let fewer = Run { full_rate: Some(Box::new(FullRate { measures, ..*known })), ..run.clone() };
+        assert!(told(fewer).contains("`leg_max_deviation_m` has"));
+        assert!(told(Run { run: 1, ..run.clone() }).contains("`run` = 1: must be below `execute.repeat` = 1"));
+    }
 }

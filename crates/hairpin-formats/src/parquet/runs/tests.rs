@@ -1,6 +1,6 @@
 //! A judge who takes what was measured finds the same events without the motion.
 
-use hairpin::judgement::{Limits, Settings, measure, violations};
+use hairpin::judgement::{Limits, Measures, Settings, measure, violations};
 use nalgebra::Point3;
 
 use super::*;
@@ -66,7 +66,7 @@ fn what_may_hide_is_still_known_when_it_is_read() {
     let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
     let run = run(6, None);
     let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &Settings::default()).unwrap();
-    let measures = hairpin::judgement::Measures {
+    let measures = Measures {
         most_between: Some(1.0),
         overshoot_between: Some(0.5),
         clearance_between: Some(-0.25),
@@ -92,4 +92,43 @@ fn a_run_that_is_there_twice_is_refused() {
     write_facts(&path, &[facts.clone(), RunFacts { ended: "crash".into(), ..facts }]).unwrap();
     let told = read_facts(&path).unwrap_err().to_string();
     assert!(told.contains("column `run`, row 1: 0, must be there once in case 0000"), "{told}");
+}
+
+/// What is done to what was measured.
+type Change<'a> = &'a dyn Fn(&mut Measures);
+
+/// What an editor, or a broken disk, makes of a row is refused with case, run and bound; it was judged.
+#[test]
+fn what_no_run_can_have_measured_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("part-00000.parquet");
+    let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let run = run(6, None);
+    let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &Settings::default()).unwrap();
+    let read = |change: Change<'_>| {
+        let mut measures = measures.clone();
+        change(&mut measures);
+        let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };
+        write_facts(&path, &[RunFacts { full_rate: Some(Box::new(full_rate)), ..RunFacts::of(&run) }]).unwrap();
+        read_facts(&path).map(drop)
+    };
+    read(&|_| ()).unwrap();
+    let changes: [(Change<'_>, [&str; 3]); 8] = [
+        (&|m| m.max_deviation = -1.0, ["`max_deviation_m`", "-1", "≥ 0"]),
+        (&|m| m.total_time = -3.0, ["`total_time_s`", "-3", "≥ 0"]),
+        (&|m| m.leg_worst = 77, ["`leg_worst`", "77", "0 to 1, one of the legs"]),
+        (&|m| m.t_worst = 1e9, ["`t_worst_s`", "1000000000", "0 to 20 s"]),
+        (&|m| m.total_time = 0.5, ["_s`", "row 0", "19.5 to 20 s"]),
+        (&|m| m.legs[1].max_deviation = 9.0, ["`leg_max_deviation_m`", "9", "the `max_deviation_m`"]),
+        (&|m| m.mean_deviation = 9.0, ["`mean_deviation_m`", "9", "the `max_deviation_m`"]),
+        (
+            &|m| m.legs[0].max_acceleration = 1e6,
+            ["`leg_max_acceleration_m_s2`", "1000000", "the `max_acceleration_m_s2`"],
+        ),
+    ];
+    for (change, words) in changes {
+        let told = read(change).unwrap_err().to_string();
+        let all = words.into_iter().chain(["part-00000.parquet", "case 0000, run 0"]);
+        assert!(all.into_iter().all(|word| told.contains(word)), "{told}");
+    }
 }
