@@ -33,7 +33,18 @@ pub(crate) fn stress<'py>(
             None => hairpin_jobs::stress::stress(&settings, repro.as_deref(), watch)?,
         };
         let Stressed { work, cases, tally, judgement, verdict, replayed, spent } = &stressed;
-        Ok(Answer { work, cases, tally, judgement, verdict, replayed, spent: spent.as_ref(), junit: None }.object())
+        Ok(Answer {
+            work,
+            cases,
+            tally,
+            judgement,
+            verdict,
+            replayed,
+            spent: spent.as_ref(),
+            junit: None,
+            reported: true,
+        }
+        .object())
     })?;
     object(py, &said)
 }

@@ -68,6 +68,7 @@ pub(crate) fn judge(py: Python<'_>, folder: PathBuf, sets: Vec<Set>, waiting: Wa
             replayed: &[],
             spent: None,
             junit: None,
+            reported: false,
         };
         Ok(answer.object())
     })?;

@@ -94,6 +94,9 @@ fn a_run_that_is_there_twice_is_refused() {
     assert!(told.contains("column `run`, row 1: 0, must be there once in case 0000"), "{told}");
 }
 
+/// What is done to what was measured.
+type Change<'a> = &'a dyn Fn(&mut Measures);
+
 /// What an editor, or a broken disk, makes of a row is refused with case, run and bound; it was judged.
 #[test]
 fn what_no_run_can_have_measured_is_refused() {
@@ -102,7 +105,7 @@ fn what_no_run_can_have_measured_is_refused() {
     let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
     let run = run(6, None);
     let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &Settings::default()).unwrap();
-    let read = |change: &dyn Fn(&mut Measures)| {
+    let read = |change: Change<'_>| {
         let mut measures = measures.clone();
         change(&mut measures);
         let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };
@@ -110,7 +113,7 @@ fn what_no_run_can_have_measured_is_refused() {
         read_facts(&path).map(drop)
     };
     read(&|_| ()).unwrap();
-    let changes: [(&dyn Fn(&mut Measures), [&str; 3]); 8] = [
+    let changes: [(Change<'_>, [&str; 3]); 8] = [
         (&|m| m.max_deviation = -1.0, ["`max_deviation_m`", "-1", "≥ 0"]),
         (&|m| m.total_time = -3.0, ["`total_time_s`", "-3", "≥ 0"]),
         (&|m| m.leg_worst = 77, ["`leg_worst`", "77", "0 to 1, one of the legs"]),
