@@ -7,6 +7,7 @@ use hairpin::campaign::{CallersCode, PassedOver, Scenario, Setup, Tally, UserCod
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::{CampaignFolder, Existing, FolderError};
+use hairpin_formats::quote::shell_word;
 use hairpin_formats::recordings;
 use hairpin_formats::scenario::{check_asked, kept_in, read_kept, setup_for, shadowed};
 
@@ -223,7 +224,9 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
 
 /// Whether the campaign in `old` was begun as `setup` would begin it.
 fn may_resume(old: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
-    if let Some(key) = first_difference(&resolve(old, &[])?, setup) {
+    let before = resolve(old, &[])?;
+    same_as_executed(old, &before)?;
+    if let Some(key) = first_difference(&before, setup) {
         return Err(Problem::input(format!(
             "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
             old.path().display()
@@ -323,6 +326,34 @@ fn first_difference(before: &Setup, now: &Setup) -> Option<String> {
 /// There is no campaign in it, or its scenario is broken.
 pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
     open_with(path, &[])
+}
+
+/// The same, for what is said of its runs.
+///
+/// # Errors
+/// As of [`same_as_executed`].
+pub(crate) fn open_executed(path: &Path) -> Result<Work, Problem> {
+    let work = open_to_read(path)?;
+    same_as_executed(&work.folder, &work.setup)?;
+    Ok(work)
+}
+
+/// Whether the runs in `folder` are of the scenario that it has: whoever edits that makes no other runs of them.
+///
+/// # Errors
+/// A key beside those of `spec`, or the controller's file, was changed since hairpin wrote them.
+pub(crate) fn same_as_executed(folder: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
+    if !folder.has_runs() || folder.has_its_settings(setup)? {
+        return Ok(());
+    }
+    Err(Problem::of_file(
+        &folder.file("scenario.toml"),
+        format!(
+            "was changed beside `spec` since its runs were executed, or its controller's file was: the runs are of what it \
+             was. Put it back, or fly all anew: hairpin execute {}",
+            shell_word(&folder.path().display().to_string())
+        ),
+    ))
 }
 
 /// The same with other values of `sets`.

@@ -5,7 +5,7 @@ use hairpin::campaign::Setup;
 use super::list::List;
 use super::{CampaignFolder, FolderError};
 use crate::atomic;
-use crate::scenario::{MadeBy, read_made_by, to_toml};
+use crate::scenario::{MadeBy, read_made_by, settings_hash, to_toml};
 
 impl CampaignFolder {
     /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
@@ -15,7 +15,8 @@ impl CampaignFolder {
     /// A file cannot be written; TOML cannot hold the scenario.
     pub fn keep_scenario(&self, setup: &Setup, simd: &str) -> Result<(), FolderError> {
         let root_seed = setup.scenario.seed();
-        let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed, simd: simd.into() };
+        let settings = settings_hash(&to_toml(&setup.scenario, None)?, controller_of(setup));
+        let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed, simd: simd.into(), settings };
         let text = to_toml(&setup.scenario, Some(&made_by))?;
         let files = setup.attachments.files();
         let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
@@ -27,6 +28,17 @@ impl CampaignFolder {
         self.write_scenario(&text)
     }
 
+    /// Whether the scenario, but for `spec`, and the controller's file are as hairpin wrote them; so are those of earlier
+    /// versions, which did not say.
+    ///
+    /// # Errors
+    /// The scenario cannot be read.
+    pub fn has_its_settings(&self, setup: &Setup) -> Result<bool, FolderError> {
+        let text = self.read_scenario()?;
+        let written = read_made_by(&text).and_then(|made_by| made_by.settings);
+        Ok(written.is_none() || written == settings_hash(&text, controller_of(setup)))
+    }
+
     /// The SIMD level at which the campaign was begun, if that is written in its scenario.
     ///
     /// # Errors
@@ -34,4 +46,9 @@ impl CampaignFolder {
     pub fn simd_level(&self) -> Result<Option<String>, FolderError> {
         Ok(read_made_by(&self.read_scenario()?).map(|made_by| made_by.simd))
     }
+}
+
+/// The bytes of the user's controller, where one steers.
+fn controller_of(setup: &Setup) -> Option<&[u8]> {
+    setup.attachments.user_controller.as_ref()?.file.as_ref().map(|(_, bytes)| &**bytes)
 }

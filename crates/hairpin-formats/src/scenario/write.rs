@@ -1,5 +1,7 @@
 //! The resolved scenario of a campaign folder: a scenario file that runs again, with what made it.
 
+use std::collections::BTreeMap;
+
 use hairpin::campaign::Scenario;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -14,7 +16,11 @@ pub struct MadeBy {
     pub version: String,
     /// Root seed.
     pub root_seed: u64,
-    /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`.
+    /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<String>,
+    /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was cut
+    /// off is missed.
     pub simd: String,
 }
 
@@ -46,6 +52,42 @@ pub fn read_made_by(text: &str) -> Option<MadeBy> {
 /// [`WriteError`].
 pub fn to_toml(scenario: &Scenario, made_by: Option<&MadeBy>) -> Result<String, WriteError> {
     toml::to_string(&Resolved { scenario, made_by }).map_err(|error| WriteError(error.to_string()))
+}
+
+/// BLAKE3 over what runs are executed by: the keys and values of the scenario in `text` but those of `spec`, which may
+/// change once there are runs, and the bytes of the user's `controller`. Neither order nor layout of the text counts.
+///
+/// `None` where it is no TOML.
+pub fn settings_hash(text: &str, controller: Option<&[u8]>) -> Option<String> {
+    let mut scenario: toml::Table = text.parse().ok()?;
+    scenario.remove(MADE_BY);
+    scenario.remove("spec");
+    let mut hasher = blake3::Hasher::new();
+    update(&mut hasher, &toml::Value::Table(scenario));
+    hasher.update(controller.unwrap_or_default());
+    Some(hasher.finalize().to_hex().to_string())
+}
+
+fn update(hasher: &mut blake3::Hasher, value: &toml::Value) {
+    match value {
+        toml::Value::Table(table) => {
+            hasher.update(b"{");
+            for (key, value) in table.iter().collect::<BTreeMap<_, _>>() {
+                hasher.update(&(key.len() as u64).to_le_bytes()).update(key.as_bytes());
+                update(hasher, value);
+            }
+            hasher.update(b"}");
+        }
+        toml::Value::Array(values) => {
+            hasher.update(b"[");
+            values.iter().for_each(|value| update(hasher, value));
+            hasher.update(b"]");
+        }
+        one => {
+            let text = one.to_string();
+            hasher.update(&(text.len() as u64).to_le_bytes()).update(text.as_bytes());
+        }
+    }
 }
 
 /// `key = value`, tables inline: what stands on one line of a scenario file.

@@ -8,7 +8,7 @@ use hairpin::campaign::{self, Case, CaseResult, Comparison};
 use crate::Problem;
 use crate::differences::differences;
 use crate::names::listed;
-use crate::work::{Work, open_to_read};
+use crate::work::{Work, open_executed};
 
 /// Two campaigns beside each other.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub struct Compared {
 /// # Errors
 /// Folders that are no judged campaigns, of different kinds of robots, or without a case in common.
 pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
-    let (before, after) = (open_to_read(a)?, open_to_read(b)?);
+    let (before, after) = (open_executed(a)?, open_executed(b)?);
     let scenarios = [&before.setup.scenario, &after.setup.scenario];
     let differences = differences(scenarios[0], scenarios[1]);
     if std::mem::discriminant(scenarios[0]) != std::mem::discriminant(scenarios[1]) {

@@ -24,7 +24,8 @@ use crate::missions::{self, adopt};
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
 use crate::work::{
-    IfThere, Work, changed, changed_by, check_tables, keep_changes, open_to_change, open_to_read, tell_share, try_out,
+    IfThere, Work, changed, changed_by, check_tables, keep_changes, open_to_change, open_to_read, same_as_executed,
+    tell_share, try_out,
 };
 use crate::{Deadline, Problem, Watch};
 use beside::beside;
@@ -115,6 +116,9 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
         unchanged(path, sets)?;
     }
     let work = open_to_change(path, sets, CHANGED, Some(settings.simd))?.answered_by(&settings.consent.code)?;
+    if settings.resume {
+        same_as_executed(&work.folder, &work.setup)?;
+    }
     let wishes = Wish::of_execution(&work.setup);
     settings.consent.ask_of_scenario((&path.to_string_lossy(), Some(path)), &wishes, sets, watch)?;
     let read = |path: &Path| missions::read(&work.setup, path, watch);
@@ -133,7 +137,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     try_out(work.setup.steering_code(), Deadline::after(None), watch)?;
     let replayed = replay_saved(&work.setup, work.folder.path(), (settings.repro.as_deref(), &[]), watch)?;
     check_recordings(&work, kept.as_deref().unwrap_or_default())?;
-    if !sets.is_empty() {
+    // What the user wrote into the scenario is what is flown from here on.
+    if !sets.is_empty() || !work.folder.has_its_settings(&work.setup)? {
         keep_changes(&work)?;
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
         settings.consent.mark(path, &typed);
@@ -277,6 +282,35 @@ mod tests {
             let kept = CampaignFolder::open(&kept).unwrap();
             assert!(kept.read_cases().unwrap().iter().all(|case| kept.has_valid_run(case.number, 0)));
         }
+    }
+
+    /// Of runs that were executed by one scenario nothing is said in the name of another, that stands there now.
+    #[test]
+    fn a_scenario_that_was_edited_has_no_runs() {
+        let (_place, folder) = crate::testing::executed();
+        let (file, judged) = (folder.join("scenario.toml"), || crate::judge::judge(&folder, &[]).map(drop));
+        judged().unwrap();
+        let as_written = std::fs::read_to_string(&file).unwrap();
+        assert!(as_written.contains("accept_m = 1.0"), "{as_written}");
+        let edited = as_written.replace("accept_m = 1.0", "accept_m = 2.0");
+        std::fs::write(&file, &edited).unwrap();
+        let resumed = ExecuteSettings { folder: folder.clone(), resume: true, ..ExecuteSettings::default() };
+        let told = [judged().unwrap_err().to_string(), refusal(&resumed)];
+        let reported = crate::report::report(&folder, &[], None).unwrap_err().to_string();
+        for told in told.iter().chain([&reported]) {
+            assert!(
+                told.contains("scenario.toml: was changed beside `spec`") && told.contains("hairpin execute"),
+                "{told}"
+            );
+        }
+        // Layout is no change, nor are limits.
+        std::fs::write(&file, format!("# mine\n\n{as_written}")).unwrap();
+        judged().unwrap();
+        // What is flown anew is flown by what was written.
+        std::fs::write(&file, edited).unwrap();
+        execute(&ExecuteSettings { resume: false, ..resumed.clone() }, &Unwatched).unwrap();
+        judged().unwrap();
+        execute(&resumed, &Unwatched).unwrap();
     }
 
     /// Another version of a program goes on with nothing that the one before has executed, and nothing is lost.

@@ -25,7 +25,7 @@ use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_
 use crate::missions::{self, Compared, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
-use crate::work::{Work, keep_changes, open_to_change, open_to_read};
+use crate::work::{Work, keep_changes, open_to_change, open_to_read, same_as_executed};
 use crate::{Budget, Problem};
 use suite::suite;
 
@@ -73,9 +73,10 @@ pub struct Judged {
 /// Judges the executed campaign in `folder`, with other values for the keys of `spec` in `sets`.
 ///
 /// # Errors
-/// Keys of other tables; cases that were not executed; a file that cannot be read or written.
+/// Keys of other tables; cases that were not executed, or by another scenario; a file that cannot be read or written.
 pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
     let work = open_to_change(folder, sets, &["spec"], None)?;
+    same_as_executed(&work.folder, &work.setup)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
     let mut told = Vec::new();
