@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use hairpin::campaign::scenario::DeviationFrom;
 use hairpin::campaign::{self, Case, CaseResult, Comparison};
 
 use crate::Problem;
@@ -23,7 +24,8 @@ pub struct Compared {
 /// `tolerance_m` are unchanged.
 ///
 /// # Errors
-/// Folders that are no judged campaigns, of different kinds of robots, or without a case in common.
+/// Folders that are no judged campaigns, of different kinds of robots, whose deviations are from different references, or
+/// without a case in common.
 pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
     let (before, after) = (open_executed(a)?, open_executed(b)?);
     let scenarios = [&before.setup.scenario, &after.setup.scenario];
@@ -37,6 +39,7 @@ pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem
             after.setup.robot_name()
         )));
     }
+    same_reference((&before, a), (&after, b))?;
     let comparison = campaign::compare(&judged(&before, a)?, &judged(&after, b)?, tolerance_m);
     if comparison.pairs == 0 {
         let (a, b) = (a.display(), b.display());
@@ -61,6 +64,7 @@ pub(super) fn pairs(
     (before, a): (&Work, &Path),
     (after, b): (&Work, &Path),
 ) -> Result<Vec<[(Case, CaseResult); 2]>, Problem> {
+    same_reference((before, a), (after, b))?;
     let mut old: HashMap<_, _> = judged(before, a)?.into_iter().map(|pair| (pair.0.number, pair)).collect();
     let mut found = Vec::new();
     for new in judged(after, b)? {
@@ -73,6 +77,33 @@ pub(super) fn pairs(
         }
     }
     Ok(found)
+}
+
+/// That deviations of both are distances from the same: a leg, the nearest leg (either but for the corners), or a path.
+fn same_reference((before, a): (&Work, &Path), (after, b): (&Work, &Path)) -> Result<(), Problem> {
+    let reference = |work: &Work| {
+        let terms = work.setup.scenario.head().terms;
+        // A path is judged everywhere.
+        let corner = if terms.from == DeviationFrom::Path { 0.0 } else { terms.corner };
+        (terms.from, corner)
+    };
+    let (old, new) = (reference(before), reference(after));
+    if old == new {
+        return Ok(());
+    }
+    let told = |(from, corner): (DeviationFrom, f64)| match from {
+        DeviationFrom::Path => "the path".to_owned(),
+        DeviationFrom::Leg => format!("the leg, beyond {corner} m about waypoints"),
+        DeviationFrom::NearestLeg => format!("the nearest leg, beyond {corner} m about waypoints"),
+    };
+    Err(Problem::input(format!(
+        "deviations of {} are from {}, those of {} from {}: they are not one measure. Judge both alike, by hairpin judge \
+         --set of `from` and `corner_m`",
+        a.display(),
+        told(old),
+        b.display(),
+        told(new)
+    )))
 }
 
 /// Every case with its result.
@@ -99,4 +130,30 @@ pub fn unpaired(compared: &Comparison) -> String {
         (!names.is_empty()).then(|| format!("{} ({why})", listed(&names)))
     };
     whys.iter().filter_map(group).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::judge;
+    use crate::testing::executed;
+
+    /// A distance from a leg and one from a path are two measures: none of them is the better.
+    #[test]
+    fn deviations_from_different_references_are_not_compared() {
+        let ((_a, a), (_b, b)) = (executed(), executed());
+        let judged = |folder: &Path, from: &str, corner: &str| {
+            let spec = format!("{{ max_m = 50, from = \"{from}\", corner_m = {corner} }}");
+            judge(folder, &[("spec.deviation".to_owned(), spec)]).unwrap();
+        };
+        judged(&a, "leg", "1.0");
+        for (from, corner, told) in [("path", "1.0", "from the path"), ("leg", "0.25", "beyond 0.25 m about waypoints")]
+        {
+            judged(&b, from, corner);
+            let refused = compare(&a, &b, 0.0).map(drop).unwrap_err().to_string();
+            assert!(refused.contains("beyond 1 m about waypoints") && refused.contains(told), "{refused}");
+        }
+        judged(&b, "leg", "1.0");
+        assert_eq!(compare(&a, &b, 0.0).unwrap().comparison.unchanged, 2);
+    }
 }

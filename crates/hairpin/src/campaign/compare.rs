@@ -33,7 +33,8 @@ pub struct Comparison {
     pub newly_failing: Vec<String>,
     /// Cases that fail in A and no longer do in B.
     pub newly_passing: Vec<String>,
-    /// Cases whose executor failed, or whose data are inconclusive, in A or B: not compared.
+    /// Cases whose executor failed, whose data are inconclusive, or of which no deviation was measured where that alone
+    /// could tell A from B: not compared.
     pub undecided: Vec<String>,
     /// Cases without a partner.
     pub unpaired: Vec<Unpaired>,
@@ -102,7 +103,8 @@ impl Comparison {
                 unpaired => format!("; not paired {unpaired}"),
             };
             return format!(
-                "INCONCLUSIVE: none of {} pairs could be compared: in A or B the executor failed or the data are inconclusive{unpaired}",
+                "INCONCLUSIVE: none of {} pairs could be compared: in A or B the executor failed, the data are inconclusive or \
+                 no deviation was measured{unpaired}",
                 self.pairs
             );
         }
@@ -168,13 +170,18 @@ impl Comparison {
             (Status::Fail, Status::Unjudged) if ended_badly(a) => self.newly_passing.push(name),
             (Status::Pass | Status::Unjudged, Status::Pass | Status::Unjudged) | (Status::Fail, Status::Fail) => {
                 let crashed = |result: &CaseResult| result.violations.iter().any(Violation::is_crash);
-                let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
-                let change = deviation(b) - deviation(a);
-                let count = match (crashed(a), crashed(b)) {
-                    (true, false) => &mut self.better,
-                    (false, true) => &mut self.worse,
-                    _ if change > tolerance => &mut self.worse,
-                    _ if change < -tolerance => &mut self.better,
+                // What was not measured is not small.
+                let deviation = |result: &CaseResult| result.measures.as_ref()?.deviation();
+                let change = deviation(a).zip(deviation(b)).map(|(a, b)| b - a);
+                let count = match (crashed(a), crashed(b), change) {
+                    (true, false, _) => &mut self.better,
+                    (false, true, _) => &mut self.worse,
+                    (_, _, None) => {
+                        self.undecided.push(name);
+                        return false;
+                    }
+                    (_, _, Some(change)) if change > tolerance => &mut self.worse,
+                    (_, _, Some(change)) if change < -tolerance => &mut self.better,
                     _ => &mut self.unchanged,
                 };
                 *count += 1;
@@ -197,10 +204,10 @@ fn ended_badly(result: &CaseResult) -> bool {
 type Metric = (&'static str, fn(&Measures) -> Option<f64>, bool);
 
 const METRICS: [Metric; 10] = [
-    ("max_deviation_m", |m| Some(m.max_deviation), true),
-    ("mean_deviation_m", |m| Some(m.mean_deviation), true),
+    ("max_deviation_m", Measures::deviation, true),
+    ("mean_deviation_m", |m| m.deviation().map(|_| m.mean_deviation), true),
     ("max_overshoot_m", |m| Some(m.max_overshoot()), true),
-    ("max_acceleration_m_s2", |m| Some(m.max_acceleration), true),
+    ("max_acceleration_m_s2", Measures::acceleration, true),
     ("total_time_s", |m| Some(m.total_time), true),
     ("min_clearance_m", |m| m.min_clearance, false),
     ("min_tip_over_margin_deg", |m| m.min_tip_over_margin, false),
@@ -312,6 +319,21 @@ mod tests {
         assert_eq!(compare(&crashed, &unjudged, 1e-9).newly_passing, ["0000"]);
         // A change within the tolerance is none.
         assert_eq!(compare(&a, &b, 0.15).unchanged, 4);
+    }
+
+    /// A run of which no sample counts for its deviation was better than any other.
+    #[test]
+    fn what_has_no_deviation_is_not_compared() {
+        let (a, mut b) = (side(&[0.2, 0.3], 0.5), side(&[0.2, 0.3], 0.5));
+        b[0].1.measures.as_mut().unwrap().missing.deviation = true;
+        for (a, b) in [(&a, &b), (&b, &a)] {
+            let found = compare(a, b, 0.0);
+            assert_eq!((found.better, found.worse, found.unchanged), (0, 0, 1));
+            assert_eq!(found.undecided, ["0000"]);
+            assert!(found.metrics.iter().all(|metric| metric.pairs == 1), "{:?}", found.metrics);
+        }
+        b[1].1.measures = None;
+        assert!(compare(&a, &b, 0.0).inconclusive());
     }
 
     #[test]
