@@ -445,6 +445,9 @@ def test_judges_that_take_many_say_what_single_ones_say(cases, tmp_path):
     assert flown.judge_by(hairpin.vectorised(lambda runs: [np.nan] * len(runs))).exit_code == 5
     with pytest.raises(ValueError, match="0 answers of 4 runs"):
         flown.judge_by(hairpin.vectorised(lambda runs: []))
+    for strange in ("5", b"5", 5j):
+        with pytest.raises(hairpin.InputError, match="`margin` = .*5.*: must be a number, True or False, or None"):
+            flown.judge_by(lambda run, answer=strange: answer)
     with pytest.raises(hairpin.InputError, match="no vectorised form"):
         hairpin.stress("demo-quadrotor", target=low, out=tmp_path / "target")
 

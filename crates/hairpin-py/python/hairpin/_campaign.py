@@ -181,6 +181,7 @@ class Campaign:
                 With :func:`vectorised` it gets a list of runs, 256 at most, and gives as many answers.
 
         Raises:
+            InputError: an answer is a word, or what else is no number.
             ValueError: a vectorised judge gave more or fewer answers than it was asked for.
 
         Nothing is written.

@@ -155,7 +155,8 @@ def execute(
         executor: a command; or a callable that carries a mission out. It gets a dictionary with ``case``, ``run``, ``seed``,
             ``robot``, ``world``, ``waypoints_m``, ``accept_m``, ``time_limit_s``, ``timed`` as the executor protocol has it, and gives
             ``t_s`` (n,), ``p_m`` (n, 3), and if it knows them ``q_wxyz`` (n, 4), ``v_m_s`` (n, 3), ``leg`` (n,), ``ended`` (``done``,
-            ``time`` or ``crash``; the protocol's ``reason`` as well). Other keys are refused. It is asked from several threads; with :func:`vectorised` it gets a list of the missions that are
+            ``time`` or ``crash``; the protocol's ``reason`` as well; left out it is ``done``, which holds where it
+            came to its last waypoint alone). Other keys are refused. It is asked from several threads; with :func:`vectorised` it gets a list of the missions that are
             under way, 16 at most if `execute.processes` does not say, and gives as many. See also :func:`dynamics`, :func:`adversary`.
         missions: a mission or a folder of them, which take the place of the cases.
         repro: folder of saved cases that are run first.

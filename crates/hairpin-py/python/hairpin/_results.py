@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hairpin._asked import wrong
 from hairpin._same import Same
 
 Floats = npt.NDArray[np.float64]
@@ -121,11 +122,18 @@ class Run(Same):
 
 
 def margin_of(answer: Any) -> float | None:
-    """What a judge said of a run as a margin: ``None`` is open, and so is what is masked or no number."""
+    """What a judge said of a run as a margin: ``None`` is open, and so is what is masked or NaN; ``True`` is within, ``False`` is not.
+
+    Raises:
+        InputError: a word, or what else is no number.
+    """
     if isinstance(answer, bool | np.bool_):
         return 0.0 if answer else -1.0
     if np.ma.is_masked(answer):
         return None
+    # float() takes words for what they say, and of complex numbers a part.
+    if np.asarray(answer).dtype.kind in "cSUmM":
+        raise wrong("margin", answer, "a number, True or False, or None")
     margin = None if answer is None else float(answer)
     return None if margin is None or np.isnan(margin) else margin
 
