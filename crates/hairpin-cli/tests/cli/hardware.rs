@@ -129,6 +129,17 @@ fn a_drive_is_a_mission_of_a_rover() {
     assert!(items.iter().all(|item| [16, 178].contains(&item["command"].as_u64().unwrap())));
     assert!(items.iter().filter(|item| item["command"] == 16).all(|item| item["params"][3].is_null()));
     assert!(items[0]["Altitude"].as_f64().unwrap().abs() < 1e-3, "home is the first waypoint");
+    // The commanded speed, which is what limits bound: on rough ground the way is longer, and so faster, than its plan.
+    let speeds: Vec<_> = items.iter().filter(|item| item["command"] == 178).map(|item| &item["params"][1]).collect();
+    assert!(!speeds.is_empty() && speeds.iter().all(|speed| speed.as_f64().unwrap() <= 0.06), "{speeds:?}");
+    let (_, out, error) = run(place.path(), &["check", "r/export/0000.plan", "--robot", "r/scenario.toml"]);
+    assert!(!out.contains("are demanded"), "{out}{error}");
+    // North and east, but for the digits.
+    let table = fs::read_to_string(place.path().join("r/export/0000.setpoints.csv")).unwrap();
+    for row in table.lines().skip(1) {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!(cells[4].hypot(cells[5]) <= 0.060_01, "{row}");
+    }
     let (code, _, error) = run(place.path(), &["export", "r", "--to", "poly4d"]);
     assert!(code == 2 && error.contains("does not fly"), "{error}");
 }
@@ -144,6 +155,18 @@ fn a_mission_says_which_legs_go_backwards() {
     let wpl = fs::read_to_string(place.path().join("c/export/0000.waypoints")).unwrap();
     let reverses = wpl.lines().filter(|line| line.split('\t').nth(3) == Some("194"));
     assert_eq!(reverses.count(), 2, "into reverse, and forwards again: {wpl}");
+    // Its limit is 1.5 m/s, and where its legs join places jump by millimetres within one sample.
+    let speeds = wpl.lines().filter(|line| line.split('\t').nth(3) == Some("178"));
+    let speeds: Vec<f64> = speeds.map(|line| line.split('\t').nth(5).unwrap().parse().unwrap()).collect();
+    assert!(!speeds.is_empty() && speeds.iter().all(|speed| *speed <= 1.5), "{speeds:?}");
+    assert_eq!(run(place.path(), &["export", "c", "--to", "csv"]).0, 0);
+    let table = fs::read_to_string(place.path().join("c/export/0000.planned.csv")).unwrap();
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let [vx, vy] = ["vx_m_s", "vy_m_s"].map(|name| names.iter().position(|other| *other == name).unwrap());
+    for row in table.lines().skip(1) {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!(cells[vx].hypot(cells[vy]) <= 1.5 + 1e-6, "{row}");
+    }
     let (_, out, error) = run(place.path(), &["export", "c", "--to", "plan"]);
     assert!(format!("{out}{error}").contains("missions of PX4 have no gear"), "{out}{error}");
 }

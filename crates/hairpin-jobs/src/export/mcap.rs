@@ -7,6 +7,7 @@ use hairpin::campaign::report::surroundings;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Track};
 use hairpin_formats::mcap::{JointMotion, McapError, Recording, foxglove, ros2};
 
+use super::planned::planned;
 use super::programs::{PlannedJoints, planned_joints, stands_aside};
 use super::written::Written;
 use crate::Problem;
@@ -30,8 +31,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], reader: For) -> 
     }
     let mut written = Written::default();
     for case in cases {
-        let planned =
-            if case.leg_times.is_empty() { Track::default() } else { work.folder.read_planned(case.number)? };
+        let planned = if case.leg_times.is_empty() { Track::default() } else { planned(work, case)? };
         let runs = runs_with_motion(work, case)?;
         let flown = runs.iter().filter_map(|run| Some((run.run, &run.outcome.as_ref().ok()?.track)));
         let is_level = |track: &Track| track.channel(ATTITUDE_UNKNOWN).is_some();

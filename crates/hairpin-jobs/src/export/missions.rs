@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, mission};
+use hairpin::trajectory::DriveLeg;
 use hairpin_formats::atomic;
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::home::Home;
@@ -132,7 +133,7 @@ impl Maker<'_> {
         let (room, way) = (&hardware.room, &cleared.way);
         let own = mission(&work.setup, case, 0)?;
         let speeds: Vec<Option<f64>> =
-            self.speeds()?.into_iter().map(|speed| Some(hundredths(share * speed?))).collect();
+            self.speeds()?.into_iter().map(|speed| Some(rounded_down(share * speed?))).collect();
         let heading =
             |number: usize| own.yaws.get(number).filter(|_| room.flies).map(|yaw| home.heading(*yaw).to_degrees());
         let (accept, last) = (own.accept, case.waypoints.len() - 1);
@@ -200,18 +201,26 @@ impl Maker<'_> {
     }
 
     /// The speed of each leg, m/s: that of who executed, where he has one of his own, else the plan's largest on it.
+    ///
+    /// Of a witnessed drive that of its commands; else the largest of the planned motion, over ground of what does not
+    /// fly, as limits have it, and no more than these.
     fn speeds(&self) -> Result<Vec<Option<f64>>, Problem> {
         let Self { work, case, hardware, .. } = self;
         let legs = case.waypoints.len() - 1;
         if hardware.room.speed.is_some() || case.leg_times.is_empty() {
             return Ok(vec![hardware.room.speed; legs]);
         }
+        if let Some(drive) = case.commands() {
+            let of_leg = |leg: &DriveLeg| Some(leg.timing().fastest()).filter(|speed| *speed > 0.0);
+            return Ok(drive.legs.iter().map(of_leg).collect());
+        }
         let planned = work.folder.read_planned(case.number)?;
         let mut speeds = vec![None; legs];
         let columns = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"].map(|name| planned.channel(name));
         let [Some(leg), Some(vx), Some(vy), Some(vz)] = columns else { return Ok(speeds) };
         for (i, leg) in leg.iter().enumerate() {
-            let speed = libm::hypot(libm::hypot(vx[i], vy[i]), vz[i]);
+            let rise = if hardware.room.flies { vz[i] } else { 0.0 };
+            let speed = libm::hypot(libm::hypot(vx[i], vy[i]), rise).min(hardware.room.fastest);
             if let Some(most) = speeds.get_mut(*leg as usize).filter(|_| speed > 0.0) {
                 *most = Some(most.map_or(speed, |known: f64| known.max(speed)));
             }
@@ -236,14 +245,39 @@ impl Maker<'_> {
     }
 }
 
-/// Speeds are told in cm/s; none is nothing.
-fn hundredths(speed: f64) -> f64 {
-    ((100.0 * speed).round() / 100.0).max(0.01)
+/// Speeds are told in mm/s, slow ones by three digits down to the 0.01 mm/s that files have; down, so that none is more
+/// than what was planned by more than a product's rounding, and none is nothing.
+fn rounded_down(speed: f64) -> f64 {
+    let decimals = (2.0 - libm::log10(speed).floor()).clamp(3.0, 5.0) as u32;
+    let steps_in_one = f64::from(10_u32.pow(decimals));
+    let nearest = (speed * steps_in_one).round();
+    let steps = if nearest / steps_in_one <= speed * (1.0 + 1e-12) { nearest } else { nearest - 1.0 };
+    steps.max(1.0) / steps_in_one
 }
 
 #[cfg(test)]
 mod tests {
     use hairpin_formats::scenario::setup_for;
+
+    use super::rounded_down;
+
+    #[test]
+    fn speeds_are_rounded_down_with_digits_for_slow_robots() {
+        for (speed, told) in [
+            (1.5, 1.5),
+            (1.499_999, 1.499),
+            (1.5006, 1.5),
+            (12.345_6, 12.345),
+            (0.29, 0.29),
+            (0.3 * 0.06, 0.018),
+            (0.06, 0.06),
+            (0.059_97, 0.0599),
+            (0.006_258, 0.006_25),
+            (1e-9, 1e-5),
+        ] {
+            assert_eq!(rounded_down(speed), told, "{speed}");
+        }
+    }
 
     #[test]
     fn speeds_are_the_robots_at_most() {

@@ -9,6 +9,7 @@ mod mcap;
 mod missions;
 mod motions;
 mod placed;
+mod planned;
 mod preflight;
 mod programs;
 mod timed;

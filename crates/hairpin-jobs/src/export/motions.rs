@@ -9,6 +9,7 @@ use hairpin_formats::{atomic, csv, geodetic, missions, tum, waypoints};
 use nalgebra::Isometry3;
 
 use super::placed::placed;
+use super::planned::planned;
 use super::written::Written;
 use crate::Problem;
 use crate::execute::{run_with_motion, runs_with_motion};
@@ -47,7 +48,6 @@ pub(super) fn write_geodetic(work: &Work, place: &Path, cases: &[&Case]) -> Resu
 
 /// `CASE.planned.csv` and `CASE-RUN.csv`.
 pub(super) fn write_csv(work: &Work, place: &Path, cases: &[&Case]) -> Result<Written, Problem> {
-    let folder = &work.folder;
     let mut written = Written::default();
     let mut write = |path: PathBuf, track: &Track, level: bool| -> Result<(), Problem> {
         csv::write(&path, track)?;
@@ -56,7 +56,7 @@ pub(super) fn write_csv(work: &Work, place: &Path, cases: &[&Case]) -> Result<Wr
         Ok(())
     };
     for case in cases {
-        write(place.join(format!("{}.planned.csv", case.id())), &folder.read_planned(case.number)?, !is_planned(case))?;
+        write(place.join(format!("{}.planned.csv", case.id())), &planned(work, case)?, !is_planned(case))?;
         for run in runs_with_motion(work, case)? {
             if let Ok(flight) = &run.outcome {
                 write(place.join(format!("{}-{}.csv", case.id(), run.run)), &flight.track, is_level(&flight.track))?;

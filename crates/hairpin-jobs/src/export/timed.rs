@@ -13,6 +13,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::hardware::{Hardware, home, is_witnessed, note};
 use super::placed::placed;
+use super::planned::planned;
 use super::written::Written;
 use crate::Problem;
 use crate::work::Work;
@@ -43,7 +44,7 @@ pub(super) fn write_setpoints(
         }
         let home = home(&world, cleared, &case)?;
         let refuse = |why: String| Problem::input(format!("case {}: {why}", case.id()));
-        let planned = work.folder.read_planned(case.number)?;
+        let planned = planned(work, &case)?;
         let points = setpoints_of(&case, &planned, &home, hardware.room.flies).map_err(refuse)?;
         let way = "north, east, down of home, at the times of hairpin's plan".to_owned();
         let mut note = note(work, &case, cleared, way);

@@ -9,7 +9,7 @@ use hairpin::campaign::Setup;
 
 use super::leg::Leg;
 
-/// Speeds are written in cm/s, and rounded to these.
+/// Speeds of missions are often written in cm/s, and rounded to these.
 const ROUNDING_M_S: f64 = 0.006;
 /// Radii are written to hundredths of a millimetre.
 const ROUNDING_M: f64 = 1e-4;

@@ -2,7 +2,8 @@
 //!
 //! Between two rows positions and velocities follow the cubic that has both rows' (Hermite); without velocities, where
 //! they turn round at a sample, and of everything else, the straight line. Attitudes are the line's, made rotations
-//! again.
+//! again. Where a leg begins between two samples, velocities are those of the samples, on the line between them: legs
+//! are planned apart and join within a tolerance, and the cubic through a place that jumps is faster than both.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -80,8 +81,8 @@ impl Track {
         Some(Between::of(self, None).at(next.clamp(1, self.len() - 1) - 1, t))
     }
 
-    /// The motion that the rows stand for, every `period` s from the first row on, and at the last. A row that stands
-    /// at such a stamp comes back as it is; a leg lasts until the next row.
+    /// The motion that the rows stand for, every `period` s from the first row on, at the last, and where it turns
+    /// round at a sample. A row that stands at such a stamp comes back as it is; a leg lasts until the next row.
     pub fn at_period(&self, period: f64) -> Self {
         let (Some(first), Some(last)) = (self.times().first(), self.times().last()) else { return self.clone() };
         let steps = ((last - first) / period).floor();
@@ -94,6 +95,13 @@ impl Track {
             stamps.push(*last);
         }
         let between = Between::of(self, Some(period));
+        let tips = (0..self.len() - 1).filter_map(|from| between.tip(from)).map(|row| self.times()[row]);
+        let even = |tip: &f64| {
+            let k = ((tip - first) / period).round();
+            (tip - first - k * period).abs() <= near || (tip - last).abs() <= near
+        };
+        stamps.extend(tips.filter(|tip| !even(tip)));
+        stamps.sort_by(f64::total_cmp);
         let mut rows = Rows::default();
         let mut after = 1;
         for stamp in stamps {
@@ -126,17 +134,36 @@ impl<'a> Between<'a> {
         Self { track, velocity: velocity_of(track), period }
     }
 
-    /// Whether the velocity turns round at the one or the other of two neighbouring samples, and not between them: a
+    /// The row at which the velocity turns round, where it is one of two neighbouring samples and not between them: a
     /// vehicle that changes its gear. The cubic through both velocities would overshoot by half of them.
-    fn turns_round(&self, from: usize) -> bool {
-        let (Some(velocity), Some(period)) = (self.velocity, self.period) else { return false };
-        let span = self.track.times()[from + 1] - self.track.times()[from];
-        if span > 1.5 * period {
-            return false;
+    ///
+    /// The way from the one to the other is driven as at the end whose velocity its mean is; the other end is the tip.
+    fn tip(&self, from: usize) -> Option<usize> {
+        if !self.is_one_sample(from) {
+            return None;
         }
+        let velocity = self.velocity?;
         let [v, w] = [from, from + 1].map(|row| Vector3::from(velocity.map(|axis| axis[row])));
+        let span = self.track.times()[from + 1] - self.track.times()[from];
         let mean = (self.track.position(from + 1) - self.track.position(from)) / span;
-        v.dot(&w) < 0.0 && [v, w].iter().any(|end| (mean - end).norm() <= SAME * end.norm())
+        let [as_before, as_after] = [v, w].map(|end| (mean - end).norm() <= SAME * end.norm());
+        match v.dot(&w) < 0.0 {
+            true if as_after => Some(from),
+            true if as_before => Some(from + 1),
+            _ => None,
+        }
+    }
+
+    /// Whether the rows `from` and `from` + 1 are neighbouring samples, as far as it is known what samples are.
+    fn is_one_sample(&self, from: usize) -> bool {
+        let span = self.track.times()[from + 1] - self.track.times()[from];
+        self.period.is_some_and(|period| span <= 1.5 * period)
+    }
+
+    /// Whether another leg begins between neighbouring samples.
+    fn joins(&self, from: usize) -> bool {
+        let differ = |legs: &[f64]| legs[from] != legs[from + 1];
+        self.is_one_sample(from) && self.track.channel("leg").is_some_and(differ)
     }
 
     /// Pose and channels at `stamp`, between the rows `from` and `from` + 1.
@@ -150,10 +177,10 @@ impl<'a> Between<'a> {
         let share = ((stamp - times[from]) / span).clamp(0.0, 1.0);
         let [a, b] = [from, from + 1].map(|row| poses[row]);
         let ends = |axis: usize| [a.translation.vector[axis], b.translation.vector[axis]];
-        let straight = self.turns_round(from);
-        let speeds = |axis: usize| match straight {
-            true => Some([ends(axis)[1] - ends(axis)[0]; 2]),
-            false => self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]),
+        let (tip, joins) = (self.tip(from), self.joins(from));
+        let speeds = |axis: usize| match tip {
+            Some(_) => Some([ends(axis)[1] - ends(axis)[0]; 2]),
+            None => self.velocity.map(|v| [v[axis][from] * span, v[axis][from + 1] * span]),
         };
         let [x, y, z] = [0, 1, 2].map(|axis| place(share, ends(axis), speeds(axis)));
         let [p, q] = [a, b].map(|pose| std::array::from_fn(|i| pose.rotation.coords[i]));
@@ -162,10 +189,14 @@ impl<'a> Between<'a> {
         let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
         let value = |channel: &Channel| {
             let [a, b] = [channel.values[from], channel.values[from + 1]];
-            match VELOCITY.iter().position(|name| *name == channel.name) {
+            match (VELOCITY.iter().position(|name| *name == channel.name), tip) {
                 _ if channel.name == "leg" => a,
-                Some(axis) => speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span),
-                None => a + (b - a) * share,
+                (Some(_), Some(tip)) if tip == from => b,
+                (Some(_), Some(_)) => a,
+                (Some(axis), None) if !joins => {
+                    speeds(axis).map_or(a + (b - a) * share, |speeds| rate(share, ends(axis), speeds) / span)
+                }
+                _ => a + (b - a) * share,
             }
         };
         let values = self.track.channels().iter().map(value).collect();
@@ -229,9 +260,31 @@ mod tests {
         };
         let geared = along([0.0, 1.0, 0.0, -1.0], [1.0, 1.0, -1.0, -1.0]);
         assert!((fastest(&geared, 0.9) - 1.0).abs() < 1e-12);
+        // The tip itself is there, between the even stamps, and the way is no shorter.
+        let even = geared.at_period(0.9);
+        assert_eq!(even.times()[1..3], [0.9, 1.0]);
+        assert!((even.position(2).x - 1.0).abs() < 1e-12 && even.len() == 6, "{:?}", even.times());
         // Of rows that stand for ten samples each nothing is known between them.
         assert!(fastest(&geared, 0.1) > 1.2);
         let soft = along([0.0, 1.0, 1.0, 0.0], [1.0, 1.0, -1.0, -1.0]);
         assert!(soft.at_period(0.9).position(2).x > 1.0, "between 1 and 2 s it goes on and comes back");
+    }
+
+    /// Two legs of 1 m/s, the second of which begins a quarter of a metre farther on than the first ends.
+    #[test]
+    fn a_joint_is_no_faster_than_the_legs() {
+        let poses = [0.0, 1.0, 2.25, 3.25].map(|x| Isometry3::translation(x, 0.0, 0.0)).to_vec();
+        let channel = |name: &str, values: [f64; 4]| Channel { name: name.into(), values: values.to_vec() };
+        let velocities = VELOCITY.into_iter().zip([[1.0; 4], [0.0; 4], [0.0; 4]]);
+        let mut channels: Vec<Channel> = velocities.map(|(name, values)| channel(name, values)).collect();
+        let fastest = |channels: Vec<Channel>| {
+            let track = Track::new(vec![0.0, 1.0, 2.0, 3.0], poses.clone(), channels).unwrap();
+            let even = track.at_period(0.75);
+            assert!(even.position(2).x > 1.5 && even.times().len() == 5, "{:?}", even.times());
+            even.channel(VELOCITY[0]).unwrap().iter().fold(0.0_f64, |most, speed| most.max(*speed))
+        };
+        assert!(fastest(channels.clone()) > 1.3, "on one leg it goes on as the rows have it");
+        channels.push(channel("leg", [0.0, 0.0, 1.0, 1.0]));
+        assert_eq!(fastest(channels), 1.0);
     }
 }

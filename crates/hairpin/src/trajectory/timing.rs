@@ -139,6 +139,13 @@ impl Timing {
         self.speed_at(self.length)
     }
 
+    /// Highest speed, m/s; 0 of a drive that only turns, unless its speed is constant.
+    ///
+    /// max of v over the knots, as v² is linear between them.
+    pub fn fastest(&self) -> f64 {
+        self.knots().iter().map(|[_, speed]| *speed).fold(0.0, f64::max)
+    }
+
     /// Largest |dv/dt|, m/s².
     pub fn hardest(&self) -> f64 {
         self.stretches[..self.len].iter().map(|(_, speeds)| speeds.hardest()).fold(0.0, f64::max)
@@ -185,6 +192,7 @@ mod tests {
         assert!(timing.speed_at(8.0) < 1e-6 && timing.speed_at(8.0 - 1e-9) < 1e-3);
         let parts: f64 = (0..210).map(|i| timing.time_over(0.1 * f64::from(i), 0.1)).sum();
         assert!((parts - timing.time_at(21.0)).abs() < 1e-9 && (timing.hardest() - 0.5).abs() < 1e-12);
+        assert_eq!(timing.fastest(), 1.5);
         let knots = timing.knots();
         assert!(
             knots.windows(2).all(|pair| pair[0][0] <= pair[1][0]) && knots.last() == Some(&[21.0, 0.5]),
@@ -197,6 +205,11 @@ mod tests {
         let timing = Timing::new(&stopping, &drive);
         assert!(timing.speed_at(8.0 - 1e-9) < 1e-3 && timing.speed_at(4.0) == 1.5 && !timing.is_constant());
         assert!(Timing::new(&stopping, &drive[..2]).is_constant());
+        // 1 m from rest to rest is half a metre up and half a metre down: v² = 2 · 0.5 · 0.5.
+        let short = SpeedProfile::Trapezoid { start: 0.0, cruise: 1.5, end: 0.0, acceleration: 0.5 };
+        let short = Timing::new(&short, &[Segment::straight(1.0, Gear::Forward)]);
+        assert!((short.fastest() - 0.5_f64.sqrt()).abs() < 1e-12, "{}", short.fastest());
+        assert_eq!(Timing::new(&stopping, &drive[3..4]).fastest(), 0.0);
         let even = Timing::new(&0.5.into(), &drive);
         assert_eq!((even.time_at(21.0), even.speed_at(8.0), even.hardest()), (42.0, 0.5, 0.0));
     }

@@ -154,12 +154,14 @@ impl Track {
     /// its ends as there. `None` without them, or of fewer than two stamps.
     ///
     /// In m, m/s and m/s². Between two stamps of places p, q and velocities v, w the acceleration is even, (w − v)/h,
-    /// where that leads from p to q; where velocities jump on the way, the way is even and goes by (q − p)/h.
+    /// where that leads from p to q; where velocities jump on the way, the way is even and goes by (q − p)/h, no faster
+    /// than at the faster end. Where the place jumps and the velocity does not (joints of legs), the way is even, and
+    /// the velocity is what it is at the ends.
     ///
     /// ```text
     /// σ = (t − t_i)/h
     /// even:   p + σ (q − p) + ½ h (w − v)(σ² − σ),   v + σ (w − v),   (w − v)/h
-    /// else:   p + σ (q − p),   (q − p)/h,   0
+    /// else:   p + σ (q − p),   v·w > 0: v + σ (w − v), otherwise (q − p)/h · min(1, max(|v|, |w|)/|(q − p)/h|),   0
     /// ```
     ///
     /// Even is what ½ h (v + w) leads from p to q within 5 % of the way and 1 nm. A binary search a question.
@@ -175,7 +177,12 @@ impl Track {
         let way = self.position(at + 1) - p;
         let even = (0.5 * span * (v + w) - way).norm() <= EVEN * way.norm() + 1e-9;
         if !even {
-            return Some((p + way * share, way / span, Vector3::zeros()));
+            let mean = way / span;
+            let velocity = match v.dot(&w) > 0.0 {
+                true => v.lerp(&w, share),
+                false => mean.cap_magnitude(v.norm().max(w.norm())),
+            };
+            return Some((p + way * share, velocity, Vector3::zeros()));
         }
         let bent = 0.5 * span * (w - v) * (share * share - share);
         Some((p + way * share + bent, v.lerp(&w, share), (w - v) / span))
@@ -219,6 +226,18 @@ mod tests {
         assert_eq!(at(0.5), [0.25, 1.0, 2.0]);
         assert_eq!((at(1.5), at(9.0)), ([0.0, -2.0, 0.0], [-1.0, -2.0, 0.0]));
         assert!(Track::new(vec![0.0], vec![Isometry3::identity()], vec![]).unwrap().motion_at(0.0).is_none());
+    }
+
+    /// A joint of two legs of 2 m/s, off by half a metre; then a change of gear that is off by as much.
+    #[test]
+    fn where_places_jump_nothing_is_faster_than_at_the_ends() {
+        let channel = |name: &str, values: &[f64]| Channel { name: name.into(), values: values.to_vec() };
+        let poses = [0.0, 2.5, 0.0].map(|x| Isometry3::translation(x, 0.0, 0.0)).to_vec();
+        let zeros = [0.0; 3];
+        let channels = vec![channel("vx_m_s", &[2.0, 2.0, -2.0]), channel("vy_m_s", &zeros), channel("vz_m_s", &zeros)];
+        let track = Track::new(vec![0.0, 1.0, 2.0], poses, channels).unwrap();
+        let at = |t: f64| track.motion_at(t).map(|(p, v, a)| [p.x, v.x, a.x]).unwrap();
+        assert_eq!((at(0.5), at(1.5)), ([1.25, 2.0, 0.0], [1.25, -2.0, 0.0]));
     }
 
     #[test]

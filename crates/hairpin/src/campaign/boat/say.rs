@@ -107,6 +107,7 @@ impl Say for BoatSetup {
             margin: world.keep_in_margin_m,
             curvature: f64::INFINITY,
             speed: None,
+            fastest: self.scenario.generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY),
             timed: true,
             // Ground stations have one class for rovers and boats.
             vehicles: &[0, 10, 11],

@@ -116,16 +116,10 @@ impl Looked<'_> {
     /// A demand above the scenario's commanded speed has bounds of curvature of its own speed; below, those of the
     /// commanded speed are kept, which are never wider.
     fn settings_of(&self, leg: usize) -> DriveSettings {
-        let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.most_speed()));
+        let speed = self.asked.speed(leg).map_or(self.settings.speed, |speed| speed.min(self.setup.most_speed()));
         // At another speed it bends otherwise.
         let bounds = if speed > self.settings.speed { self.setup.bounds_at(speed) } else { self.settings.bounds };
         DriveSettings { speed, bounds, ..self.settings.clone() }
-    }
-
-    /// The smaller of `generate.limits.speed_m_s` and the robot's limit.
-    fn most_speed(&self) -> f64 {
-        let given = self.setup.scenario.generate.limits.speed_m_s.unwrap_or(f64::INFINITY);
-        given.min(self.setup.rover.limits.speed)
     }
 
     /// A whole drive has one commanded speed; of legs that differ none is made, which is no refusal.
@@ -168,7 +162,7 @@ impl Looked<'_> {
             }
         }
         let speed = self.asked.speed(leg)?;
-        let most = self.most_speed();
+        let most = self.setup.most_speed();
         let words = format!("{speed} m/s are demanded, {most} m/s is the most");
         let over = speed > most * (1.0 + ROUNDING);
         if over { broken(leg + 1, Some(leg), "speed", "m/s", Some(speed - most), words) } else { None }

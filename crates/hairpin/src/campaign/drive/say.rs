@@ -118,6 +118,7 @@ impl Say for DriveSetup {
             margin: 0.0,
             curvature: if self.rover.limits.turns_in_place { f64::INFINITY } else { self.bounds().most },
             speed: None,
+            fastest: self.most_speed(),
             timed: true,
             vehicles: &[0, 10],
         })

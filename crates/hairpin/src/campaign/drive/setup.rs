@@ -66,6 +66,11 @@ impl DriveSetup {
         commanded(&self.scenario, &self.rover)
     }
 
+    /// No plan may be faster, m/s: the smaller of `generate.limits.speed_m_s` and the robot's limit.
+    pub fn most_speed(&self) -> f64 {
+        self.scenario.generate.limits.speed_m_s.unwrap_or(f64::INFINITY).min(self.rover.limits.speed)
+    }
+
     /// Commanded rate of turns in place, rad/s: the outermost wheel goes at [`Self::speed`].
     ///
     /// v / r with r the distance of the outermost wheel from the origin, at least [`LEAST_RADIUS_M`].

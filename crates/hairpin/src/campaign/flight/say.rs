@@ -128,6 +128,7 @@ impl Say for FlightSetup {
             margin: self.world.keep_in_margin(),
             curvature: f64::INFINITY,
             speed,
+            fastest: self.scenario.generate.limits.max_speed_m_s.unwrap_or(f64::INFINITY).min(self.robot.max_speed),
             timed: self.controller.is_some() || timed,
             // What hovers by rotors alone: ground stations have one class for it.
             vehicles: &[0, 2, 3, 4, 13, 14, 15, 29, 35],

@@ -20,6 +20,8 @@ pub struct Room {
     pub curvature: f64,
     /// Speed that whoever executed goes at on every leg, m/s; `None`: the plan's.
     pub speed: Option<f64>,
+    /// Speed that plans are held to, m/s; infinite where nothing bounds it.
+    pub fastest: f64,
     /// Whether whoever executed keeps to the plan's times where there is a plan, or is at least handed them.
     pub timed: bool,
     /// `MAV_TYPE`s of missions that are its own, by MAVLink's numbers: those of its class, and 0, which is of none.
@@ -73,6 +75,7 @@ mod tests {
             margin: 0.5,
             curvature: f64::INFINITY,
             speed: None,
+            fastest: f64::INFINITY,
             timed: true,
             vehicles: &[0],
         };
