@@ -22,9 +22,6 @@ pub struct MadeBy {
     /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was cut
     /// off is missed.
     pub simd: String,
-    /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub settings: Option<String>,
 }
 
 /// A scenario that TOML cannot hold: a whole number above 2⁶³ − 1, which checking refuses.
