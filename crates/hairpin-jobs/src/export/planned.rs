@@ -27,8 +27,8 @@ pub(super) fn planned(work: &Work, case: &Case) -> Result<Track, Problem> {
     Ok(no_faster(track, fastest))
 }
 
-/// The same with velocities that are shortened to `most` (m/s) over ground: what is kept of a plan is within a hundredth
-/// of its range, on either side.
+/// The same with velocities that are shortened to `most` (m/s) over ground: what is kept of a plan is within a
+/// hundredth of its range, on either side.
 fn no_faster(track: Track, most: f64) -> Track {
     let [Some(vx), Some(vy), _] = VELOCITY.map(|name| track.channel(name)) else { return track };
     let share = |(x, y): (&f64, &f64)| {
