@@ -47,8 +47,8 @@ impl ReplayedRepro {
 /// Flies the run of the repro file `file` again, by the kernels `simd`.
 ///
 /// # Errors
-/// A file that is none, that limits nothing, or that asks to run what its user has not allowed; recordings, which cannot
-/// be made again; it was asked to stop.
+/// A file that is none, that limits nothing, or that asks to run what its user has not allowed; recordings, which
+/// cannot be made again; it was asked to stop.
 pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
     let mut repro = Repro::read(file).map_err(Problem::input)?;
     let resolved = scenario::attach(repro.scenario.clone(), file.parent().unwrap_or(Path::new("")))?;

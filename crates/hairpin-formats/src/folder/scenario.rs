@@ -28,8 +28,8 @@ impl CampaignFolder {
         self.write_scenario(&text)
     }
 
-    /// Whether the scenario, but for `spec`, and the controller's file are as hairpin wrote them; so are those of earlier
-    /// versions, which did not say.
+    /// Whether the scenario, but for `spec`, and the controller's file are as hairpin wrote them; so are those of
+    /// earlier versions, which did not say.
     ///
     /// # Errors
     /// The scenario cannot be read.

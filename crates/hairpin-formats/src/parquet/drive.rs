@@ -85,8 +85,8 @@ pub(crate) fn is_drive(table: &Table) -> bool {
 /// Reads a drive, its rows in any order.
 ///
 /// # Errors
-/// Missing columns, values out of bounds, a leg or segment that is missing or twice there, rows of one leg that differ in
-/// what is the leg's.
+/// Missing columns, values out of bounds, a leg or segment that is missing or twice there, rows of one leg that differ
+/// in what is the leg's.
 pub fn read(path: &Path) -> Result<Drive, TableError> {
     from_table(&Table::read(path)?)
 }

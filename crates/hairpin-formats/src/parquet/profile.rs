@@ -37,8 +37,8 @@ pub fn piece(case: CaseNumber, profile: &Profile) -> io::Result<Piece> {
 /// Share by which a leg may begin off the end of the one before it: other writers may have kept single precision.
 const BEGINS: f64 = 1e-6;
 
-/// Reads a profile, its rows in any order. `t0_s` is derived, and may be left out; where it stands it must be what it is
-/// derived from, to a millionth: others read it.
+/// Reads a profile, its rows in any order. `t0_s` is derived, and may be left out; where it stands it must be what it
+/// is derived from, to a millionth: others read it.
 ///
 /// # Errors
 /// Missing columns, values out of bounds, a leg or axis that is missing, twice there, or has another duration; a leg

@@ -19,8 +19,8 @@ pub struct MadeBy {
     /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<String>,
-    /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was cut
-    /// off is missed.
+    /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was
+    /// cut off is missed.
     pub simd: String,
 }
 

@@ -24,8 +24,8 @@ pub struct Compared {
 /// `tolerance_m` are unchanged.
 ///
 /// # Errors
-/// Folders that are no judged campaigns, of different kinds of robots, whose deviations are from different references, or
-/// without a case in common.
+/// Folders that are no judged campaigns, of different kinds of robots, whose deviations are from different references,
+/// or without a case in common.
 pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
     let (before, after) = (open_executed(a)?, open_executed(b)?);
     let scenarios = [&before.setup.scenario, &after.setup.scenario];

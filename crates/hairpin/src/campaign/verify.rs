@@ -6,8 +6,8 @@ use super::kind::{Made, PlannedRows, Verified};
 use super::{Case, Setup, vary};
 use crate::verification::{EndError, Finding, Proof};
 
-/// Integrates the witness of `case`, which was searched for, by independent code, to the default tolerances of flights and the scenario's of
-/// drives.
+/// Integrates the witness of `case`, which was searched for, by independent code, to the default tolerances of flights
+/// and the scenario's of drives.
 ///
 /// Deterministic, and independent of any execution. A case without a witness gives no proof; that is no failure. Where
 /// `[vary]` draws what shapes plans, a case is held to what was drawn for it, or to what is nominal: missions made
