@@ -116,6 +116,7 @@ const OF_VERBS: &[(&str, &str, &[&str])] = &[
     ("learn", "Score", &["stress"]),
     ("replay", "Case", &["case"]),
     ("select", "Choice", &["cases", "by"]),
+    ("schema", "Robots", &["kind"]),
     ("calibrate", "Share", &["share", "cases"]),
     ("fit", "Logs", &["robot", "mission", "campaign", "holdout"]),
     ("check", "Mission", &["robot", "world"]),
@@ -234,7 +235,7 @@ const EXAMPLES: &[(&str, [&str; 2])] = &[
     ("experiment", ["hairpin experiment yields", "hairpin experiment robtest-table-1 --out tables"]),
     ("requirements", ["hairpin requirements rover", "hairpin requirements rover --json"]),
     ("show", ["hairpin show terrain yard.tif", "hairpin show terrain yard.png --terrain-cell-m 0.1 --json"]),
-    ("schema", ["hairpin schema scenario", "hairpin schema rover-scenario"]),
+    ("schema", ["hairpin schema scenario", "hairpin schema --kind boat"]),
     ("completions", ["hairpin completions bash", "hairpin completions zsh"]),
     ("man", ["hairpin man --out man1", "hairpin man --out man1 --json"]),
 ];

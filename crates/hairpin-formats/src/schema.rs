@@ -19,14 +19,20 @@ pub fn drive_scenario_schema() -> Value {
 
 /// The schema of a scenario file of an arm.
 pub fn arm_scenario_schema() -> Value {
-    scenario_schema_of(Some("arm"))
+    scenario_schema_for_editors(Some("arm"))
+}
+
+/// What a scenario file may say of a robot whose `kind` is `word`: [`scenario_schema_of`], with what is read before that
+/// is asked, an arm's URDF.
+pub fn scenario_schema_for_editors(word: Option<&str>) -> Value {
+    let mut schema = scenario_schema_of(word);
+    schema.pointer_mut("/$defs/ArmDescription").into_iter().for_each(or_by_urdf);
+    schema
 }
 
 /// The schema of the scenario files of robots whose `kind` is `word`.
 pub fn scenario_schema_of(word: Option<&str>) -> Value {
-    let mut schema = with_made_by(RobotKind::of_word(word).schema());
-    schema.pointer_mut("/$defs/ArmDescription").into_iter().for_each(or_by_urdf);
-    schema
+    with_made_by(RobotKind::of_word(word).schema())
 }
 
 fn with_made_by(mut schema: Value) -> Value {

@@ -4,7 +4,7 @@ use hairpin::campaign::scenario::RobotKind;
 use hairpin_formats::atomic::json_text;
 use hairpin_formats::schema::{
     arm_scenario_schema, arm_schema, car_schema, differential_drive_schema, drive_scenario_schema, robot_schema,
-    rover_schema, scenario_schema, scenario_schema_of,
+    rover_schema, scenario_schema, scenario_schema_for_editors,
 };
 use hairpin_jobs::Problem;
 
@@ -15,7 +15,7 @@ use crate::exit::DONE;
 /// Runs the command.
 pub(crate) fn run(schema: &Schema) -> Result<u8, Problem> {
     let schema = match (&schema.kind, schema.document) {
-        (Some(word), _) => scenario_schema_of(Some(known(word)?)),
+        (Some(word), _) => scenario_schema_for_editors(Some(known(word)?)),
         (None, Document::Scenario) => scenario_schema(),
         (None, Document::RoverScenario) => drive_scenario_schema(),
         (None, Document::ArmScenario) => arm_scenario_schema(),

@@ -134,7 +134,7 @@ struct Page {
     links: Vec<String>,
     /// The places that its headings are.
     places: BTreeSet<String>,
-    /// Tags of HTML, which mdBook hands on as they are.
+    /// Tags of HTML, which mdBook hands on as they are; no comments.
     html: Vec<String>,
 }
 
@@ -150,7 +150,9 @@ impl Page {
                 Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
                 Event::End(TagEnd::Heading(_)) => page.stands(&heading.take().unwrap_or_default()),
                 Event::Text(words) | Event::Code(words) => heading.iter_mut().for_each(|heading| *heading += &words),
-                Event::Html(tag) | Event::InlineHtml(tag) => page.html.push(tag.into_string()),
+                Event::Html(tag) | Event::InlineHtml(tag) if !tag.trim_start().starts_with("<!--") => {
+                    page.html.push(tag.into_string());
+                }
                 _ => {}
             }
         }
@@ -176,7 +178,7 @@ fn the_book_is_whole() {
     let docs = Path::new(TOP).join("docs").canonicalize().unwrap();
     let read = |path: PathBuf| (path.clone(), Page::read(&fs::read_to_string(path).unwrap()));
     let pages: BTreeMap<PathBuf, Page> = files(&docs, "md").into_iter().map(read).collect();
-    assert!(pages.values().map(|page| page.links.len()).sum::<usize>() > 200);
+    assert!(pages.values().map(|page| page.links.len()).sum::<usize>() > 150);
     for (path, page) in &pages {
         assert_eq!(page.html, [""; 0], "{}", path.display());
         for link in &page.links {

@@ -114,6 +114,37 @@ pub struct Measured {
     pub unseen: Option<Unseen>,
 }
 
+impl Measured {
+    /// Why arrivals are none: the first target that counts as arrived at along the path and that the recording was
+    /// never near. Where the path `is_limited` its limit says how near positions have to come.
+    pub fn beside(&self, is_limited: bool) -> Option<String> {
+        // What was passed before the recording begins is not seen.
+        let moves = self.moves.iter().enumerate().filter(|(_, one)| one.arrived.is_some() && one.after.is_some());
+        let mut approaches = moves.filter_map(|(index, one)| Some((index, one, one.approach?)));
+        approaches.find_map(|(index, one, near)| {
+            let target = format!("the target of move {} ({})", index + 1, one.name);
+            let least = |most: &str, within: String, of: &str| {
+                Some(format!(
+                    "{target} was passed and never come to: {most} at the nearest, {within} taken for there ({of})"
+                ))
+            };
+            if !is_limited && near.distance > near.distance_within {
+                let [most, within] = [near.distance, near.distance_within].map(|m| format!("{:.1} mm", 1e3 * m));
+                return least(
+                    &most,
+                    within,
+                    "a tenth of the longer move beside it; no limit of the path says how near",
+                );
+            }
+            if near.turn > near.turn_within {
+                let [most, within] = [near.turn, near.turn_within].map(|rad| format!("{:.1}°", rad.to_degrees()));
+                return least(&most, within, "a tenth of the larger turn beside it, or 0.02 rad");
+            }
+            None
+        })
+    }
+}
+
 /// Measures `recording` against the planned path, move by move.
 ///
 /// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a
