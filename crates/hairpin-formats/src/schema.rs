@@ -22,8 +22,8 @@ pub fn arm_scenario_schema() -> Value {
     scenario_schema_for_editors(Some("arm"))
 }
 
-/// What a scenario file may say of a robot whose `kind` is `word`: [`scenario_schema_of`], with what is read before that
-/// is asked, an arm's URDF.
+/// What a scenario file may say of a robot whose `kind` is `word`: [`scenario_schema_of`], with what is read before
+/// that is asked, an arm's URDF.
 pub fn scenario_schema_for_editors(word: Option<&str>) -> Value {
     let mut schema = scenario_schema_of(word);
     schema.pointer_mut("/$defs/ArmDescription").into_iter().for_each(or_by_urdf);
