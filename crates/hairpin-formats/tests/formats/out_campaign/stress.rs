@@ -80,7 +80,7 @@ fn case(number: usize) -> Case {
         graph: number as u64,
         leg_times,
         score: 5.0 + unit(number, 99),
-        evidence: Evidence::Witnessed,
+        evidence: Evidence::HullFeasible,
         ..Case::bare(CaseNumber(number), case_seed(10, number as u64), waypoints)
     }
 }
