@@ -114,7 +114,7 @@ pub enum Existing {
 #[derive(Debug)]
 pub struct CampaignFolder {
     path: PathBuf,
-    _lock: Option<File>,
+    _lock: Option<Lock>,
     /// What its programs find on the controller, once somebody asked.
     frames: OnceLock<Frames>,
     open_parts: Recent<Part>,
@@ -176,7 +176,7 @@ impl CampaignFolder {
         Ok(Self::at(path, None))
     }
 
-    fn at(path: &Path, lock: Option<File>) -> Self {
+    fn at(path: &Path, lock: Option<Lock>) -> Self {
         let (open_parts, facts) = (Recent::default(), Recent::default());
         let executor_before = Mutex::default();
         Self { path: path.into(), _lock: lock, frames: OnceLock::new(), open_parts, facts, executor_before }
@@ -292,14 +292,42 @@ fn entries(path: &Path) -> Result<Vec<PathBuf>, FolderError> {
     entries.map(|entry| entry.map(|entry| entry.path()).map_err(refuse)).collect()
 }
 
-/// The folder's lock, held by the open file. Where the file system knows no locks there is none.
-fn lock(path: &Path) -> Result<Option<File>, FolderError> {
+/// A folder's lock. It is let go by name: a child that another thread starts holds the same open file until it is
+/// the child's own program, or for good where it only forks.
+#[derive(Debug)]
+struct Lock(File);
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        let _ = self.0.unlock(); // then it goes with the last that has the file open
+    }
+}
+
+/// The folder's lock. Where the file system knows no locks there is none.
+fn lock(path: &Path) -> Result<Option<Lock>, FolderError> {
     let file = path.join(LOCK);
     let open = File::options().create(true).append(true).open(&file);
     let opened = open.map_err(|cause| FolderError::Write(WriteError { path: file, cause }))?;
     match opened.try_lock() {
-        Ok(()) => Ok(Some(opened)),
+        Ok(()) => Ok(Some(Lock(opened))),
         Err(TryLockError::WouldBlock) => Err(FolderError::Locked { path: path.into() }),
         Err(TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As in a process whose other threads start programs just then.
+    #[test]
+    fn a_lock_is_let_go_though_a_child_has_the_file_open() {
+        let place = tempfile::tempdir().unwrap();
+        let first = CampaignFolder::create(place.path(), Existing::Replace).unwrap();
+        let childs = first._lock.as_ref().map(|Lock(file)| file.try_clone().unwrap());
+        assert!(matches!(CampaignFolder::create(place.path(), Existing::Replace), Err(FolderError::Locked { .. })));
+        drop(first);
+        CampaignFolder::create(place.path(), Existing::Replace).unwrap();
+        drop(childs);
     }
 }
