@@ -365,6 +365,8 @@ fn a_search_that_ran_out_of_time_is_executed_all_the_same() {
     let told = json(here, &["stress", "q.toml", "--out", "a", "--time-limit", "2"]);
     assert!(told["counts"]["cases"].as_u64().unwrap() > 0, "{told}");
     assert_eq!(told["counts"]["executor_failed"], 0, "{told}");
+    let verdict = told["verdict"].as_str().unwrap();
+    assert!(verdict.contains("; the search was stopped before its end, after "), "{verdict}");
 }
 
 /// A scenario that names code which was not read is steered by nobody else in its place.

@@ -70,7 +70,9 @@ pub fn verdict_on(
     let alone = worst.as_ref().is_none_or(|named| named.value.what == "deviation");
     let beside = baseline.map(|baseline| (flown, baseline.in_words(setup, alone)));
     let unfelt = setup.unfelt_draws().map(|why| format!("what `[vary]` draws is no draw of any run: {why}"));
-    let passed_over: Vec<String> = passed_over(setup, cases, results).into_iter().chain(unfelt).collect();
+    let stopped = (tally.stopped && cut.is_none()).then(|| stopped_words(searched));
+    let passed_over: Vec<String> =
+        passed_over(setup, cases, results).into_iter().chain(unfelt).chain(stopped).collect();
     let repeat = setup.scenario.executor().repeat as usize;
     let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
@@ -122,6 +124,12 @@ fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<
         of += measures.legs.len();
     }
     (within > 0).then(|| format!("{within} of {of} legs within corner_m of their waypoints: no deviation judged there"))
+}
+
+/// Of a search that a limit of its time ended, or whoever watched: it passes by what it found until then.
+fn stopped_words(executions: u64) -> String {
+    let after = if executions == 0 { String::new() } else { format!(", after {} executions", grouped(executions)) };
+    format!("the search was stopped before its end{after}")
 }
 
 /// `cut short by the budget of time: the search after 1 200 of 4 000 executions, 12 of 40 cases not executed`.

@@ -2,7 +2,7 @@
 
 use super::BoatSetup;
 use crate::campaign::Case;
-use crate::campaign::kind::{Made, PlannedRows, Task, flat_places, verify_task};
+use crate::campaign::kind::{Made, PlannedRows, Task, flat_places, verify_task, verify_times};
 use crate::robot::boat::Boat;
 use crate::trajectory::Profile;
 use crate::verification::boat::{BoatClaim, BoatHull, BoatLeg, boat_with_lag, verify_boat, verify_boat_rows};
@@ -43,8 +43,8 @@ fn legs_of(profile: &Profile) -> Vec<BoatLeg> {
     profile.legs.iter().map(|leg| BoatLeg { duration: leg.duration, coefficients: leg.coefficients }).collect()
 }
 
-/// Beside what the verification room finds: the case's leg times are the witness's to 10⁻⁹ of each, and all waypoints
-/// lie in z = 0.
+/// Beside what the verification room finds: the case's leg times are the witness's, all within `max_time_s`, and all
+/// waypoints lie in z = 0.
 fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> {
     let profile = case.profile()?;
     let (generate, world) = (&setup.scenario.generate, &setup.scenario.world);
@@ -63,11 +63,10 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
     let hull = hull_of(&setup.boat, generate.limits.thrust_share.unwrap_or(1.0));
     let tolerances = Tolerances { accuracy: ACCURACY, ..Tolerances::default() };
     let mut proof = verify_boat(&hull, &claim, &tolerances);
-    // What others read of the case are its leg times, and its path lies in the plane.
-    for (number, leg) in legs.iter().enumerate() {
-        let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);
+    let durations: Vec<f64> = legs.iter().map(|leg| leg.duration).collect();
+    verify_times(case, &durations, setup.longest(), &mut proof);
+    for number in 0..legs.len() {
         let mut found = Collector::on_leg(&mut proof.findings, number, 0.0);
-        found.above("leg_time", (told - leg.duration).abs(), 1e-9 * leg.duration, "s");
         found.above("height", case.waypoints[number + 1].z.abs(), 0.0, "m");
     }
     Some((proof, boat_with_lag(&hull, &claim)))

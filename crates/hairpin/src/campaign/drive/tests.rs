@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::DriveSetup;
 use super::solve::DriveSolver;
-use crate::campaign::graph::Plan;
+use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::trial::{Sought, Trials};
@@ -384,6 +384,27 @@ fn what_has_no_commands_is_drawn_by_its_own_reach_set() {
             assert!(solver.altered(plan, 1, &mut stream(1)).is_none(), "{reach}");
         }
     }
+}
+
+/// Sets that ask nothing of the ground lead over what it does not carry as well, where there is no motion to run.
+#[test]
+fn what_the_ground_does_not_carry_is_left_out() {
+    let far = [
+        ("world.terrain.relief_m", json!(1.0)),
+        ("generate.reach", json!("none")),
+        ("generate.step_s", json!(20.0)),
+        ("task.leg_m", json!([4, 14])),
+    ];
+    let setup = setup(rover(), &far);
+    let (solver, mut left_out) = (solver(&setup), 0);
+    for graph in 0..20 {
+        let outcome = solver.solve(graph, Executions::none(), Wanted::Cases, &Stop::never());
+        for (_, plan) in &outcome.plans {
+            super::plan::track(setup.own().unwrap(), &plan.clone().case(42, graph, 0)).unwrap();
+        }
+        left_out += usize::from(outcome.reason.is_some_and(|reason| reason.contains("its ground carries it")));
+    }
+    assert!(left_out > 0);
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::campaign::Case;
-use crate::campaign::kind::{Made, PlannedRows, Task, verify_task};
+use crate::campaign::kind::{Made, PlannedRows, Task, verify_task, verify_times};
 use crate::campaign::scenario::EnvironmentSection;
 use crate::feasibility::Limits;
 use crate::robot::quadrotor::Quadrotor;
@@ -37,6 +37,9 @@ pub(super) fn verify(setup: &FlightSetup, case: &Case, made: Made) -> Option<(Pr
     let mut proof = verification::verify(&body, &claim, &Tolerances::default());
     proof.findings.extend(verify_flight_limits(&body, &legs, &limits(setup)));
     proof.findings.extend(outside(setup, &legs));
+    let longest = setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
+    let durations: Vec<f64> = legs.iter().map(|leg| leg.duration).collect();
+    verify_times(case, &durations, longest, &mut proof);
     if made == Made::Searched {
         let task = &setup.scenario.task;
         verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);

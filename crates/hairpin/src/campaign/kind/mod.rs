@@ -67,4 +67,4 @@ pub(super) use same::Same;
 pub(super) use say::{Assumptions, BEYOND, Facts, Motion, RobotWords, Say, reached_within, word};
 pub use say::{FrameWords, Handed};
 pub use solid::{Surface, surface};
-pub(super) use task::{Made, Task, verify_task};
+pub(super) use task::{Made, Task, verify_task, verify_times};

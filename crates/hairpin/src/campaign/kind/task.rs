@@ -23,7 +23,7 @@ pub(in crate::campaign) struct Task<'a> {
     pub(in crate::campaign) length: u64,
 }
 
-/// Waypoints are written with all their digits, m.
+/// Waypoints are written with all their digits, m, and so are times, as a share.
 const SAME: f64 = 1e-9;
 
 /// Adds to `proof` what does not hold of the task of a case that was searched for: `task.start`, `task.end` (distances,
@@ -43,6 +43,19 @@ pub(in crate::campaign) fn verify_task(task: &Task, case: &Case, proof: &mut Pro
     found.unless(length == asked, "length", length, asked, "");
 }
 
+/// Adds to `proof` what does not hold of the times of a case with legs of so many seconds: each is the case's own
+/// (`legs[k].leg_time`, to 10⁻⁹ of it: what others read of the case), and together they are at most `longest`
+/// (`limits.time`), s.
+pub(in crate::campaign) fn verify_times(case: &Case, durations: &[f64], longest: f64, proof: &mut Proof) {
+    for (number, duration) in durations.iter().enumerate() {
+        let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);
+        let mut found = Collector::on_leg(&mut proof.findings, number, 0.0);
+        found.above("leg_time", (told - duration).abs(), SAME * duration, "s");
+    }
+    let all: f64 = durations.iter().sum();
+    Collector::about(&mut proof.findings, "limits").unless(all <= longest * (1.0 + SAME), "time", all, longest, "s");
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +73,19 @@ mod tests {
         let (start, end): (&[f64], &[f64]) = (&[0.0, 0.0, 1.0], &[2.0, 0.0]);
         assert!(fields(start, Some(end), 3).is_empty() && fields(start, None, 3).is_empty());
         assert_eq!(fields(end, Some(&[1.9, 0.0]), 4), ["task.start", "task.end", "task.length"]);
+    }
+
+    #[test]
+    fn times_are_those_of_the_legs_and_within_the_limit() {
+        let case = Case { leg_times: vec![1.0, 2.0], ..Case::bare(CaseNumber(0), 0, vec![Point3::origin(); 3]) };
+        let fields = |durations: &[f64], longest: f64| {
+            let mut proof = Proof::default();
+            verify_times(&case, durations, longest, &mut proof);
+            proof.findings.into_iter().map(|finding| finding.field).collect::<Vec<_>>()
+        };
+        assert!(fields(&[1.0, 2.0], 3.0).is_empty() && fields(&[1.0, 2.0], f64::INFINITY).is_empty());
+        assert_eq!(fields(&[1.0, 2.0], 2.9), ["limits.time"]);
+        assert_eq!(fields(&[1.0, 2.1], 9.0), ["legs[1].leg_time"]);
+        assert_eq!(fields(&[1.0, 2.0, 1.0], 9.0), ["legs[2].leg_time"], "which the case does not tell");
     }
 }
