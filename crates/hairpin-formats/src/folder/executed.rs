@@ -1,7 +1,7 @@
 //! `executed.tsv`: what the executions of a search came to that was stopped, so that going on executes nothing twice.
 //! A row for each: the fingerprint of what was executed, in hexadecimal digits; stress, leg and executions for each
-//! target, as `0.75:4:1`, with blanks between; measures that tell it from others. Of what failed there is the
-//! fingerprint alone.
+//! target, as `0.75:4:1`, with blanks between; measures that tell it from others; `fails` of what violates something whatever is limited. Of
+//! what was not carried out there is the fingerprint alone.
 
 use std::io;
 use std::str::FromStr;
@@ -51,24 +51,30 @@ impl CampaignFolder {
 
 pub(super) fn row(fingerprint: &[u8; 16], ran: Option<&Executed>) -> String {
     let name = u128::from_be_bytes(*fingerprint);
-    let Some(Executed { trials, behaviour }) = ran else { return format!("{name:032x}\n") };
+    let Some(Executed { trials, behaviour, fails }) = ran else { return format!("{name:032x}\n") };
     let trial = |(stress, leg, executions): &(f64, usize, u64)| format!("{stress}:{leg}:{executions}");
     let trials: Vec<String> = trials.iter().map(trial).collect();
     let behaviour: Vec<String> = behaviour.iter().map(f64::to_string).collect();
-    format!("{name:032x}\t{}\t{}\n", trials.join(" "), behaviour.join(" "))
+    let fails = if *fails { "\tfails" } else { "" };
+    format!("{name:032x}\t{}\t{}{fails}\n", trials.join(" "), behaviour.join(" "))
 }
 
 pub(super) fn read(line: &str) -> Option<([u8; 16], Answer)> {
     let mut parts = line.split('\t');
     let fingerprint = u128::from_str_radix(parts.next()?, 16).ok()?.to_be_bytes();
     let (Some(trials), Some(behaviour)) = (parts.next(), parts.next()) else { return Some((fingerprint, None)) };
+    let fails = match parts.next() {
+        None => false,
+        Some("fails") => true,
+        Some(_) => return None,
+    };
     let trial = |text: &str| {
         let mut of = text.split(':');
         Some((number(of.next()?)?, number(of.next()?)?, number(of.next()?)?))
     };
     let trials: Option<Vec<(f64, usize, u64)>> = trials.split_whitespace().map(trial).collect();
     let behaviour: Option<Vec<f64>> = behaviour.split_whitespace().map(number).collect();
-    Some((fingerprint, Some(Executed { trials: trials?, behaviour: behaviour? })))
+    Some((fingerprint, Some(Executed { trials: trials?, behaviour: behaviour?, fails })))
 }
 
 fn number<T: FromStr>(text: &str) -> Option<T> {
@@ -82,14 +88,15 @@ mod tests {
     #[test]
     fn a_row_comes_back_to_the_bit() {
         let trial = |stress| (stress, 3, 2);
-        let ran = Executed { trials: vec![trial(0.1 + 0.2), trial(-1e-300)], behaviour: vec![1.0 / 3.0, 0.0] };
+        let ran =
+            Executed { trials: vec![trial(0.1 + 0.2), trial(-1e-300)], behaviour: vec![1.0 / 3.0, 0.0], fails: true };
         let fingerprint = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 255];
         assert_eq!(read(row(&fingerprint, Some(&ran)).trim_end()), Some((fingerprint, Some(ran))));
         assert_eq!(read(row(&fingerprint, None).trim_end()), Some((fingerprint, None)));
-        let unmeasured = Executed { trials: vec![trial(f64::NAN)], behaviour: Vec::new() };
+        let unmeasured = Executed { trials: vec![trial(f64::NAN)], behaviour: Vec::new(), fails: false };
         let (_, back) = read(row(&fingerprint, Some(&unmeasured)).trim_end_matches('\n')).unwrap();
         assert!(back.unwrap().trials[0].0.is_nan());
-        for wrong in ["", "xyz", "00\t1:2\t", "00\t1:2:x\t"] {
+        for wrong in ["", "xyz", "00\t1:2\t", "00\t1:2:x\t", "00\t1:2:3\t1\tx"] {
             assert_eq!(read(wrong), None, "{wrong:?}");
         }
     }

@@ -149,7 +149,8 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("00003-01.tsv");
         let names = [[1; 16], [2; 16]];
-        let answers = vec![Some(Executed { trials: vec![(0.1 + 0.2, 3, 1)], behaviour: vec![1.0 / 3.0] }), None];
+        let answers =
+            vec![Some(Executed { trials: vec![(0.1 + 0.2, 3, 1)], behaviour: vec![1.0 / 3.0], fails: true }), None];
         assert_eq!(Piece::read(&path, &names).unwrap(), Piece::Missing);
         Piece::write(&path, &names, &answers).unwrap();
         assert_eq!(Piece::read(&path, &names).unwrap(), Piece::Whole(answers.clone()));

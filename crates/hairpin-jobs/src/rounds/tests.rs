@@ -21,7 +21,11 @@ fn search(rounds: &Rounds, executed: &AtomicUsize, most: usize) -> Vec<f64> {
             }
             sleep(Duration::from_millis(1));
             let stress = (state * (place as f64 + 1.7)).sin();
-            Some((place % 7 != 3).then(|| Executed { trials: vec![(stress, place, 1)], behaviour: vec![state] }))
+            Some((place % 7 != 3).then(|| Executed {
+                trials: vec![(stress, place, 1)],
+                behaviour: vec![state],
+                fails: false,
+            }))
         };
         let stopped = || executed.load(Ordering::Relaxed) > most || rounds.is_in_trouble();
         let answers = rounds.carry_out(&Batch { names: &names, execute: &execute }, &stopped);

@@ -25,22 +25,24 @@ pub struct Executed {
     pub trials: Vec<(f64, usize, u64)>,
     /// Measures that tell it from others, or the stress of each leg (NaN where it was not measured) for who learns it.
     pub behaviour: Vec<f64>,
+    /// Whether it violates something, whatever is limited.
+    pub fails: bool,
 }
 
 /// What an execution came to; `None` of one that failed.
 pub type Answer = Option<Executed>;
 
 impl From<&Ran> for Executed {
-    fn from(Ran { trials, behaviour }: &Ran) -> Self {
+    fn from(Ran { trials, behaviour, fails }: &Ran) -> Self {
         let trial = |trial: &Trial| (trial.stress, trial.worst_leg, trial.executions);
-        Self { trials: trials.iter().map(trial).collect(), behaviour: behaviour.clone() }
+        Self { trials: trials.iter().map(trial).collect(), behaviour: behaviour.clone(), fails: *fails }
     }
 }
 
 impl From<Executed> for Ran {
-    fn from(Executed { trials, behaviour }: Executed) -> Self {
+    fn from(Executed { trials, behaviour, fails }: Executed) -> Self {
         let trial = |(stress, worst_leg, executions)| Trial { stress, worst_leg, executions };
-        Self { trials: trials.into_iter().map(trial).collect(), behaviour }
+        Self { trials: trials.into_iter().map(trial).collect(), behaviour, fails }
     }
 }
 

@@ -3,10 +3,13 @@
 //! A stress of 2.1 m says little; beside 1.2 m of random feasible missions, flown by the same controller under the
 //! same draws, it says something. Numbers are of cases' worst runs.
 
+use std::collections::BTreeMap;
+
 use super::case::CaseResult;
 use super::digits::number;
 use super::setup::Setup;
 use crate::judgement::{Measures, Statistics, Stress, Violation, mean_interval, told};
+use crate::trajectory::Ended;
 
 /// Random feasible cases, measured by what the campaign searches for.
 ///
@@ -33,6 +36,9 @@ pub struct Baseline {
     pub max: f64,
     /// The worst: the largest, or the least where less is worse.
     pub worst: f64,
+    /// How runs ended that did not come to their goal, and how many cases' worst runs did so: they are measured as far
+    /// as they came.
+    pub cut_short: BTreeMap<String, usize>,
 }
 
 impl Baseline {
@@ -53,6 +59,7 @@ impl Baseline {
             median,
             max,
             worst: if less_is_worse { min } else { max },
+            cut_short: cut_short(results),
         })
     }
 
@@ -79,7 +86,14 @@ impl Baseline {
         };
         let [mean, worst] = [self.mean, self.worst].map(|value| self.told(setup, value));
         let interval = self.interval_in_words(setup).map_or(String::new(), |interval| format!(" ({interval})"));
-        format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {}", self.cases)
+        let cut = match self.cut_short.values().sum::<usize>() {
+            0 => String::new(),
+            count => {
+                let ways: Vec<String> = self.cut_short.iter().map(|(ended, count)| format!("{count} {ended}")).collect();
+                format!(", {count} of them cut short ({})", ways.join(", "))
+            }
+        };
+        format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {}{cut}", self.cases)
     }
 
     /// What they are, for whoever reads what a campaign rests on.
@@ -126,6 +140,15 @@ impl Baseline {
 /// With the digits of the limit, as the verdict has them.
 fn digits(found: &Violation) -> String {
     if found.limit.is_nan() { number(Some(found.value)) } else { told(found.value, Some(found.limit), &found.unit) }
+}
+
+/// As [`Baseline::cut_short`] has it.
+fn cut_short(results: &[CaseResult]) -> BTreeMap<String, usize> {
+    let mut ways = BTreeMap::new();
+    for result in results.iter().filter(|result| result.measures.is_some() && result.ended != Ended::Done.word()) {
+        *ways.entry(result.ended.clone()).or_default() += 1;
+    }
+    ways
 }
 
 /// What was measured of each case's worst run, and whether less of it is worse.
@@ -180,6 +203,11 @@ mod tests {
         });
         let setup = Setup::new(serde_json::from_value::<Scenario>(scenario).unwrap()).unwrap();
         let random = Baseline::of(Stress::MaxDeviation, 1, &deviating(&[Some(1.0), Some(3.0)])).unwrap();
+        let crashed = |ended: &str, result| CaseResult { ended: ended.into(), ..result };
+        let ways = deviating(&[Some(1.0), Some(3.0), None, Some(2.0)]).into_iter();
+        let ways: Vec<_> = ways.zip(["obstacle", "done", "", "time"]).map(|(one, ended)| crashed(ended, one)).collect();
+        let cut = Baseline::of(Stress::MaxDeviation, 1, &ways).unwrap().in_words(&setup, true);
+        assert!(cut.ends_with(" at worst of 3, 2 of them cut short (1 obstacle, 1 time)"), "{cut}");
         let told = [true, false].map(|alone| random.in_words(&setup, alone));
         assert!(told[0].starts_with("random feasible ones 2"), "{}", told[0]);
         assert!(told[1].starts_with("random feasible ones: max deviation 2"), "{}", told[1]);

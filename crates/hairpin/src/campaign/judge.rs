@@ -120,14 +120,24 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
 ///
 /// By the limits' own reference and corner; of programs also move by move.
 pub fn measures_of(setup: &Setup, case: &Case, run: &Run) -> Option<Measures> {
-    measured(setup, case, run).map(|(measures, _)| measures)
+    measured(setup, case, run).map(|judged| judged.measures)
 }
 
-/// [`measures_of`], and whether they violate what the scenario limits.
-pub(super) fn measured(setup: &Setup, case: &Case, run: &Run) -> Option<(Measures, bool)> {
+/// What one run measured, and what that comes to.
+pub(super) struct Weighed {
+    pub(super) measures: Measures,
+    /// Whether it violates anything.
+    pub(super) violates: bool,
+    /// Whether it would, whatever is limited: it crashed, left the world or stopped short of its end.
+    pub(super) fails: bool,
+}
+
+/// [`measures_of`], weighed.
+pub(super) fn measured(setup: &Setup, case: &Case, run: &Run) -> Option<Weighed> {
     let flight = run.outcome.as_ref().ok()?;
-    let judged = judge_run(setup, case, &Planned::default(), run, flight).ok()?.ok()?;
-    Some((judged.measures, !judged.violations.is_empty()))
+    let JudgedRun { measures, violations, .. } = judge_run(setup, case, &Planned::default(), run, flight).ok()?.ok()?;
+    let fails = violations.iter().any(|one| one.event().is_some());
+    Some(Weighed { measures, violates: !violations.is_empty(), fails })
 }
 
 struct JudgedRun {

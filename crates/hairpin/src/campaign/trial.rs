@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::execute::run_of;
 use super::graph::{Plan, fingerprint};
-use super::judge::{measured, measures_of};
+use super::judge::{Weighed, measured, measures_of};
 use super::kind::Order;
 use super::learn::LegSample;
 use super::mission::run_seed;
@@ -68,6 +68,8 @@ struct Executed {
     case: Case,
     run: Run,
     measures: Measures,
+    /// Whether it violates something, whatever is limited.
+    fails: bool,
 }
 
 impl Trials<'_> {
@@ -93,7 +95,7 @@ impl Trials<'_> {
     /// what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
     /// as runs 1, 2, … of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
     ///
-    /// One execution serves all of `sought`. Repeats are made where any of them comes to its `least`, and count for
+    /// It fails if the first does. One execution serves all of `sought`. Repeats are made where any of them comes to its `least`, and count for
     /// all.
     pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), sought: &[Sought], least: &[f64]) -> Option<Ran> {
         let executed = self.executed_as(plan, run)?;
@@ -115,7 +117,7 @@ impl Trials<'_> {
                 (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
             }
         }
-        Some(Ran { trials, behaviour: executed.measures.behaviour() })
+        Some(Ran { trials, behaviour: executed.measures.behaviour(), fails: executed.fails })
     }
 
     fn measured(&self, sought: Sought, executed: &Executed) -> f64 {
@@ -231,23 +233,21 @@ impl Trials<'_> {
     fn executed_as(&self, plan: &Plan, run: usize) -> Option<Executed> {
         let case = self.case(plan);
         let run = run_of(self.setup, self.executor, &case, run, mission(self.setup, &case, run));
-        let measures = self.measures(&case, &run)?;
-        Some(Executed { case, run, measures })
+        self.weighed(case, run)
     }
 
     /// Confirmation number `number` of `case`, with what is drawn for run number `run`, under noise of its own.
     fn again(&self, case: &Case, run: usize, number: u64) -> Option<Executed> {
         let mission = mission_again(self.setup, case, run, CONFIRMING + number as usize);
         let run = run_of(self.setup, self.executor, case, run, mission);
-        let measures = self.measures(case, &run)?;
-        Some(Executed { case: case.clone(), run, measures })
+        self.weighed(case.clone(), run)
     }
 
-    /// Of a run; whoever carried it out is told.
-    fn measures(&self, case: &Case, run: &Run) -> Option<Measures> {
-        let (measures, violates) = measured(self.setup, case, run)?;
+    /// A run with its measures; whoever carried it out is told.
+    fn weighed(&self, case: Case, run: Run) -> Option<Executed> {
+        let Weighed { measures, violates, fails } = measured(self.setup, &case, &run)?;
         self.executor.measured(&measures, violates);
-        Some(measures)
+        Some(Executed { case, run, measures, fails })
     }
 
     /// What `plan` is carried out as: a case whose number is not known yet.

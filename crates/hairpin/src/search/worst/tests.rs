@@ -98,7 +98,7 @@ impl Field for Room {
         let fails = self.moves && u128::from_le_bytes(self.fingerprint(plan)) % 11 == 10;
         (!fails).then(|| {
             let trial = Self::stress(plan);
-            Ran { trials: vec![trial], behaviour: vec![trial.stress] }
+            Ran { trials: vec![trial], behaviour: vec![trial.stress], fails: false }
         })
     }
 }

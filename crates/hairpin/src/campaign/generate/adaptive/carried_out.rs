@@ -58,12 +58,13 @@ impl Campaign<'_> {
             let answer = |(Trial { stress, worst_leg, executions }, behaviour)| Executed {
                 trials: vec![(stress, worst_leg, executions)],
                 behaviour,
+                fails: false, // what is learned is stress
             };
             self.begins(number, part).then(|| trials(todo).execute_legs(&todo.plan).map(answer))
         };
         let answers = self.sampled.executor.carry_out(&Batch { names: &names, execute: &execute });
         let learned = |place: usize, answer: Answer| {
-            let Executed { trials: stresses, behaviour } = answer?;
+            let Executed { trials: stresses, behaviour, .. } = answer?;
             // An infinite stress could not be told from a mistake.
             let (stress, ..) = stresses.first().copied().filter(|(stress, ..)| stress.is_finite())?;
             let trajectory = self.executed as usize + place;
