@@ -205,11 +205,16 @@ fn run_of(stem: &str) -> Result<(CaseNumber, u64), String> {
 /// The recording at `path` as run `run` of `case`.
 ///
 /// # Errors
-/// A file that is no recording, one whose stamps do not rise, one that is shorter than the program.
+/// A file that is no recording, one whose stamps do not rise, one that is shorter than the program; joints more than a
+/// turn beyond their bounds.
 pub fn read(path: &Path, arm: &ArmSetup, case: &Case, run: usize) -> Result<Run, RecordingError> {
     let ControllerLog { track, orientation_known, last_line, .. } =
         controller_log::read(path, Some((&arm.station.arm, &arm.station.tool.tcp)))?;
     let refuse = |why: String| RecordingError::Refused { path: path.into(), why };
+    let beyond = arm.beyond_bounds(&track);
+    if let Some(why) = beyond.and_then(|beyond| beyond.refused(&format!("joint {}", beyond.axis))) {
+        return Err(refuse(why));
+    }
     let recorded = arm.recorded(case, track, orientation_known).map_err(|error| refuse(error.to_string()))?;
     match recorded {
         (flight, None) => Ok(Run { case: case.number, run, drawn: Vec::new(), outcome: Ok(flight), full_rate: None }),

@@ -116,7 +116,7 @@ fn program_object(found: &FoundProgram) -> Value {
         "matched": matched(found.matched.as_ref()),
         "source": source(&found.source),
         "joints": found.joints.as_ref().map(|joints| json!({
-            "unit": "rad", "axes": joints.names, "order": joints.order, "by_name": joints.by_name, "others": joints.others,
+            "unit": joints.unit, "axes": joints.names, "order": joints.order, "by_name": joints.by_name, "others": joints.others,
         })),
         "program_begins_s": found.begins_s,
         "clock_offset_s": found.offset.map(|(offset, _)| offset.seconds),

@@ -49,7 +49,7 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     let table = header + &ran.iter().map(line).collect::<String>();
     let bag = joint_states(&ran, NAMES, ORDER);
     let mut latest = Vec::new();
-    for (name, bytes) in [("night.mcap", &bag), ("night.csv", &table.into_bytes())] {
+    for (name, bytes) in [("night.mcap", &bag), ("night.csv", &table.clone().into_bytes())] {
         let log = judged(here, name, bytes, &[]);
         let sentence = log["verdict"].as_str().unwrap();
         assert!(sentence.starts_with(&format!("PASS 0001 (hardware, irb120, {name}): ")), "{sentence}");
@@ -62,6 +62,9 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     let log = judged(here, "night.mcap", &bag, &[]);
     assert_eq!(log["joints"]["order"], Value::from(ORDER.map(|joint| NAMES[joint]).to_vec()));
     assert_eq!((&log["joints"]["axes"], &log["joints"]["unit"]), (&Value::from(NAMES.to_vec()), &"rad".into()));
+    let joints = &judged(here, "night.csv", table.as_bytes(), &[])["joints"];
+    let columns = (1..=6).map(|axis| format!("axis_{axis}_deg")).collect::<Vec<_>>();
+    assert_eq!((&joints["axes"], &joints["unit"]), (&Value::from(columns), &"deg".into()));
     // What `execute --logs` and `judge OUT` make of the same table.
     fs::create_dir(here.join("logs")).unwrap();
     for case in ["0000", "0001"] {
@@ -92,6 +95,23 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     let found = number(&log["measures"]["max_deviation_m"]);
     // Samples are up to 5 mm apart.
     assert!(found > least - 3e-3 && found < most + 5e-4, "{least} {found} {most}");
+
+    // A turn on, the tool is where it was, and the joint cannot be there.
+    let mut turned = ran.clone();
+    turned.iter_mut().for_each(|row| row.joints[0] += std::f64::consts::TAU);
+    let log = judged(here, "turned.mcap", &joint_states(&turned, NAMES, ORDER), &[]);
+    let sentence = log["verdict"].as_str().unwrap();
+    let words = ["axis 1 stands at ", "its range is -165.0° to 165.0° (0.5° beyond are allowed"];
+    assert!(log["status"] == "inconclusive" && words.iter().all(|word| sentence.contains(word)), "{sentence}");
+
+    // It rests before its last target for good.
+    let last = ran[ran.len() - 1];
+    let mut resting: Vec<Row> = ran.iter().copied().filter(|row| (row.p - last.p).norm() > 0.004).collect();
+    let rests = resting[resting.len() - 1];
+    resting.extend((1..200).map(|i| Row { t: rests.t + 0.01 * f64::from(i), ..rests }));
+    let log = judged(here, "rests.mcap", &joint_states(&resting, NAMES, ORDER), &["--case", "0001"]);
+    assert!(log["status"] == "inconclusive" && log["finished"] == true, "{log}");
+    assert!(log["verdict"].as_str().unwrap().contains("→pHome) was never arrived at: "), "{log}");
 
     // It waits 0.3 s on its way.
     let mut late = ran.clone();
@@ -136,6 +156,16 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
         &["judge", "degrees.mcap", "--campaign", "out"],
         &["joint_", " rad, ", "its range is ", "another unit"],
     );
+    let degrees = |row: &Row| format!("{},{}\n", row.t, row.joints.map(|q| q.to_string()).join(","));
+    let wrong = wrong.iter().map(degrees).collect::<String>();
+    fs::create_dir(here.join("wrong")).unwrap();
+    for case in ["0000", "0001"] {
+        let header = "t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
+        fs::write(here.join(format!("wrong/{case}.csv")), format!("{header}{wrong}")).unwrap();
+    }
+    copy(&here.join("out"), &here.join("other"));
+    let words = ["wrong", "0000.csv", " rad, ", "its range is ", "another unit"];
+    refused(here, &["execute", "other", "--logs", "wrong/*.csv"], &words);
     refused(here, &["judge", "night.mcap", "--campaign", "out", "--turn", "90"], &["its base's frame"]);
     let words = ["--world: what an arm must not meet is its cell's; leave --world"];
     refused(here, &["judge", "night.mcap", "--campaign", "out", "--world", "cage-30m"], &words);

@@ -32,6 +32,19 @@ pub struct ControllerLog {
     pub from_joints: bool,
     /// The line of the last sample.
     pub last_line: usize,
+    /// Its columns of joints; `None` without.
+    pub joints: Option<JointColumns>,
+}
+
+/// Which columns of a file are joints, by their names in lower case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointColumns {
+    /// Axes 1 to 6.
+    pub axes: [String; AXES],
+    /// The same in the order in which the file has them.
+    pub order: Vec<String>,
+    /// What is called as joints are and is none of the six: `q7_rad`.
+    pub others: Vec<String>,
 }
 
 /// Why a file is no recording. Lines count from 1.
@@ -122,6 +135,8 @@ struct Layout {
     position: Option<[Column; 3]>,
     turn: Turn,
     joints: Option<[Column; AXES]>,
+    /// Of joints that are none of the six.
+    others: Vec<String>,
     order: Option<Column>,
     width: usize,
     /// Whether a comma is a decimal point.
@@ -131,6 +146,8 @@ struct Layout {
 const SECONDS: &[(&str, f64)] = &[("_s", 1.0), ("_ms", 1e-3), ("_us", 1e-6), ("_ns", 1e-9)];
 const METRES: &[(&str, f64)] = &[("_m", 1.0), ("_mm", 1e-3)];
 const RADIANS: &[(&str, f64)] = &[("_rad", 1.0), ("_deg", std::f64::consts::PI / 180.0)];
+/// What joints are called before their number.
+const JOINTS: &[&str] = &["q", "j", "joint", "joint_", "axis", "axis_"];
 
 /// Reads a recording. Columns stand in any order, others beside them; names in any case:
 ///
@@ -187,7 +204,7 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
     let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
     let from_joints = layout.position.is_none();
     let orientation_known = from_joints || !matches!(layout.turn, Turn::Unknown);
-    Ok(ControllerLog { track, orientation_known, from_joints, last_line })
+    Ok(ControllerLog { track, orientation_known, from_joints, last_line, joints: JointColumns::of(&layout) })
 }
 
 /// A recording of joints (rad, by the arm's axes) at `times` (s); `path` is what refusals name.
@@ -206,7 +223,7 @@ pub fn of_joints(
     let poses = joints.iter().map(|joints| pose(joints, arm)).collect();
     let track = Track::new(times, poses, joint_channels(joints).collect());
     let track = track.map_err(|cause| ControllerLogError::Track { path: path.into(), cause })?;
-    Ok(ControllerLog { track, orientation_known: true, from_joints: true, last_line: 0 })
+    Ok(ControllerLog { track, orientation_known: true, from_joints: true, last_line: 0, joints: None })
 }
 
 /// base_from_tcp.
@@ -244,11 +261,12 @@ impl Layout {
         let time = time.ok_or("no column of times, such as `t_s` or `time_ms`")?;
         let position = triple(|axis| one(&stems(&[axis]), METRES))?;
         let axis = |k: usize| {
-            let stems: Vec<String> =
-                ["q", "j", "joint", "joint_", "axis", "axis_"].iter().map(|stem| format!("{stem}{k}")).collect();
+            let stems: Vec<String> = JOINTS.iter().map(|stem| format!("{stem}{k}")).collect();
             one(&stems, RADIANS)
         };
         let joints: Vec<Column> = (1..=AXES).map(axis).filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let is_other = |name: &&String| is_joint(name) && joints.iter().all(|own| own.name != **name);
+        let others = names.iter().filter(is_other).cloned().collect();
         let joints = match joints.len() {
             0 => None,
             AXES => joints.try_into().ok(),
@@ -268,7 +286,27 @@ impl Layout {
             (None, Some(_)) => return Err("joints without positions need an arm".into()),
             (None, None) => return Err("no `x_m`, `y_m`, `z_m` (or `_mm`), and no six joints such as `q1_deg`".into()),
         }
-        Ok(Self { time, position, turn, joints, order: exactly("move", 1.0), width: names.len(), comma })
+        Ok(Self { time, position, turn, joints, others, order: exactly("move", 1.0), width: names.len(), comma })
+    }
+}
+
+/// Whether a column is called as a joint of any number is.
+fn is_joint(name: &str) -> bool {
+    let Some(stem) = RADIANS.iter().find_map(|(unit, _)| name.strip_suffix(unit)) else { return false };
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    JOINTS.iter().filter_map(|word| stem.strip_prefix(word)).any(is_number)
+}
+
+impl JointColumns {
+    fn of(layout: &Layout) -> Option<Self> {
+        let columns = layout.joints.as_ref()?;
+        let mut order: Vec<&Column> = columns.iter().collect();
+        order.sort_unstable_by_key(|column| column.index);
+        Some(Self {
+            axes: columns.each_ref().map(|column| column.name.clone()),
+            order: order.into_iter().map(|column| column.name.clone()).collect(),
+            others: layout.others.clone(),
+        })
     }
 }
 

@@ -75,6 +75,16 @@ fn joints_go_through_the_arm() {
 }
 
 #[test]
+fn columns_of_joints_are_told_and_so_are_those_beyond_the_six() {
+    let text = "t,q7_rad,Q2_rad,q1_deg,q3_rad,q4_rad,q5_rad,q6_rad,joint_9_deg,qw_rad\n0,0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0,0\n";
+    let joints = parse(Path::new("log.csv"), text, Some((&arm(), &Isometry3::identity()))).unwrap().joints.unwrap();
+    assert_eq!(joints.axes, ["q1_deg", "q2_rad", "q3_rad", "q4_rad", "q5_rad", "q6_rad"]);
+    assert_eq!(joints.order, ["q2_rad", "q1_deg", "q3_rad", "q4_rad", "q5_rad", "q6_rad"]);
+    assert_eq!(joints.others, ["q7_rad", "joint_9_deg"]);
+    assert_eq!(read("t,x_mm,y_mm,z_mm\n0,1,2,3\n0.01,1,2,4\n").unwrap().joints, None);
+}
+
+#[test]
 fn positions_alone_leave_orientation_unknown() {
     let log = read("t,x_mm,y_mm,z_mm\n0,1,2,3\n0.01,1,2,4\n").unwrap();
     assert!(!log.orientation_known);

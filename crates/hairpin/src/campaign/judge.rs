@@ -22,8 +22,8 @@ use super::missed::missed;
 use super::scenario::{Asked, DeviationFrom, Terms};
 use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
 use crate::judgement::moves::Measured;
-use crate::judgement::{self, Clearance, JudgementError, Late, Measures, Reference, Settings, Violation};
-use crate::trajectory::{Ended, Flight, PlannedPath, Track};
+use crate::judgement::{self, Clearance, JudgementError, Late, LegSource, Measures, Reference, Settings, Violation};
+use crate::trajectory::{Channel, Ended, Flight, PlannedPath, Track};
 
 /// The result of a case: its worst run by its gravity. A run with a violation is worse than one without, a crash is
 /// worse than any other violation, and among equals what breaks a limit by the larger share of it; of runs within spec
@@ -188,12 +188,19 @@ fn judge_run(
         }
         _ => None,
     };
+    let programs = setup.kind().programs();
+    let mut moves = programs.and_then(|programs| programs.measured(programmed?, &flight.track, path));
+    let legs = moves.as_mut().map(|moves| std::mem::take(&mut moves.legs)).unwrap_or_default();
     let measured = match known {
         Some(known) => Ok(known.measures.clone()),
         None => {
             let clearance = own.kind().clearance();
             let settings = settings(&terms, path, clearance.as_deref());
-            let rows = sampled(&own, &flight.track, &case.waypoints, &settings);
+            let rows = match with_legs(&flight.track, &legs, case.waypoints.len()) {
+                Some(track) => sampled(&own, &track, &case.waypoints, &settings)
+                    .map(|rows| Measures { leg_source: LegSource::Assigned, ..rows }),
+                None => sampled(&own, &flight.track, &case.waypoints, &settings),
+            };
             rows.map(|rows| match &run.full_rate {
                 Some(by_others) => by_others.beside(rows),
                 None => rows,
@@ -201,8 +208,6 @@ fn judge_run(
         }
     };
     Ok(measured.map(|mut measures| {
-        let programs = setup.kind().programs();
-        let moves = programs.and_then(|programs| programs.measured(programmed?, &flight.track, path));
         measures.latest = moves.as_ref().and_then(latest);
         let moves_of = moves.iter().flat_map(|moves| &moves.moves);
         measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
@@ -219,11 +224,16 @@ fn judge_run(
         let unmeasured = || terms.limits.open(&measures);
         // What violates has an answer.
         let missed = || missed(&own, flight, &measures, &terms.limits).filter(|_| violations.is_empty());
-        let beside = || moves.as_ref().filter(|_| terms.limits.unfinished)?.beside(terms.limits.deviation.is_some());
+        let kept = || moves.as_ref().filter(|_| violations.is_empty());
+        let beside = || kept().filter(|_| terms.limits.unfinished)?.beside(terms.limits.deviation.is_some());
+        let unarrived = || kept().filter(|_| terms.limits.late.is_some())?.unarrived();
         let too_fast = || too_fast(&own, case, flight, &terms.limits);
+        let beyond = || programs.filter(|_| terms.limits.are_given())?.beyond(&flight.track);
         let open = too_fast()
+            .or_else(beyond)
             .or_else(|| unseen?.open.clone())
             .or_else(beside)
+            .or_else(unarrived)
             .or_else(missed)
             .or_else(hidden)
             .or_else(unmeasured);
@@ -240,6 +250,18 @@ fn judge_run(
             moves,
         }
     }))
+}
+
+/// `track` with the legs that its samples have along the planned path, where it tells none itself: what moves in joints
+/// bulges away from the straight lines between its waypoints, and another leg's may be the nearer one.
+fn with_legs(track: &Track, legs: &[usize], waypoints: usize) -> Option<Track> {
+    if track.channel("leg").is_some() || legs.len() != track.len() {
+        return None;
+    }
+    let last = waypoints.saturating_sub(2);
+    let leg = Channel { name: "leg".into(), values: legs.iter().map(|leg| (*leg).min(last) as f64).collect() };
+    let channels = track.channels().iter().cloned().chain([leg]).collect();
+    Track::new(track.times().to_vec(), track.poses().to_vec(), channels).ok()
 }
 
 /// The first target on the way that an arm did not come to though its program's time was over and it ended where that

@@ -16,6 +16,8 @@ pub struct JointsTold {
     pub order: Vec<String>,
     /// Whether they are called as the arm's file says; else they are numbered.
     pub by_name: bool,
+    /// What their angles are in: `rad`, `deg`, or both.
+    pub unit: &'static str,
     /// What else the log has.
     pub others: Vec<String>,
 }
@@ -29,7 +31,7 @@ pub struct FoundProgram {
     pub matched: Option<Matched>,
     /// Where its joints or poses, and its times, are from.
     pub source: SourceTold,
-    /// Its joints by name; `None` of a CSV, whose columns are numbered.
+    /// Its joints by name; `None` where it has none.
     pub joints: Option<JointsTold>,
     /// When the program is taken to begin, s of the log.
     pub begins_s: f64,

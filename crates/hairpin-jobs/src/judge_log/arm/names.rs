@@ -1,6 +1,7 @@
 //! Which joints of a log are which axes of the arm: by the names of its file, else by their numbers; never guessed.
 
 use hairpin::robot::arm::AXES;
+use hairpin_formats::controller_log::JointColumns;
 use hairpin_formats::quote::shortened;
 
 use super::found::JointsTold;
@@ -37,7 +38,20 @@ pub(super) fn axes(names: &[String], own: &[String; AXES]) -> Result<([usize; AX
         names: named(&found),
         order: named(&order),
         by_name: is_by_name,
+        unit: "rad",
         others: others.map(|(_, name)| name.clone()).collect(),
     };
     Ok((found, told))
+}
+
+/// The joints of a table, whose columns are numbered and say their unit.
+pub(super) fn of_columns(columns: &JointColumns) -> JointsTold {
+    let degrees = columns.axes.iter().filter(|name| name.ends_with("_deg")).count();
+    let unit = match degrees {
+        0 => "rad",
+        AXES => "deg",
+        _ => "rad and deg",
+    };
+    let (order, others) = (columns.order.clone(), columns.others.clone());
+    JointsTold { names: columns.axes.to_vec(), order, by_name: false, unit, others }
 }

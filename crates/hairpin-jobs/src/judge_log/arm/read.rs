@@ -12,11 +12,8 @@ use hairpin_formats::quote::shortened;
 use super::super::asks::Asks;
 use super::super::source::{SourceTold, clock_words};
 use super::found::JointsTold;
-use super::names::axes;
+use super::names::{axes, of_columns};
 use crate::Problem;
-
-/// An arm that stands farther beyond a limit of its joints does not stand there: the unit is another, rad.
-const BEYOND: f64 = std::f64::consts::TAU;
 
 /// A recording, and what is told of it.
 pub(super) struct Read {
@@ -47,7 +44,8 @@ pub(super) fn recording(
             return Err(refuse(format!("by its name what was planned, and not what moved; {}", asks.topic)));
         }
         let log = controller_log::read(file, Some((&station.arm, &station.tool.tcp))).map_err(Problem::input)?;
-        (log, name, "CSV", Clock::File, None, Vec::new())
+        let told = log.joints.as_ref().map(of_columns);
+        (log, name, "CSV", Clock::File, told, Vec::new())
     } else {
         let logged = logs::read(file).map_err(Problem::input)?;
         let (joints, place, told) = chosen(&logged, &station.arm, source, asks).map_err(refuse)?;
@@ -56,7 +54,13 @@ pub(super) fn recording(
         let name = joints.name.clone();
         (log.map_err(Problem::input)?, name, logged.format, logged.clock, Some(told), logged.notes)
     };
-    check_range(&log.track, &station.arm, joints.as_ref()).map_err(refuse)?;
+    let beyond = arm.beyond_bounds(&log.track).and_then(|beyond| {
+        let name = |joints: &JointsTold| joints.names[beyond.axis - 1].clone();
+        beyond.refused(&joints.as_ref().map_or_else(|| format!("joint {}", beyond.axis), name))
+    });
+    if let Some(why) = beyond {
+        return Err(refuse(why));
+    }
     let times = log.track.times();
     // A controller's log begins with its program; a recorder runs before it and has another clock.
     let first = if clock == Clock::File { 0.0 } else { times[0] };
@@ -126,24 +130,6 @@ fn chosen<'a>(
         (0, _) => Err(why),
         _ => Err(format!("several topics have this arm's joints: {}; {}", names(), asks.topic)),
     }
-}
-
-/// Joints that are more than a turn beyond their limits are in degrees.
-fn check_range(track: &Track, arm: &Arm, joints: Option<&JointsTold>) -> Result<(), String> {
-    for (axis, limit) in arm.limits.iter().enumerate() {
-        let Some(values) = track.channel(&format!("q{}_rad", axis + 1)) else { continue };
-        let far = values.iter().find(|q| !(limit.lower - BEYOND..=limit.upper + BEYOND).contains(*q));
-        if let Some(q) = far {
-            let name = joints.map_or_else(|| format!("joint {}", axis + 1), |joints| joints.names[axis].clone());
-            let (lower, upper) = (limit.lower.to_degrees(), limit.upper.to_degrees());
-            return Err(format!(
-                "{name} is at {q:.2} rad, {:.0}°, and its range is {lower:.0}° to {upper:.0}°: another unit, or another \
-                 arm's (JointState is in rad, columns say theirs)",
-                q.to_degrees()
-            ));
-        }
-    }
-    Ok(())
 }
 
 /// The samples `which`, times counted from `begins`.

@@ -83,7 +83,7 @@ impl JointsTold {
         };
         let others =
             if self.others.is_empty() { String::new() } else { format!("; not used: {}", self.others.join(", ")) };
-        format!("rad; axes 1 to 6 {by}: {}{order}{others}", self.names.join(", "))
+        format!("{}; axes 1 to 6 {by}: {}{order}{others}", self.unit, self.names.join(", "))
     }
 }
 

@@ -65,6 +65,10 @@ impl Programs for ArmSetup {
         Some(Measured { deviations: Vec::new(), unseen, ..measured })
     }
 
+    fn beyond(&self, recording: &Track) -> Option<String> {
+        self.beyond_bounds(recording).map(|beyond| beyond.in_words())
+    }
+
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {
         let orders = program_of(case).and_then(Self::as_written).unwrap_or_default();
         (0..orders.len()).map(|index| self.seen_of(&orders, index)).collect()

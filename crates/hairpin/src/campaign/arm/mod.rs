@@ -5,7 +5,8 @@
 //!   Claim:  graph (feasibility::reachability) ─▶ question ─▶ search::heaviest ─▶ solve ─▶ program ─▶ Plan
 //!           drawn and bred instead: ways ─▶ draw, alter ─▶ program
 //!   Act:    execute ─▶ simulation::arm, or recorded: a log of the real arm
-//!   judge:  plan (path with its zones) ─▶ judgement::moves; hidden: what a log does not show; regression: two releases
+//!   judge:  plan (path with its zones) ─▶ judgement::moves; hidden: what a log does not show; beyond: where no
+//!           joint stands; regression: two releases
 //!   told:   idle: keys that no run reads
 //!   out:    handed: as controllers take programs
 //!   proof:  verify, retrace ─▶ verification, as plain numbers (written)
@@ -19,6 +20,7 @@
 mod alter;
 mod arm_graph;
 mod assumptions;
+mod beyond;
 mod build;
 mod cell;
 mod check;
@@ -58,6 +60,7 @@ mod ways;
 mod written;
 
 pub use arm_graph::ArmGraph;
+pub use beyond::Beyond;
 pub use clock::ArcClock;
 pub use graph::{graph_of, graph_until};
 pub use points::CellPoint;

@@ -53,11 +53,13 @@ impl CaseMoves {
                     duration: *duration,
                     planned_duration: 0.0,
                     approach: None,
+                    left: None,
                 })
                 .collect(),
             offset: run.offset(),
             sample: run.sample_s,
             deviations: Vec::new(),
+            legs: Vec::new(),
             unseen: None,
         };
         self.runs.iter().map(of).collect()

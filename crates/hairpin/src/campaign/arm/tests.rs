@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::Isometry3;
 use serde_json::{Value, json};
 
 use super::ArmSetup;
@@ -12,11 +13,13 @@ use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::trial::{Sought, Trials};
-use crate::campaign::{Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, execute_run, judge, verify};
-use crate::judgement::Stress;
+use crate::campaign::{
+    CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, execute_run, judge, verify,
+};
+use crate::judgement::{LegSource, Stress};
 use crate::math::random::stream;
 use crate::trajectory::program::Program;
-use crate::trajectory::{Ended, Flight, Track};
+use crate::trajectory::{Channel, Ended, Flight, Track};
 
 /// A shipped arm before a fixture, and some points.
 fn cell() -> Value {
@@ -307,6 +310,107 @@ fn an_arm_that_does_not_go_its_programs_way_violates() {
     let standing = Run { outcome: Ok(Flight { track: still, ..flight }), ..run };
     let result = judge(&setup, &case, &[standing]).unwrap();
     assert!(result.status == Status::Fail && result.violations[0].is_unfinished(), "{result:?}");
+}
+
+/// What is judged of a run of the first drawn program with `changes`, and of the same motion as a log of its joints, as
+/// `change` makes them of axis, time and angle; from `rests` m before its end on it goes on no more.
+fn run_and_log(changes: &[(&str, Value)], rests: f64, change: impl Fn(usize, f64, f64) -> f64) -> [CaseResult; 2] {
+    let setup = setup(changes);
+    let arm = own(&setup);
+    let case = ArmSolver::new(arm).draw(0, &Stop::never()).unwrap().case(7, 0, 0);
+    let run = execute_run(&setup, &case, 0);
+    let flight = run.outcome.clone().unwrap();
+    let (times, poses, end) =
+        (flight.track.times(), flight.track.poses(), flight.track.position(flight.track.len() - 1));
+    let far = (0..times.len()).rposition(|i| (flight.track.position(i) - end).norm() > rests);
+    let stays = |i: usize| if rests > 0.0 { i.min(far.unwrap()) } else { i };
+    let channel = |axis: usize| {
+        let name = format!("q{axis}_rad");
+        let angles = flight.track.channel(&name).unwrap();
+        let values = (0..times.len()).map(|i| change(axis, times[i], angles[stays(i)])).collect();
+        Channel { name, values }
+    };
+    let channels: Vec<Channel> = (1..=6).map(channel).collect();
+    let told = [flight.track.channels().iter().find(|one| one.name == "leg").unwrap().clone()];
+    let track = |more: &[Channel]| {
+        let poses = (0..times.len()).map(|i| poses[stays(i)]).collect();
+        Track::new(times.to_vec(), poses, [&channels[..], more].concat()).unwrap()
+    };
+    let logged = changed(&[changes, &[("execute", json!({ "logs": "*" }))]].concat()).unwrap();
+    let (recorded, _) = own(&logged).recorded(&case, track(&[]), true).unwrap();
+    let of =
+        |setup: &Setup, flight: Flight| judge(setup, &case, &[Run { outcome: Ok(flight), ..run.clone() }]).unwrap();
+    [of(&setup, Flight { track: track(&told), ..flight.clone() }), of(&logged, recorded)]
+}
+
+/// An arrival that is none has no lateness, and is within no limit of it.
+#[test]
+fn an_arm_that_rests_before_its_end_or_is_turned_wrong_at_targets_is_no_pass() {
+    let spec = |limits: Value| ("spec", limits);
+    let arrival = json!({ "max_late_ms": 1000.0 });
+    let both = spec(json!({ "path": { "max_mm": 15.0 }, "arrival": arrival }));
+    let alone = spec(json!({ "arrival": arrival }));
+    let play = ("execute.faults", json!({ "axis": 6, "backlash_deg": 20.0 }));
+    let same = |_: usize, _: f64, q: f64| q;
+    for result in run_and_log(std::slice::from_ref(&both), 0.0, same) {
+        assert_eq!(result.status, Status::Pass, "{result:?}");
+    }
+    for result in [&both, &alone].into_iter().flat_map(|spec| run_and_log(std::slice::from_ref(spec), 0.005, same)) {
+        let why = result.message.unwrap_or_default();
+        assert!(result.status == Status::Inconclusive && why.contains("→pHome) was never arrived at: "), "{why}");
+    }
+    let path = spec(json!({ "path": { "max_mm": 15.0 } }));
+    for result in [&path, &alone].into_iter().flat_map(|spec| run_and_log(&[spec.clone(), play.clone()], 0.0, same)) {
+        let why = result.message.unwrap_or_default();
+        assert!(result.status == Status::Inconclusive && why.contains("° at the nearest, "), "{why}");
+    }
+}
+
+/// A tool may be where it should be with joints where none can be.
+#[test]
+fn joints_beyond_what_they_can_do_are_no_pass() {
+    let limits = ("spec", json!({ "path": { "max_mm": 15.0 }, "arrival": { "max_late_ms": 1000.0 } }));
+    let shifted = |which: usize, by: f64| {
+        let turn = move |axis: usize, t: f64, q: f64| if axis == which && t > 2.0 { q + by } else { q };
+        run_and_log(std::slice::from_ref(&limits), 0.0, turn)
+    };
+    for (axis, range) in [(1, "-165.0° to 165.0°"), (6, "-400.0° to 400.0°")] {
+        for result in shifted(axis, 10.0) {
+            let why = result.message.unwrap_or_default();
+            assert!(result.status == Status::Inconclusive, "{why}");
+            assert!(why.contains(&format!("axis {axis} stands at ")) && why.contains("° at t = "), "{why}");
+            assert!(why.contains(&format!("its range is {range} (0.5° beyond are allowed")), "{why}");
+        }
+    }
+    assert!(shifted(1, 0.0).iter().all(|result| result.status == Status::Pass));
+    let setup = setup(&[]);
+    let (arm, times) = (own(&setup), vec![0.0, 0.1]);
+    let stands = |degrees: f64| {
+        let channel = Channel { name: "q1_rad".into(), values: vec![0.0, f64::to_radians(degrees)] };
+        let track = Track::new(times.clone(), vec![Isometry3::identity(); 2], vec![channel]).unwrap();
+        arm.beyond_bounds(&track).map(|beyond| beyond.refused("joint_1"))
+    };
+    assert_eq!([165.4, -165.4, 165.6, -520.0].map(stands), [None, None, Some(None), Some(None)]);
+    let refused = stands(526.0).unwrap().unwrap();
+    assert!(refused.starts_with("joint_1 is at 9.18 rad, 526°, and its range is -165° to 165°"), "{refused}");
+}
+
+/// Moves in joints bulge away from the straight lines between their ends.
+#[test]
+fn legs_of_a_log_are_those_along_the_planned_path() {
+    let joint = [
+        ("generate.moves.kind", json!("joint")),
+        ("generate.moves.zones", json!(["fine"])),
+        ("world", json!({ "tool": { "tcp_mm": [0, 0, 300], "radius_mm": 20 } })),
+    ];
+    let [run, log] = run_and_log(&joint, 0.0, |_, _, q| q);
+    let [run, log] = [run, log].map(|result| result.measures.unwrap());
+    assert_eq!((run.leg_source, log.leg_source), (LegSource::Executor, LegSource::Assigned));
+    let far: Vec<[f64; 2]> = run.legs.iter().zip(&log.legs).map(|(a, b)| [a, b].map(|leg| leg.max_deviation)).collect();
+    // Where one leg ends a sample may count for the next.
+    let times = run.legs.iter().zip(&log.legs).map(|(a, b)| (a.time - b.time).abs());
+    assert!(times.fold(0.0, f64::max) < 0.1, "{:?} {:?}", run.legs, log.legs);
+    assert!(run.leg_worst == log.leg_worst && (run.t_worst - log.t_worst).abs() < 0.02, "{far:?}");
 }
 
 const OWN_LAGS: &str = "the arm has lags of its own (robot.joints.lag_s)";

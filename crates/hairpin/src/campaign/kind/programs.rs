@@ -33,8 +33,13 @@ pub(in crate::campaign) trait Programs {
     fn programmed(&self, case: &Case) -> Option<PlannedPath>;
 
     /// What `recording` did on each move of the path, and of logs what they do not show; `None` where it is too short.
-    /// Distances of samples are left out. `reference` is what deviations are measured from.
+    /// Distances of samples are left out, not the moves that they belong to. `reference` is what deviations are
+    /// measured from.
     fn measured(&self, programmed: &PlannedPath, recording: &Track, reference: Option<&Track>) -> Option<Measured>;
+
+    /// Why `recording` is of no robot like this one, in a sentence's part: joints beyond what they can do. `None` where
+    /// nothing speaks against it.
+    fn beyond(&self, recording: &Track) -> Option<String>;
 
     /// What a search knows of each move of the program of `case`; `None` of those from and to home, on arcs, and
     /// between points of unknown posture.

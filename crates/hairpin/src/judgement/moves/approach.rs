@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Vector4};
+use nalgebra::{Isometry3, Point3, Vector4};
 
 use super::align::Way;
 use crate::math::segment::point_distance;
@@ -13,15 +13,21 @@ use crate::trajectory::Track;
 const SHARE: f64 = 0.1;
 /// Or within this turn, rad, where moves turn less.
 const LEAST_TURN: f64 = 0.02;
+/// Who moves less between two samples stands, m.
+const STANDS: f64 = 1e-12;
 
 /// How near a recording came to a target while it was on the move to it or the one behind, straight between samples.
+///
+/// Orientations are those that it had where it was there: on the way past a target a tool may turn through the target's
+/// orientation at any time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
     /// Least distance of positions, m.
     pub distance: f64,
     /// Within so much it was there, m: a tenth of the longer move beside the target, or what an arrival is told by.
     pub distance_within: f64,
-    /// Least angle between orientations, rad; 0 where the recording has none.
+    /// Least angle between orientations while the position was within `distance_within`, or nearest where it never was,
+    /// rad; 0 where the recording has none.
     pub turn: f64,
     /// Within so much it was turned so, rad: a tenth of the larger turn beside the target, or 0.02.
     pub turn_within: f64,
@@ -49,13 +55,14 @@ pub(super) fn approaches(
         let to = pose(Some(target));
         let at = |i: usize| &recording.poses()[i];
         let pairs = || about.clone().map(|i| (at(i.saturating_sub(1)), at(i)));
-        let place = |of: &Isometry3<f64>| of.translation.vector.into();
         let distance = pairs().map(|(a, b)| point_distance(&place(to), &place(a), &place(b))).fold(f64::MAX, f64::min);
-        let turn = if turns { pairs().map(|(a, b)| least_turn(to, a, b)).fold(f64::MAX, f64::min) } else { 0.0 };
+        let distance_within = (SHARE * beside(&length, target)).max(arrival);
+        let there = distance.max(distance_within);
+        let turn = || pairs().filter_map(|(a, b)| turn_within(there, to, [a, b])).fold(f64::MAX, f64::min);
         Some(Approach {
             distance,
-            distance_within: (SHARE * beside(&length, target)).max(arrival),
-            turn,
+            distance_within,
+            turn: if turns { turn() } else { 0.0 },
             turn_within: (SHARE * beside(&turned, target)).max(LEAST_TURN),
         })
     };
@@ -73,19 +80,48 @@ fn about(way: &Way, progress: &[f64], target: usize) -> Option<Range<usize>> {
     (first < last).then_some(first..last)
 }
 
-/// Angle between two orientations, rad: 2 acos |q · r|, by the chord where it is small.
-fn turned(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
-    least_turn(a, b, b)
+fn place(of: &Isometry3<f64>) -> Point3<f64> {
+    of.translation.vector.into()
 }
 
-/// Least angle (rad) of `to` from the orientations between `a` and `b`, by the chord of their quaternions:
-/// θ = 4 asin(|q − r| / 2).
-fn least_turn(to: &Isometry3<f64>, a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+/// Angle between two orientations, rad: 2 acos |q · r|, by the chord where it is small.
+fn turned(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
+    least_turn(a, [b, b], [0.0, 1.0])
+}
+
+/// Least angle (rad) of `to` from the orientations between two samples while their position is within `radius` m of
+/// its; `None` where it never is.
+fn turn_within(radius: f64, to: &Isometry3<f64>, pair: [&Isometry3<f64>; 2]) -> Option<f64> {
+    let shares = shares_within(radius, &place(to), pair.map(place))?;
+    Some(least_turn(to, pair, shares))
+}
+
+/// The part of the line between two points that is within `radius` of `centre`, as shares of it.
+///
+/// About the foot of the centre f = (c − a)·w / |w|², w along the line: f ± √(r² − |c − a − f w|²) / |w|.
+fn shares_within(radius: f64, centre: &Point3<f64>, [a, b]: [Point3<f64>; 2]) -> Option<[f64; 2]> {
+    if point_distance(centre, &a, &b) > radius {
+        return None;
+    }
+    let (way, from) = (b - a, centre - a);
+    let length = way.norm_squared();
+    if length < STANDS * STANDS {
+        return Some([0.0, 1.0]);
+    }
+    let foot = from.dot(&way) / length;
+    let half = ((radius * radius - (from - way * foot).norm_squared()).max(0.0) / length).sqrt();
+    let begin = (foot - half).clamp(0.0, 1.0);
+    Some([begin, (foot + half).clamp(begin, 1.0)])
+}
+
+/// Least angle (rad) of `to` from the orientations between two samples, from one share of the way between them to
+/// another, by the chord of their quaternions: θ = 4 asin(|q − r| / 2).
+fn least_turn(to: &Isometry3<f64>, [a, b]: [&Isometry3<f64>; 2], [begin, end]: [f64; 2]) -> f64 {
     let to = to.rotation.coords;
     let near = |q: Vector4<f64>| if q.dot(&to) < 0.0 { -q } else { q };
     let (a, b) = (near(a.rotation.coords), near(b.rotation.coords));
     let chord = b - a;
-    let share = ((to - a).dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let share = ((to - a).dot(&chord) / chord.norm_squared().max(f64::MIN_POSITIVE)).clamp(begin, end);
     4.0 * libm::asin((0.5 * (to - a - chord * share).norm()).min(1.0))
 }
 
@@ -106,7 +142,23 @@ mod tests {
         }
         assert!((turned(&turn(3.0), &turn(-3.0)) - (std::f64::consts::TAU - 6.0)).abs() < 1e-9);
         // Half-way between both, though neither sample is there.
-        assert!(least_turn(&turn(0.1), &turn(0.0), &turn(0.2)) < 0.01);
-        assert!((least_turn(&turn(0.5), &turn(0.0), &turn(0.2)) - 0.3).abs() < 1e-9);
+        let least = |to: f64, shares| least_turn(&turn(to), [&turn(0.0), &turn(0.2)], shares);
+        assert!(least(0.1, [0.0, 1.0]) < 0.01 && (least(0.5, [0.0, 1.0]) - 0.3).abs() < 1e-9);
+        assert!((least(0.1, [0.75, 1.0]) - 0.05).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_line_is_near_a_point_between_two_shares_of_it() {
+        let line = |from: f64, to: f64| [Point3::new(from, 0.3, 0.0), Point3::new(to, 0.3, 0.0)];
+        let within = |radius, line| shares_within(radius, &Point3::origin(), line);
+        let near = |found: Option<[f64; 2]>, [a, b]: [f64; 2]| {
+            assert!(found.is_some_and(|[c, d]| (a - c).abs() < 1e-9 && (b - d).abs() < 1e-9), "{found:?} {a} {b}");
+        };
+        near(within(0.5, line(-1.0, 1.0)), [0.3, 0.7]);
+        near(within(0.5, line(0.0, 1.0)), [0.0, 0.4]);
+        near(within(0.5, line(0.1, 0.2)), [0.0, 1.0]);
+        near(within(0.5, line(0.1, 0.1)), [0.0, 1.0]);
+        near(within(0.3, line(-1.0, 3.0)), [0.25, 0.25]);
+        assert_eq!((within(0.29, line(-1.0, 1.0)), within(0.5, line(0.41, 1.0))), (None, None));
     }
 }

@@ -65,6 +65,9 @@ pub struct MoveMeasures {
     pub planned_duration: f64,
     /// How near it came to the target; `None` without a sample about it.
     pub approach: Option<Approach>,
+    /// Where it did not arrive: what was left of the way to the target in the end, turns weighed in, and how much may
+    /// be left where it counts as arrived, m.
+    pub left: Option<[f64; 2]>,
 }
 
 impl MoveMeasures {
@@ -110,39 +113,10 @@ pub struct Measured {
     pub sample: f64,
     /// Distance from the path at every sample, m.
     pub deviations: Vec<f64>,
+    /// The move that every sample belongs to, from 0; never falls.
+    pub legs: Vec<usize>,
     /// Of recordings from elsewhere: what they do not show.
     pub unseen: Option<Unseen>,
-}
-
-impl Measured {
-    /// Why arrivals are none: the first target that counts as arrived at along the path and that the recording was
-    /// never near. Where the path `is_limited` its limit says how near positions have to come.
-    pub fn beside(&self, is_limited: bool) -> Option<String> {
-        // What was passed before the recording begins is not seen.
-        let moves = self.moves.iter().enumerate().filter(|(_, one)| one.arrived.is_some() && one.after.is_some());
-        let mut approaches = moves.filter_map(|(index, one)| Some((index, one, one.approach?)));
-        approaches.find_map(|(index, one, near)| {
-            let target = format!("the target of move {} ({})", index + 1, one.name);
-            let least = |most: &str, within: String, of: &str| {
-                Some(format!(
-                    "{target} was passed and never come to: {most} at the nearest, {within} taken for there ({of})"
-                ))
-            };
-            if !is_limited && near.distance > near.distance_within {
-                let [most, within] = [near.distance, near.distance_within].map(|m| format!("{:.1} mm", 1e3 * m));
-                return least(
-                    &most,
-                    within,
-                    "a tenth of the longer move beside it; no limit of the path says how near",
-                );
-            }
-            if near.turn > near.turn_within {
-                let [most, within] = [near.turn, near.turn_within].map(|rad| format!("{:.1}°", rad.to_degrees()));
-                return least(&most, within, "a tenth of the larger turn beside it, or 0.02 rad");
-            }
-            None
-        })
-    }
 }
 
 /// Measures `recording` against the planned path, move by move.
@@ -204,6 +178,7 @@ pub fn measure_moves(
         ],
     };
     let approaches = approaches(&way, recording, &progress, settings.arrival, settings.turn_weight > 0.0);
+    let furthest = progress[progress.len() - 1];
     let mut moves: Vec<MoveMeasures> = Vec::with_capacity(targets.len());
     for (index, given) in path.moves().iter().enumerate() {
         let before = if index == 0 { begins } else { [arrived[index - 1], planned[index - 1]] };
@@ -219,17 +194,19 @@ pub fn measure_moves(
             duration: since(arrived[index], before[0]),
             planned_duration: since(planned[index], before[1]).unwrap_or(0.0),
             approach: approaches[index],
+            left: arrived[index].is_none().then(|| [furthest, targets[index]].map(|along| way.ends[index] - along)),
         });
     }
+    let legs: Vec<usize> = progress.iter().map(|along| way.owner(*along)).collect();
     for (sample, deviation) in deviations.iter().enumerate() {
-        let one = &mut moves[way.owner(progress[sample])];
+        let one = &mut moves[legs[sample]];
         if one.deviation.is_none_or(|most| *deviation > most) {
             one.deviation = Some(*deviation);
             one.deviation_at = recording.times()[sample];
         }
     }
     let steps = recording.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
-    Ok(Measured { moves, offset, sample: median(steps), deviations, unseen: None })
+    Ok(Measured { moves, offset, sample: median(steps), deviations, legs, unseen: None })
 }
 
 /// Where along the path each move counts as arrived; never before the one before it.

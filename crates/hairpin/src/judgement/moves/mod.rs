@@ -6,7 +6,7 @@
 //! | where on the path each sample is | `align`: monotone, in position and orientation |
 //! | deviation, arrival and duration of each move | [`measure_moves`] |
 //! | gaps, and what they may hide | [`unseen`] |
-//! | how near it came to each target | [`Approach`] |
+//! | how near it came to each target, and whether at all | [`Approach`], `come_to` |
 //! | against an earlier release's repeats | [`compare`], [`Regression`] |
 //! | over all releases | [`trend`] |
 //!
@@ -17,6 +17,7 @@
 
 mod align;
 mod approach;
+mod come_to;
 mod compare;
 mod gap;
 mod measure;

@@ -174,6 +174,49 @@ fn who_is_never_near_a_target_has_not_come_to_it() {
     assert_eq!(measure(&on, &begun).beside(false), None);
 }
 
+/// A tool that is turned wrong at every target turns through what is asked for somewhere on its way, too.
+#[test]
+fn who_is_turned_so_elsewhere_has_not_come_to_a_target() {
+    let path = revisiting();
+    let plain = record(&path, 4.6, |t| t, still);
+    // Off by 0.1 rad about every target, one way before the middle of each move and the other behind it.
+    let off = |t: f64| 0.1 * ((t % 1.1 - 0.5) / 0.1).clamp(-1.0, 1.0) * if t % 2.2 < 1.1 { 1.0 } else { -1.0 };
+    let turn = |angle: f64| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), angle);
+    let poses = plain.times().iter().zip(plain.poses());
+    let poses = poses.map(|(t, pose)| Isometry3::from_parts(pose.translation, pose.rotation * turn(off(*t)))).collect();
+    let swung = measure(&path, &Track::new(plain.times().to_vec(), poses, Vec::new()).unwrap());
+    for is_limited in [false, true] {
+        let told = swung.beside(is_limited).unwrap();
+        let words =
+            "the target of move 1 (p0→p1) was passed and never come to: 5.7° at the nearest, 1.1° taken for there";
+        assert!(told.starts_with(words), "{told}");
+    }
+    assert_eq!(measure(&path, &plain).beside(false), None);
+}
+
+/// No arrival is no lateness, and so within any limit of it.
+#[test]
+fn who_rests_before_a_target_for_good_never_arrives() {
+    let path = revisiting();
+    // A twentieth of the last move, which is 0.374 m long, is left: near by what counts as near.
+    let rests = measure(&path, &record(&path, 6.0, |t| t.min(4.25), still));
+    assert_eq!((rests.moves[3].late(), rests.beside(false)), (None, None));
+    let told = rests.unarrived().unwrap();
+    let words = "the target of move 4 (p3→p4) was never arrived at: 18.7 mm of the way left in the end (1° counts as \
+                 1.7 mm), at 1.0 mm it counts as there";
+    assert!(told.starts_with(words), "{told}");
+    assert_eq!(measure(&path, &record(&path, 4.6, |t| t, still)).unarrived(), None);
+    // Where it rests, and is turned wrong there, it has not come to its target either.
+    let lay = |t: f64| 0.2 * ((t - 4.0) / 0.2).clamp(0.0, 1.0);
+    let plain = record(&path, 6.0, |t| t.min(4.25), still);
+    let turn = |angle: f64| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), angle);
+    let poses = plain.times().iter().zip(plain.poses());
+    let poses = poses.map(|(t, pose)| Isometry3::from_parts(pose.translation, pose.rotation * turn(lay(*t)))).collect();
+    let told = measure(&path, &Track::new(plain.times().to_vec(), poses, Vec::new()).unwrap()).beside(true).unwrap();
+    let words = "the target of move 4 (p3→p4) was never come to: 11.5° at the nearest, 1.1° taken for there";
+    assert!(told.starts_with(words), "{told}");
+}
+
 #[test]
 fn turns_on_the_spot_arrive_by_orientation() {
     let path = plan(&[([0.0; 3], 0.0), ([0.0; 3], 1.0), ([0.1, 0.0, 0.0], 1.0)]);
