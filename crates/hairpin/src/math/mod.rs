@@ -30,6 +30,7 @@
 //! functions come from `libm` or are made of + − · ÷ √ alone, because the standard library's may differ in the last bit
 //! from machine to machine.
 
+pub(crate) mod arc_tangent;
 pub mod circular;
 pub mod convex;
 pub mod decimals;

@@ -48,7 +48,7 @@ pub use ddmin::ddmin;
 pub use exact::{ExactOutcome, ExactSearch, ExactSettings, Ranking, Scored, exact};
 pub use graph::{Count, LegGraph};
 pub use growth::{ByLegs, Growth, Parent};
-pub use objective::{Additive, Aggregate, LegView, Objective};
+pub use objective::{Additive, Aggregate, ByTurn, LegView, Objective};
 pub use open_end::{OpenEnd, OpenNode, OpenScore};
 pub use score::{Score, ScoreMistake};
 pub use stroll::{NoWalk, stroll};

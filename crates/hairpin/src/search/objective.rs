@@ -36,6 +36,25 @@ pub struct LegView<'a> {
     pub features: LegFeatures,
 }
 
+/// What a leg scores by its turn α: plain + turning · (1 − |α − best|/best).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ByTurn {
+    /// The turn that scores most, the same of all legs, rad.
+    pub best: f64,
+    /// What it scores whatever the turn.
+    pub plain: f64,
+    /// What it scores more at the best turn, ≥ 0.
+    pub turning: f64,
+}
+
+impl ByTurn {
+    /// The score at a turn, rad.
+    #[inline]
+    pub fn at(&self, turn: f64) -> f64 {
+        self.plain + self.turning * (1.0 - (turn - self.best).abs() / self.best)
+    }
+}
+
 /// A score, built up leg by leg. What it remembers of a partial trajectory travels with it, so that extending one
 /// never starts again from its first waypoint. [`super::exact()`] takes those that are [`Additive`].
 ///
@@ -90,6 +109,15 @@ pub trait Additive: Objective {
     /// in which row is not promised.
     fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
+    }
+
+    /// [`Self::own`] by the turn of the leg, where it is such a function of it, and depends on how the leg is entered by
+    /// nothing else; where it is, nothing may be left to the next leg.
+    ///
+    /// To the bit. Legs that share all but their turn are then scored together.
+    fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
+        let _ = leg;
+        None
     }
 
     /// Whether the last leg is one to the sink of a task without an end: nothing is left to it.

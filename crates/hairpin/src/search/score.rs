@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use thiserror::Error;
 
-use super::objective::{Additive, LegView, Objective};
+use super::objective::{Additive, ByTurn, LegView, Objective};
 use crate::feasibility::reach::LegFeatures;
 use crate::math::power::{power, square};
 use crate::math::random::hashed_unit;
@@ -219,6 +219,21 @@ impl Additive for Score {
     fn own(&self, leg: &LegView<'_>) -> f64 {
         self.extend(&(), leg).0
     }
+
+    /// The formulas of [`Objective::extend`], of which products and sums with 1 and −0 leave every bit.
+    fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
+        let LegFeatures { v_in, v_out, .. } = leg.features;
+        let (best, plain, turning) = match *self {
+            Score::HighVelocity { v_max } => (PI, v_out / v_max, 0.0),
+            Score::HighVelocityTurn { v_max, turn, product: false } => (turn, v_out / v_max, 1.0),
+            Score::HighVelocityTurn { v_max, turn, product: true } => (turn, -0.0, v_out / v_max),
+            Score::HighEnergyTurn { v_max } => (FRAC_PI_2, square(v_out / v_max), 1.0),
+            Score::FastCorner { v_max } => (FRAC_PI_2, -0.0, v_in / v_max * (v_out / v_max)),
+            Score::ShortLeg { v_max } => (FRAC_PI_2, -0.0, v_out / (v_in + SHORT * v_max)),
+            Score::Random { .. } | Score::CutCorner { .. } | Score::Crest { .. } | Score::Ground => return None,
+        };
+        Some(ByTurn { best, plain, turning })
+    }
 }
 
 #[cfg(test)]
@@ -289,6 +304,23 @@ mod tests {
         let out = LegFeatures { v_in: 2.5, climb: 5.0, ..leg(10.0, 90.0) };
         let expected = (0.125f64 * 0.125 * 2.5 / 6.0 * 0.5).powi(4) + (1.4f64 * 0.25 * 0.5 * 0.5).powi(4);
         assert!((score("cut-corner", out) - expected).abs() < 1e-12, "{}", score("cut-corner", out));
+    }
+
+    #[test]
+    fn what_a_turn_adds_is_the_same_to_the_bit() {
+        let mut told = 0;
+        for name in Score::NAMES {
+            let score = Score::named(name, 3, 20.0).expect("a name");
+            for (step, v_out) in (0..=180).zip([0.0, 1e-3, 0.7, 5.0, 19.3].into_iter().cycle()) {
+                let view =
+                    LegView { candidates: &[], from: 1, to: 2, duration: 1.0, features: leg(v_out, f64::from(step)) };
+                if let Some(by_turn) = score.by_turn(&view) {
+                    assert_eq!(by_turn.at(view.features.turn).to_bits(), score.own(&view).to_bits(), "{name} {step}");
+                    told += 1;
+                }
+            }
+        }
+        assert_eq!(told, 8 * 181);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::ScoreModel;
 use crate::campaign::user_score::{LegFacts, LegScorer};
-use crate::search::{Additive, LegView, Objective, Score};
+use crate::search::{Additive, ByTurn, LegView, Objective, Score};
 
 /// What a scenario scores legs by.
 ///
@@ -56,6 +56,13 @@ impl Additive for AnyScore<'_> {
 
     fn left(&self, leg: &LegView<'_>) -> f64 {
         self.both(leg)[1]
+    }
+
+    fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
+        match self {
+            Self::Named(score) => score.by_turn(leg),
+            Self::Learned(_) | Self::User(_) | Self::Own(_) => None,
+        }
     }
 
     fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {

@@ -40,11 +40,14 @@ pub struct BoatRoadmap<'a> {
 
 impl ProveLegs for BoatJudge {
     type End = BoatEnd;
+    type Lanes = ();
     type Why = BoatInfeasible;
 
     fn leg(&self, from: &BoatEnd, to: &BoatEnd, duration: f64) -> Result<ProfileLeg, BoatInfeasible> {
         self.judge(from, to, duration)
     }
+
+    fn lanes(_: &[BoatEnd]) {}
 
     fn fastest(&self) -> f64 {
         self.fastest()

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
+use crate::feasibility::steering::firsts::Asked;
 use crate::math::random::Stream;
 use crate::trajectory::ProfileLeg;
 
@@ -48,18 +49,34 @@ impl WitnessLegs {
 pub(crate) trait ProveLegs {
     /// A state.
     type End;
+    /// The states of a waypoint as they are looked at together.
+    type Lanes: std::fmt::Debug;
     /// Why a leg is none.
     type Why;
 
     /// The leg from `from` to `to` in `duration` (s), if every limit holds at every instant of it.
     fn leg(&self, from: &Self::End, to: &Self::End, duration: f64) -> Result<ProfileLeg, Self::Why>;
 
-    /// Calls `found` with the number of each of `to` to which there is a leg, and the number of the first of
-    /// `durations` (s) in which there is one; in the order of `to`.
-    fn firsts(&self, from: &Self::End, to: &[Self::End], durations: &[f64], mut found: impl FnMut(usize, usize)) {
-        for (number, to) in to.iter().enumerate() {
-            let first = durations.iter().position(|duration| self.leg(from, to, *duration).is_ok());
-            first.into_iter().for_each(|first| found(number, first));
+    /// The states of a waypoint.
+    fn lanes(states: &[Self::End]) -> Self::Lanes;
+
+    /// Calls `found` with the number of each state of `to` that is `asked` for and to which there is a leg, and the
+    /// number of the first of `durations` (s) in which there is one; in the order of `asked`. `lanes` are the states of
+    /// every waypoint.
+    fn firsts(
+        &self,
+        from: &Self::End,
+        (to, lanes): (&[Self::End], &[Self::Lanes]),
+        asked: &[Asked],
+        durations: &[f64],
+        mut found: impl FnMut(usize, usize),
+    ) {
+        let _ = lanes;
+        for Asked { begin, states, first, .. } in asked {
+            for state in states.clone().map(|state| begin + state) {
+                let is_leg = |number: &usize| self.leg(from, &to[state], durations[*number]).is_ok();
+                (*first..durations.len()).find(is_leg).into_iter().for_each(|number| found(state, number));
+            }
         }
     }
 

@@ -14,6 +14,7 @@ use rand::RngExt;
 use super::proven_legs::{Judged, ProveLegs, WitnessLegs, WitnessNode};
 use super::{Leg, LegFeatures};
 use crate::feasibility::steering::LegTiming;
+use crate::feasibility::steering::firsts::Asked;
 use crate::math::random::{Stream, named_seed, stream};
 use crate::trajectory::Profile;
 
@@ -35,6 +36,8 @@ pub(in crate::feasibility) struct States<'a, J: ProveLegs> {
     points: Vec<Point3<f64>>,
     /// States of all waypoints, waypoint by waypoint.
     states: Vec<J::End>,
+    /// The same as they are looked at together.
+    lanes: Vec<J::Lanes>,
     /// First state of every waypoint, and the number of states.
     first: Vec<u32>,
     rungs: Vec<f64>,
@@ -71,8 +74,9 @@ impl<'a, J: ProveLegs> States<'a, J> {
             }
         }
         first.push(states.len() as u32);
+        let lanes = first.windows(2).map(|ends| J::lanes(&states[ends[0] as usize..ends[1] as usize])).collect();
         let (kept, arrivals) = (RefCell::new(vec![None; states.len()]), OnceCell::new());
-        Self { judge, points: points.to_vec(), states, first, rungs: velocities.timing.rungs(), kept, arrivals }
+        Self { judge, points: points.to_vec(), states, lanes, first, rungs: velocities.timing.rungs(), kept, arrivals }
     }
 
     /// The same, with `legs` of one that was drawn alike.
@@ -199,18 +203,24 @@ impl<'a, J: ProveLegs> States<'a, J> {
     /// The shortest feasible rung between two states, of those that are no shorter than `least`.
     fn shortest(&self, from: usize, to: usize, least: f64) -> Option<u32> {
         let mut found = None;
-        self.each_shortest(from, to..to + 1, least, |_, rung| found = Some(rung));
+        let (waypoint, state) = self.place(to as u32);
+        let state = state as usize;
+        self.each_shortest(from, &[self.asked(waypoint as usize, state..state + 1, least)], |_, rung| {
+            found = Some(rung)
+        });
         found
     }
 
-    /// Calls `found` with each of the states `to` to which there is a leg and its shortest rung, of those that are no
-    /// shorter than `least`.
-    fn each_shortest(&self, from: usize, to: Range<usize>, least: f64, mut found: impl FnMut(u32, u32)) {
-        let begin = self.rungs.partition_point(|rung| *rung < least);
-        let first = to.start;
-        self.judge.firsts(&self.states[from], &self.states[to], &self.rungs[begin..], |state, rung| {
-            found((first + state) as u32, (begin + rung) as u32);
-        });
+    /// Which of the states of a waypoint are asked, of which no rung shorter than `least`.
+    fn asked(&self, waypoint: usize, states: Range<usize>, least: f64) -> Asked {
+        let first = self.rungs.partition_point(|rung| *rung < least);
+        Asked { waypoint, begin: self.first[waypoint] as usize, states, first }
+    }
+
+    /// Calls `found` with each of the states that are `asked` for and to which there is a leg, and its shortest rung.
+    fn each_shortest(&self, from: usize, asked: &[Asked], mut found: impl FnMut(u32, u32)) {
+        let found = |state: usize, rung: usize| found(state as u32, rung as u32);
+        self.judge.firsts(&self.states[from], (&self.states, &self.lanes), asked, &self.rungs, found);
     }
 
     /// Time of the straight line between two waypoints at the largest speed, s.
@@ -225,16 +235,13 @@ impl<'a, J: ProveLegs> States<'a, J> {
             return Arc::clone(legs);
         }
         let own = self.place(from as u32).0 as usize;
-        let mut legs = Vec::new();
-        for w in (0..self.points.len()).filter(|w| *w != own) {
+        let asked = |w: usize| {
             let least = self.least_time(own, w);
-            if least > self.longest() {
-                continue;
-            }
-            let states = self.of(w);
-            let states = states.start as usize..states.end as usize;
-            self.each_shortest(from, states, least, |state, rung| legs.push(Judged { state, rung }));
-        }
+            (least <= self.longest()).then(|| self.asked(w, 0..self.of(w).len(), least))
+        };
+        let asked: Vec<Asked> = (0..self.points.len()).filter(|w| *w != own).filter_map(asked).collect();
+        let mut legs = Vec::new();
+        self.each_shortest(from, &asked, |state, rung| legs.push(Judged { state, rung }));
         let legs: Arc<[Judged]> = legs.into();
         self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
         legs

@@ -17,6 +17,8 @@ use super::states::{States, Velocities};
 use super::wander::another;
 use super::{Entry, Leg, Reach};
 use crate::feasibility::limits::Infeasible;
+use crate::feasibility::steering::eight_ends::Ends;
+use crate::feasibility::steering::firsts::{Asked, in_lanes};
 use crate::feasibility::steering::{LegEnd, LegJudge, LegTiming};
 use crate::math::random::Stream;
 use crate::trajectory::{Profile, ProfileLeg};
@@ -68,14 +70,26 @@ pub struct Roadmap<'a> {
 
 impl ProveLegs for LegJudge {
     type End = LegEnd;
+    type Lanes = Vec<Ends>;
     type Why = Infeasible;
 
     fn leg(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
         self.judge(from, to, duration)
     }
 
-    fn firsts(&self, from: &LegEnd, to: &[LegEnd], durations: &[f64], found: impl FnMut(usize, usize)) {
-        self.firsts(from, to, durations, found);
+    fn lanes(states: &[LegEnd]) -> Vec<Ends> {
+        in_lanes(states)
+    }
+
+    fn firsts(
+        &self,
+        from: &LegEnd,
+        to: (&[LegEnd], &[Vec<Ends>]),
+        asked: &[Asked],
+        durations: &[f64],
+        found: impl FnMut(usize, usize),
+    ) {
+        self.firsts(from, to, asked, durations, found);
     }
 
     fn fastest(&self) -> f64 {

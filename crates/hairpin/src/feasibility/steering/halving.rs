@@ -6,7 +6,7 @@
 
 /// Intervals at most that wait for their turn: with at most 64 at first, and the last of them halved first, more than
 /// proofs of 1024 evaluations come to.
-const WAITING: usize = 128;
+pub(super) const WAITING: usize = 128;
 
 /// How hard the bound between samples tries.
 ///
@@ -34,6 +34,15 @@ impl Default for ProofSettings {
     }
 }
 
+impl ProofSettings {
+    /// Centres and half widths of the first intervals of [0, `duration`], s.
+    #[inline(always)]
+    pub(super) fn intervals(&self, duration: f64) -> impl Iterator<Item = (f64, f64)> {
+        let half = 0.5 * duration / self.first as f64;
+        (0..self.first).map(move |k| ((2 * k + 1) as f64 * half, half))
+    }
+}
+
 /// Cuts [0, `duration`] (s) into `settings.first` intervals, and halves what `evaluate` cannot decide.
 ///
 /// `evaluate` takes the centres and half widths of four intervals, of which the last may repeat, and gives the bit
@@ -56,10 +65,7 @@ pub(in crate::feasibility) fn prove_by_halving(
     // Centres and half widths of what is still to be decided.
     let mut waiting = [(0.0, 0.0); WAITING];
     let mut count = settings.first;
-    let first = 0.5 * duration / count as f64;
-    for (k, interval) in waiting[..count].iter_mut().enumerate() {
-        *interval = ((2 * k + 1) as f64 * first, first);
-    }
+    waiting.iter_mut().zip(settings.intervals(duration)).for_each(|(place, interval)| *place = interval);
     let mut evaluated = 0;
     while count > 0 {
         let taken = count.min(4);

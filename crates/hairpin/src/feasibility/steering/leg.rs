@@ -13,7 +13,7 @@
 use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
-use super::eight_ends::{Ends, LANES, refused};
+use super::eight_ends::{Open, refuse};
 use super::flatness::{DependentRotors, Flatness};
 use super::halving::ProofSettings;
 use super::leg_end::LegEnd;
@@ -131,6 +131,17 @@ impl LegJudge {
     /// # Errors
     /// The limit that fails, where, and by how much.
     pub fn judge(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
+        let leg = self.unproven(from, to, duration)?;
+        self.body.prove(&self.flatness, &leg)?;
+        Ok(leg)
+    }
+
+    /// The leg from `from` to `to` in `duration`, of which all is settled but the proof of the body's limits.
+    ///
+    /// # Errors
+    /// As [`Self::judge`].
+    #[inline]
+    pub(super) fn unproven(&self, from: &LegEnd, to: &LegEnd, duration: f64) -> Result<ProfileLeg, Infeasible> {
         if !(duration > 0.0 && duration.is_finite()) {
             return Err(Infeasible::Violates { limit: Limit::Duration, part: 0, at: 0.0, margin: -duration.abs() });
         }
@@ -142,43 +153,19 @@ impl LegJudge {
         let leg = Self::connect(from, to, duration);
         self.ends_allowed(from, to, &leg)?;
         self.instants_allowed(&leg)?;
-        self.prove(&leg)?;
+        self.space.contains(&leg)?;
         Ok(leg)
     }
 
-    /// Calls `found` with the number of each of `to` to which there is a leg by [`Self::judge`], and the number of the
-    /// first of `durations` (s) in which there is one.
-    ///
-    /// Most are refused eight at a time, for what the body would have to do at the ends and at nine instants.
-    ///
-    /// Same answer as judging them one after the other: the filter refuses only what the judge would. In the order of
-    /// `to`.
-    pub fn firsts(&self, from: &LegEnd, to: &[LegEnd], durations: &[f64], mut found: impl FnMut(usize, usize)) {
-        for (k, few) in to.chunks(LANES).enumerate() {
-            let (ends, mut firsts) = (Ends::new(few), [None; LANES]);
-            let mut open = u32::MAX >> (u32::BITS as usize - few.len());
-            for (number, &duration) in durations.iter().enumerate() {
-                if open == 0 {
-                    break;
-                }
-                let asked = open & !self.refused(from, &ends, duration, open);
-                for lane in (0..few.len()).filter(|lane| asked >> lane & 1 == 1) {
-                    if self.judge(from, &few[lane], duration).is_ok() {
-                        (firsts[lane], open) = (Some(number), open & !(1 << lane));
-                    }
-                }
-            }
-            let firsts = firsts.into_iter().enumerate();
-            firsts
-                .filter_map(|(lane, first)| Some((lane, first?)))
-                .for_each(|(lane, first)| found(k * LANES + lane, first));
-        }
+    /// Of each of `to` what is left of the open ones without those that [`Self::judge`] would refuse by the cheapest of
+    /// its tests.
+    pub(super) fn refuse(&self, from: &LegEnd, to: &[Open<'_>], duration: f64, left: &mut [u32]) {
+        refuse((&self.flatness, &self.body, self.mass), from, to, duration, left);
     }
 
-    /// Which of the legs to one to eight ends [`Self::judge`] would refuse, by the cheapest of its tests: bit i for
-    /// number i; no more than is needed to refuse all of `open`.
-    pub(super) fn refused(&self, from: &LegEnd, to: &Ends, duration: f64, open: u32) -> u32 {
-        refused((&self.flatness, &self.body, self.mass), from, to, duration, open)
+    /// The body's limits.
+    pub(super) fn body(&self) -> &BodyLimits {
+        &self.body
     }
 
     /// Proves that every limit holds at every instant of `leg`, which need not be level at its ends.

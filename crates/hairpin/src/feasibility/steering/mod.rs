@@ -13,7 +13,8 @@
 //! answered is either a leg with its proof or the evidence against it.
 
 pub mod clear;
-mod eight_ends;
+pub(in crate::feasibility) mod eight_ends;
+pub(in crate::feasibility) mod firsts;
 pub mod flatness;
 pub mod halving;
 pub mod leg;
@@ -21,6 +22,7 @@ pub mod leg_end;
 pub mod proof;
 pub mod shooting;
 pub mod timing;
+mod together;
 
 #[cfg(test)]
 pub(crate) mod tests;

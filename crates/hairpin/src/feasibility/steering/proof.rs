@@ -72,6 +72,11 @@ impl BodyLimits {
         }
     }
 
+    /// How hard the proof tries.
+    pub(super) fn settings(&self) -> &ProofSettings {
+        &self.settings
+    }
+
     /// Signed margins of speed, vertical thrust and tilt, and what rounding may take from each.
     ///
     /// In m/s, N and N; `vertical` is Fz and `thrust` |F|. A speed limit that is infinite or huge counts as 1000 m/s
@@ -183,7 +188,7 @@ impl BodyLimits {
     ///
     /// Comparisons with NaN are false, so what is undefined is never proven.
     #[inline(always)]
-    fn decide(&self, demand: &Demand<Enclosure<f64>>) -> (u64, u64) {
+    pub(super) fn decide(&self, demand: &Demand<Enclosure<f64>>) -> (u64, u64) {
         let (mut proven, mut violated) = (true, false);
         let mut require = |margin: Enclosure<f64>, room: f64| {
             proven &= margin.lower() >= room;

@@ -7,9 +7,10 @@ use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use super::super::frontier::{IntervalHeap, Tree};
-use super::super::graph::{LegGraph, LegScores, Values};
+use super::super::graph::{LegGraph, Values};
 use super::super::task::Found;
 use super::settings::ExactSettings;
+use super::worth::Worth;
 
 /// A partial trajectory and the best it can become.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +50,7 @@ pub(super) struct BestFirst<N> {
 /// one lookup and a push of O(log n) for each leg; memory grows by as many entries.
 pub(super) fn best_first<N: Copy>(
     graph: &LegGraph<'_, N>,
-    scores: &LegScores,
+    scores: &Worth<'_>,
     values: &Values,
     settings: &ExactSettings,
 ) -> BestFirst<N> {
@@ -89,7 +90,7 @@ pub(super) fn best_first<N: Copy>(
                 continue;
             }
             let legs = settings.length - 1 - entry.length as usize;
-            let score = aggregate.add(partial.score, scores.own(leg) + before);
+            let score = aggregate.add(partial.score, scores.own(graph, (partial.node, leg)) + before);
             let left = scores.left(leg, legs);
             let Some(bound) = values.best((score, left), to, legs) else { continue };
             // Rounding must not lift a bound above that of what it continues.

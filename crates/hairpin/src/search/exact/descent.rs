@@ -7,9 +7,10 @@ use std::collections::HashMap;
 
 use rustc_hash::FxBuildHasher;
 
-use super::super::graph::{LegGraph, LegScores, Values};
+use super::super::graph::{LegGraph, Values};
 use super::super::task::Found;
 use super::settings::ExactSettings;
+use super::worth::Worth;
 use crate::math::random::hashed_unit;
 
 /// A partial trajectory without revisits.
@@ -36,7 +37,7 @@ struct Label {
 /// for width may have led to the best.
 pub(super) fn descent<N: Copy>(
     graph: &LegGraph<'_, N>,
-    scores: &LegScores,
+    scores: &Worth<'_>,
     values: &Values,
     settings: &ExactSettings,
 ) -> (Vec<Found<N>>, u64) {
@@ -61,7 +62,7 @@ pub(super) fn descent<N: Copy>(
                 if visited[waypoint / 64] >> (waypoint % 64) & 1 == 1 {
                     continue;
                 }
-                let score = settings.aggregate.add(label.score, scores.own(leg) + label.left);
+                let score = settings.aggregate.add(label.score, scores.own(graph, (label.node, leg)) + label.left);
                 let left = scores.left(leg, steps_after);
                 let Some(bound) = values.best((score, left), to, steps_after) else { continue };
                 let set = label.set ^ keys[waypoint];

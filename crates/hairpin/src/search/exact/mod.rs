@@ -19,12 +19,15 @@ mod descent;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod worth;
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use self::best_first::BestFirst;
-use super::graph::{Count, LegGraph, LegScores, Values};
+use self::worth::Worth;
+use super::graph::{Count, LegGraph, LegScores, Scoring, Values};
 use super::objective::{Additive, Aggregate};
 use super::task::Found;
 
@@ -127,20 +130,21 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
 
     /// The legs under `objective`.
     ///
-    /// O(legs) calls of the objective, by rows. No call where there is no trajectory.
-    pub fn scored<O: Additive>(&self, objective: &O) -> Scored<'_, 'g, 'a, N> {
-        Scored { search: self, scores: (!self.walks.is_zero()).then(|| self.graph.scores(objective)) }
+    /// O(legs) calls of the objective, by rows, unless it is given by turns ([`Additive::by_turn`]). No call where there
+    /// is no trajectory.
+    pub fn scored<'s, O: Additive>(&'s self, objective: &'s O) -> Scored<'s, 'g, 'a, N> {
+        Scored { search: self, objective, scores: OnceCell::new() }
     }
 }
 
 /// The legs of a graph under one score.
 ///
 /// Borrows the search; scores stay as they were asked, so that several aggregates and several counts share them.
-#[derive(Debug)]
 pub struct Scored<'s, 'g, 'a, N: Copy> {
     search: &'s ExactSearch<'g, 'a, N>,
-    /// `None` where there is no trajectory.
-    scores: Option<LegScores>,
+    objective: &'s dyn Scoring,
+    /// Of all legs, once they are needed.
+    scores: OnceCell<LegScores>,
 }
 
 impl<N: Copy> Scored<'_, '_, '_, N> {
@@ -149,22 +153,28 @@ impl<N: Copy> Scored<'_, '_, '_, N> {
     /// One backward pass, O(legs · length) time and nodes · length doubles.
     pub fn by(&self, aggregate: Aggregate) -> Ranking<'_, N> {
         let ExactSearch { graph, settings, walks, near_start } = self.search;
-        let of = |scores| (scores, graph.values(settings.length, scores, aggregate, near_start));
+        let length = settings.length;
+        let known = || match graph.values_by_turn(length, self.objective, aggregate, near_start) {
+            Some(values) => (Worth::Asked(self.objective), values),
+            None => {
+                let scores = self.scores.get_or_init(|| graph.scores(self.objective));
+                (Worth::Kept(scores), graph.values(length, scores, aggregate, near_start))
+            }
+        };
         let settings = ExactSettings { aggregate, ..settings.clone() };
-        Ranking { graph, settings, walks: *walks, known: self.scores.as_ref().map(of) }
+        Ranking { graph, settings, walks: *walks, known: (!walks.is_zero()).then(known) }
     }
 }
 
 /// The trajectories of a graph in the order of their scores: asking for more of them does over only what is different.
 ///
 /// Nothing is kept from one call of [`Ranking::best`] to the next but the values.
-#[derive(Debug)]
 pub struct Ranking<'s, N: Copy> {
     graph: &'s LegGraph<'s, N>,
     settings: ExactSettings,
     walks: Count,
     /// Scores of legs, and the best that is still to come after them.
-    known: Option<(&'s LegScores, Values)>,
+    known: Option<(Worth<'s>, Values)>,
 }
 
 impl<N: Copy> Ranking<'_, N> {

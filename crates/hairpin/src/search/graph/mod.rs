@@ -17,8 +17,10 @@
 //! [`super::exact()`], [`super::uniform()`] and the loop's regrowing stand.
 
 mod build;
+mod by_turn;
 mod count;
 mod rows;
+mod scoring;
 #[cfg(test)]
 mod tests;
 mod trim;
@@ -34,6 +36,7 @@ use crate::feasibility::reach::LegFeatures;
 pub(super) use count::Layer;
 pub use count::{Count, Counts};
 use rows::Rows;
+pub(super) use scoring::Scoring;
 pub(super) use value::{LegScores, Values};
 
 /// Nodes and legs in compressed rows; node 0 is the start's. Only what a walk from the start can meet is in it.

@@ -145,3 +145,28 @@ fn nodes_that_share_their_legs_have_those_of_their_own() {
     }
     assert!(legs > 2_000, "{legs}");
 }
+
+#[test]
+fn values_by_turns_are_those_of_scores_to_the_bit() {
+    let mut compared = 0;
+    for (seed, length) in (0..30).zip([2, 4, 5, 7, 9].into_iter().cycle()) {
+        let points = points(seed, 30, 11.0);
+        let graph = LegGraph::explore(START, &points, &Near { told: true }, length);
+        for graph in [graph.clone(), graph.into_without_returns(length)] {
+            let near_start = graph.near_start(length);
+            for name in Score::NAMES {
+                let score = Score::named(name, seed, 7.0).unwrap();
+                for aggregate in [Aggregate::Sum, Aggregate::Max] {
+                    let Some(values) = graph.values_by_turn(length, &score, aggregate, &near_start) else { continue };
+                    let all = graph.values(length, &graph.scores(&score), aggregate, &near_start);
+                    for (node, legs) in (0..graph.nodes() as u32).flat_map(|node| (0..length).map(move |n| (node, n))) {
+                        let [a, b] = [&values, &all].map(|values| values.best((aggregate.neutral(), 0.0), node, legs));
+                        assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{name} seed {seed} {aggregate:?}");
+                        compared += usize::from(a.is_some());
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 100_000, "{compared}");
+}

@@ -5,9 +5,10 @@
 
 use std::ops::Range;
 
-use super::super::objective::{Additive, Aggregate, LegView};
+use super::super::objective::{Aggregate, LegView};
 use super::LegGraph;
 use super::rows::Groups;
+use super::scoring::Scoring;
 use crate::feasibility::reach::LegFeatures;
 
 /// The scores of a graph's legs under one [`super::super::objective::Additive`].
@@ -64,13 +65,18 @@ pub(in crate::search) struct Values {
 }
 
 /// No walk. Not −∞: a trajectory of worthless legs still is one.
-const NO_WALK: f64 = f64::NAN;
+pub(super) const NO_WALK: f64 = f64::NAN;
 /// Legs that are looked at together: comparing one after the other waits for the one before.
 const LANES: usize = 4;
 /// The nodes near the start are those whose rows make up at most one in so many legs.
 const FEW: usize = 16;
 
 impl Values {
+    /// Those of legs that leave nothing to the next, by the number of legs.
+    pub(super) fn of_legs_alone(aggregate: Aggregate, rest: Vec<Vec<f64>>) -> Self {
+        Self { aggregate, rest, first: None }
+    }
+
     /// The best that a partial trajectory becomes that scored `score` so far, stands at `node`, and whose last leg left
     /// `left` to the first of the `legs` that it still needs; `None` if there is no such walk.
     pub(in crate::search) fn best(&self, (score, left): (f64, f64), node: u32, legs: usize) -> Option<f64> {
@@ -92,7 +98,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
     ///
     /// A row at a time, all legs of a node together, which is what scores that are asked of a program or are made in
     /// SIMD lanes need.
-    pub(in crate::search) fn scores<O: Additive>(&self, objective: &O) -> LegScores {
+    pub(in crate::search) fn scores(&self, objective: &dyn Scoring) -> LegScores {
         let (mut own, mut left) = (Vec::with_capacity(self.legs()), Vec::new());
         let mut views = Vec::new();
         for node in 0..self.nodes() as u32 {
