@@ -6,6 +6,7 @@ pub mod arcs;
 pub mod atomic;
 pub mod banner;
 pub mod bounds;
+pub mod capped;
 mod channels;
 pub mod checksum;
 pub mod ci;

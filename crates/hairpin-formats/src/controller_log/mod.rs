@@ -172,10 +172,29 @@ pub fn read(path: &Path, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<Control
     parse(path, &String::from_utf8_lossy(&bytes), arm)
 }
 
-fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
-    // Where cells are separated by semicolons or tabs a comma is a decimal point.
+/// Whether the first line of `path` has the columns of a recording of an arm, its joints or its tool's places.
+pub fn is_headed(path: &Path) -> bool {
+    bounds::read_table(path).is_ok_and(|bytes| {
+        let text = String::from_utf8_lossy(&bytes);
+        let (names, comma) = headed(&text);
+        Layout::of(&names, comma, true).is_ok()
+    })
+}
+
+/// The names of columns, and whether a comma is a decimal point.
+fn headed(text: &str) -> (Cells, bool) {
+    let delimiter = delimiter(text);
+    (Table::of(text, Cut { delimiter, ..Cut::COMMAS }).names, delimiter != b',')
+}
+
+/// Where cells are separated by semicolons or tabs a comma is a decimal point.
+fn delimiter(text: &str) -> u8 {
     let first = text.lines().next().unwrap_or_default();
-    let delimiter = [b';', b'\t'].into_iter().find(|separator| first.as_bytes().contains(separator)).unwrap_or(b',');
+    [b';', b'\t'].into_iter().find(|separator| first.as_bytes().contains(separator)).unwrap_or(b',')
+}
+
+fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<ControllerLog, ControllerLogError> {
+    let delimiter = delimiter(text);
     let Table { header, names, rows: lines } = Table::of(text, Cut { delimiter, ..Cut::COMMAS });
     let layout = Layout::of(&names, delimiter != b',', arm.is_some()).map_err(|what| ControllerLogError::Header {
         path: path.into(),

@@ -9,14 +9,15 @@ use crate::scenario::{MadeBy, read_made_by, settings_hash, to_toml};
 
 impl CampaignFolder {
     /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
-    /// kernels), and the files that it names.
+    /// kernels), and the files that it names. What was proven clear of its plans holds `clear_within` mm off their paths.
     ///
     /// # Errors
     /// A file cannot be written; TOML cannot hold the scenario.
-    pub fn keep_scenario(&self, setup: &Setup, simd: &str) -> Result<(), FolderError> {
+    pub fn keep_scenario(&self, setup: &Setup, simd: &str, clear_within: Option<f64>) -> Result<(), FolderError> {
         let root_seed = setup.scenario.seed();
         let settings = settings_hash(&to_toml(&setup.scenario, None)?, controller_of(setup));
-        let made_by = MadeBy { version: env!("CARGO_PKG_VERSION").into(), root_seed, simd: simd.into(), settings };
+        let version = env!("CARGO_PKG_VERSION").into();
+        let made_by = MadeBy { version, root_seed, settings, clear_within_mm: clear_within, simd: simd.into() };
         let text = to_toml(&setup.scenario, Some(&made_by))?;
         let files = setup.attachments.files();
         let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
@@ -37,6 +38,14 @@ impl CampaignFolder {
         let text = self.read_scenario()?;
         let written = read_made_by(&text).and_then(|made_by| made_by.settings);
         Ok(written.is_none() || written == settings_hash(&text, controller_of(setup)))
+    }
+
+    /// How far off their paths (mm) what was proven clear of the plans holds, if that is written in its scenario.
+    ///
+    /// # Errors
+    /// The scenario cannot be read.
+    pub fn clear_within_mm(&self) -> Result<Option<f64>, FolderError> {
+        Ok(read_made_by(&self.read_scenario()?).and_then(|made_by| made_by.clear_within_mm))
     }
 
     /// The SIMD level at which the campaign was begun, if that is written in its scenario.

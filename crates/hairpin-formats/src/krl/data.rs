@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use hairpin::math::rotation::quaternion_from_euler;
-use hairpin::trajectory::program::External;
+use hairpin::trajectory::program::{External, Tool};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Components of an aggregate at most.
@@ -46,6 +46,31 @@ pub(super) fn frame(text: &str) -> Result<Isometry3<f64>, String> {
     let frame = taken(&mut all)?;
     rest(&all)?;
     Ok(frame)
+}
+
+/// `{M 2.5,CM {X 1,Y 2,Z 3,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}` as the load of the flange's tool.
+pub(super) fn load(text: &str) -> Result<Tool, String> {
+    let part = |name: &str| {
+        let (before, rest) = text.split_once(&format!("{name} {{")).ok_or_else(|| format!("{name} is missing"))?;
+        let (inside, after) = rest.split_once('}').ok_or_else(|| format!("{name} has no end"))?;
+        Ok::<_, String>((before, format!("{{{inside}}}"), after))
+    };
+    let (before, centre, between) = part("CM")?;
+    let (_, moments, after) = part("J")?;
+    let mass = before.trim().strip_prefix('{').and_then(|mass| mass.trim().strip_prefix("M "));
+    let mass = mass.and_then(|mass| number(mass.trim_end().trim_end_matches(',').trim()));
+    let is_whole = between.trim_start().starts_with(',') && between.contains("J {") && after.trim() == "}";
+    let mass = mass.filter(|mass| *mass > 0.0 && is_whole).ok_or("is not `{M …,CM {…},J {…}}` of a mass")?;
+    let (centre, mut moments) = (frame(&centre)?, components(&moments)?);
+    let inertia = take(&mut moments, ["X", "Y", "Z"])?;
+    rest(&moments)?;
+    Ok(Tool {
+        mass,
+        centre_of_gravity: centre.translation.vector,
+        axes_of_inertia: centre.rotation,
+        inertia,
+        ..Tool::flange()
+    })
 }
 
 fn taken(all: &mut BTreeMap<String, f64>) -> Result<Isometry3<f64>, String> {

@@ -14,7 +14,7 @@ mod write;
 mod tests;
 
 pub use read::{NoProgram, read};
-pub use write::{Files, KrlError, LONGEST_NAME, Settings, files};
+pub use write::{Files, KrlError, LONGEST_NAME, Settings, files, slower};
 
 /// What names of positions begin with: the X keeps them clear of keywords, as the controller's own editor does.
 const PREFIX: &str = "X";

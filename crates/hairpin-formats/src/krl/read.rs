@@ -1,9 +1,9 @@
 //! Programs read from KRL, line by line.
 
-use hairpin::trajectory::program::PoseTarget;
+use hairpin::trajectory::program::{PoseTarget, Tool};
 use thiserror::Error;
 
-use super::data::{Position, frame, number, position};
+use super::data::{Position, frame, load, number, position};
 use super::lines::{POSITIONS, first_word, is_declaration, name_of, without_comment};
 use super::state::{Reader, named};
 use super::{CONVENTIONS, JOINT_MOVES};
@@ -216,6 +216,13 @@ impl Reader {
         }
     }
 
+    fn carry(&mut self, load: Tool) {
+        self.load = Some(load);
+        if let Some(tool) = self.tool {
+            self.tool = Some(self.add_tool(self.reading.program.tools[tool].tcp));
+        }
+    }
+
     /// `$TOOL={…}`.
     fn set(&mut self, line: usize, statement: &str) {
         let (name, value) = statement.split_once('=').unwrap_or((statement, ""));
@@ -227,7 +234,17 @@ impl Reader {
             "$VEL.ORI1" => above_zero(value).map(|speed| self.turning = Some(speed)),
             "$VEL.ORI2" => above_zero(value).map(drop),
             "$APO.CDIS" => above_zero(value).map(|near| self.near = Some(near / 1000.0)),
-            "$LOAD" => return self.reading.doubt(line, (Some(Unmodelled::Payload), "$LOAD is not followed".into())),
+            "$LOAD" => match load(value) {
+                // What is carried from the beginning on is the tool's.
+                Ok(carried) if self.reading.program.moves.is_empty() => {
+                    self.carry(carried);
+                    Ok(())
+                }
+                _ => {
+                    let doubt = (Some(Unmodelled::Payload), "$LOAD is not followed".into());
+                    return self.reading.doubt(line, doubt);
+                }
+            },
             _ if HARMLESS_DATA.iter().any(|known| name.starts_with(known)) => {
                 return self.aside(line, "", statement);
             }

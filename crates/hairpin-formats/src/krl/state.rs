@@ -14,6 +14,8 @@ pub(super) struct Reader {
     pub(super) reading: Reading,
     /// Positions by name in upper case; what is wrong with those that are none.
     pub(super) positions: BTreeMap<String, Result<Position, String>>,
+    /// What the flange carries, in a tool without a point of its own.
+    pub(super) load: Option<Tool>,
     /// Index of the tool and of the base that are set.
     pub(super) tool: Option<usize>,
     pub(super) base: Option<usize>,
@@ -28,8 +30,10 @@ pub(super) struct Reader {
 impl Reader {
     pub(super) fn add_tool(&mut self, tcp: Isometry3<f64>) -> usize {
         let tools = &mut self.reading.program.tools;
-        tools.iter().position(|tool| tool.tcp == tcp).unwrap_or_else(|| {
-            tools.push(Tool { name: format!("tool{}", tools.len() + 1), declare: true, tcp, ..Tool::flange() });
+        let carried = self.load.clone().unwrap_or_else(Tool::flange);
+        let named = |name: &str| Tool { name: name.into(), declare: true, tcp, ..carried.clone() };
+        tools.iter().position(|tool| *tool == named(&tool.name)).unwrap_or_else(|| {
+            tools.push(named(&format!("tool{}", tools.len() + 1)));
             tools.len() - 1
         })
     }

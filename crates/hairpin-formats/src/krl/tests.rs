@@ -87,6 +87,59 @@ fn positions_frames_and_speeds_are_those_of_the_program() {
     assert!(dat.starts_with("&ACCESS RVP\r\n&REL 1\r\nDEFDAT Heavy\r\n") && dat.ends_with("ENDDAT\r\n"));
 }
 
+/// What a tool carries is said before its point, and read back to the same bytes; after a move it is another load.
+#[test]
+fn loads_of_tools_are_written_and_read() {
+    let mut program = program();
+    let turn = UnitQuaternion::from_euler_angles(0.1, -0.2, 0.3);
+    program.tools[0].mass = 2.5;
+    program.tools[0].centre_of_gravity = Vector3::new(0.01, -0.002, 0.08);
+    program.tools[0].axes_of_inertia = turn;
+    program.tools[0].inertia = [0.01, 0.02, 0.005];
+    let written = files(&program, &Settings::default(), &[]).unwrap();
+    let line = written.src.split("\r\n").find(|line| line.starts_with("$LOAD=")).unwrap();
+    assert!(
+        line.starts_with("$LOAD={M 2.5,CM {X 10,Y -2,Z 80,A ") && line.ends_with("},J {X 0.01,Y 0.02,Z 0.005}}"),
+        "{line}"
+    );
+    let read = back(&written);
+    assert_eq!((read.unclear_line, read.certain), (None, 5), "{:?}", read.lines);
+    let carried = &read.program.tools[read.program.moves[0].tool];
+    assert_eq!((carried.mass, carried.inertia), (2.5, [0.01, 0.02, 0.005]));
+    assert!((carried.centre_of_gravity - program.tools[0].centre_of_gravity).norm() < 1e-9);
+    assert!(carried.axes_of_inertia.angle_to(&turn) < 1e-7);
+    assert_eq!(files(&read.program, &Settings::default(), &[]).unwrap(), written);
+    // Loads that are said before nothing is known of moves count wherever they stand; half a load does not.
+    let of = |body: &str| {
+        let text = format!("DEF m ( )\n{body}PTP {{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}}\nEND\n");
+        read_text(&text)
+    };
+    let frames = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n";
+    let behind = of(&format!("{frames}{line}\n"));
+    assert_eq!((behind.unclear_line, behind.program.tools[behind.program.moves[0].tool].mass), (None, 2.5));
+    assert_eq!(of(&format!("{frames}$LOAD={{M 3}}\n")).unclear_line, Some(4));
+}
+
+fn read_text(text: &str) -> Module {
+    read(File { name: "m.src", bytes: text.as_bytes() }, None).unwrap()
+}
+
+/// Straight moves alone are bounded: joint moves have a speed of their own.
+#[test]
+fn speeds_that_are_not_written_are_named() {
+    let program = program();
+    assert_eq!(slower(&program, &Settings::default()), ["vmax"]);
+    let slow = Settings { most_speed: 0.1, ..Settings::default() };
+    let names = slower(&program, &slow);
+    assert_eq!(names, ["v150", "vmax"]);
+    let told = crate::capped::sentence(&names, 0.1).unwrap();
+    assert!(told.contains("at v150, vmax go at 0.1 m/s"), "{told}");
+    assert_eq!(
+        (crate::capped::sentence(&[], 2.0), slower(&program, &Settings { most_speed: 100.0, ..slow })),
+        (None, vec!["vmax".into()])
+    );
+}
+
 #[test]
 fn what_controllers_refuse_is_not_written() {
     let refused = |change: &dyn Fn(&mut Program)| {

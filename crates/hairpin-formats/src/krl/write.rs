@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use hairpin::math::rotation::euler_from_quaternion;
-use hairpin::trajectory::program::{External, Motion, PoseTarget, Program, ProgramError};
+use hairpin::trajectory::program::{External, Motion, PoseTarget, Program, ProgramError, Tool};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
 use super::{CONVENTIONS, JOINT_MOVES, PREFIX, UNNAMED};
 use crate::banner::comments;
+use crate::capped;
 use crate::decimal::decimal;
 
 /// Longest name.
@@ -70,6 +71,11 @@ pub enum KrlError {
     /// The first move of a program must say where every axis goes.
     #[error("the first move goes to a pose: KRL takes a posture there, since status and turn are not known")]
     FirstPose,
+}
+
+/// Straight moves and arcs of `program` that are written slower than they are programmed: the names of their speeds.
+pub fn slower(program: &Program, settings: &Settings) -> Vec<String> {
+    capped::names(program, settings.most_speed)
 }
 
 /// The program's files. Straight moves and arcs fly by at the zone's distance; joint moves stop.
@@ -161,10 +167,16 @@ impl Writer<'_> {
         let program = self.program;
         for m in &program.moves {
             let fly = if m.zone.fine { "" } else { " C_DIS" };
-            let mut settings = vec![
-                ("$TOOL", format!("{{{}}}", frame(&program.tools[m.tool].tcp))),
+            let tool = &program.tools[m.tool];
+            let mut settings = Vec::new();
+            // What has no load says none, unless another one was said before.
+            if is_loaded(tool) || state.contains_key("$LOAD") {
+                settings.push(("$LOAD", load(tool)));
+            }
+            settings.extend([
+                ("$TOOL", format!("{{{}}}", frame(&tool.tcp))),
                 ("$BASE", format!("{{{}}}", frame(&program.work_objects[m.work_object].base_from_object()))),
-            ];
+            ]);
             if matches!(m.motion, Motion::Linear(_) | Motion::Circular { .. }) {
                 settings.push(("$VEL.CP", decimal(m.speed.tcp.min(self.settings.most_speed), 6)));
                 settings.push(("$VEL.ORI1", decimal(m.speed.orientation.to_degrees(), 6)));
@@ -198,6 +210,19 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether more is known of a tool's load than that controllers want one.
+fn is_loaded(tool: &Tool) -> bool {
+    let flange = Tool::flange();
+    (tool.mass, tool.centre_of_gravity, tool.inertia) != (flange.mass, flange.centre_of_gravity, flange.inertia)
+}
+
+/// Mass in kg, centre of gravity on the flange in mm with the axes of inertia, moments about it in kg m².
+fn load(tool: &Tool) -> String {
+    let centre = Isometry3::from_parts(tool.centre_of_gravity.into(), tool.axes_of_inertia);
+    let [x, y, z] = tool.inertia.map(|moment| decimal(moment, 6));
+    format!("{{M {},CM {{{}}},J {{X {x},Y {y},Z {z}}}}}", decimal(tool.mass, 6), frame(&centre))
 }
 
 fn frame(pose: &Isometry3<f64>) -> String {

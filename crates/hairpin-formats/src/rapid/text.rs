@@ -1,15 +1,12 @@
 //! Numbers and data as RAPID spells them.
 
-use hairpin::trajectory::program::{External, JointTarget, PoseTarget, Speed, Tool, WorkObject, Zone};
+use hairpin::trajectory::program::{
+    DECIMALS, External, JointTarget, PoseTarget, QUATERNION_DECIMALS, Speed, Tool, WorkObject, Zone,
+};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::banner::plain;
 use crate::decimal::decimal;
-
-/// Decimals of mm, degrees, kg: a controller keeps about seven digits.
-const DECIMALS: usize = 6;
-/// Decimals of quaternions.
-const QUATERNION_DECIMALS: usize = 9;
 
 fn list(numbers: impl IntoIterator<Item = String>) -> String {
     format!("[{}]", numbers.into_iter().collect::<Vec<_>>().join(","))

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub(crate) const MADE_BY: &str = "made_by";
 
 /// `[made_by]`: what a campaign's results depend on beside the scenario. Readers of scenarios pass over it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MadeBy {
     /// Version of hairpin.
     pub version: String,
@@ -19,6 +19,10 @@ pub struct MadeBy {
     /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<String>,
+    /// How far off their paths (mm) what was proven clear of the plans holds, whatever `spec` has become since; `None` of
+    /// earlier versions, and where nothing was proven.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clear_within_mm: Option<f64>,
     /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was
     /// cut off is missed.
     pub simd: String,

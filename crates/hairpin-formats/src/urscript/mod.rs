@@ -11,7 +11,7 @@ mod write;
 mod tests;
 
 pub use read::{NoProgram, read};
-pub use write::{Settings, UrscriptError, text};
+pub use write::{Settings, UrscriptError, slower, text};
 
 /// What is said at the head of every program.
 const CONVENTIONS: [&str; 3] = [

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::CONVENTIONS;
 use crate::banner::comments;
+use crate::capped;
 use crate::decimal::decimal;
 
 /// What URScript wants to know and a program does not say.
@@ -84,6 +85,11 @@ const FUNCTIONS: [&str; 16] = [
     "textmsg",
     "norm",
 ];
+
+/// Straight moves and arcs of `program` that are written slower than they are programmed: the names of their speeds.
+pub fn slower(program: &Program, settings: &Settings) -> Vec<String> {
+    capped::names(program, settings.most_speed)
+}
 
 /// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, and to none
 /// where a segment's length takes the arm's kinematics: blends that overlap stop the robot.

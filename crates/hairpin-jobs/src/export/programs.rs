@@ -7,7 +7,7 @@ use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
 use hairpin::robot::arm::{AXES, Joints};
 use hairpin::trajectory::program::{Program, Speed};
-use hairpin_formats::{atomic, joint_trajectory, krl, rapid, urscript};
+use hairpin_formats::{atomic, capped, joint_trajectory, krl, rapid, urscript};
 use nalgebra::Isometry3;
 
 use super::written::Written;
@@ -27,6 +27,31 @@ pub enum Language {
     JointTrajectory,
 }
 
+impl Language {
+    /// The most that straight moves are written with, m/s, where that is bounded.
+    fn most_speed(self) -> Option<f64> {
+        match self {
+            Language::Urscript => Some(urscript::Settings::default().most_speed),
+            Language::Krl => Some(krl::Settings::default().most_speed),
+            Language::Rapid | Language::JointTrajectory => None,
+        }
+    }
+
+    /// Names of the speeds of `program` that are written slower than they are.
+    fn slower(self, program: &Program) -> Vec<String> {
+        match self {
+            Language::Urscript => urscript::slower(program, &urscript::Settings::default()),
+            Language::Krl => krl::slower(program, &krl::Settings::default()),
+            Language::Rapid | Language::JointTrajectory => Vec::new(),
+        }
+    }
+
+    /// What is said of those.
+    fn capped(self, names: &[String]) -> Option<String> {
+        capped::sentence(names, self.most_speed()?)
+    }
+}
+
 /// What modules of arms say whose configurations no controller knows.
 const UNCONFIGURED: &str = "The arm has no opw: its configurations are not known, moves in joints go to joint angles, \
     ConfL and ConfJ are Off";
@@ -42,7 +67,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
     if language == Language::Rapid {
         may_run(work).map_err(|why| Problem::input(format!("--to rapid: {why}")))?;
     }
-    let mut written = Written::default();
+    let (mut written, mut fast) = (Written::default(), Vec::new());
     for case in cases {
         let mut case = Case::clone(case);
         work.folder.read_witness(&mut case)?;
@@ -50,6 +75,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
             written.missing.push(format!("case {} has no program: it is no arm's", case.id()));
             continue;
         };
+        fast.extend(language.slower(program).into_iter().filter(|name| !fast.contains(name)).collect::<Vec<_>>());
         match texts(work, &case, program, language) {
             Ok(texts) => {
                 for (name, text) in texts {
@@ -62,6 +88,7 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
         }
     }
     let unconfigured = arm_of(work).is_ok_and(|arm| !arm.tells_configurations());
+    written.told.extend(language.capped(&fast));
     written.told.extend((unconfigured && language == Language::Rapid).then(|| UNCONFIGURED.into()));
     written.or_refused()
 }
@@ -113,6 +140,7 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
 fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Result<Vec<(String, String)>, String> {
     let id = case.id();
     let mut header = vec![format!("Evidence: {}", case.claim())];
+    header.extend(language.capped(&language.slower(program)));
     let arm = arm_of(work)?;
     Ok(match language {
         Language::Urscript => {

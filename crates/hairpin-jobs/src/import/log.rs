@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use hairpin::judgement::Swiftness;
+use hairpin_formats::controller_log;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged};
+use hairpin_formats::quote::shell_word;
 
 use crate::Problem;
 use crate::judge_log::{Cut, SourceTold, clock_words, cut, due_alone};
@@ -37,7 +39,10 @@ impl ReadLog {
     /// # Errors
     /// As of [`logs::read`].
     pub(super) fn of(file: &Path) -> Result<Self, Problem> {
-        let logged = logs::read(file).map_err(Problem::input)?;
+        let logged = logs::read(file).map_err(|error| match controller_log::is_headed(file) {
+            true => Problem::input(format!("{error}. {}", arms(file))),
+            false => Problem::input(error),
+        })?;
         let anything = Swiftness { speed: None, acceleration: None };
         let due = due_alone(&logged);
         let mut motions: Vec<_> = logged.motions.iter().collect();
@@ -65,5 +70,38 @@ impl ReadLog {
         let unfit = |name: &str| self.logged.motions.iter().any(|own| own.name == name && own.unfit.is_some());
         self.motions.first().is_some_and(|judged| !judged.cuts.is_empty() || unfit(&judged.source.topic))
             || self.logged.events.iter().any(|event| ends(event.kind))
+    }
+}
+
+/// Who reads the log of an arm, whose units and decimal commas are its own, and whose places may need its joints.
+fn arms(file: &Path) -> String {
+    let name = file.display().to_string();
+    let file = shell_word(&name);
+    format!(
+        "Its columns are those of an arm's log: hairpin judge {file} --campaign OUT reads it, by the arm and the program of a campaign"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_reads_an_arms_log_is_told() {
+        let place = tempfile::tempdir().unwrap();
+        let refused = |name: &str, text: &str| {
+            let file = place.path().join(name);
+            std::fs::write(&file, text).unwrap();
+            ReadLog::of(&file).unwrap_err().to_string()
+        };
+        let degrees =
+            "t_s,axis_1_deg,axis_2_deg,axis_3_deg,axis_4_deg,axis_5_deg,axis_6_deg\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n";
+        let commas = "t_s;q1_rad;q2_rad;q3_rad;q4_rad;q5_rad;q6_rad\n0;0,1;0;0;0;0,5;0\n1;0,2;0;0;0;0,5;0\n";
+        for (name, text) in [("degrees.csv", degrees), ("commas.csv", commas)] {
+            let told = refused(name, text);
+            assert!(told.contains(&format!("{name} --campaign OUT reads it")), "{told}");
+        }
+        let none = refused("none.csv", "t_s,a\n0,1\n1,2\n");
+        assert!(!none.contains("--campaign"), "{none}");
     }
 }

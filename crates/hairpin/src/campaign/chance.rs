@@ -89,7 +89,8 @@ impl Baseline {
         let cut = match self.cut_short.values().sum::<usize>() {
             0 => String::new(),
             count => {
-                let ways: Vec<String> = self.cut_short.iter().map(|(ended, count)| format!("{count} {ended}")).collect();
+                let ways: Vec<String> =
+                    self.cut_short.iter().map(|(ended, count)| format!("{count} {ended}")).collect();
                 format!(", {count} of them cut short ({})", ways.join(", "))
             }
         };

@@ -116,7 +116,8 @@ const PATH_PIECES: usize = 1024;
 /// The place on the path that every sample belongs to by monotone assignment, and the segment that it lies on.
 ///
 /// `weights` in s. Where one piece stands for several segments, the place is the nearest on these and on as many
-/// before and after.
+/// before and after. A path that bends between its places is assigned by its chords; the place is then the nearest of
+/// the curve about the chord's.
 fn path_places(
     positions: &[Point3<f64>],
     weights: &[f64],
@@ -141,7 +142,13 @@ fn path_places(
         let on = |i: usize| (nearest_point(p, &path.position(i), &path.position(i + 1)), i);
         let nearer =
             |a: (Point3<f64>, usize), b: (Point3<f64>, usize)| if (p - b.0).norm() < (p - a.0).norm() { b } else { a };
-        (first + 1..end).map(on).fold(on(first), nearer)
+        let by_chords = (first + 1..end).map(on).fold(on(first), nearer);
+        let beside = by_chords.1.saturating_sub(1)..(by_chords.1 + 2).min(segments);
+        if beside.clone().all(|i| path.way(i).is_none()) {
+            return by_chords;
+        }
+        let curved = |i: usize| (path.nearest(i, p), i);
+        beside.map(curved).fold(curved(by_chords.1), nearer)
     };
     Ok(positions.iter().zip(assigned).map(place).collect())
 }

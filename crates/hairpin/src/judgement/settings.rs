@@ -16,7 +16,7 @@ pub enum Reference<'a> {
     Leg,
     /// The nearest of the previous and the current leg's segments.
     NearestLeg,
-    /// A programmed path: the polyline through the track's positions.
+    /// A programmed path: the line through the track's positions, straight between them or as the track has it.
     Path(&'a Track),
 }
 

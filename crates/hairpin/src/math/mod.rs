@@ -15,6 +15,7 @@
 //! | [`interval`] | degree-1 Taylor models in four lanes | limits between samples |
 //! | [`outward`] | intervals with directed rounding, centred forms | proofs of clearance |
 //! | [`segment`] | nearest points of segments | solids, deviation |
+//! | [`cubic`] | nearest points of Hermite's cubics | deviation from curved paths |
 //! | [`convex`] | min ‖a − b‖ over two convex sets, bounded on both sides | links of arms |
 //! | [`enclosing`] | few points and a radius around many | links of arms |
 //! | [`circular`], [`power`] | sin, cos, xⁿ with the same bits everywhere | hot loops |
@@ -33,6 +34,7 @@
 pub(crate) mod arc_tangent;
 pub mod circular;
 pub mod convex;
+pub mod cubic;
 pub mod decimals;
 pub mod enclosing;
 pub mod fresnel;

@@ -16,7 +16,8 @@ pub struct PlannedMove {
     pub stops: bool,
 }
 
-/// Poses on planned stamps, dense enough to be joined by straight lines; moves end at poses in order.
+/// Poses on planned stamps, joined by straight lines or by the cubics that its track has between them; moves end at
+/// poses in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedPath {
     track: Track,

@@ -6,6 +6,9 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 use thiserror::Error;
 
+use crate::math::cubic::Cubic;
+use crate::math::segment;
+
 /// Channel, 1 throughout, of tracks whose attitudes nobody told: their rotations mean nothing.
 pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
 
@@ -21,6 +24,7 @@ pub struct Channel {
 }
 
 /// `times.len() == poses.len() ==` every channel's length; times rise strictly, s; poses are `world_from_body`.
+/// Places are joined by straight lines, but for planned paths that say how they bend.
 ///
 /// ```
 /// use hairpin::trajectory::{Channel, Track};
@@ -38,6 +42,8 @@ pub struct Track {
     times: Vec<f64>,
     poses: Vec<Isometry3<f64>>,
     channels: Vec<Channel>,
+    /// How the place goes from each stamp to the next, `None` where it goes straight; empty where it does everywhere.
+    ways: Vec<Option<Cubic>>,
 }
 
 /// Share of the way between two stamps by which velocities may lead elsewhere and still be those of that way.
@@ -103,7 +109,29 @@ impl Track {
         if let Some(index) = (1..times.len()).find(|&i| times[i] <= times[i - 1]) {
             return Err(TrackError::Times { index, time: times[index], before: times[index - 1] });
         }
-        Ok(Self { times, poses, channels })
+        Ok(Self { times, poses, channels, ways: Vec::new() })
+    }
+
+    /// The same track whose place goes from each stamp to the next along these `ways`, straight where there is none.
+    ///
+    /// # Panics
+    /// Unless there is one from every stamp to the next.
+    pub(crate) fn along(self, ways: Vec<Option<Cubic>>) -> Self {
+        assert_eq!(ways.len() + 1, self.len(), "a way from every stamp to the next");
+        Self { ways, ..self }
+    }
+
+    /// How the place goes from stamp `index` to the next, where that is not straight.
+    pub(crate) fn way(&self, index: usize) -> Option<&Cubic> {
+        self.ways.get(index)?.as_ref()
+    }
+
+    /// The place nearest to `p` between stamp `index` and the next, m.
+    pub(crate) fn nearest(&self, index: usize, p: &Point3<f64>) -> Point3<f64> {
+        match self.way(index) {
+            Some(way) => way.nearest(p),
+            None => segment::nearest_point(p, &self.position(index), &self.position(index + 1)),
+        }
     }
 
     /// Stamps, s.

@@ -128,6 +128,27 @@ fn near(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
+    /// What is planned before it is written is what is planned after it was read, to the bit: a time law that compares
+    /// is another one by the last digit.
+    #[test]
+    fn a_program_in_digits_reads_back_as_it_is(program in program()) {
+        let program = program.in_digits();
+        let back = read(module(&program, &[]).unwrap().as_bytes(), &Options::default()).unwrap().program;
+        for (a, b) in program.moves.iter().zip(&back.moves) {
+            let poses = |m: &Move| m.motion.poses().map(|to| (to.pose.translation, to.pose.rotation.coords)).collect::<Vec<_>>();
+            prop_assert_eq!(poses(a), poses(b));
+            if let (Motion::AbsoluteJoint(a), Motion::AbsoluteJoint(b)) = (&a.motion, &b.motion) {
+                prop_assert_eq!(a.joints, b.joints);
+            }
+            let (a, b) = (&program.tools[a.tool], &back.tools[b.tool]);
+            prop_assert_eq!((a.tcp, a.mass, a.centre_of_gravity, a.inertia), (b.tcp, b.mass, b.centre_of_gravity, b.inertia));
+        }
+        for (a, b) in program.moves.iter().zip(&back.moves) {
+            let (a, b) = (&program.work_objects[a.work_object], &back.work_objects[b.work_object]);
+            prop_assert_eq!((a.user, a.object), (b.user, b.object));
+        }
+    }
+
     #[test]
     fn written_read_and_written_again(program in program(), header in prop::collection::vec("[ -~]{0,60}", 0..3)) {
         let header: Vec<String> = header.iter().map(|line| line.trim().to_owned()).collect();

@@ -12,17 +12,23 @@ use crate::search::heaviest::MOST_EXACT_POINTS;
 pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     let clearance = generate.moves.clearance_mm;
+    let off = match setup.scenario.spec.path {
+        Some(limit) => {
+            format!("as far as runs stay within the {} mm of `spec.path.max_mm` of their path", limit.max_mm)
+        }
+        None => "of runs on their path alone, as no `spec.path.max_mm` says how far off they may be".into(),
+    };
     said.push(match generate.mode {
         ArmMode::Joint => format!(
             "Mode `joint`: `clear: all links` means that along every move, joints within their bounds and away from \
              singularities, no link and no tool comes nearer than {clearance} mm to an obstacle, nor links to each other, between \
-             samples as well; the links are the capsules and hulls of the robot's file{}.",
+             samples as well; the links are the capsules and hulls of the robot's file{}. It holds {off}.",
             stand_ins(setup)
         ),
         ArmMode::Cartesian => format!(
             "Mode `cartesian`: `clear: tool sphere` means that a ball of the tool's radius and {clearance} mm more touches nothing \
              along the straight segments between the points, rounding errors included; the arm behind it, its joints and the moves \
-             from and to home were not looked at."
+             from and to home were not looked at. It holds {off}."
         ),
     });
     if !setup.scenario.world.keep_out_mm.is_empty() {

@@ -6,7 +6,7 @@ use crate::campaign::graph::Losses;
 use crate::campaign::kind::{Claim, Knobs, Made, PlanError, Replanner, Solver};
 use crate::campaign::{Case, Scenario, Timed};
 use crate::trajectory::Track;
-use crate::verification::{EndError, Proof, RowTolerances};
+use crate::verification::{EndError, Proof};
 
 impl Claim for ArmSetup {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
@@ -42,12 +42,6 @@ impl Claim for ArmSetup {
             proof.get_or_insert_default();
         }
         (proof, None)
-    }
-
-    /// A program is read again from its text, whose digits may sample its path in one span more: 1 mm, 0.01 rad, and
-    /// what joints change their speed by from one sample to the next.
-    fn row_tolerances(&self) -> RowTolerances {
-        RowTolerances { position: 1e-3, attitude: 1e-2, velocity: 0.1 }
     }
 
     fn knobs(&self) -> Knobs {

@@ -49,14 +49,17 @@ impl ArmSetup {
 
 /// How far the path is from another one at most, m.
 ///
-/// max over the path's samples of the distance to the other's polyline; O(n m). 0 where either has no segment.
+/// max over the path's samples of the distance to the other's line; O(n m). 0 where either has no segment.
 fn farthest(path: &Track, other: &Track) -> f64 {
     let nearest = |i: usize| {
         let point = path.position(i);
-        let segments = (1..other.len()).map(|j| point_distance(&point, &other.position(j - 1), &other.position(j)));
-        segments.fold(f64::INFINITY, f64::min)
+        let chord = |j: usize| point_distance(&point, &other.position(j), &other.position(j + 1));
+        // Curves are looked at about the nearest chord alone.
+        let about = (0..other.len().saturating_sub(1)).min_by(|a, b| chord(*a).total_cmp(&chord(*b)))?;
+        let beside = about.saturating_sub(1)..(about + 2).min(other.len() - 1);
+        Some(beside.map(|j| (point - other.nearest(j, &point)).norm()).fold(f64::INFINITY, f64::min))
     };
-    (0..path.len()).map(nearest).filter(|distance| distance.is_finite()).fold(0.0, f64::max)
+    (0..path.len()).filter_map(nearest).filter(|distance| distance.is_finite()).fold(0.0, f64::max)
 }
 
 /// A log with what is known of the arm.

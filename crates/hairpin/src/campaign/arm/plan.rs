@@ -15,6 +15,18 @@ impl ArmSetup {
     /// # Errors
     /// A program that cannot be planned.
     pub(super) fn planned_path(&self, case: &Case) -> Result<PlannedPath, SimulationError> {
+        self.of_plan(case, |plan| plan.path())
+    }
+
+    /// The same as a motion: with velocities, on rows that the motion between them holds for.
+    ///
+    /// # Errors
+    /// As [`Self::planned_path`].
+    fn planned_motion(&self, case: &Case) -> Result<PlannedPath, SimulationError> {
+        self.of_plan(case, |plan| plan.motion())
+    }
+
+    fn of_plan<T>(&self, case: &Case, of: impl FnOnce(&Plan<'_>) -> T) -> Result<T, SimulationError> {
         let orders = self.orders(program_of(case)?)?;
         let plan = Plan::new(&self.station.arm, &self.station.home, &orders, &self.plan_settings())?;
         match plan.stop() {
@@ -28,7 +40,7 @@ impl ArmSetup {
                     }
                 },
             )),
-            None => Ok(plan.path()),
+            None => Ok(of(&plan)),
         }
     }
 
@@ -74,14 +86,15 @@ pub(super) fn posed(setup: &ArmSetup, case: &Case, planned: Track) -> Track {
     Track::new(planned.times().to_vec(), planned.poses().to_vec(), channels).unwrap_or(planned)
 }
 
-/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`.
+/// The planned motion with the channels `leg`, `vx_m_s`, `vy_m_s`, `vz_m_s`, which are the tool's own by its joints'.
 ///
 /// # Errors
 /// A program that cannot be planned, as a folder that was edited may hold.
 pub(super) fn track(setup: &ArmSetup, case: &Case) -> Result<Track, PlanError> {
-    let planned = setup.planned_path(case)?;
-    let path = planned.track();
+    let planned = setup.planned_motion(case)?;
+    let motion = planned.track();
     let leg = |i: usize| planned.moves().partition_point(|m| m.end < i).min(planned.moves().len().saturating_sub(1));
-    let legs = Channel { name: "leg".into(), values: (0..path.len()).map(|i| leg(i) as f64).collect() };
-    Ok(Track::new(path.times().to_vec(), path.poses().to_vec(), vec![legs])?.with_velocities())
+    let legs = Channel { name: "leg".into(), values: (0..motion.len()).map(|i| leg(i) as f64).collect() };
+    let channels = std::iter::once(legs).chain(motion.channels().iter().cloned()).collect();
+    Ok(Track::new(motion.times().to_vec(), motion.poses().to_vec(), channels)?)
 }

@@ -81,7 +81,8 @@ impl ArmSetup {
     /// the corner at the way's k-th point may be cut by a zone (m).
     ///
     /// The first move is joint to the first point, the last joint back home, both slow; every other one as
-    /// `generate.moves.kind`. A zone that `blends` refuses becomes fine.
+    /// `generate.moves.kind`. A zone that `blends` refuses becomes fine. All with the digits that a module has: what is
+    /// planned is what is kept, handed over and verified.
     pub(super) fn program(&self, way: &[Met], number: usize, blends: impl Fn(usize, f64) -> bool) -> Program {
         let (tool, object) = self.frames();
         let object_from_base = object.base_from_object().inverse();
@@ -105,7 +106,7 @@ impl ArmSetup {
             program.moves.push(Move::new(motion, met.speed.clone(), zone));
         }
         program.moves.push(home());
-        program
+        program.in_digits()
     }
 
     /// The way that `program` takes through the cloud; `None` where it is none from home and back. Points that arcs

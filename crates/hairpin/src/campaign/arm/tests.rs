@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 use serde_json::{Value, json};
 
 use super::ArmSetup;
@@ -14,12 +14,13 @@ use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{
-    CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, execute_run, judge, verify,
+    self, CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, execute_run, judge, verify,
 };
 use crate::judgement::{LegSource, Stress};
 use crate::math::random::stream;
+use crate::robot::arm::Joints;
 use crate::trajectory::program::Program;
-use crate::trajectory::{Channel, Ended, Flight, Track};
+use crate::trajectory::{Channel, Ended, Flight, Tolerances, Track, bends};
 
 /// A shipped arm before a fixture, and some points.
 fn cell() -> Value {
@@ -99,6 +100,48 @@ fn kinds() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
         ("sphere", vec![("generate.mode", json!("cartesian"))]),
         ("ends", vec![("generate.search.start", json!(2)), ("generate.search.end", json!(5))]),
     ]
+}
+
+/// What is planned is what is written: a program has the digits of its module, and is planned once more as it was.
+#[test]
+fn programs_have_the_digits_that_they_are_written_with() {
+    let turned = json!({ "name": "wRot", "declare": true, "uframe_mm": [30, 20, 10],
+        "uframe_q1_q4": [0.9961946980917455, 0, 0, 0.08715574274765817] });
+    let setup = setup(&[("world.wobj", turned)]);
+    let solver = ArmSolver::new(own(&setup));
+    for number in 0..4 {
+        let plan = solver.draw(number, &Stop::never()).unwrap();
+        let program = program(&plan);
+        assert_eq!(program.clone().in_digits(), *program);
+        assert!(plan.leg_times == own(&setup).leg_times(&program.clone().in_digits()));
+    }
+}
+
+/// The rows that are kept of a planned motion lead to where the joints of the same plan do, and with its velocity.
+#[test]
+fn planned_rows_agree_with_planned_joints() {
+    for (name, changes) in [kinds().swap_remove(0), kinds().swap_remove(1), kinds().swap_remove(3)] {
+        let setup = setup(&changes);
+        let (arm, solver) = (own(&setup), ArmSolver::new(own(&setup)));
+        let case = solver.draw(1, &Stop::never()).unwrap().case(7, 0, 0);
+        let planned = campaign::planned(&setup, &case).unwrap();
+        let rows = planned.picked(&bends(&planned, &BTreeSet::new(), &Tolerances::default()));
+        let (times, joints) = arm.planned_joints(&case, 0.01).unwrap();
+        let place = |q: &Joints| (arm.station.arm.forward(q) * arm.station.tool.tcp).translation.vector;
+        let last = rows.times()[rows.len() - 1];
+        for k in 1..times.len() - 1 {
+            if times[k + 1] > last {
+                break;
+            }
+            let (pose, values) = rows.at(times[k]).unwrap();
+            let off = (pose.translation.vector - place(&joints[k])).norm();
+            assert!(off < 1.2e-4, "{name}: {off} m at {} s", times[k]);
+            // Second order in time: 10 m/s² that begin within 10 ms.
+            let mean = (place(&joints[k + 1]) - place(&joints[k - 1])) / 0.02;
+            let off = (Vector3::new(values[1], values[2], values[3]) - mean).norm();
+            assert!(off < 0.06, "{name}: {off} m/s at {} s", times[k]);
+        }
+    }
 }
 
 /// What bounds the reach in Cartesian mode is no part of the cell, and is told for what it is.

@@ -122,7 +122,7 @@ pub(in crate::campaign) trait Claim {
         }
         match self.planned(case) {
             Ok(planned) => {
-                let mut findings = kept.against(&planned, &self.row_tolerances());
+                let mut findings = kept.against(&planned, &RowTolerances::default());
                 findings.extend(self.strays(case, &planned));
                 findings
             }
@@ -138,11 +138,6 @@ pub(in crate::campaign) trait Claim {
     /// those of a wrong motion hold to it. Nothing of kinds whose motion is the witness.
     fn strays(&self, _case: &Case, _planned: &Track) -> Vec<Finding> {
         Vec::new()
-    }
-
-    /// What rows may be off the motion that their witness is planned as once more.
-    fn row_tolerances(&self) -> RowTolerances {
-        RowTolerances::default()
     }
 
     /// What is claimed of waypoints that somebody else chose: a witness, or what breaks, leg by leg.

@@ -140,6 +140,12 @@ pub trait Keys: Any {
         None
     }
 
+    /// How far off its path (mm) a run may be for what is proven clear of its plan to hold of it; `None` where nothing
+    /// is proven of what runs do.
+    fn clear_within_mm(&self) -> Option<f64> {
+        None
+    }
+
     /// The value of a key of the whole, such as `world`; `None` where it has no such key.
     fn section(&self, name: &str) -> Option<Value>;
 

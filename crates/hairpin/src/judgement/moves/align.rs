@@ -12,7 +12,9 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Point3};
 
 use crate::judgement::narrow::narrowed;
+use crate::math::cubic::Cubic;
 use crate::math::power::square;
+use crate::math::segment::nearest_point;
 use crate::trajectory::{PlannedPath, Track};
 
 /// The planned path by distance: poses that differ, how far along each lies, and where moves end.
@@ -21,6 +23,8 @@ use crate::trajectory::{PlannedPath, Track};
 /// a stamp of the plan.
 pub(super) struct Way {
     poses: Vec<Isometry3<f64>>,
+    /// How places go from each pose to the next where that is not straight, one less than poses.
+    ways: Vec<Option<Cubic>>,
     /// Length up to each, m: of position and weighted turn together.
     along: Vec<f64>,
     /// Length at the end of each move.
@@ -43,14 +47,15 @@ impl Way {
     /// `weight` in m/rad.
     pub(super) fn new(path: &PlannedPath, weight: f64) -> Self {
         let (mut poses, mut along): (Vec<Isometry3<f64>>, Vec<f64>) = (Vec::new(), Vec::new());
-        let mut kept = Vec::with_capacity(path.track().len());
-        for pose in path.track().poses() {
+        let (mut kept, mut ways) = (Vec::with_capacity(path.track().len()), Vec::new());
+        for (i, pose) in path.track().poses().iter().enumerate() {
             match (poses.last(), along.last()) {
                 (Some(last), Some(length)) => {
                     let step = square_distance(last, pose, weight).sqrt();
                     if step > 1e-9 {
                         along.push(length + step);
                         poses.push(*pose);
+                        ways.push(path.track().way(i - 1).copied());
                     }
                 }
                 _ => {
@@ -63,7 +68,7 @@ impl Way {
         let end_poses: Vec<usize> = path.moves().iter().map(|m| kept[m.end]).collect();
         let ends = end_poses.iter().map(|end| along[*end]).collect();
         let planned = kept.iter().map(|index| along[*index]).collect();
-        Self { poses, along, ends, end_poses, planned, weight }
+        Self { poses, ways, along, ends, end_poses, planned, weight }
     }
 
     /// Pose `i`.
@@ -206,19 +211,24 @@ impl Way {
     ///
     /// Two poses more on either side, so that a segment at the range's border counts.
     pub(super) fn distance(&self, range: &Range<usize>, point: &Point3<f64>) -> f64 {
-        let place = |i: usize| self.place(i);
         let (first, last) = (range.start.saturating_sub(BESIDE), (range.end + BESIDE).min(self.poses.len() - 1));
-        let segments = (first..last).map(|i| crate::math::segment::point_distance(point, &place(i), &place(i + 1)));
-        segments.fold((point.coords - self.poses[range.start].translation.vector).norm(), f64::min)
+        self.distance_from(first..last, point, range.start)
     }
 
     /// Distance of `pose`'s position from the path about pose `j`, m.
     pub(super) fn deviation(&self, j: usize, pose: &Isometry3<f64>) -> f64 {
-        let place = |i: usize| self.place(i);
         let (first, last) = (j.saturating_sub(BESIDE), (j + BESIDE).min(self.poses.len() - 1));
-        let point = pose.translation.vector.into();
-        let segments = (first..last).map(|i| crate::math::segment::point_distance(&point, &place(i), &place(i + 1)));
-        segments.fold((pose.translation.vector - self.poses[j].translation.vector).norm(), f64::min)
+        self.distance_from(first..last, &pose.translation.vector.into(), j)
+    }
+
+    /// Distance of `point` from pose `j` and from the ways that begin at the poses of `range`, curved ones as they are,
+    /// m.
+    fn distance_from(&self, range: Range<usize>, point: &Point3<f64>, j: usize) -> f64 {
+        let nearest = |i: usize| match &self.ways[i] {
+            Some(way) => way.nearest(point),
+            None => nearest_point(point, &self.place(i), &self.place(i + 1)),
+        };
+        range.map(|i| (point - nearest(i)).norm()).fold((point - self.place(j)).norm(), f64::min)
     }
 }
 

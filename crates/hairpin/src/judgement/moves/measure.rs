@@ -124,7 +124,8 @@ pub struct Measured {
 /// Samples are aligned with the path monotonely; arrival is when progress along it first comes within `arrival` of a
 /// target's, between samples by linear interpolation.
 ///
-/// Deviation is the distance of positions from the polyline of planned poses, of the segments beside the aligned one.
+/// Deviation is the distance of positions from the line through the planned poses, curved where the plan says how, of
+/// the segments beside the aligned one.
 /// Samples · poses, in the whole at most a million.
 ///
 /// # Errors

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::judgement::Verdict;
+use crate::math::cubic::Cubic;
 use crate::math::random::{Stream, standard_normals, stream};
 use crate::trajectory::{Channel, PlannedMove, PlannedPath, Track};
 
@@ -574,4 +575,42 @@ fn what_was_passed_before_the_recording_begins_is_not_late() {
     assert!(told.starts_with("the log begins at t = 1.310 s, behind p0→p1: it arrived at most 31"), "{told}");
     assert_eq!(unseen.late_proven, None);
     assert_eq!(not_shown(&path, &begun, 1.0, true, [None, Some(0.4)]).open, None);
+}
+
+/// A quarter of a turn about the origin at 0.5 m in ten pieces, whose chords are 1.5 mm inside.
+fn curved() -> PlannedPath {
+    let angle = |i: f64| std::f64::consts::FRAC_PI_2 * i / 10.0;
+    let place = |i: f64| Point3::new(0.5 * angle(i).cos(), 0.5 * angle(i).sin(), 0.2);
+    let rate = |i: f64| Vector3::new(-angle(i).sin(), angle(i).cos(), 0.0) * (0.5 * angle(1.0));
+    let poses = (0..=10).map(|i| pose(&place(f64::from(i)), 0.0)).collect();
+    let ways = (0..10).map(f64::from);
+    let ways = ways.map(|i| Some(Cubic::between(&place(i), &place(i + 1.0), [rate(i), rate(i + 1.0)]))).collect();
+    let track = Track::new((0..=10).map(f64::from).collect(), poses, Vec::new()).unwrap().along(ways);
+    PlannedPath::new(track, vec![PlannedMove { name: "p0→p1".into(), end: 10, stops: true }])
+}
+
+/// Where a path bends between its poses, deviation is from the bend: of samples on it none, and of one that is inside by
+/// what chords are inside, that.
+#[test]
+fn deviation_is_from_curves_and_not_from_chords() {
+    let path = curved();
+    let at = |t: f64, inside: f64| {
+        let angle = std::f64::consts::FRAC_PI_2 * t / 10.0;
+        pose(&Point3::new((0.5 - inside) * angle.cos(), (0.5 - inside) * angle.sin(), 0.2), 0.0)
+    };
+    let times: Vec<f64> = (0..=200).map(|i| 0.05 * f64::from(i)).collect();
+    for inside in [0.0, 8e-4] {
+        let poses = times.iter().map(|t| at(*t, if (*t - 4.5).abs() < 0.01 { inside } else { 0.0 })).collect();
+        let recording = Track::new(times.clone(), poses, Vec::new()).unwrap();
+        let measured = measure(&path, &recording);
+        let worst = measured.moves[0].deviation.unwrap();
+        assert!((worst - inside).abs() < 1e-6, "{inside}: {worst}");
+        let waypoints = [recording.position(0), recording.position(200)];
+        let settings = crate::judgement::Settings {
+            reference: crate::judgement::Reference::Path(path.track()),
+            ..crate::judgement::Settings::default()
+        };
+        let worst = crate::judgement::measure(&recording, &waypoints, &settings).unwrap().max_deviation;
+        assert!((worst - inside).abs() < 1e-6, "{inside}: {worst}");
+    }
 }

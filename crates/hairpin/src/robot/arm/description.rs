@@ -170,7 +170,7 @@ pub struct JointsDescription {
 pub struct CapsuleDescription {
     /// 0 for the base, k for the link that axis k moves.
     pub link: usize,
-    /// One end of the axis in the link's frame.
+    /// One end of the axis in the link's frame; of arms with `opw` that is not a URDF's (docs/arms.md, link frames).
     pub a_mm: [f64; 3],
     /// The other end.
     pub b_mm: [f64; 3],
@@ -191,7 +191,7 @@ fn is_zero(number: &f64) -> bool {
 pub struct HullDescription {
     /// 0 for the base, k for the link that axis k moves.
     pub link: usize,
-    /// Points of the hull in the link's frame.
+    /// Points of the hull in the link's frame; of arms with `opw` that is not a URDF's (docs/arms.md, link frames).
     pub points_mm: Vec<[f64; 3]>,
     /// What the hull is grown by; 0 if not given.
     #[serde(default)]
@@ -209,7 +209,7 @@ pub struct MassDescription {
     pub link: usize,
     /// Mass.
     pub mass_kg: f64,
-    /// Centre of mass in the link's frame.
+    /// Centre of mass in the link's frame; of arms with `opw` that is not a URDF's (docs/arms.md, link frames).
     pub centre_mm: [f64; 3],
     /// Moments of inertia about the centre along the link's axes; a point if not given.
     #[serde(default)]

@@ -9,6 +9,7 @@
 //! | curves and the blends between them | `curve`, `path` |
 //! | joint angles along them, node by node, one branch | `follow`, `grid` |
 //! | x = ṡ² by speeds and accelerations, two passes; an S-curve by averaging | `profile`, `clock` |
+//! | the plan as poses, for the judge and for tables | `planned`, `sharp` |
 //! | servos a lag behind, faults, noise, a recording | `servo`, `faults`, `execute` |
 //! | set points by a controller of the caller's own | `steered` |
 //!
@@ -54,6 +55,7 @@ mod grid;
 mod order;
 mod path;
 mod plan;
+mod planned;
 mod profile;
 mod program;
 mod servo;

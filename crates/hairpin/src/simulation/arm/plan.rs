@@ -1,7 +1,5 @@
 //! What the controller intends: path, time law, and what it costs to compute.
 
-use nalgebra::Isometry3;
-
 use super::clock::Law;
 use super::follow::{Follower, Stop};
 use super::grid::Section;
@@ -10,7 +8,6 @@ use super::path::lay;
 use super::settings::PlanSettings;
 use crate::robot::arm::{Arm, Joints};
 use crate::simulation::SimulationError;
-use crate::trajectory::{PlannedMove, PlannedPath, Track};
 
 /// A section with its law and when it begins.
 #[derive(Debug)]
@@ -129,46 +126,5 @@ impl<'a> Plan<'a> {
     /// Joint angles at the start, rad.
     pub(super) fn start(&self) -> &Joints {
         &self.start
-    }
-
-    /// The path as planned, blends and all, for the judge: what `from = "blended"` means.
-    ///
-    /// `base_from_tcp` with its times, s, at every node and knot; the tool's, as the set points have it and not the
-    /// lagging joints.
-    ///
-    /// Sections follow each other with the wait at fine points between, in which there is no pose: straight lines
-    /// between stamps stand still there. O(nodes · log).
-    pub fn path(&self) -> PlannedPath {
-        let mut moves = Vec::with_capacity(self.passed.len());
-        let (mut times, mut poses): (Vec<f64>, Vec<Isometry3<f64>>) = (Vec::new(), Vec::new());
-        for Timed { section, law, begin } in &self.timed {
-            let (mut node_at, mut span) = (Vec::with_capacity(section.s.len()), 0);
-            for s in law.knots() {
-                let time = begin + law.when(*s);
-                let node = node_at.len();
-                let is_node = section.s[node] == *s;
-                // Poses that rounding puts at one time are one.
-                if times.last().is_none_or(|last| time > *last) {
-                    times.push(time);
-                    poses.push(if is_node { section.poses[node] } else { self.pose_at(section, *s, &mut span) });
-                }
-                if is_node {
-                    node_at.push(times.len() - 1);
-                }
-            }
-            moves.extend(section.marks.iter().map(|(order, node)| PlannedMove {
-                name: self.orders[*order].name.clone(),
-                end: node_at[*node],
-                stops: *node == section.last(),
-            }));
-        }
-        PlannedPath::new(Track::new(times, poses, Vec::new()).expect("times rise and poses are finite"), moves)
-    }
-
-    /// `base_from_tcp` at a parameter between nodes, from the joints' cubic.
-    fn pose_at(&self, section: &Section, s: f64, span: &mut usize) -> Isometry3<f64> {
-        *span = section.span(s, *span);
-        let tool = &self.orders[section.spans[*span].order].tool;
-        self.arm.forward(&section.joints_at(*span, s)) * tool
     }
 }

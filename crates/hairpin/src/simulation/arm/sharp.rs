@@ -26,21 +26,25 @@ impl Plan<'_> {
         let given: Vec<f64> = std::iter::once(0.0).chain(self.passed().iter().copied()).collect();
         let known = own.len().min(given.len());
         let mut number = 0;
-        let (mut times, mut kept) = (Vec::new(), Vec::new());
+        let (mut times, mut kept, mut ways) = (Vec::new(), Vec::new(), Vec::new());
         let mut node_at = Vec::with_capacity(path.track().len());
-        for (time, pose) in path.track().times().iter().zip(path.track().poses()) {
+        for (i, (time, pose)) in path.track().times().iter().zip(path.track().poses()).enumerate() {
             while number + 2 < known && *time > own[number + 1] {
                 number += 1;
             }
             let share = (time - own[number]) / (own[(number + 1).min(known - 1)] - own[number]).max(1e-12);
             let mapped = given[number] + share * (given[(number + 1).min(known - 1)] - given[number]);
             if times.last().is_none_or(|last| mapped > *last) {
+                if !times.is_empty() {
+                    ways.push(path.track().way(i - 1).copied());
+                }
                 times.push(mapped);
                 kept.push(*pose);
             }
             node_at.push(times.len() - 1);
         }
         let moves = path.moves().iter().map(|m| PlannedMove { end: node_at[m.end], ..m.clone() }).collect();
-        Ok(PlannedPath::new(Track::new(times, kept, Vec::new()).expect("times rise"), moves))
+        let track = Track::new(times, kept, Vec::new()).expect("times rise");
+        Ok(PlannedPath::new(track.along(ways), moves))
     }
 }

@@ -9,6 +9,7 @@
 
 mod arc;
 mod check;
+mod digits;
 mod frames;
 mod speed;
 mod target;
@@ -19,6 +20,7 @@ mod tests;
 
 pub use arc::Arc;
 pub use check::{Place, ProgramError};
+pub use digits::{DECIMALS, QUATERNION_DECIMALS};
 pub use frames::{Tool, WorkObject, unit_quaternion};
 pub use speed::Speed;
 pub use target::{External, JointTarget, Motion, NO_EXTERNAL, PoseTarget};

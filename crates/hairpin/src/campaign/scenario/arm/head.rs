@@ -136,5 +136,10 @@ impl Keys for ArmScenario {
         Some(self.in_programs(&self.tool().ok()?, &self.work_object().ok()?))
     }
 
+    /// Moves are proven clear with what the spec allows beside them, and without a limit as they are planned.
+    fn clear_within_mm(&self) -> Option<f64> {
+        Some(self.spec.path.map_or(0.0, |limit| limit.max_mm))
+    }
+
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
 }

@@ -250,3 +250,80 @@ fn numbers_out_of_bounds_are_refused() {
     assert_eq!(run(RunSettings::default(), slow(1, 0.0)), "fault.share");
     assert_eq!(run(RunSettings { sample: 0.0, ..RunSettings::default() }, slow(1, 0.5)), "sample");
 }
+
+/// Moves in joints, arcs, blends and lines of all speeds, with a tool that stands out.
+fn bent_programs() -> (Arm, Vec<(Joints, Vec<Order>)>) {
+    let arm = arm();
+    let (mut random, mut programs, mut tries) = (stream(77), Vec::new(), 0);
+    while programs.len() < 12 {
+        tries += 1;
+        assert!(tries < 5000, "{} programs that can be followed", programs.len());
+        let (start, mut orders) = random_program(&arm, &mut random, 6);
+        for (k, order) in orders.iter_mut().enumerate() {
+            if let (0, Target::Line(..) | Target::Joint(..)) = (k % 2, &order.target) {
+                let turned: Joints =
+                    std::array::from_fn(|k| 0.8 * (unit(&mut random) - 0.5) + [0.0, 0.1, 0.2, 0.0, 0.9, 0.0][k]);
+                order.target = Target::Joints(turned);
+            }
+            order.tool = Isometry3::translation(0.05, -0.03, 0.12);
+        }
+        if Plan::new(&arm, &start, &orders, &PlanSettings::default()).is_ok_and(|plan| plan.stop().is_none()) {
+            programs.push((start, orders));
+        }
+    }
+    (arm, programs)
+}
+
+/// Every place that set points lead to lies within a micrometre of the path, blended and sharp alike; the chords
+/// between its poses are off by hundreds.
+#[test]
+fn paths_are_arcs_and_not_chords() {
+    let (arm, programs) = bent_programs();
+    let mut chords = 0.0f64;
+    for (start, orders) in programs {
+        let plan = Plan::new(&arm, &start, &orders, &PlanSettings::default()).unwrap();
+        let run = plan.execute(&exact(), &[], 1).unwrap().recording;
+        let fine = orders.iter().all(|order| order.zone == Zone::Fine);
+        let paths = [Some(plan.path()), fine.then(|| plan.sharp_path().unwrap())];
+        for path in paths.iter().flatten() {
+            let track = path.track();
+            for p in places(&run) {
+                let all = |of: &dyn Fn(usize) -> f64| (0..track.len() - 1).map(of).fold(f64::INFINITY, f64::min);
+                let off = all(&|i| (track.nearest(i, &p) - p).norm());
+                assert!(off < 1e-6, "{off} m at {p}");
+                chords = chords.max(all(&|i| from_segment(&p, &track.position(i), &track.position(i + 1))));
+            }
+        }
+    }
+    assert!(chords > 1e-4, "chords would be up to {chords} m off");
+}
+
+/// Rows tell the tool's own velocity, and the motion between them is the plan's to a tenth of a millimetre.
+#[test]
+fn rows_of_the_motion_hold_between_them() {
+    let (arm, programs) = bent_programs();
+    for (start, orders) in programs {
+        for shape in [Shape::Trapezoid, Shape::SCurve(0.04)] {
+            let settings = PlanSettings { shape, ..PlanSettings::default() };
+            let plan = Plan::new(&arm, &start, &orders, &settings).unwrap();
+            let motion = plan.motion();
+            let fine = RunSettings { sample: 0.001, interpolation: 0.001, ..exact() };
+            let run = plan.execute(&fine, &[], 1).unwrap().recording;
+            let place = |t: f64| motion.track().at(t).unwrap();
+            for i in 1..run.len() - 1 {
+                let t = run.times()[i];
+                let (pose, velocity) = place(t);
+                let off = (pose.translation.vector - run.position(i).coords).norm();
+                assert!(off < 5e-5, "{off} m at {t} s");
+                assert!(pose.rotation.angle_to(&run.poses()[i].rotation) < 1e-3, "at {t} s");
+                let mean = (run.position(i + 1) - run.position(i - 1)) / 0.002;
+                let off = (Vector3::from_row_slice(&velocity) - mean).norm();
+                assert!(off < 0.02, "{off} m/s at {t} s");
+            }
+            assert_eq!(motion.moves().len(), plan.path().moves().len());
+            for (m, passed) in motion.moves().iter().zip(plan.passed()) {
+                assert!((motion.track().times()[m.end] - passed).abs() < 1e-9);
+            }
+        }
+    }
+}
