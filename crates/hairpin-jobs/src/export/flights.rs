@@ -220,7 +220,7 @@ fn returning(
     cleared: &Cleared,
 ) -> Result<Option<[String; 2]>, Problem> {
     let height = cleared.way.return_height(&work.setup, room, case)?;
-    let above_home = height.map(|height| Ok(height? - cleared.way.home.z));
+    let above_home = height.map(|height| height.map(|height| height - cleared.way.home.z));
     Ok(above_home.map(|height| ["failsafe return".into(), return_words(autopilot, height)]))
 }
 
@@ -263,6 +263,42 @@ fn abort(limits: &Limits, margin: f64) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::violating;
+    use crate::work::open_to_read;
+    use hairpin_formats::folder::CampaignFolder;
+
+    /// The one that deviates least hits a wall at once; a card of another day was there before.
+    #[test]
+    fn what_ended_badly_is_flown_last() {
+        let (_place, folder) = violating();
+        let kept = CampaignFolder::open_to_write(&folder).unwrap();
+        let cases = kept.read_cases().unwrap();
+        let mut results = kept.read_results().unwrap();
+        let deviation = |result: &CaseResult| result.measures.as_ref().unwrap().max_deviation;
+        results.sort_by(|a, b| deviation(a).total_cmp(&deviation(b)));
+        let [gentle, other] = [0, 1].map(|place| results[place].case.to_string());
+        results[0].ended = "wall".into();
+        let mut crash = results[0].violations[0].clone();
+        (crash.what, crash.value, crash.limit, crash.unit) = ("crash".into(), 0.5, 0.0, "s".into());
+        results[0].violations.insert(0, crash);
+        results[0].measures.as_mut().unwrap().total_time = 0.5;
+        results.sort_by_key(|result| result.case);
+        kept.write_results(&cases, &results).unwrap();
+        let place = kept.export_folder().unwrap();
+        drop(kept);
+        let [stale, own] = ["0099_slow.plan", "my_slow.plan"].map(|name| place.join(name));
+        std::fs::write(&stale, "").unwrap();
+        std::fs::write(&own, "").unwrap();
+        let work = open_to_read(&folder).unwrap();
+        let written = write((&work, &place), &cases.iter().collect::<Vec<_>>(), (2, true, Autopilot::Px4)).unwrap();
+        let order = format!("in the order of the day: {other}, {gentle}");
+        assert!(written.told.contains(&order), "{order}: {:?}", written.told);
+        let page = std::fs::read_to_string(place.join("day-card.html")).unwrap();
+        for words in ["until its worst run ended (wall)", "as the .plan flies it: climb ", "failsafe return"] {
+            assert!(page.contains(words), "{words}");
+        }
+        assert!(!stale.exists() && own.exists(), "what another wrote stays");
+    }
 
     #[test]
     fn a_page_says_what_a_charge_carries() {

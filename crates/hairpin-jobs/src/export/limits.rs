@@ -40,7 +40,7 @@ impl Limits {
             autopilot,
             flies: room.flies,
             ceiling: room.high.z - way.home.z,
-            returning: returning.map(|height| Ok(height? - way.home.z)),
+            returning: returning.map(|height| height.map(|height| height - way.home.z)),
             accept,
             turn: widest_turn(room, case),
         }
@@ -194,4 +194,48 @@ fn widest_turn(room: &Room, case: &Case) -> Option<(usize, f64, f64)> {
         (waypoint, turn.to_degrees(), if turn.to_degrees() < 179.0 { needed } else { f64::INFINITY })
     };
     (1..case.waypoints.len().saturating_sub(1)).map(turn).max_by(|a, b| a.2.total_cmp(&b.2))
+}
+
+#[cfg(test)]
+mod tests {
+    use hairpin::campaign::CaseNumber;
+    use nalgebra::Point3;
+
+    use super::*;
+
+    #[test]
+    fn a_height_of_returning_is_set_where_there_is_one() {
+        let room = Room {
+            flies: true,
+            low: Point3::origin(),
+            high: Point3::new(60.0, 60.0, 30.0),
+            margin: 2.0,
+            curvature: f64::INFINITY,
+            speed: None,
+            fastest: f64::INFINITY,
+            timed: true,
+            vehicles: &[0],
+        };
+        let case = Case::bare(CaseNumber(0), 1, vec![Point3::new(5.0, 5.0, 5.0), Point3::new(15.0, 47.0, 8.0)]);
+        let way = Way { home: Point3::new(5.0, 5.0, 1.0), back: Vec::new(), land: None, blocked: None };
+        let of = |autopilot, height| Limits::new(autopilot, &room, (&case, &way, Some(height)), 1.0);
+        let set = |limits: &Limits| -> Vec<(&str, Value)> {
+            let all = limits.parameters();
+            all.iter().filter(|one| one.name.starts_with("RTL_")).map(|one| (one.name, one.value)).collect()
+        };
+        let over = of(Autopilot::Px4, Ok(20.32));
+        let height = Value::Real(20.32 - 1.0);
+        let wanted = [("RTL_RETURN_ALT", height), ("RTL_DESCEND_ALT", height), ("RTL_CONE_ANG", Value::Whole(0))];
+        assert_eq!(set(&over), wanted, "above home");
+        assert!(over.told("0000")[0].contains("19.32 m to return at"), "{:?}", over.told("0000"));
+        let wanted = [("RTL_ALT", Value::Whole(1932)), ("RTL_CONE_SLOPE", Value::Real(0.0))];
+        assert_eq!(set(&of(Autopilot::ArduPilot, Ok(20.32))), wanted);
+        for autopilot in [Autopilot::Px4, Autopilot::ArduPilot] {
+            let none = of(autopilot, Err("a beam hangs there"));
+            assert_eq!(set(&none), []);
+            let told = none.told("0000").join("\n");
+            let words = "case 0000: no height is set to return at: a beam hangs there; ";
+            assert!(told.contains(words) && none.return_words().is_some_and(|words| told.contains(&words)), "{told}");
+        }
+    }
 }
