@@ -1,5 +1,6 @@
 //! Every witness integrated by independent code, and the planned motions that are kept held to the witnesses.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
@@ -25,6 +26,8 @@ pub struct Verified {
     pub surrounded: [usize; 2],
     /// What of the robot the claims rest on that is not known, or leave out.
     pub unknown: Option<&'static str>,
+    /// Why there was nothing to verify, in a sentence's part; `None` where something was.
+    pub nothing: Option<String>,
 }
 
 /// What came of one case.
@@ -85,7 +88,22 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();
     let surrounded = [around.count(), clear];
     let unknown = work.setup.unknown_shapes();
-    Ok(Verified { answers, optimum, graph, surrounded, unknown })
+    let is_nothing = optimum.is_none() && graph.is_none() && !answers.iter().any(Answer::is_checked);
+    let nothing = is_nothing.then(|| nothing(&work.setup, &cases));
+    Ok(Verified { answers, optimum, graph, surrounded, unknown, nothing })
+}
+
+/// Why nothing of `cases` is verified.
+fn nothing(setup: &Setup, cases: &[Case]) -> String {
+    let words: BTreeSet<&str> = cases.iter().map(|case| case.evidence.word()).collect();
+    match cases.len() {
+        0 => "the folder has no case".into(),
+        count => format!(
+            "none of {count} cases claims a witness: evidence {}, generate.reach = \"{}\"",
+            words.into_iter().collect::<Vec<_>>().join(", "),
+            setup.scenario.reach()
+        ),
+    }
 }
 
 impl Verified {
@@ -231,6 +249,20 @@ mod tests {
         // Nothing else is flown in its place either.
         let refused = open_to_read(&folder).unwrap().folder.read_cases().unwrap_err().to_string();
         assert!(refused.contains("profiles: case 0000 is witnessed and has no witness"), "{refused}");
+    }
+
+    #[test]
+    fn where_nothing_is_claimed_nothing_is_verified() {
+        let place = tempfile::tempdir().unwrap();
+        let hull = crate::testing::small_hull(place.path());
+        let folder = made(&place, &hull, &[]);
+        let verified = verify(&folder).unwrap();
+        let told = "none of 3 cases claims a witness: evidence hull-feasible, generate.reach = \"hull\"";
+        assert_eq!((verified.checked(), verified.nothing.as_deref()), (0, Some(told)));
+        CampaignFolder::open_to_write(&folder).unwrap().write_new_cases(&[], 0).unwrap();
+        assert_eq!(verify(&folder).unwrap().nothing.as_deref(), Some("the folder has no case"));
+        let (_place, folder) = generated();
+        assert_eq!(verify(&folder).unwrap().nothing, None);
     }
 
     /// The task in the folder's scenario is changed: who was searched for by another is none of it.

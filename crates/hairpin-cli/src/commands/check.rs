@@ -41,6 +41,8 @@ fn tell(checked: &Checked) {
         console::say(&format!("it rests at {} {hold}", mission.told(stop.waypoint)));
     }
     mission.notes.iter().for_each(|note| console::say(note));
+    // A feasible one's sentence has it.
+    checked.heights.iter().filter(|_| checked.feasible != Some(true)).for_each(|note| console::say(note));
     mission.uncertain.iter().for_each(|one| console::say(&one.words));
     if let Some(broken) = &checked.passage.broken {
         console::say(&format!("{}: {}: {}", mission.told(broken.waypoint), broken.limit, broken.words));
@@ -116,7 +118,7 @@ fn object(checked: &Checked) -> Value {
         "hold_s": Some(mission.hold()).filter(|hold| hold.is_finite()),
         "time_s": passage.witness.as_ref().map(|witness| witness.leg_times.iter().sum::<f64>()),
         "legs": passage.legs.iter().enumerate().map(leg).collect::<Vec<_>>(),
-        "notes": mission.notes,
+        "notes": mission.notes.iter().chain(&checked.heights).collect::<Vec<_>>(),
         "uncertain": mission.uncertain.iter().map(|one| json!({ "waypoint": one.waypoint, "words": one.words })).collect::<Vec<_>>(),
     })
 }

@@ -1,7 +1,7 @@
 //! `hairpin select`: a few of many cases, in a campaign folder of their own.
 
 use hairpin::campaign::digits::number;
-use hairpin::campaign::select::By;
+use hairpin::campaign::select::{By, Measured};
 use hairpin_jobs::select::{SelectSettings, Selected, StressUnit, select};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
@@ -48,14 +48,20 @@ pub(crate) fn run(asked: &Select, watch: &dyn Watch) -> Result<u8, Problem> {
 fn sentence(
     Selected { names, of, selected: found, most_stressful: stressful, cells, stress, .. }: &Selected,
 ) -> String {
+    let badly = |one: &Measured| match one.ended_badly {
+        0 => String::new(),
+        badly => format!(", {badly} ended badly"),
+    };
     let (count, told) = (names.len(), |value| with_unit(&in_unit(value, *stress), *stress));
     let met = found.cells.map_or_else(|| "not executed".into(), |met| format!("{met} of {cells} cells"));
     let most = stressful.cells.map_or(String::new(), |met| format!(", {met}"));
     format!(
-        "SELECTED {count} of {of} cases: stress {}, spread {:.2}, {met}; the {count} most stressful: {}, {:.2}{most}",
+        "SELECTED {count} of {of} cases: stress {}{}, spread {:.2}, {met}; the {count} most stressful: {}{}, {:.2}{most}",
         told(found.stress),
+        badly(found),
         found.spread,
         told(stressful.stress),
+        badly(stressful),
         stressful.spread,
     )
 }
@@ -72,7 +78,7 @@ fn with_unit(words: &str, stress: StressUnit) -> String {
 fn in_words(selected: &Selected, by: By) {
     let measured = [&selected.selected, &selected.most_stressful, &selected.all];
     let stress = selected.stress;
-    let header = ["", "cases", "mean stress", "worst", "spread", "nearest pair", "cells"];
+    let header = ["", "cases", "mean stress", "worst", "ended badly", "spread", "nearest pair", "cells"];
     let header = header
         .map(|name| if name == "mean stress" || name == "worst" { with_unit(name, stress) } else { name.into() })
         .to_vec();
@@ -82,6 +88,7 @@ fn in_words(selected: &Selected, by: By) {
             one.cases.to_string(),
             in_unit(one.stress, stress),
             in_unit(one.worst, stress),
+            one.ended_badly.to_string(),
             format!("{:.3}", one.spread),
             format!("{:.3}", one.nearest),
             one.cells.map_or_else(|| "–".into(), |met| met.to_string()),

@@ -33,6 +33,7 @@ pub fn object(verified: &Verified, code: u8) -> Value {
         })),
         "graph": verified.graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
         "planned": { "checked": planned, "failed": planned - theirs }, "unknown": verified.unknown,
+        "nothing": verified.nothing,
     })
 }
 
@@ -47,6 +48,10 @@ fn of_case(answer: &Answer) -> Value {
 }
 
 fn in_words(verified: &Verified) {
+    if let Some(why) = &verified.nothing {
+        console::say(&format!("NOTHING TO VERIFY: {why}"));
+        return;
+    }
     for answer in verified.failed() {
         if let Answer::Checked { case, findings, .. } = answer {
             console::say(&format!("case {case}: {}", findings.join("; ")));
@@ -84,9 +89,11 @@ fn in_words(verified: &Verified) {
     };
     let unknown = verified.unknown.map_or(String::new(), |what| format!("; {what}"));
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
-    let [witnesses, fine] = verified.witnesses();
-    console::say(&format!(
-        "{word} {fine}/{witnesses} witnesses integrated by independent code{worst}{planned}{optimal}{environments}\
-         {free}{unknown}"
-    ));
+    // Without a witness it is about what stands around plans, or about a graph.
+    let integrated = match verified.witnesses() {
+        [0, _] => String::new(),
+        [all, fine] => format!("; {fine}/{all} witnesses integrated by independent code"),
+    };
+    let told = format!("{integrated}{worst}{planned}{optimal}{environments}{free}{unknown}");
+    console::say(&format!("{word} {}", told.trim_start_matches("; ")));
 }

@@ -169,6 +169,10 @@ fn the_steps_of_a_workflow_run() {
         command.env("SCENARIO", "demo-quadrotor").env("BUDGET", "5m").env("HAIRPIN_SOURCE", "");
         told(&mut command)
     };
+    let saved = || -> Vec<(std::path::PathBuf, String)> {
+        let files = fs::read_dir(here.join("hairpin-saved")).unwrap().map(|entry| entry.unwrap().path());
+        files.map(|file| (file.clone(), fs::read_to_string(file).unwrap())).collect()
+    };
     for first in [true, false] {
         let (code, out, error) = shell(scripts[0]);
         assert!(code == 0, "hairpin is on the path: {out}{error}");
@@ -178,8 +182,17 @@ fn the_steps_of_a_workflow_run() {
         let (code, out, error) = shell(scripts[2]);
         assert!(code == 0, "{out}{error}");
         assert!(here.join("hairpin-junit.xml").is_file() && here.join("out/ci/report.html").is_file());
-        assert_eq!(fs::read_dir(here.join("hairpin-saved")).unwrap().count(), 2);
+        assert_eq!(saved().len(), 2);
     }
+    // Another commit's violations have the same numbers in its campaign: what failed before stays beside them.
+    let before = saved();
+    let (code, out, error) = shell(&scripts[1].replace("\"$SCENARIO\"", "\"$SCENARIO\" --seed 77"));
+    assert!(code == 1 && error.contains("saved cases first: 2 of 2 violate"), "{out}{error}");
+    assert_eq!(shell(scripts[2]).0, 0);
+    let after = saved();
+    assert!(after.len() == 4 && before.iter().all(|one| after.contains(one)), "{} files", after.len());
+    let (.., error) = shell(scripts[1]);
+    assert!(error.contains("saved cases first: 4 of 4 violate"), "{error}");
 }
 
 #[test]

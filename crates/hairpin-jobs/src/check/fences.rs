@@ -215,8 +215,14 @@ mod tests {
             fences: vec![disc(0.0), disc(10.0)],
             environment: None,
         };
-        let mut passage =
-            Passage { legs: Vec::new(), witness: None, broken: None, estimated: Vec::new(), model: String::new() };
+        let mut passage = Passage {
+            legs: Vec::new(),
+            witness: None,
+            broken: None,
+            estimated: Vec::new(),
+            model: String::new(),
+            afloat: false,
+        };
         hold(&mission, &mut passage);
         passage.broken
     }

@@ -32,6 +32,8 @@ pub struct Checked {
     pub robot: String,
     /// The world in words.
     pub world: String,
+    /// What is to be said of the mission's heights, where they are not looked at.
+    pub heights: Option<String>,
     /// The sentence and its exit code: 0, 1 or 5.
     pub verdict: Verdict,
 }
@@ -57,8 +59,9 @@ pub(crate) fn check_in(setup: &Setup, mission: Mission, world: String) -> Result
     let mut passage = passes(setup, &asked).map_err(|why| Problem::of_file(&mission.path, why))?;
     fences::hold(&mission, &mut passage);
     let (feasible, broken) = answer(&mission, &passage);
-    let verdict = verdict(setup, &mission, &passage, (feasible, broken.as_ref()));
-    Ok(Checked { mission, passage, feasible, broken, robot: setup.robot_name().to_owned(), world, verdict })
+    let heights = heights(&mission, &passage);
+    let verdict = verdict(setup, &mission, &passage, (feasible, broken.as_ref(), heights.as_deref()));
+    Ok(Checked { mission, passage, feasible, broken, robot: setup.robot_name().to_owned(), world, heights, verdict })
 }
 
 /// Whether it is feasible, and the limit that decides: what is proven to break goes first, unless it comes after what
@@ -79,7 +82,7 @@ fn verdict(
     setup: &Setup,
     mission: &Mission,
     passage: &Passage,
-    (feasible, broken): (Option<bool>, Option<&Broken>),
+    (feasible, broken, heights): (Option<bool>, Option<&Broken>, Option<&str>),
 ) -> Verdict {
     let robot = match setup.caveat() {
         "" => setup.robot_name().to_owned(),
@@ -98,7 +101,7 @@ fn verdict(
             let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s")) + &waits(mission);
             let demanded =
                 if mission.speeds.iter().any(Option::is_some) { ", at the speeds that it demands" } else { "" };
-            let heights = heights(mission, passage);
+            let heights = heights.map_or(String::new(), |words| format!("; {words}"));
             Verdict::of(
                 &format!(
                     "FEASIBLE {file} (witnessed, {robot}): {count} waypoints, {length:.1} m{time}{demanded}{heights}"
@@ -124,19 +127,22 @@ fn waits(mission: &Mission) -> String {
     }
 }
 
-/// What is to be said of heights that the witness has not: of what drives they are the ground's, which in the open is
-/// level wherever the mission begins.
-fn heights(mission: &Mission, passage: &Passage) -> String {
-    let Some(witness) = &passage.witness else { return String::new() };
-    let off = mission.waypoints.iter().zip(&witness.waypoints).map(|(asked, there)| asked.z - there.z);
-    let (least, most) = off.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), off| (a.min(off), b.max(off)));
-    match most - least > HEIGHT {
-        true => format!(
-            "; heights are the ground's: those of the mission, which leave it by {:.2} m, are not looked at",
+/// What is to be said of heights that the way has not: of what drives they are the ground's, which in the open is level
+/// wherever the mission begins, and of what sails the water's.
+fn heights(mission: &Mission, passage: &Passage) -> Option<String> {
+    let asked = mission.waypoints.iter().map(|place| place.z);
+    let (whose, off): (_, Vec<f64>) = match &passage.witness {
+        _ if passage.afloat => ("water", asked.collect()),
+        Some(witness) => ("ground", asked.zip(&witness.waypoints).map(|(z, there)| z - there.z).collect()),
+        None => return None,
+    };
+    let (least, most) = off.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), off| (off.min(a), off.max(b)));
+    (most - least > HEIGHT).then(|| {
+        format!(
+            "heights are the {whose}'s: those of the mission, which leave it by {:.2} m, are not looked at",
             most - least
-        ),
-        false => String::new(),
-    }
+        )
+    })
 }
 
 /// Heights that differ by this are not the same, m.
@@ -208,6 +214,11 @@ mod tests {
         let high = checked("x_m,y_m,z_m\n0,0,0\n6,0,3\n12,2,3\n", "car", None);
         let words = "heights are the ground's: those of the mission, which leave it by 3.00 m";
         assert!(high.verdict.sentence.contains(words), "{}", high.verdict.sentence);
+        let high = checked("x_m,y_m,z_m\n0,0,5\n6,0,5\n12,2,8\n", "cybership-ii", None);
+        let words = "heights are the water's: those of the mission, which leave it by 3.00 m, are not looked at";
+        assert!(high.verdict.sentence.ends_with(words) && high.heights.as_deref() == Some(words), "{high:?}");
+        let level = checked("x_m,y_m,z_m\n0,0,5\n6,0,5\n12,2,5\n", "cybership-ii", None);
+        assert!(level.feasible == Some(true) && level.heights.is_none(), "{:?}", level.verdict);
         let arm = CheckSettings { mission: "a.csv".into(), robot: "irb120".into(), ..CheckSettings::default() };
         assert!(check(&arm, &Unwatched).is_err());
     }

@@ -1,12 +1,14 @@
 //! The day card: the few cases that are worth flying today, in their order, with what to expect and when to end them.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use hairpin::campaign::digits::number;
-use hairpin::campaign::report::{Drawn, leg, shown, violation};
+use hairpin::campaign::kind::Room;
+use hairpin::campaign::report::{Drawn, leg, shown, violation, worst_first};
 use hairpin::campaign::select::{By, Candidate, Choice};
-use hairpin::campaign::{Case, CaseResult, Environment};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Environment};
 use hairpin::judgement::{Limits, Measures};
 use hairpin::robot::battery::Battery;
 use hairpin_formats::atomic;
@@ -14,9 +16,12 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::qgc::mission::Autopilot;
 use hairpin_formats::report::{DayCard, FlightCard, day_card_html};
 
+use super::airtime::AirTime;
 use super::hardware::{Hardware, PURPOSE, room};
-use super::missions::write_slow;
+use super::limits::return_words;
+use super::missions::{remove_slow, write_slow};
 use super::preflight::{Cleared, look_at};
+use super::speeds::of_legs;
 use super::written::Written;
 use crate::Problem;
 use crate::execute::run_with_motion;
@@ -24,8 +29,6 @@ use crate::work::Work;
 
 /// Share of the plan's speeds in the first run of the day.
 const SLOW: f64 = 0.3;
-/// Take-off, the way to waypoint 0, the way home and landing, s a flight.
-const AROUND: f64 = 60.0;
 /// A flight that deviates so many times as far as its runs predict is not what was predicted.
 const BEYOND: f64 = 1.5;
 
@@ -64,20 +67,26 @@ pub(super) fn write(
     let candidates: Vec<Candidate> =
         there.iter().map(|(case, result, ..)| Candidate::new(case, Some(*result), BTreeSet::new())).collect();
     let mut chosen = Choice::new(&candidates).best(count, By::Diverse);
-    // The gentlest first: what goes wrong there goes no further.
-    chosen.sort_by(|a, b| there[*a].2.max_deviation.total_cmp(&there[*b].2.max_deviation).then(a.cmp(b)));
-    let mut flights = Vec::new();
+    // The gentlest first: what goes wrong there goes no further. What ended badly is the last, whatever it deviated.
+    let worst: Vec<CaseNumber> = worst_first(&results).iter().map(|result| result.case).collect();
+    chosen.sort_by_key(|index| Reverse(worst.iter().position(|case| *case == there[*index].0.number)));
+    let (mut flights, mut times) = (Vec::new(), Vec::new());
     for (order, index) in chosen.iter().enumerate() {
         let (case, result, measures, cleared) = &there[*index];
+        let speeds = of_legs(work, &room, case)?;
+        let time = |share| AirTime::of((case, &cleared.way), (&speeds, measures.total_time), (share, autopilot));
+        times.extend((order == 0).then(|| (format!("{} slow", case.id()), time(SLOW).total())));
+        times.push((case.id(), time(1.0).total()));
         let run = run_with_motion(work, case, result.run)?;
         let planned = work.folder.read_planned(case.number)?;
         let refuse = |cause| Problem::input(format!("case {}: {cause}", case.id()));
         let shown = shown(&work.setup, case, result, planned, run.as_ref().map(Drawn::from), &[]).map_err(refuse)?;
-        let rows = rows(work, case, (result, measures, cleared), order)?;
+        let mut rows = rows(work, case, (result, measures, cleared), order)?;
+        rows.push(["in the air".into(), time(1.0).words(room.flies)]);
+        rows.extend(returning(work, (&room, autopilot), case, cleared)?);
         flights.push(FlightCard { drawing: work.setup.drawing(&case.waypoints), shown, rows });
     }
     let limits = work.setup.scenario.head().terms.limits;
-    let times = in_the_air(&chosen.iter().map(|index| (there[*index].0, there[*index].2)).collect::<Vec<_>>());
     let card = DayCard {
         title: work.setup.robot_name().to_owned(),
         told: told(work, [count, there.len()], &times),
@@ -87,6 +96,8 @@ pub(super) fn write(
     let path = place.join("day-card.html");
     atomic::write(&path, day_card_html(&card).as_bytes())?;
     written.files.push(path);
+    // Those of an earlier card's first flight belong to no page of this one.
+    remove_slow(place)?;
     let Some((case, .., cleared)) = chosen.first().map(|first| &there[*first]) else { return Ok(written) };
     match Placement::of(&work.setup.scenario) {
         Ok(Some(_)) => {
@@ -139,7 +150,15 @@ fn rows(
         ),
         line(
             "duration",
-            format!("{} s planned, {} s in its worst run", number(Some(planned)), number(Some(measures.total_time))),
+            format!(
+                "{} s planned, {} s {}",
+                number(Some(planned)),
+                number(Some(measures.total_time)),
+                match result.ended.as_str() {
+                    "done" => "in its worst run".into(),
+                    ended => format!("until its worst run ended ({ended})"),
+                }
+            ),
         ),
         line(
             "watch",
@@ -183,7 +202,9 @@ fn told(work: &Work, [count, of]: [usize; 2], flights: &[(String, f64)]) -> Vec<
             "{count} of {of} cases that stay inside, chosen for stress and for distance from each other; {}",
             By::Diverse.guarantee()
         ),
-        "flown from the gentlest to the most stressful; the next one only after the last one went as predicted".into(),
+        "flown from the gentlest to the most stressful, those last whose runs ended badly; the next one only after the last \
+         one went as predicted"
+            .into(),
         carried(work.setup.battery(), flights),
         format!("{PURPOSE}; predicted for {}", work.setup.robot_name()),
     ];
@@ -191,18 +212,24 @@ fn told(work: &Work, [count, of]: [usize; 2], flights: &[(String, f64)]) -> Vec<
     told
 }
 
-/// The day's flights in their order, the slow one first, and how long each is in the air at worst, s.
-fn in_the_air(flights: &[(&Case, &Measures)]) -> Vec<(String, f64)> {
-    let slow = flights.first().map(|(case, measures)| (format!("{} slow", case.id()), measures.total_time / SLOW));
-    slow.into_iter().chain(flights.iter().map(|(case, measures)| (case.id(), measures.total_time))).collect()
+/// How a failsafe may come home.
+fn returning(
+    work: &Work,
+    (room, autopilot): (&Room, Autopilot),
+    case: &Case,
+    cleared: &Cleared,
+) -> Result<Option<[String; 2]>, Problem> {
+    let height = cleared.way.return_height(&work.setup, room, case)?;
+    let above_home = height.map(|height| height.map(|height| height - cleared.way.home.z));
+    Ok(above_home.map(|height| ["failsafe return".into(), return_words(autopilot, height)]))
 }
 
-/// What the battery lasts for: which flights each charge carries, and which none does.
+/// What the battery lasts for: which flights, in their order, each charge carries, and which none does.
 fn carried(battery: Option<Battery>, flights: &[(String, f64)]) -> String {
     let Some(battery) = battery else {
         return "the robot's file says nothing of its battery (`battery.endurance_s`): compare the durations with what it lasts".into();
     };
-    let times: Vec<f64> = flights.iter().map(|(_, time)| time + AROUND).collect();
+    let times: Vec<f64> = flights.iter().map(|(_, time)| *time).collect();
     let charges = battery.charges(&times);
     let on = |charge: Option<usize>| {
         let of = flights.iter().zip(&charges).filter(|(_, on)| **on == charge);
@@ -213,7 +240,7 @@ fn carried(battery: Option<Battery>, flights: &[(String, f64)]) -> String {
     let too_long =
         charges.contains(&None).then(|| format!("longer than a charge, not to be flown as they are: {}", on(None)));
     format!(
-        "battery: {:.0} s a charge ({:.0} % of {:.0} s kept back), {AROUND} s of each flight for take-off and the way home; {}",
+        "battery: {:.0} s a charge ({:.0} % of {:.0} s kept back), each flight from take-off to landing as its page has it; {}",
         battery.usable(),
         100.0 * battery.reserve,
         battery.endurance,
@@ -236,13 +263,49 @@ fn abort(limits: &Limits, margin: f64) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::violating;
+    use crate::work::open_to_read;
+    use hairpin_formats::folder::CampaignFolder;
+
+    /// The one that deviates least hits a wall at once; a card of another day was there before.
+    #[test]
+    fn what_ended_badly_is_flown_last() {
+        let (_place, folder) = violating();
+        let kept = CampaignFolder::open_to_write(&folder).unwrap();
+        let cases = kept.read_cases().unwrap();
+        let mut results = kept.read_results().unwrap();
+        let deviation = |result: &CaseResult| result.measures.as_ref().unwrap().max_deviation;
+        results.sort_by(|a, b| deviation(a).total_cmp(&deviation(b)));
+        let [gentle, other] = [0, 1].map(|place| results[place].case.to_string());
+        results[0].ended = "wall".into();
+        let mut crash = results[0].violations[0].clone();
+        (crash.what, crash.value, crash.limit, crash.unit) = ("crash".into(), 0.5, 0.0, "s".into());
+        results[0].violations.insert(0, crash);
+        results[0].measures.as_mut().unwrap().total_time = 0.5;
+        results.sort_by_key(|result| result.case);
+        kept.write_results(&cases, &results).unwrap();
+        let place = kept.export_folder().unwrap();
+        drop(kept);
+        let [stale, own] = ["0099_slow.plan", "my_slow.plan"].map(|name| place.join(name));
+        std::fs::write(&stale, "").unwrap();
+        std::fs::write(&own, "").unwrap();
+        let work = open_to_read(&folder).unwrap();
+        let written = write((&work, &place), &cases.iter().collect::<Vec<_>>(), (2, true, Autopilot::Px4)).unwrap();
+        let order = format!("in the order of the day: {other}, {gentle}");
+        assert!(written.told.contains(&order), "{order}: {:?}", written.told);
+        let page = std::fs::read_to_string(place.join("day-card.html")).unwrap();
+        for words in ["until its worst run ended (wall)", "as the .plan flies it: climb ", "failsafe return"] {
+            assert!(page.contains(words), "{words}");
+        }
+        assert!(!stale.exists() && own.exists(), "what another wrote stays");
+    }
 
     #[test]
     fn a_page_says_what_a_charge_carries() {
-        let flights = [("0002 slow", 100.0), ("0002", 30.0), ("0007", 40.0), ("0001", 500.0)];
+        let flights = [("0002 slow", 160.0), ("0002", 90.0), ("0007", 100.0), ("0001", 560.0)];
         let flights = flights.map(|(case, time)| (case.to_owned(), time));
         let told = carried(Some(Battery { endurance: 400.0, reserve: 0.25 }), &flights);
-        let wanted = "battery: 300 s a charge (25 % of 400 s kept back), 60 s of each flight for take-off and the way home; \
+        let wanted = "battery: 300 s a charge (25 % of 400 s kept back), each flight from take-off to landing as its page has it; \
                       charge 1: 0002 slow, 0002; charge 2: 0007; longer than a charge, not to be flown as they are: 0001";
         assert_eq!(told, wanted);
         assert!(carried(None, &flights).contains("says nothing of its battery"));

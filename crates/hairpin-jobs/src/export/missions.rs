@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::{Case, mission};
-use hairpin::trajectory::DriveLeg;
 use hairpin_formats::atomic;
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::home::Home;
@@ -16,12 +15,10 @@ use super::hardware::{Hardware, home, note};
 use super::limits::Limits;
 use super::placed::placed;
 use super::preflight::Cleared;
+use super::speeds::{HOMEWARD, of_legs, rounded_down};
 use super::written::Written;
 use crate::Problem;
 use crate::work::Work;
-
-/// Speed of the way home at most, m/s.
-const HOMEWARD: f64 = 2.0;
 
 /// A file of missions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +58,7 @@ pub(super) fn write(
         let home = home(&world, cleared, case)?;
         let made = Maker { work, case, cleared, home: &home, hardware, autopilot }.make(1.0)?;
         written.told.extend(hardware.obstacle_met(case));
-        written.told.extend(made.limits.told(&case.id(), flies));
+        written.told.extend(made.limits.told(&case.id()));
         written.told.extend(made.gears.iter().map(|words| format!("case {}: {words}", case.id())));
         let ending = match file {
             MissionFile::Plan => plan::ENDING,
@@ -87,7 +84,26 @@ pub(super) fn write_slow(
     let case = &with_gears(work, case, hardware.room.flies)?;
     let home = home(&world, cleared, case)?;
     let made = Maker { work, case, cleared, home: &home, hardware, autopilot }.make(share)?;
-    made.write(place, &format!("{}_slow", case.id()), (plan::ENDING, &plan::text(&made.mission)))
+    made.write(place, &format!("{}{SLOWLY}", case.id()), (plan::ENDING, &plan::text(&made.mission)))
+}
+
+/// What slow first runs of plans are called after their cases' numbers.
+const SLOWLY: &str = "_slow";
+
+/// Removes all that [`write_slow`] wrote to `place` before.
+pub(super) fn remove_slow(place: &Path) -> Result<(), Problem> {
+    let is_slow = |name: &str| {
+        let of_slow = |ending: &str| Some(name.strip_suffix(ending)?.strip_suffix(SLOWLY)?.parse::<u64>().is_ok());
+        [plan::ENDING, parameters::ENDING].into_iter().any(|ending| of_slow(ending) == Some(true))
+    };
+    let refuse = |error: std::io::Error| Problem::input(format!("{}: {error}", place.display()));
+    for entry in std::fs::read_dir(place).map_err(refuse)? {
+        let path = entry.map_err(refuse)?.path();
+        if path.file_name().and_then(|name| name.to_str()).is_some_and(is_slow) {
+            std::fs::remove_file(&path).map_err(refuse)?;
+        }
+    }
+    Ok(())
 }
 
 /// `case` with the commands of its drive, which say the gear of each leg; what flies has none.
@@ -133,7 +149,7 @@ impl Maker<'_> {
         let (room, way) = (&hardware.room, &cleared.way);
         let own = mission(&work.setup, case, 0)?;
         let speeds: Vec<Option<f64>> =
-            self.speeds()?.into_iter().map(|speed| Some(rounded_down(share * speed?))).collect();
+            of_legs(work, room, case)?.into_iter().map(|speed| Some(rounded_down(share * speed?))).collect();
         let heading =
             |number: usize| own.yaws.get(number).filter(|_| room.flies).map(|yaw| home.heading(*yaw).to_degrees());
         let (accept, last) = (own.accept, case.waypoints.len() - 1);
@@ -176,9 +192,11 @@ impl Maker<'_> {
             (room.low.x, room.high.y),
         ];
         let fence = corners.map(|(x, y)| self.on_earth(&Point3::new(x, y, floor)));
-        let limits = Limits::new(*autopilot, room, (case, way), accept);
+        let returning = way.return_height(&work.setup, room, case)?;
+        let limits = Limits::new(*autopilot, room, (case, way, returning), accept);
         let mut note = note(work, case, cleared, self.way());
         note.push(("home", self.home_words()));
+        note.extend(limits.return_words().map(|words| ("return", words)));
         note.extend(
             (share < 1.0).then(|| ("speed", format!("{:.0} % of the plan's speeds, for a first run", 100.0 * share))),
         );
@@ -200,34 +218,6 @@ impl Maker<'_> {
         self.home.geodetic(place).map_err(|why| Problem::input(format!("case {}: {why}", self.case.id())))
     }
 
-    /// The speed of each leg, m/s: that of who executed, where he has one of his own, else the plan's largest on it.
-    ///
-    /// Of a witnessed drive that of its commands; else the largest of the planned motion, over ground of what does not
-    /// fly, as limits have it, and no more than these.
-    fn speeds(&self) -> Result<Vec<Option<f64>>, Problem> {
-        let Self { work, case, hardware, .. } = self;
-        let legs = case.waypoints.len() - 1;
-        if hardware.room.speed.is_some() || case.leg_times.is_empty() {
-            return Ok(vec![hardware.room.speed; legs]);
-        }
-        if let Some(drive) = case.commands() {
-            let of_leg = |leg: &DriveLeg| Some(leg.timing().fastest()).filter(|speed| *speed > 0.0);
-            return Ok(drive.legs.iter().map(of_leg).collect());
-        }
-        let planned = work.folder.read_planned(case.number)?;
-        let mut speeds = vec![None; legs];
-        let columns = ["leg", "vx_m_s", "vy_m_s", "vz_m_s"].map(|name| planned.channel(name));
-        let [Some(leg), Some(vx), Some(vy), Some(vz)] = columns else { return Ok(speeds) };
-        for (i, leg) in leg.iter().enumerate() {
-            let rise = if hardware.room.flies { vz[i] } else { 0.0 };
-            let speed = libm::hypot(libm::hypot(vx[i], vy[i]), rise).min(hardware.room.fastest);
-            if let Some(most) = speeds.get_mut(*leg as usize).filter(|_| speed > 0.0) {
-                *most = Some(most.map_or(speed, |known: f64| known.max(speed)));
-            }
-        }
-        Ok(speeds)
-    }
-
     fn way(&self) -> String {
         format!(
             "{} plans its own way between the waypoints; the timing of hairpin's plan, and its stress, are lost (--to setpoints keeps them)",
@@ -242,50 +232,5 @@ impl Maker<'_> {
             "{lat_deg:.10} deg, {lon_deg:.10} deg, {alt_amsl_m:.3} m AMSL is ({:.3}, {:.3}, {:.3}) m of the world; heights are above it",
             coords.x, coords.y, coords.z
         )
-    }
-}
-
-/// Speeds are told in mm/s, slow ones by three digits down to the 0.01 mm/s that files have; down, so that none is more
-/// than what was planned by more than a product's rounding, and none is nothing.
-fn rounded_down(speed: f64) -> f64 {
-    let decimals = (2.0 - libm::log10(speed).floor()).clamp(3.0, 5.0) as u32;
-    let steps_in_one = f64::from(10_u32.pow(decimals));
-    let nearest = (speed * steps_in_one).round();
-    let steps = if nearest / steps_in_one <= speed * (1.0 + 1e-12) { nearest } else { nearest - 1.0 };
-    steps.max(1.0) / steps_in_one
-}
-
-#[cfg(test)]
-mod tests {
-    use hairpin_formats::scenario::setup_for;
-
-    use super::rounded_down;
-
-    #[test]
-    fn speeds_are_rounded_down_with_digits_for_slow_robots() {
-        for (speed, told) in [
-            (1.5, 1.5),
-            (1.499_999, 1.499),
-            (1.5006, 1.5),
-            (12.345_6, 12.345),
-            (0.29, 0.29),
-            (0.3 * 0.06, 0.018),
-            (0.06, 0.06),
-            (0.059_97, 0.0599),
-            (0.006_258, 0.006_25),
-            (1e-9, 1e-5),
-        ] {
-            assert_eq!(rounded_down(speed), told, "{speed}");
-        }
-    }
-
-    #[test]
-    fn speeds_are_the_robots_at_most() {
-        let setup = setup_for("quadrotor", &[("execute.controller".into(), "\"px4-mission\"".into())]).unwrap();
-        let speed = |most: f64| {
-            let drawn = setup.drawn(&[("robot.max_speed_m_s".into(), most.into())]).unwrap();
-            drawn.room().unwrap().speed
-        };
-        assert_eq!((speed(18.0), speed(3.0)), (Some(5.0), Some(3.0)));
     }
 }

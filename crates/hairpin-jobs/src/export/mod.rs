@@ -1,5 +1,6 @@
 //! A campaign's trajectories as files that other programs open, in `export/` of its folder.
 
+mod airtime;
 mod chosen;
 mod flights;
 mod gears;
@@ -12,6 +13,7 @@ mod placed;
 mod planned;
 mod preflight;
 mod programs;
+mod speeds;
 mod timed;
 mod way;
 mod written;

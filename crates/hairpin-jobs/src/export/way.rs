@@ -1,7 +1,7 @@
 //! How a vehicle comes to the first waypoint of a case and back from the last one: what a campaign does not fly, and an
 //! autopilot does.
 
-use hairpin::campaign::kind::Room;
+use hairpin::campaign::kind::{Returning, Room};
 use hairpin::campaign::{Case, Setup};
 use nalgebra::Point3;
 
@@ -55,6 +55,21 @@ impl Way {
         let blocked =
             (!is_clear(&[*end, below])).then_some("obstacles stand in every way home, and below the last waypoint");
         Ok(Self { home, back: Vec::new(), land: Some(below), blocked })
+    }
+
+    /// At which height (m, world frame) a return that begins anywhere from take-off to landing clears all obstacles, or
+    /// why at none; `None` of what does not fly.
+    pub(super) fn return_height(
+        &self,
+        setup: &Setup,
+        room: &Room,
+        case: &Case,
+    ) -> Result<Option<Result<f64, &'static str>>, Problem> {
+        let way: Vec<Point3<f64>> = case.waypoints.iter().chain(&self.back).copied().collect();
+        let most = (room.high.z - room.margin).max(self.home.z);
+        let highest = way.iter().map(|place| place.z).fold(self.home.z, f64::max);
+        let heights = [highest.min(most), most];
+        Ok(setup.around(case)?.homeward(&Returning { way: &way, home: self.home, heights, apart: LEAST }))
     }
 
     /// The places of take-off and of the way home, in words.

@@ -41,7 +41,7 @@ pub struct FrameTold {
     pub how: String,
     /// Whether both say where on Earth they are, so that nothing is assumed but for altitudes.
     pub by_earth: bool,
-    /// Altitude of the log's origin above the world's by what both say, m.
+    /// Altitude of the log's origin above the world's by what both say, m: AMSL less AMSL, however far apart they are.
     pub altitude_difference_m: Option<f64>,
     /// Whether it was added.
     pub altitude_applied: bool,
@@ -87,9 +87,11 @@ impl<'a> IntoWorld<'a> {
                 let (at, turn) = tangent(&log, world)?;
                 let is_plane = matches!(world, Placement::Plane(_));
                 told.by_earth = true;
-                told.altitude_difference_m = Some(at.z);
+                // Not the height over the world's plane, which the Earth falls below with the distance.
+                let difference = world.relative_altitude(origin);
+                told.altitude_difference_m = Some(difference);
                 told.altitude_applied = is_plane || named.altitude == Altitude::Amsl;
-                lower = if told.altitude_applied { 0.0 } else { at.z };
+                lower = if told.altitude_applied { 0.0 } else { difference };
                 let by = if is_plane { "the map's plane" } else { "world.origin" };
                 let far = at.coords.xy().norm();
                 told.how = format!("brought to the world's by {by}: the log's origin is {far:.2} m from the world's");

@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+use hairpin::campaign::scenario::Origin;
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{
     Clock, Event, EventKind, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span,
 };
+use hairpin_formats::placement::Placement;
 use nalgebra::{Point3, Rotation3, Vector3};
 use tempfile::TempDir;
 
@@ -357,6 +359,22 @@ fn logs_with_a_place_on_earth_come_into_the_world_by_its_origin() {
     assert!((found.frame.altitude_difference_m.unwrap() - 0.7).abs() < 1e-3);
     let worst = found.flown.unwrap().measures.max_deviation;
     assert!((worst - 0.3).abs() < 2e-3 && judged.verdict.exit_code == 0, "{worst} {}", judged.verdict.sentence);
+    // From 2.4 km away the Earth falls by half a metre: altitudes are what they were.
+    let far = Geodetic { lat_deg: origin.lat_deg + 2400.0 / north, alt_amsl_m: alt, ..origin };
+    let of = |about: &Geodetic| {
+        let Geodetic { lat_deg, lon_deg, alt_amsl_m } = *about;
+        Placement::by_origin(&Origin { lat_deg, lon_deg, alt_amsl_m, x_axis_heading_deg: 90.0 })
+    };
+    let level = Geodetic { alt_amsl_m: alt, ..origin };
+    let mut from_afar = log.clone();
+    from_afar.frame = LogFrame::Enu(Some(far));
+    from_afar.motions[0].samples.iter_mut().for_each(|s| {
+        s.p_m = of(&far).from_geodetic(&of(&level).geodetic(&s.p_m).unwrap()).unwrap();
+    });
+    let found = judged_as(&from_afar, world).unwrap().found.unwrap();
+    assert!(found.frame.altitude_difference_m.unwrap().abs() < 1e-9, "{:?}", found.frame);
+    let worst = found.flown.unwrap().measures.max_deviation;
+    assert!((worst - 0.3).abs() < 5e-3, "{worst}");
     // By name the altitude counts, and with it the log is 0.7 m too high.
     let amsl = judged_as(&log, |settings, here| {
         world(settings, here);

@@ -51,12 +51,15 @@ pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> 
     let mut nominal = vary::Tree::new(scenario);
     let mut found = Vec::new();
     for key in scenario.vary().keys().filter(|key| !key.starts_with("spec.")) {
-        let fallback = KeyPath::parse(key).and_then(|path| nominal.get(&path).cloned());
+        let Some(path) = KeyPath::parse(key) else { continue };
+        let fallback = nominal.get(&path).cloned();
+        // As it is written, and as files and reports have it: `world.wind_m_s.1` is `world.wind_m_s[1]`.
+        let told = path.to_string();
         let values = |run: &RunDeviation| -> Vec<(String, f64)> {
-            let drawn = run.drawn.iter().find(|(name, _)| name == key).map(|(_, value)| value);
+            let drawn = run.drawn.iter().find(|(name, _)| vary::is_same(name, key)).map(|(_, value)| value);
             let nominal = run.run == 0 || vary::shapes_the_plan(key);
             let value = drawn.or(if nominal { fallback.as_ref() } else { None });
-            value.map_or_else(Vec::new, |value| numbers(key, value))
+            value.map_or_else(Vec::new, |value| numbers(&told, value))
         };
         let rows: Vec<(Vec<(String, f64)>, f64)> = runs.iter().map(|run| (values(run), run.max_deviation)).collect();
         let Some((names, _)) = rows.iter().max_by_key(|(values, _)| values.len()) else { continue };
@@ -86,6 +89,33 @@ fn numbers(key: &str, value: &Value) -> Vec<(String, f64)> {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    /// However the scenario has the key, and whatever files made of it.
+    #[test]
+    fn an_element_that_is_drawn_alone_has_its_rank() {
+        for written in ["world.wind_m_s.1", "world.wind_m_s[1]"] {
+            let scenario: Scenario = serde_json::from_value(json!({
+                "hairpin": 1, "robot": { "kind": "quadrotor", "name": "test", "mass_kg": 1.0, "rotors": [] },
+                "world": { "size_m": [30.0, 30.0, 30.0], "wind_m_s": [0.0, 0.0, 0.0] },
+                "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [15.0, 15.0, 15.0], "length": 10 },
+                "execute": { "controller": "geometric", "repeat": 4 },
+                "vary": { written: { "uniform": [-2.0, 2.0] } },
+            }))
+            .unwrap();
+            for read in ["world.wind_m_s.1", "world.wind_m_s[1]"] {
+                let run = |run: usize| RunDeviation {
+                    case: CaseNumber(0),
+                    run,
+                    max_deviation: run as f64,
+                    drawn: if run == 0 { vec![] } else { vec![(read.into(), json!(0.5 * run as f64))] },
+                    moves: None,
+                };
+                let found = influences(&scenario, &(0..4).map(run).collect::<Vec<_>>());
+                let told: Vec<_> = found.iter().map(|one| (one.key.as_str(), one.rank_correlation, one.runs)).collect();
+                assert_eq!(told, [("world.wind_m_s[1]", 1.0, 4)], "{written} {read}");
+            }
+        }
+    }
 
     #[test]
     fn the_parameter_that_did_it_comes_first() {

@@ -154,7 +154,7 @@ struct JudgedRun {
 
 impl JudgedRun {
     fn gravity(&self) -> Gravity {
-        Gravity::of(&self.violations, self.measures.max_deviation, self.within)
+        Gravity::of((&self.violations, &self.ended), self.measures.max_deviation, self.within)
     }
 }
 

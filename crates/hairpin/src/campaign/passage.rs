@@ -109,6 +109,8 @@ pub struct Passage {
     pub estimated: Vec<String>,
     /// What the answer is about, in a sentence: model, limits, and what is left out.
     pub model: String,
+    /// Whether it goes on water, whose height is everywhere the same: those of what is asked are not looked at.
+    pub afloat: bool,
 }
 
 /// A witness over waypoints that somebody else chose.

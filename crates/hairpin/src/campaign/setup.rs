@@ -18,7 +18,7 @@ use serde_json::Value;
 use super::attachments::{Attachments, Resolved};
 use super::case::Case;
 use super::check::check_vary;
-use super::kind::{Build, Drawing, Given, Handed, Kind, PassedOver, Programs, RobotWords, Room};
+use super::kind::{Build, Drawing, Given, Handed, Kind, PassedOver, Programs, Returning, RobotWords, Room};
 use super::own_controller::AnyController;
 use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
 use super::user_code::UserCode;
@@ -335,6 +335,12 @@ impl Setup {
     /// Where its vehicle may be; `None` of what is none, as arms are.
     pub fn room(&self) -> Option<Room> {
         self.kind.room()
+    }
+
+    /// The least height (m, world frame) at which a return that an autopilot begins anywhere on a mission clears all
+    /// obstacles, or why there is none, in a sentence's part; `None` of what does not fly.
+    pub fn homeward(&self, returning: &Returning) -> Option<Result<f64, &'static str>> {
+        self.kind.homeward(returning)
     }
 
     /// Distance of its robot, about a place (m, world frame), from what it must not meet, m; infinite where there is

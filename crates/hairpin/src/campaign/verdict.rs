@@ -218,7 +218,7 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     let mut worst: Option<(&CaseResult, &Measures)> = None;
     let gravity = |result: &CaseResult, measures: &Measures| {
         let within = of_others(measures).map_or(measures.max_deviation, |one| one.relative_excess());
-        Gravity::of(&result.violations, measures.max_deviation, within)
+        Gravity::of((&result.violations, &result.ended), measures.max_deviation, within)
     };
     for result in results {
         let Some(measures) = &result.measures else { continue };

@@ -116,7 +116,7 @@ pub(super) fn passes(setup: &BoatSetup, asked: &Demands) -> Passage {
         }
     });
     let model = "the boat in the current that is known, bow into its motion at every waypoint; without wind and waves";
-    Passage { legs, witness, broken, estimated: Vec::new(), model: model.into() }
+    Passage { legs, witness, broken, estimated: Vec::new(), model: model.into(), afloat: true }
 }
 
 /// The states that waypoint `number` may be passed in.

@@ -85,7 +85,7 @@ pub(super) fn passes(setup: &DriveSetup, asked: &Demands) -> Result<Passage, Str
             words: "each leg is one, but their commands and speeds do not settle together".into(),
         });
     }
-    Ok(Passage { legs, witness, broken, estimated: Vec::new(), model: model(setup) })
+    Ok(Passage { legs, witness, broken, estimated: Vec::new(), model: model(setup), afloat: false })
 }
 
 fn model(setup: &DriveSetup) -> String {

@@ -31,6 +31,7 @@ mod figure;
 mod fit;
 mod fly;
 mod graph;
+mod homeward;
 mod idle;
 mod knobs;
 mod legs;

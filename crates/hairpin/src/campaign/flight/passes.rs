@@ -86,7 +86,7 @@ pub(super) fn passes(setup: &FlightSetup, asked: &Demands) -> Result<Passage, St
         leg_times: flight.legs.iter().map(|leg| leg.duration).collect(),
         witness: flight.into(),
     });
-    Ok(Passage { legs, witness, broken, estimated, model: model() })
+    Ok(Passage { legs, witness, broken, estimated, model: model(), afloat: false })
 }
 
 /// Flying for `duration` (s) and waiting where it is asked to takes more than `most` (s).

@@ -6,10 +6,10 @@ use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
 use super::figure::figure;
-use super::{FlightSetup, assumptions};
+use super::{FlightSetup, assumptions, homeward};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Rotor, Say,
+    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, Returning, RobotWords, Room, Rotor, Say,
     reached_within, surface,
 };
 use crate::campaign::{Case, Tally};
@@ -133,6 +133,10 @@ impl Say for FlightSetup {
             // What hovers by rotors alone: ground stations have one class for it.
             vehicles: &[0, 2, 3, 4, 13, 14, 15, 29, 35],
         })
+    }
+
+    fn homeward(&self, returning: &Returning) -> Option<Result<f64, &'static str>> {
+        Some(homeward::height(&self.world, self.robot.clearance_radius, returning))
     }
 
     fn clearance(&self) -> Option<Box<Clearance<'_>>> {

@@ -6,13 +6,13 @@ use nalgebra::Point3;
 
 use super::length::{Length, length};
 use super::text::{attitude, violation};
-use crate::campaign::gravity::Gravity;
+use crate::campaign::gravity::Standing;
 use crate::campaign::judge::reference;
 use crate::campaign::kind::{Drawing, Surface};
 use crate::campaign::scenario::{DeviationFrom, Terms};
 use crate::campaign::{
-    Baseline, Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Status,
-    Tally, vary,
+    Baseline, Case, CaseNumber, CaseResult, Coverage, Curve, Environment, Influence, RoundTally, Run, Setup, Tally,
+    vary,
 };
 use crate::judgement::moves::Regression;
 use crate::judgement::{
@@ -246,17 +246,10 @@ pub struct Pieces<'a> {
 /// Within each, crashes come before all else, and equals in the order of their numbers. Executors that failed are last:
 /// they say nothing of the robot.
 pub fn worst_first(results: &[CaseResult]) -> Vec<&CaseResult> {
-    let rank = |result: &CaseResult| match result.status {
-        Status::Fail => 0,
-        Status::Inconclusive => 1,
-        Status::Pass | Status::Unjudged => 2,
-        Status::ExecutorFailed => 3,
-    };
-    let gravity = |result: &CaseResult| Gravity::of_result(&result.violations, result.measures.as_ref());
-    let mut ordered: Vec<&CaseResult> = results.iter().collect();
-    ordered
-        .sort_by(|a, b| rank(a).cmp(&rank(b)).then_with(|| gravity(b).against(&gravity(a))).then(a.case.cmp(&b.case)));
-    ordered
+    let mut ordered: Vec<(Standing, &CaseResult)> =
+        results.iter().map(|result| (Standing::of(result), result)).collect();
+    ordered.sort_by(|(a, one), (b, other)| b.against(a).then(one.case.cmp(&other.case)));
+    ordered.into_iter().map(|(_, result)| result).collect()
 }
 
 /// A case in full: `run` is the result's worst one, `others` are drawn beside it. Distances are those that were judged.

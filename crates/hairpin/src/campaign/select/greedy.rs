@@ -3,16 +3,6 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// The `count` heaviest, the heaviest first; the first of equals.
-///
-/// O(n log n).
-pub(super) fn heaviest(weights: &[f64], count: usize) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
-    order.truncate(count);
-    order
-}
-
 /// `count` items for Σ weight · (count − 1)/2 + Σ distance over pairs, so that both sums have as many terms: each time
 /// the item that adds most to half of the weights and the whole of the distances, which is at least half of the best
 /// for distances that are a metric (Borodin, Lee, Ye: Max-sum diversification, monotone submodular functions and

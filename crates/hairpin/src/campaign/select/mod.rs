@@ -5,16 +5,21 @@
 //!
 //! | choice | maximises | known of it |
 //! | --- | --- | --- |
-//! | stress | Σ stress | the best |
+//! | stress | stress, the worst first | the best |
 //! | diverse | ½ stress + distance, over pairs | at least half of the best |
 //! | coverage | cells that are met | at least 1 − 1/e of the best |
+//!
+//! What ended badly is worse than all that ended well, in the order of reports; where stress is weighed it counts as
+//! much as the largest.
 
 mod greedy;
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use serde::Serialize;
 
+use super::gravity::Standing;
 use super::{Case, CaseNumber, CaseResult};
 use crate::judgement::Measures;
 use crate::search::worst::{Crowd, Placed, Scale, Trace};
@@ -59,6 +64,8 @@ pub struct Candidate {
     ///
     /// Executed cases without measures count by their score as well.
     pub stress: f64,
+    /// Where it stands by what came of it; `None` where nothing was measured.
+    standing: Option<Standing>,
     /// Its way, and what came of it; that is empty where it was not executed.
     trace: Trace,
     /// Cells of the grid of motion that it met.
@@ -76,12 +83,27 @@ impl Candidate {
         Self {
             case: case.number,
             stress: measures.map_or(case.score, |measures| measures.max_deviation),
+            standing: result.filter(|result| result.measures.is_some()).map(Standing::of),
             trace: Trace {
                 route: Route::along(&case.waypoints),
                 behaviour: measures.map_or_else(Vec::new, Measures::behaviour),
             },
             cells,
         }
+    }
+
+    /// Whether its worst run crashed, or ended short of its last waypoint: its deviation was cut off there.
+    pub fn ended_badly(&self) -> bool {
+        self.standing.as_ref().is_some_and(Standing::ended_badly)
+    }
+
+    /// Greater is worse.
+    fn against(&self, other: &Self) -> Ordering {
+        let by_runs = match (&self.standing, &other.standing) {
+            (Some(one), Some(other)) => one.against(other),
+            (one, other) => one.is_some().cmp(&other.is_some()),
+        };
+        by_runs.then(self.stress.total_cmp(&other.stress))
     }
 }
 
@@ -116,6 +138,8 @@ pub struct Measured {
     ///
     /// Negative infinity of no case.
     pub worst: f64,
+    /// How many of them crashed, or ended short of their last waypoints: their deviations end there too.
+    pub ended_badly: usize,
     /// Mean distance between two cases, 0 … 1.
     pub spread: f64,
     /// Least distance between two cases.
@@ -129,9 +153,13 @@ pub struct Measured {
 impl<'a> Choice<'a> {
     /// Among `candidates`.
     ///
-    /// O(n²) comparisons of outlines on all threads, O(n) memory. The stress of each is (s − min) / (max − min).
+    /// O(n²) comparisons of outlines on all threads, O(n) memory. The stress of each is (s − min) / (max − min); 1 of
+    /// what ended badly.
     pub fn new(candidates: &'a [Candidate]) -> Self {
-        let stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
+        let mut stress = unit(&candidates.iter().map(|c| c.stress).collect::<Vec<_>>());
+        for (stress, candidate) in stress.iter_mut().zip(candidates) {
+            *stress = if candidate.ended_badly() { 1.0 } else { *stress };
+        }
         let traces: Vec<Trace> = candidates.iter().map(|c| c.trace.clone()).collect();
         let scale = Scale::of(&traces);
         let placed: Vec<Placed> = traces.iter().map(|trace| scale.place(trace)).collect();
@@ -143,7 +171,13 @@ impl<'a> Choice<'a> {
     /// At most as many as there are. [`By::guarantee`] says how good they are.
     pub fn best(&self, count: usize, by: By) -> Vec<usize> {
         match by {
-            By::Stress => greedy::heaviest(&self.stress, count),
+            By::Stress => {
+                let mut order: Vec<usize> = (0..self.candidates.len()).collect();
+                // The first of equals.
+                order.sort_by(|a, b| self.candidates[*b].against(&self.candidates[*a]));
+                order.truncate(count);
+                order
+            }
             By::Diverse => greedy::dispersed(&self.stress, |one| self.crowd.from(one), count),
             By::Coverage => {
                 let cells: Vec<&BTreeSet<usize>> = self.candidates.iter().map(|candidate| &candidate.cells).collect();
@@ -164,6 +198,7 @@ impl<'a> Choice<'a> {
             cases: chosen.len(),
             stress: if chosen.is_empty() { 0.0 } else { stress().sum::<f64>() / chosen.len() as f64 },
             worst: stress().fold(f64::NEG_INFINITY, f64::max),
+            ended_badly: chosen.iter().filter(|place| self.candidates[**place].ended_badly()).count(),
             spread,
             nearest,
             cells,
@@ -183,12 +218,14 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
+    use crate::campaign::Status;
 
     fn candidate(case: usize, stress: f64, x: f64, cells: &[usize]) -> Candidate {
         let way = [Point3::origin(), Point3::new(x, 1.0, 0.0), Point3::new(2.0 * x, 0.0, 0.0)];
         Candidate {
             case: CaseNumber(case),
             stress,
+            standing: None,
             trace: Trace { route: Route::along(&way), behaviour: vec![stress, x] },
             cells: cells.iter().copied().collect(),
         }
@@ -210,5 +247,28 @@ mod tests {
         assert!(apart.spread > 3.0 * alike.spread && apart.stress < alike.stress && alike.nearest < 0.02);
         assert_eq!(choice.best(2, By::Coverage), [6, 0]);
         assert_eq!(choice.best(99, By::Diverse).len(), 7);
+    }
+
+    /// Crashes end early, and so with small deviations.
+    #[test]
+    fn what_ended_badly_is_worse_than_all_that_ended_well() {
+        let result = |number: usize, ended: &str, max_deviation| CaseResult {
+            measures: Some(Measures { max_deviation, ..Measures::default() }),
+            ended: ended.into(),
+            ..CaseResult::bare(CaseNumber(number), Status::Unjudged)
+        };
+        let results = [("done", 2.0), ("wall", 0.1), ("done", 1.0), ("time", 0.2), ("done", 3.0)];
+        let all: Vec<Candidate> = (0..)
+            .zip(results)
+            .map(|(number, (ended, deviation))| {
+                let case = Case::bare(CaseNumber(number), 1, vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0)]);
+                Candidate::new(&case, Some(&result(number, ended, deviation)), BTreeSet::new())
+            })
+            .collect();
+        let choice = Choice::new(&all);
+        assert_eq!(choice.best(5, By::Stress), [3, 1, 4, 0, 2]);
+        assert_eq!((choice.measure(&[3, 1], None).ended_badly, choice.measure(&[4, 0], None).ended_badly), (2, 0));
+        // Alone, what weighs most is chosen.
+        assert_eq!(choice.best(1, By::Diverse), [1]);
     }
 }

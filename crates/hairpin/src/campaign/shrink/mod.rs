@@ -122,6 +122,8 @@ fn pinned(scenario: &Scenario, case: &Case, result: &CaseResult) -> Result<Scena
     for (key, value) in result.drawn.iter().filter(|(key, _)| !vary::shapes_the_plan(key)) {
         let only =
             Distribution { uniform: None, normal: None, choice: Some(vec![value.clone()]), min: None, max: None };
+        // The key as the scenario writes it, or it would be drawn twice.
+        pinned.vary_mut().retain(|other, _| !vary::is_same(other, key));
         pinned.vary_mut().insert(key.clone(), only);
     }
     Ok(pinned)

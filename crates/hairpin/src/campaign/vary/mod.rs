@@ -60,6 +60,11 @@ pub fn shapes_the_plan(key: &str) -> bool {
     key.starts_with("task.") || key.starts_with("generate.")
 }
 
+/// Whether two keys name the same value, in whichever way they write an index.
+pub(super) fn is_same(one: &str, other: &str) -> bool {
+    one == other || KeyPath::parse(one).is_some_and(|path| KeyPath::parse(other) == Some(path))
+}
+
 /// The stream of a key is seeded by the case's seed, the key, and `index`. Keys that cannot be read are left out.
 fn draw_keys(scenario: &Scenario, seed: u64, index: u64, wanted: impl Fn(&str) -> bool) -> Vec<(String, Value)> {
     let keys: Vec<_> = scenario.vary().iter().filter(|(key, _)| wanted(key)).collect();
