@@ -244,7 +244,7 @@ impl CampaignFolder {
     /// # Errors
     /// The file is missing or broken.
     pub fn read_tally(&self) -> Result<Tally, FolderError> {
-        self.read_json(GENERATION)
+        Ok(Tally { clear_within_mm: self.clear_within_mm()?, ..self.read_json(GENERATION)? })
     }
 
     /// Writes where the largest stress executed in a graph rose, a row each, and where it stood at the end; nothing to

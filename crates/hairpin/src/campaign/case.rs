@@ -46,6 +46,11 @@ impl Evidence {
         Evidence::Unchecked,
     ];
 
+    /// Whether it says that nothing is touched.
+    pub fn is_clearance(self) -> bool {
+        matches!(self, Evidence::ClearToolSphere | Evidence::ClearAllLinks)
+    }
+
     /// The word in files.
     pub fn word(self) -> &'static str {
         match self {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::answers::Answers;
 use super::curve::Curve;
 use super::learn::ScoreModel;
-use super::scenario::{SearchMethod, SearchSection};
+use super::scenario::{Scenario, SearchMethod, SearchSection};
 use crate::judgement::Chosen;
 
 /// What a generation did, in numbers; the report's and the verdict's.
@@ -77,6 +77,10 @@ pub struct Tally {
     /// trajectories that were drawn first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub apart: Option<f64>,
+    /// How far off their paths (mm) what was proven clear of the cases holds, whatever is limited by now; the folder's
+    /// scenario has it. `None` where nothing was, or where it is the limit's.
+    #[serde(skip)]
+    pub clear_within_mm: Option<f64>,
     /// Names of the files that the cases were read from, in their order, where these are missions made elsewhere.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub missions: Vec<String>,
@@ -86,6 +90,11 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// How far off their paths (mm) what was proven clear of the cases holds, where `scenario` lets runs be farther off.
+    pub fn proven_short_of(&self, scenario: &Scenario) -> Option<f64> {
+        self.clear_within_mm.filter(|within| scenario.clear_within_mm().is_some_and(|now| now > *within))
+    }
+
     /// How the cases were come by, that `search` was to find.
     ///
     /// Which decides whether a share of violations is an estimate with an interval (drawn at random) or only a count

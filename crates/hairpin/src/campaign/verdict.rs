@@ -41,12 +41,11 @@ pub fn verdict_on(
         };
     }
     let count = |status: Status| results.iter().filter(|result| result.status == status).count();
+    let words: Vec<String> = Evidence::ALL.iter().map(|evidence| claim_words(*evidence, setup, tally)).collect();
     let claims: Vec<Claim> = Evidence::ALL
         .iter()
-        .map(|evidence| Claim {
-            word: evidence.word(),
-            count: cases.iter().filter(|case| case.evidence == *evidence).count(),
-        })
+        .zip(&words)
+        .map(|(evidence, word)| Claim { word, count: cases.iter().filter(|case| case.evidence == *evidence).count() })
         .filter(|claim| claim.count > 0)
         .collect();
     let worst = named(setup, results);
@@ -124,6 +123,14 @@ fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<
         of += measures.legs.len();
     }
     (within > 0).then(|| format!("{within} of {of} legs within corner_m of their waypoints: no deviation judged there"))
+}
+
+/// `clear: all links`, and `… within 15 mm of the path` where the judgement lets runs be farther off it: evidence
+/// belongs to the limit that it was proven for.
+fn claim_words(evidence: Evidence, setup: &Setup, tally: &Tally) -> String {
+    let within = tally.proven_short_of(&setup.scenario).filter(|_| evidence.is_clearance());
+    within
+        .map_or_else(|| evidence.word().into(), |within| format!("{} within {within} mm of the path", evidence.word()))
 }
 
 /// Of a search that a limit of its time ended, or whoever watched: it passes by what it found until then.
