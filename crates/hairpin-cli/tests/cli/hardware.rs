@@ -40,7 +40,7 @@ fn a_case_is_a_mission_set_points_and_polynomials() {
     let own: Vec<u64> = rows.lines().skip(2).map(|row| row.split('\t').nth(3).unwrap().parse().unwrap()).collect();
     assert_eq!(own, commands);
     let parameters = fs::read_to_string(export.join("0000.params")).unwrap();
-    for name in ["GF_ACTION", "GF_MAX_VER_DIST", "NAV_ACC_RAD", "RTL_RETURN_ALT"] {
+    for name in ["GF_ACTION", "GF_MAX_VER_DIST", "NAV_ACC_RAD", "RTL_RETURN_ALT", "RTL_CONE_ANG"] {
         assert!(parameters.contains(&format!("1\t1\t{name}\t")), "{name}");
     }
     // It begins at rest 3 m above home, and its nose is where the cage's x is.
