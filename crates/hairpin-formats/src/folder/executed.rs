@@ -1,7 +1,7 @@
 //! `executed.tsv`: what the executions of a search came to that was stopped, so that going on executes nothing twice.
 //! A row for each: the fingerprint of what was executed, in hexadecimal digits; stress, leg and executions for each
-//! target, as `0.75:4:1`, with blanks between; measures that tell it from others; `fails` of what violates something whatever is limited. Of
-//! what was not carried out there is the fingerprint alone.
+//! target, as `0.75:4:1`, with blanks between; measures that tell it from others; `fails` of what violates something
+//! whatever is limited. Of what was not carried out there is the fingerprint alone.
 
 use std::io;
 use std::str::FromStr;

@@ -90,7 +90,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// How far off their paths (mm) what was proven clear of the cases holds, where `scenario` lets runs be farther off.
+    /// How far off their paths (mm) what was proven clear of the cases holds, where `scenario` lets runs be farther
+    /// off.
     pub fn proven_short_of(&self, scenario: &Scenario) -> Option<f64> {
         self.clear_within_mm.filter(|within| scenario.clear_within_mm().is_some_and(|now| now > *within))
     }

@@ -95,8 +95,8 @@ impl Trials<'_> {
     /// what tells the execution from others. What comes to the `least` of one of them is executed `confirm` times more,
     /// as runs 1, 2, … of its case are: with what `[vary]` draws for them, and under noise. Its stresses are the means.
     ///
-    /// It fails if the first does. One execution serves all of `sought`. Repeats are made where any of them comes to its `least`, and count for
-    /// all.
+    /// It fails if the first does. One execution serves all of `sought`. Repeats are made where any of them comes to
+    /// its `least`, and count for all.
     pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), sought: &[Sought], least: &[f64]) -> Option<Ran> {
         let executed = self.executed_as(plan, run)?;
         let trial = |sought: &Sought| Trial {

@@ -1,8 +1,9 @@
 //! The worst trajectories that differ: what a search keeps of all that it has executed.
 //!
-//! Clearing: in the order of stress, what [fails](super::Ran::fails) before what does not, each trajectory stands that is far enough from all that stand before it. Those
-//! that stand are the answer, the first as many as are asked for, and the parents of what is tried next. Source:
-//! Pétrowski, A clearing procedure as a niching method for genetic algorithms, 1996.
+//! Clearing: in the order of stress, what [fails](super::Ran::fails) before what does not, each trajectory stands that
+//! is far enough from all that stand before it. Those that stand are the answer, the first as many as are asked for,
+//! and the parents of what is tried next. Source: Pétrowski, A clearing procedure as a niching method for genetic
+//! algorithms, 1996.
 
 use super::scale::{Placed, Scale, Trace};
 use crate::search::in_loop::Trial;
