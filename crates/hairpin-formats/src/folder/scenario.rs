@@ -9,7 +9,8 @@ use crate::scenario::{MadeBy, read_made_by, settings_hash, to_toml};
 
 impl CampaignFolder {
     /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
-    /// kernels), and the files that it names. What was proven clear of its plans holds `clear_within` mm off their paths.
+    /// kernels), and the files that it names. What was proven clear of its plans holds `clear_within` mm off their
+    /// paths.
     ///
     /// # Errors
     /// A file cannot be written; TOML cannot hold the scenario.

@@ -19,8 +19,8 @@ pub struct MadeBy {
     /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<String>,
-    /// How far off their paths (mm) what was proven clear of the plans holds, whatever `spec` has become since; `None` of
-    /// earlier versions, and where nothing was proven.
+    /// How far off their paths (mm) what was proven clear of the plans holds, whatever `spec` has become since; `None`
+    /// of earlier versions, and where nothing was proven.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clear_within_mm: Option<f64>,
     /// SIMD level of the kernels: `portable`, `baseline`, `avx2`, `avx512` or `neon`. It stands last, so that what was
