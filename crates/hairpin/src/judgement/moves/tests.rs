@@ -546,8 +546,8 @@ fn curved() -> PlannedPath {
     PlannedPath::new(track, vec![PlannedMove { name: "p0→p1".into(), end: 10, stops: true }])
 }
 
-/// Where a path bends between its poses, deviation is from the bend: of samples on it none, and of one that is inside by
-/// what chords are inside, that.
+/// Where a path bends between its poses, deviation is from the bend: of samples on it none, and of one that is inside
+/// it by what chords are inside, just that.
 #[test]
 fn deviation_is_from_curves_and_not_from_chords() {
     let path = curved();
