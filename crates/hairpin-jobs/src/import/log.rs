@@ -78,7 +78,8 @@ fn arms(file: &Path) -> String {
     let name = file.display().to_string();
     let file = shell_word(&name);
     format!(
-        "Its columns are those of an arm's log: hairpin judge {file} --campaign OUT reads it, by the arm and the program of a campaign"
+        "Its columns are those of an arm's log: hairpin judge {file} --campaign OUT reads it, by the arm and the \
+         program of a campaign"
     )
 }
 

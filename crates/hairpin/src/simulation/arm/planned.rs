@@ -19,6 +19,8 @@ const NEAR: f64 = 5e-7;
 /// of attitudes the distance of unit quaternions. A fifth of what rows that are picked of these may be off.
 const HELD: f64 = 2e-5;
 const HELD_ATTITUDE: f64 = 2e-4;
+/// Rows under way are no farther apart, s: who picks some of them looks at rows alone, and not between.
+const APART: f64 = 0.01;
 /// Intervals are halved so often at most: where tools change in a blend places jump.
 const HALVINGS: usize = 7;
 
@@ -193,13 +195,14 @@ impl Plan<'_> {
             &to.pose.translation.vector.into(),
             [from.velocity * span, to.velocity * span],
         );
-        let holds = [0.5, 0.25, 0.75].into_iter().all(|share| {
-            let there = self.row(timed, from.time + share * span, &mut about);
-            let turned = from.pose.rotation.nlerp(&to.pose.rotation, share);
-            let apart = turned.coords.dot(&there.pose.rotation.coords).abs();
-            (way.at(share) - Point3::from(there.pose.translation.vector)).norm() <= HELD
-                && 2.0 * (1.0 - apart) <= HELD_ATTITUDE * HELD_ATTITUDE
-        });
+        let holds = span <= APART
+            && [0.5, 0.25, 0.75].into_iter().all(|share| {
+                let there = self.row(timed, from.time + share * span, &mut about);
+                let turned = from.pose.rotation.nlerp(&to.pose.rotation, share);
+                let apart = turned.coords.dot(&there.pose.rotation.coords).abs();
+                (way.at(share) - Point3::from(there.pose.translation.vector)).norm() <= HELD
+                    && 2.0 * (1.0 - apart) <= HELD_ATTITUDE * HELD_ATTITUDE
+            });
         if holds {
             return;
         }
