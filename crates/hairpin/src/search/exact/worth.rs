@@ -16,7 +16,7 @@ impl Worth<'_> {
     pub(super) fn own<N: Copy>(&self, graph: &LegGraph<'_, N>, (node, leg): (u32, usize)) -> f64 {
         match self {
             Self::Kept(scores) => scores.own(leg),
-            Self::Asked(score) => score.own(&graph.view(node, leg)),
+            Self::Asked(score) => score.worth(&graph.view(node, leg)),
         }
     }
 

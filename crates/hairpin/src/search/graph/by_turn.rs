@@ -1,4 +1,4 @@
-//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::by_turn`]), on nodes that
+//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::worth_by_turn`]), on nodes that
 //! share their rows.
 //!
 //! A graph of millions of legs has a few hundred thousand rows' places and as few turns: all velocities of two
@@ -105,7 +105,7 @@ impl<N: Copy> LegGraph<'_, N> {
             parts.begin.resize(row as usize + 1, parts.legs.len());
             for (number, place) in self.rows.kept(row).enumerate() {
                 let view = self.kept_view(nodes[0], place);
-                let ByTurn { best, plain, turning } = score.by_turn(&view)?;
+                let ByTurn { best, plain, turning } = score.worth_by_turn(&view)?;
                 let is_finite = plain.is_finite() && turning.is_finite() && best > 0.0;
                 if !is_finite || turning < 0.0 || (!parts.best.is_nan() && best.to_bits() != parts.best.to_bits()) {
                     return None;

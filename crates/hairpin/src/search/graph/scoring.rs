@@ -5,30 +5,30 @@ use super::super::objective::{Additive, ByTurn, LegView};
 /// A score of any type.
 pub(in crate::search) trait Scoring {
     /// [`Additive::own`], −∞ in the place of NaN.
-    fn own(&self, leg: &LegView<'_>) -> f64;
+    fn worth(&self, leg: &LegView<'_>) -> f64;
     /// [`Additive::own_and_left`].
-    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]>;
+    fn worth_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]>;
     /// [`Additive::by_turn`].
-    fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn>;
+    fn worth_by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn>;
     /// [`Additive::has_sink`].
-    fn has_sink(&self) -> bool;
+    fn to_sink(&self) -> bool;
 }
 
 impl<O: Additive> Scoring for O {
-    fn own(&self, leg: &LegView<'_>) -> f64 {
+    fn worth(&self, leg: &LegView<'_>) -> f64 {
         let own = Additive::own(self, leg);
         if own.is_nan() { f64::NEG_INFINITY } else { own }
     }
 
-    fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
+    fn worth_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         Additive::own_and_left(self, legs)
     }
 
-    fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
+    fn worth_by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
         Additive::by_turn(self, leg)
     }
 
-    fn has_sink(&self) -> bool {
+    fn to_sink(&self) -> bool {
         Additive::has_sink(self)
     }
 }

@@ -103,7 +103,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
         let mut views = Vec::new();
         for node in 0..self.nodes() as u32 {
             self.views(node, &mut views);
-            for [of_leg, to_next] in objective.own_and_left(&views) {
+            for [of_leg, to_next] in objective.worth_and_left(&views) {
                 // Most scores leave nothing: no room is taken for that.
                 if !left.is_empty() || to_next.to_bits() != 0 {
                     left.resize(own.len(), 0.0);
@@ -112,7 +112,7 @@ impl<'a, N: Copy> LegGraph<'a, N> {
                 own.push(of_leg);
             }
         }
-        LegScores::new(own, left, objective.has_sink())
+        LegScores::new(own, left, objective.to_sink())
     }
 
     /// Views of the legs of `node`, in the place of what `views` had.
