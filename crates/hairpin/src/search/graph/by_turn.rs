@@ -1,5 +1,5 @@
-//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::worth_by_turn`]), on nodes that
-//! share their rows.
+//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::worth_by_turn`]), on nodes
+//! that share their rows.
 //!
 //! A graph of millions of legs has a few hundred thousand rows' places and as few turns: all velocities of two
 //! waypoints share them. So what a place is worth but for its turn is kept once, and what a turn is worth for every two
