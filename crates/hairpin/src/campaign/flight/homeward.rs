@@ -102,7 +102,7 @@ mod tests {
         assert!(of(&[tower(15.0, 20.0), beam(5.0, 47.0)], &way).unwrap_err().contains("above the mission"));
         let short = [[5.0, 5.0, 5.0], [40.0, 5.0, 5.0], [40.0, 40.0, 5.0]].map(Point3::from);
         let far = Shape::cuboid([25.0, 20.0, 8.0], [8.0, 8.0, 16.0]).unwrap();
-        assert!(of(&[far.clone()], &short).unwrap() > 16.3);
+        assert!(of(std::slice::from_ref(&far), &short).unwrap() > 16.3);
         // Its underside is above the first leg's end only.
         assert!(of(&[far, beam(39.0, 5.0)], &short).unwrap_err().contains("above the mission"));
     }
