@@ -1,8 +1,8 @@
 //! The arc tangent of eight quotients at a time, to the bit that of `libm`.
 //!
 //! `libm`'s (FreeBSD's msun, Sun Microsystems 1993) chooses one of five arguments by the size of the quotient and takes
-//! the same polynomial of it; here all lanes take the polynomial, and choices are selections. No product is fused with a
-//! sum, so that every SIMD level gives the same bits.
+//! the same polynomial of it; here all lanes take the polynomial, and choices are selections. No product is fused with
+//! a sum, so that every SIMD level gives the same bits.
 
 /// Quotients at a time.
 const LANES: usize = 8;

@@ -111,8 +111,8 @@ pub trait Additive: Objective {
         legs.iter().map(|leg| [self.own(leg), self.left(leg)]).collect()
     }
 
-    /// [`Self::own`] by the turn of the leg, where it is such a function of it, and depends on how the leg is entered by
-    /// nothing else; where it is, nothing may be left to the next leg.
+    /// [`Self::own`] by the turn of the leg, where it is such a function of it, and depends on how the leg is entered
+    /// by nothing else; where it is, nothing may be left to the next leg.
     ///
     /// To the bit. Legs that share all but their turn are then scored together.
     fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {

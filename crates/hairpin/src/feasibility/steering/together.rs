@@ -2,8 +2,8 @@
 //!
 //! What [`super::halving`] looks at leg by leg, depth first, is looked at here width first, all legs at once. The
 //! intervals of a leg are the same whatever the order, and so is the answer: a violation or an interval that is too
-//! short to be halved refuses the leg in any order, and a leg of which all is proven within the budget is proven in any.
-//! What comes near the budget is left to the order in which that is spent.
+//! short to be halved refuses the leg in any order, and a leg of which all is proven within the budget is proven in
+//! any. What comes near the budget is left to the order in which that is spent.
 
 use super::flatness::{FlatState, Flatness};
 use super::halving::{ProofSettings, WAITING};

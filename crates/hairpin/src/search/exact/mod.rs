@@ -130,8 +130,8 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
 
     /// The legs under `objective`.
     ///
-    /// O(legs) calls of the objective, by rows, unless it is given by turns ([`Additive::by_turn`]). No call where there
-    /// is no trajectory.
+    /// O(legs) calls of the objective, by rows, unless it is given by turns ([`Additive::by_turn`]). No call where
+    /// there is no trajectory.
     pub fn scored<'s, O: Additive>(&'s self, objective: &'s O) -> Scored<'s, 'g, 'a, N> {
         Scored { search: self, objective, scores: OnceCell::new() }
     }
