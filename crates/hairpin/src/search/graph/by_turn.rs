@@ -1,10 +1,10 @@
-//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::worth_by_turn`]), on nodes
-//! that share their rows.
+//! The dynamic program of scores that see how a leg is entered by its turn alone ([`Scoring::worth_by_turn`]), on
+//! nodes that share their rows.
 //!
 //! A graph of millions of legs has a few hundred thousand rows' places and as few turns: all velocities of two
-//! waypoints share them. So what a place is worth but for its turn is kept once, and what a turn is worth for every two
-//! waypoints, worked out eight at a time; no leg's score is. A row's legs are looked at in the order of what they can
-//! be worth, until no other can be worth more:
+//! waypoints share them. So what a place is worth but for its turn is kept once, and what a turn is worth for every
+//! two waypoints, worked out eight at a time; no leg's score is. A row's legs are looked at in the order of what they
+//! can be worth, until no other can be worth more:
 //!
 //! ```text
 //! V_s(v) = max over legs v→w of (plain + turning · (1 − |α − best|/best)) ⊕ V_{s−1}(w),    1 − |α − best|/best ≤ 1
