@@ -146,12 +146,35 @@ fn nodes_that_share_their_legs_have_those_of_their_own() {
     assert!(legs > 2_000, "{legs}");
 }
 
+/// Legs of at most 7 m between waypoints that are passed at one of four speeds; nodes are the waypoint before, the one
+/// here and the speed.
+struct Fast;
+
+impl Reach<(u32, u32, u32)> for Fast {
+    fn legs(&self, from: &(u32, u32, u32), candidates: &[Point3<f64>], out: &mut Vec<Leg<(u32, u32, u32)>>) {
+        let (previous, here, speed) = *from;
+        for next in (0..candidates.len() as u32).filter(|&next| next != here) {
+            let way = candidates[next as usize] - candidates[here as usize];
+            for faster in (0..4).filter(|_| way.norm() <= 7.0) {
+                let [v_in, v_out] = [speed, faster].map(|speed| 0.3 + 1.7 * f64::from(speed));
+                let features = LegFeatures { v_in, v_out, length: way.norm(), climb: way.z, ..Default::default() }
+                    .entered(candidates, [previous, here, next]);
+                out.push(Leg { to: (here, next, faster), waypoint: next, duration: way.norm(), features });
+            }
+        }
+    }
+
+    fn entry(&self, &(previous, here, speed): &(u32, u32, u32)) -> Option<Entry> {
+        Some(Entry { state: (4 * here + speed) as usize, previous })
+    }
+}
+
 #[test]
 fn values_by_turns_are_those_of_scores_to_the_bit() {
     let mut compared = 0;
-    for (seed, length) in (0..30).zip([2, 4, 5, 7, 9].into_iter().cycle()) {
-        let points = points(seed, 30, 11.0);
-        let graph = LegGraph::explore(START, &points, &Near { told: true }, length);
+    for (seed, length) in (0..8).zip([3, 4, 6, 9].into_iter().cycle()) {
+        let points = points(seed, 20, 11.0);
+        let graph = LegGraph::explore((0, 0, 0), &points, &Fast, length);
         for graph in [graph.clone(), graph.into_without_returns(length)] {
             let near_start = graph.near_start(length);
             for name in Score::NAMES {
@@ -168,5 +191,5 @@ fn values_by_turns_are_those_of_scores_to_the_bit() {
             }
         }
     }
-    assert!(compared > 100_000, "{compared}");
+    assert!(compared > 10_000, "{compared}");
 }
