@@ -269,7 +269,8 @@ at_every_level! {
         let (mut best, mut bests) = (f64::NEG_INFINITY, [f64::NEG_INFINITY; LANES]);
         for (legs, (rest, most)) in legs.iter().zip(ahead) {
             // NaN, behind the last walk, is not above either.
-            if !(*most > best) {
+            let is_above = *most > best;
+            if !is_above {
                 break;
             }
             let mut sharpness = [0.0; LANES];
