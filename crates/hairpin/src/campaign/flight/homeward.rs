@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_return_from_behind_a_tower_goes_over_it() {
-        let way = [[5.0, 5.0, 5.0], [5.0, 47.0, 5.0], [15.0, 47.0, 8.0], [5.0, 30.0, 5.0]].map(Point3::from);
+        let way = [[5.0, 5.0, 5.0], [5.0, 47.0, 5.0], [15.0, 47.0, 8.0], [5.0, 47.0, 5.0]].map(Point3::from);
         let tower = |x: f64, top: f64| Shape::cuboid([x, 38.0, 0.5 * top], [8.0, 8.0, top]).unwrap();
         let over = of(&[tower(15.0, 20.0)], &way).unwrap();
         assert!((20.3..20.35).contains(&over), "{over}");
