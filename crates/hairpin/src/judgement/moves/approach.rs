@@ -58,13 +58,9 @@ pub(super) fn approaches(
         let distance = pairs().map(|(a, b)| point_distance(&place(to), &place(a), &place(b))).fold(f64::MAX, f64::min);
         let distance_within = (SHARE * beside(&length, target)).max(arrival);
         let there = distance.max(distance_within);
-        let turn = || pairs().filter_map(|(a, b)| turn_within(there, to, [a, b])).fold(f64::MAX, f64::min);
-        Some(Approach {
-            distance,
-            distance_within,
-            turn: if turns { turn() } else { 0.0 },
-            turn_within: (SHARE * beside(&turned, target)).max(LEAST_TURN),
-        })
+        let turn_within = (SHARE * beside(&turned, target)).max(LEAST_TURN);
+        let turn = || pairs().filter_map(|(a, b)| turn_there(there, to, [a, b], turn_within)).fold(f64::MAX, f64::min);
+        Some(Approach { distance, distance_within, turn: if turns { turn() } else { 0.0 }, turn_within })
     };
     (0..targets).map(one).collect()
 }
@@ -90,10 +86,11 @@ fn turned(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
 }
 
 /// Least angle (rad) of `to` from the orientations between two samples while their position is within `radius` m of
-/// its; `None` where it never is.
-fn turn_within(radius: f64, to: &Isometry3<f64>, pair: [&Isometry3<f64>; 2]) -> Option<f64> {
+/// its; `None` where it never is. Of samples that are more than `even` rad apart nobody knows how it turned between
+/// them: then it may be any of the orientations in between.
+fn turn_there(radius: f64, to: &Isometry3<f64>, pair: [&Isometry3<f64>; 2], even: f64) -> Option<f64> {
     let shares = shares_within(radius, &place(to), pair.map(place))?;
-    Some(least_turn(to, pair, shares))
+    Some(least_turn(to, pair, if turned(pair[0], pair[1]) > even { [0.0, 1.0] } else { shares }))
 }
 
 /// The part of the line between two points that is within `radius` of `centre`, as shares of it.
@@ -145,6 +142,18 @@ mod tests {
         let least = |to: f64, shares| least_turn(&turn(to), [&turn(0.0), &turn(0.2)], shares);
         assert!(least(0.1, [0.0, 1.0]) < 0.01 && (least(0.5, [0.0, 1.0]) - 0.3).abs() < 1e-9);
         assert!((least(0.1, [0.75, 1.0]) - 0.05).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_turns_far_between_two_samples_may_be_turned_either_way_there() {
+        let at = |x: f64, angle: f64| {
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), angle);
+            Isometry3::from_parts(Translation3::new(x, 0.0, 0.0), turn)
+        };
+        // Turned by 0.2 at x = 1, of which it is within 0.1 only where it is nearly turned by 0.4.
+        let there = |even| turn_there(0.1, &at(1.0, 0.2), [&at(0.0, 0.0), &at(1.0, 0.4)], even).unwrap();
+        assert!((there(0.5) - 0.16).abs() < 1e-3 && there(0.3) < 1e-6, "{} {}", there(0.5), there(0.3));
+        assert_eq!(turn_there(0.1, &at(2.0, 0.2), [&at(0.0, 0.0), &at(1.0, 0.4)], 0.3), None);
     }
 
     #[test]
