@@ -95,7 +95,9 @@ fn a_search_that_is_cut_is_told() {
         ["stress", "demo-quadrotor", "--set", "generate.reach=\"hull\"", "--set", "generate.timing={ step_s = 1.0 }"];
     let asked = |most: &str, out: &str| {
         let most = format!("spec.deviation.max_m={most}");
-        let more = ["--set", worst, "--set", "execute.repeat=1", "--budget", "3s", "--set", &most, "--out", out];
+        // Who steers so does not leave the world, however long is searched.
+        let steered = ["--set", "execute.controller=\"stable-waypoint\"", "--set", "execute.repeat=1"];
+        let more = [&["--set", worst], &steered[..], &["--budget", "3s", "--set", &most, "--out", out]].concat();
         json(here, &[&hull[..], &more].concat())
     };
     let object = asked("1000", "lax");
