@@ -10,9 +10,6 @@ pub fn assumptions(setup: &Setup, cases: &[Case], tally: &Tally) -> Vec<String> 
     robot(setup, &mut said);
     let Assumptions { claim, search: own_search, beside, act, verdict } = setup.kind().assumptions(cases, tally);
     said.extend(claim);
-    said.extend(tally.proven_short_of(&setup.scenario).map(|within| {
-        format!("What is `clear` was proven of runs within {within} mm of their path, less than the limit by now: beyond it nothing is.")
-    }));
     match own_search {
         Some(own) => said.extend(own),
         None => search(setup, cases, tally, beside, &mut said),

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::answers::Answers;
 use super::curve::Curve;
 use super::learn::ScoreModel;
-use super::scenario::{Scenario, SearchMethod, SearchSection};
+use super::scenario::{Keys, SearchMethod, SearchSection};
 use crate::judgement::Chosen;
 
 /// What a generation did, in numbers; the report's and the verdict's.
@@ -92,7 +92,7 @@ pub struct Tally {
 impl Tally {
     /// How far off their paths (mm) what was proven clear of the cases holds, where `scenario` lets runs be farther
     /// off.
-    pub fn proven_short_of(&self, scenario: &Scenario) -> Option<f64> {
+    pub fn proven_short_of(&self, scenario: &dyn Keys) -> Option<f64> {
         self.clear_within_mm.filter(|within| scenario.clear_within_mm().is_some_and(|now| now > *within))
     }
 

@@ -128,7 +128,7 @@ fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<
 /// `clear: all links`, and `… within 15 mm of the path` where the judgement lets runs be farther off it: evidence
 /// belongs to the limit that it was proven for.
 fn claim_words(evidence: Evidence, setup: &Setup, tally: &Tally) -> String {
-    let within = tally.proven_short_of(&setup.scenario).filter(|_| evidence.is_clearance());
+    let within = tally.proven_short_of(&*setup.scenario).filter(|_| evidence.is_clearance());
     within
         .map_or_else(|| evidence.word().into(), |within| format!("{} within {within} mm of the path", evidence.word()))
 }

@@ -5,7 +5,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::segment::nearest_parameter;
+use super::segment::{nearest_parameter, nearest_point};
 
 /// c(u) = a + b u + c u² + d u³, u in [0, 1]; m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +70,11 @@ impl Cubic {
         }
         nearest
     }
+}
+
+/// The point nearest to `p` of the way from `a` to `b`: of `way`, which joins them, or of the straight line.
+pub fn nearest_along(way: Option<&Cubic>, p: &Point3<f64>, a: &Point3<f64>, b: &Point3<f64>) -> Point3<f64> {
+    way.map_or_else(|| nearest_point(p, a, b), |way| way.nearest(p))
 }
 
 #[cfg(test)]

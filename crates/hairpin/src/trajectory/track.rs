@@ -6,8 +6,7 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 use thiserror::Error;
 
-use crate::math::cubic::Cubic;
-use crate::math::segment;
+use crate::math::cubic::{Cubic, nearest_along};
 
 /// Channel, 1 throughout, of tracks whose attitudes nobody told: their rotations mean nothing.
 pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
@@ -128,10 +127,7 @@ impl Track {
 
     /// The place nearest to `p` between stamp `index` and the next, m.
     pub(crate) fn nearest(&self, index: usize, p: &Point3<f64>) -> Point3<f64> {
-        match self.way(index) {
-            Some(way) => way.nearest(p),
-            None => segment::nearest_point(p, &self.position(index), &self.position(index + 1)),
-        }
+        nearest_along(self.way(index), p, &self.position(index), &self.position(index + 1))
     }
 
     /// Stamps, s.

@@ -9,14 +9,17 @@ use crate::robot::arm::{Outline, WorkObject, body_name};
 use crate::search::heaviest::MOST_EXACT_POINTS;
 
 /// What stands behind the moves.
-pub(super) fn claim(setup: &ArmSetup, said: &mut Vec<String>) {
+pub(super) fn claim(setup: &ArmSetup, tally: &Tally, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     let clearance = generate.moves.clearance_mm;
-    let off = match setup.scenario.spec.path {
-        Some(limit) => {
+    let off = match (tally.proven_short_of(&*setup.scenario), setup.scenario.spec.path) {
+        (Some(within), _) => format!(
+            "of runs within {within} mm of their path, which is less than `spec.path.max_mm` by now, and of no others"
+        ),
+        (None, Some(limit)) => {
             format!("as far as runs stay within the {} mm of `spec.path.max_mm` of their path", limit.max_mm)
         }
-        None => "of runs on their path alone, as no `spec.path.max_mm` says how far off they may be".into(),
+        (None, None) => "of runs on their path alone, as no `spec.path.max_mm` says how far off they may be".into(),
     };
     said.push(match generate.mode {
         ArmMode::Joint => format!(

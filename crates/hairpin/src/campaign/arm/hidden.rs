@@ -53,9 +53,9 @@ impl ArmSetup {
 fn farthest(path: &Track, other: &Track) -> f64 {
     let nearest = |i: usize| {
         let point = path.position(i);
-        let chord = |j: usize| point_distance(&point, &other.position(j), &other.position(j + 1));
+        let chord = |j: usize| (point_distance(&point, &other.position(j), &other.position(j + 1)), j);
         // Curves are looked at about the nearest chord alone.
-        let about = (0..other.len().saturating_sub(1)).min_by(|a, b| chord(*a).total_cmp(&chord(*b)))?;
+        let (_, about) = (0..other.len().saturating_sub(1)).map(chord).min_by(|a, b| a.0.total_cmp(&b.0))?;
         let beside = about.saturating_sub(1)..(about + 2).min(other.len() - 1);
         Some(beside.map(|j| (point - other.nearest(j, &point)).norm()).fold(f64::INFINITY, f64::min))
     };

@@ -47,7 +47,7 @@ impl Say for ArmSetup {
 
     fn assumptions(&self, cases: &[Case], tally: &Tally) -> Assumptions {
         let (mut said, mut search) = (Assumptions::default(), Vec::new());
-        assumptions::claim(self, &mut said.claim);
+        assumptions::claim(self, tally, &mut said.claim);
         assumptions::search(self, cases, tally, &mut search);
         assumptions::act(self, &mut said.act);
         assumptions::verdict(self, &mut said.verdict);

@@ -63,8 +63,7 @@ fn witness(setup: &BoatSetup, case: &Case) -> Option<(Proof, Option<EndError>)> 
     let hull = hull_of(&setup.boat, generate.limits.thrust_share.unwrap_or(1.0));
     let tolerances = Tolerances { accuracy: ACCURACY, ..Tolerances::default() };
     let mut proof = verify_boat(&hull, &claim, &tolerances);
-    let durations: Vec<f64> = legs.iter().map(|leg| leg.duration).collect();
-    verify_times(case, &durations, setup.longest(), &mut proof);
+    verify_times(case, profile, setup.longest(), &mut proof);
     for number in 0..legs.len() {
         let mut found = Collector::on_leg(&mut proof.findings, number, 0.0);
         found.above("height", case.waypoints[number + 1].z.abs(), 0.0, "m");

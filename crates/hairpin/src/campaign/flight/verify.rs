@@ -38,8 +38,7 @@ pub(super) fn verify(setup: &FlightSetup, case: &Case, made: Made) -> Option<(Pr
     proof.findings.extend(verify_flight_limits(&body, &legs, &limits(setup)));
     proof.findings.extend(outside(setup, &legs));
     let longest = setup.scenario.generate.limits.max_flight_time_s.unwrap_or(f64::INFINITY);
-    let durations: Vec<f64> = legs.iter().map(|leg| leg.duration).collect();
-    verify_times(case, &durations, longest, &mut proof);
+    verify_times(case, profile, longest, &mut proof);
     if made == Made::Searched {
         let task = &setup.scenario.task;
         verify_task(&Task { start: &task.start_m, end: Some(&task.end_m), length: task.length }, case, &mut proof);

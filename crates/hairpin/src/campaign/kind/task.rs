@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use crate::campaign::Case;
+use crate::trajectory::{Profile, ProfileLeg};
 use crate::verification::{Collector, Proof};
 
 /// Who made a case: whoever opens its folder knows, the case itself does not.
@@ -43,16 +44,16 @@ pub(in crate::campaign) fn verify_task(task: &Task, case: &Case, proof: &mut Pro
     found.unless(length == asked, "length", length, asked, "");
 }
 
-/// Adds to `proof` what does not hold of the times of a case with legs of so many seconds: each is the case's own
+/// Adds to `proof` what does not hold of the times of a case with the legs of `profile`: each is the case's own
 /// (`legs[k].leg_time`, to 10⁻⁹ of it: what others read of the case), and together they are at most `longest`
 /// (`limits.time`), s.
-pub(in crate::campaign) fn verify_times(case: &Case, durations: &[f64], longest: f64, proof: &mut Proof) {
-    for (number, duration) in durations.iter().enumerate() {
+pub(in crate::campaign) fn verify_times(case: &Case, profile: &Profile, longest: f64, proof: &mut Proof) {
+    for (number, ProfileLeg { duration, .. }) in profile.legs.iter().enumerate() {
         let told = case.leg_times.get(number).copied().unwrap_or(f64::NAN);
         let mut found = Collector::on_leg(&mut proof.findings, number, 0.0);
         found.above("leg_time", (told - duration).abs(), SAME * duration, "s");
     }
-    let all: f64 = durations.iter().sum();
+    let all: f64 = profile.legs.iter().map(|leg| leg.duration).sum();
     Collector::about(&mut proof.findings, "limits").unless(all <= longest * (1.0 + SAME), "time", all, longest, "s");
 }
 
@@ -80,7 +81,8 @@ mod tests {
         let case = Case { leg_times: vec![1.0, 2.0], ..Case::bare(CaseNumber(0), 0, vec![Point3::origin(); 3]) };
         let fields = |durations: &[f64], longest: f64| {
             let mut proof = Proof::default();
-            verify_times(&case, durations, longest, &mut proof);
+            let leg = |duration: &f64| ProfileLeg { duration: *duration, coefficients: [[0.0; 8]; 3] };
+            verify_times(&case, &Profile { legs: durations.iter().map(leg).collect() }, longest, &mut proof);
             proof.findings.into_iter().map(|finding| finding.field).collect::<Vec<_>>()
         };
         assert!(fields(&[1.0, 2.0], 3.0).is_empty() && fields(&[1.0, 2.0], f64::INFINITY).is_empty());

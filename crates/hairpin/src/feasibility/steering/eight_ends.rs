@@ -278,7 +278,7 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 
 /// Bit i for lane number i: lanes are numbers, so that the loops over them have no branch and are compiled to vectors.
 #[inline(always)]
-fn mask(&[a, b, c, d, e, f, g, h]: &[u64; LANES]) -> u32 {
+pub(super) fn mask(&[a, b, c, d, e, f, g, h]: &[u64; LANES]) -> u32 {
     (a | b << 1 | c << 2 | d << 3 | e << 4 | f << 5 | g << 6 | h << 7) as u32
 }
 

@@ -184,11 +184,18 @@ impl BodyLimits {
         (worst.0, worst.1, worst.2)
     }
 
-    /// Whether (1 or 0) every limit is proven of `demand`, and whether one is violated at its centre.
+    /// Whether (1 or 0) every limit is proven within `half` (s) of the centre of an interval, and whether one is
+    /// violated at the centre; `d` are position and its derivatives of every axis there, SI.
     ///
     /// Comparisons with NaN are false, so what is undefined is never proven.
     #[inline(always)]
-    pub(super) fn decide(&self, demand: &Demand<Enclosure<f64>>) -> (u64, u64) {
+    pub(super) fn decide(&self, flatness: &Flatness, d: &[[f64; 8]; 3], half: f64) -> (u64, u64) {
+        let demand = flatness.demand(&FlatState {
+            velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
+            acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
+            jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
+            snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
+        });
         let (mut proven, mut violated) = (true, false);
         let mut require = |margin: Enclosure<f64>, room: f64| {
             proven &= margin.lower() >= room;
@@ -237,15 +244,8 @@ at_every_level! {
         let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order].to_array()));
         let (mut proven, mut violated) = ([0; 4], [0; 4]);
         for lane in 0..4 {
-            let half = half[lane];
             let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order][lane]));
-            let demand = flatness.demand(&FlatState {
-                velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
-                acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
-                jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
-                snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
-            });
-            (proven[lane], violated[lane]) = body.decide(&demand);
+            (proven[lane], violated[lane]) = body.decide(flatness, &d, half[lane]);
         }
         (mask(&proven), mask(&violated))
     }

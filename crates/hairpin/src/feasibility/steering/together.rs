@@ -5,15 +5,13 @@
 //! short to be halved refuses the leg in any order, and a leg of which all is proven within the budget is proven in
 //! any. What comes near the budget is left to the order in which that is spent.
 
-use super::flatness::{FlatState, Flatness};
+use super::eight_ends::{LANES, mask};
+use super::flatness::Flatness;
 use super::halving::{ProofSettings, WAITING};
 use super::proof::BodyLimits;
-use crate::math::interval::{Enclosure, unrolled};
+use crate::math::interval::unrolled;
 use crate::math::simd::at_every_level;
 use crate::trajectory::ProfileLeg;
-
-/// Intervals that are looked at together.
-const LANES: usize = 8;
 
 /// An interval of a leg that is to be decided.
 #[derive(Debug, Clone, Copy)]
@@ -188,24 +186,11 @@ at_every_level! {
         }
         let (mut proven, mut violated) = ([0; LANES], [0; LANES]);
         for lane in 0..LANES {
-            let half = half[lane];
             let d = unrolled!(|axis| unrolled!([0, 1, 2, 3, 4, 5, 6, 7], |order| d[axis][order][lane]));
-            let demand = flatness.demand(&FlatState {
-                velocity: unrolled!(|axis| Enclosure::taylor(&d[axis][1..], half)),
-                acceleration: unrolled!(|axis| Enclosure::taylor(&d[axis][2..], half)),
-                jerk: unrolled!(|axis| Enclosure::taylor(&d[axis][3..], half)),
-                snap: unrolled!(|axis| Enclosure::taylor(&d[axis][4..], half)),
-            });
-            (proven[lane], violated[lane]) = body.decide(&demand);
+            (proven[lane], violated[lane]) = body.decide(flatness, &d, half[lane]);
         }
         (mask(&proven), mask(&violated))
     }
-}
-
-/// Bit i for lane number i, each 1 or 0.
-#[inline(always)]
-fn mask(&[a, b, c, d, e, f, g, h]: &[u64; LANES]) -> u32 {
-    (a | b << 1 | c << 2 | d << 3 | e << 4 | f << 5 | g << 6 | h << 7) as u32
 }
 
 #[cfg(test)]

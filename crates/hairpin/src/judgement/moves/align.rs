@@ -12,9 +12,8 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Point3};
 
 use crate::judgement::narrow::narrowed;
-use crate::math::cubic::Cubic;
+use crate::math::cubic::{Cubic, nearest_along};
 use crate::math::power::square;
-use crate::math::segment::nearest_point;
 use crate::trajectory::{PlannedPath, Track};
 
 /// The planned path by distance: poses that differ, how far along each lies, and where moves end.
@@ -224,10 +223,7 @@ impl Way {
     /// Distance of `point` from pose `j` and from the ways that begin at the poses of `range`, curved ones as they are,
     /// m.
     fn distance_from(&self, range: Range<usize>, point: &Point3<f64>, j: usize) -> f64 {
-        let nearest = |i: usize| match &self.ways[i] {
-            Some(way) => way.nearest(point),
-            None => nearest_point(point, &self.place(i), &self.place(i + 1)),
-        };
+        let nearest = |i: usize| nearest_along(self.ways[i].as_ref(), point, &self.place(i), &self.place(i + 1));
         range.map(|i| (point - nearest(i)).norm()).fold((point - self.place(j)).norm(), f64::min)
     }
 }
