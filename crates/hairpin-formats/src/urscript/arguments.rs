@@ -57,9 +57,11 @@ impl Arguments {
         }
     }
 
-    /// The first name that is none of these.
-    pub(super) fn unknown(&self, known: &[&str]) -> Option<&str> {
-        self.named.iter().map(|(name, _)| name.as_str()).find(|name| !known.contains(name))
+    /// The first argument that is none of these, by its name or beyond the last of them.
+    pub(super) fn unknown(&self, known: &[&str]) -> Option<String> {
+        let named = self.named.iter().map(|(name, _)| name).find(|name| !known.contains(&name.as_str()));
+        let beyond = || (self.placed.len() > known.len()).then(|| format!("argument {}", known.len() + 1));
+        named.cloned().or_else(beyond)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Programs read from URScript, line by line.
 
 use hairpin::trajectory::program::{JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Speed, Tool, WorkObject, Zone};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use super::CONVENTIONS;
@@ -194,6 +194,9 @@ impl Reader {
     fn set_tcp(&mut self, line: usize, inside: &str) -> Result<(), String> {
         let arguments = Arguments::of(inside)?;
         let Some(Value::Pose(tcp)) = arguments.get(0, "pose") else { return Err("expected a pose, p[…]".into()) };
+        if let Some(unknown) = arguments.unknown(&["pose", "tcp_name"]) {
+            return Err(format!("{unknown} is not followed"));
+        }
         let tools = &mut self.reading.program.tools;
         tools.push(Tool { name: format!("tool{}", tools.len() + 1), declare: true, tcp: *tcp, ..Tool::flange() });
         self.tool = Some(tools.len() - 1);
@@ -211,11 +214,17 @@ impl Reader {
             _ => None,
         };
         let centre = centre.ok_or("expected a centre of gravity, [x, y, z]")?;
-        if let Some(unknown) = arguments.unknown(&["m", "cog"]) {
+        let (axes, moments) = match arguments.get(2, "inertia") {
+            None => (UnitQuaternion::identity(), [0.0; 3]),
+            Some(Value::List(six)) => principal(six)?,
+            Some(_) => return Err("expected moments of inertia, [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]".into()),
+        };
+        if let Some(unknown) = arguments.unknown(&["m", "cog", "inertia"]) {
             return Err(format!("{unknown} is not followed"));
         }
         if let Some(tool) = self.tool.and_then(|index| self.reading.program.tools.get_mut(index)) {
             (tool.mass, tool.centre_of_gravity) = (mass, Vector3::from(centre));
+            (tool.axes_of_inertia, tool.inertia) = (axes, moments);
         }
         self.reading.mark(line, Class::Understood, "");
         Ok(())
@@ -329,4 +338,29 @@ fn begins_block(statement: &str) -> bool {
 fn name_of(statement: &str) -> Option<String> {
     let name = statement.strip_prefix("def ")?.split('(').next()?.trim();
     name.starts_with(char::is_alphabetic).then(|| name.to_owned())
+}
+
+/// What moments may be below 0 by, as a share of the largest: they are written with so many digits.
+const WRITTEN: f64 = 1e-6;
+
+/// `flange_from_axes` and the principal moments of inertia, of Ixx, Iyy, Izz, Ixy, Ixz, Iyz; kg m².
+fn principal(six: &[f64]) -> Result<(UnitQuaternion<f64>, [f64; 3]), String> {
+    let &[xx, yy, zz, xy, xz, yz] = six else {
+        return Err(format!("expected six moments of inertia, found {}", six.len()));
+    };
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let (axes, moments) = if [xy, xz, yz] == [0.0; 3] {
+        (UnitQuaternion::identity(), Vector3::new(xx, yy, zz))
+    } else {
+        let SymmetricEigen { mut eigenvectors, eigenvalues } = SymmetricEigen::new(tensor);
+        if eigenvectors.determinant() < 0.0 {
+            eigenvectors.column_mut(2).neg_mut();
+        }
+        (UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(eigenvectors)), eigenvalues)
+    };
+    let least = moments.min();
+    if least < -WRITTEN * moments.max() {
+        return Err(format!("a moment of inertia is {least} kg m², and no body has one below 0"));
+    }
+    Ok((axes, moments.map(|moment| moment.max(0.0)).into()))
 }

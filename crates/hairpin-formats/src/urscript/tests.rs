@@ -131,6 +131,42 @@ fn what_is_written_reads_back_and_is_written_the_same() {
     assert_eq!((tool.tcp, tool.mass, tool.centre_of_gravity), (again.tcp, again.mass, again.centre_of_gravity));
 }
 
+/// The whole tensor in the flange's axes, whatever axes the tool tells it in.
+#[test]
+fn moments_of_inertia_go_along() {
+    let mut program = program();
+    let tool = &mut program.tools[0];
+    (tool.inertia, tool.axes_of_inertia) = ([0.01, 0.02, 0.005], turned(0.3, -0.8, 1.1));
+    let tensor = tool.tensor_of_inertia();
+    let written = text(&program, &Settings::default(), &[]).unwrap();
+    let six = &calls(&written)[1].1[1];
+    let expected = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|place| tensor[place]);
+    assert!(six.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9) && six[3].abs() > 1e-4, "{six:?} {tensor}");
+    let read = back(&written);
+    assert_eq!((read.unclear_line, &read.mistakes[..]), (None, &[][..]), "{:?}", read.lines);
+    assert!((read.program.tools[0].tensor_of_inertia() - tensor).norm() < 1e-8);
+    // Along the flange's axes they are the numbers themselves.
+    let payload = |arguments: &str| {
+        let head = "def m():\n  set_tcp(p[0,0,0.1,0,0,0])\n";
+        back(&format!(
+            "{head}  set_target_payload(1.5, [0,0,0.05]{arguments})\n  movej([0,-1.5,1.5,0,1.5,0])\nend\nm()\n"
+        ))
+    };
+    for told in ["[0.03,0.01,0.02,0,0,0]", "inertia=[0.03,0.01,0.02,0,0,0]"] {
+        let read = payload(&format!(", {told}"));
+        assert_eq!((read.unclear_line, read.program.tools[0].inertia), (None, [0.03, 0.01, 0.02]), "{:?}", read.lines);
+    }
+    for (told, words) in [
+        ("[0.03,0.01]", "six moments of inertia"),
+        ("[0.01,0.01,0.01,0.05,0,0]", "no body has one below 0"),
+        ("[0.03,0.01,0.02,0,0,0], 0.5", "argument 4 is not followed"),
+        ("transition_time=0.5", "transition_time is not followed"),
+    ] {
+        let read = payload(&format!(", {told}"));
+        assert!(read.unclear_line == Some(3) && read.lines[&3].what.contains(words), "{told}: {:?}", read.lines);
+    }
+}
+
 #[test]
 fn what_is_not_followed_is_named_by_line() {
     let head = "def m():\n  set_tcp(p[0,0,0.1,0,0,0])\n  set_target_payload(1.5, [0,0,0.05])\n  movej([0,-1.5,1.5,0,1.5,0], a=1, v=1, r=0)\n";
@@ -146,6 +182,8 @@ fn what_is_not_followed_is_named_by_line() {
         ("sleep(servoj([0,0,0,0,0,0]))", Some(Unmodelled::Guidance), "`servoj` is not followed"),
         ("set_payload(3.0)", Some(Unmodelled::Payload), "`set_payload` is not followed"),
         ("set_target_payload(3.0, [0,0,0])", Some(Unmodelled::Payload), "set_target_payload"),
+        ("movel(p[0.4,0,0.3,0,3.1,0], 1.2, 0.2, 0, 0, 7)", None, "argument 6 is not followed"),
+        ("set_tcp(p[0,0,0.1,0,0,0], \"gun\", 1)", None, "argument 3 is not followed"),
         (
             "force_mode(p[0,0,0,0,0,0], [0,0,1,0,0,0], [0,0,9,0,0,0], 2, [1,1,1,1,1,1])",
             Some(Unmodelled::ForceControl),

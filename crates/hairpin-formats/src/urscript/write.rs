@@ -1,7 +1,7 @@
 //! Programs written as URScript.
 
 use hairpin::math::rotation::rotation_vector;
-use hairpin::trajectory::program::{Motion, Move, PoseTarget, Program, ProgramError};
+use hairpin::trajectory::program::{Motion, Move, PoseTarget, Program, ProgramError, Tool};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
@@ -128,12 +128,23 @@ pub fn text(program: &Program, settings: &Settings, header: &[String]) -> Result
             lines.push(format!("  set_tcp({})", pose(&carried.tcp)));
             let centre = carried.centre_of_gravity;
             let centre = [centre.x, centre.y, centre.z].map(metres).join(",");
-            lines.push(format!("  set_target_payload({}, [{centre}])", decimal(carried.mass, 6)));
+            lines.push(format!("  set_target_payload({}, [{centre}]{})", decimal(carried.mass, 6), moments(carried)));
         }
         lines.push(format!("  {}", go(program, index, m, settings)));
     }
     lines.extend(["end".into(), format!("{name}()"), String::new()]);
     Ok(lines.join("\n"))
+}
+
+/// Ixx, Iyy, Izz, Ixy, Ixz and Iyz, kg m², about the centre of gravity in the flange's axes; nothing of a point, which
+/// is what the controller takes without them.
+fn moments(tool: &Tool) -> String {
+    if tool.inertia == [0.0; 3] {
+        return String::new();
+    }
+    let tensor = tool.tensor_of_inertia();
+    let six = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|place| decimal(tensor[place], 9));
+    format!(", [{}]", six.join(","))
 }
 
 fn go(program: &Program, index: usize, m: &Move, settings: &Settings) -> String {

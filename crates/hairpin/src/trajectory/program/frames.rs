@@ -4,7 +4,7 @@
 //! (flange_from_tcp)⁻¹. A tool that stands in the cell with a held work object is read and written, and told as such;
 //! arms here do not execute it.
 
-use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// A tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +57,12 @@ impl Tool {
             axes_of_inertia: UnitQuaternion::identity(),
             inertia: [0.0; 3],
         }
+    }
+
+    /// Tensor of inertia about the centre of gravity in the flange's axes, kg m²: R diag(I₁, I₂, I₃) Rᵀ.
+    pub fn tensor_of_inertia(&self) -> Matrix3<f64> {
+        let turn = self.axes_of_inertia.to_rotation_matrix();
+        turn * Matrix3::from_diagonal(&Vector3::from(self.inertia)) * turn.inverse()
     }
 }
 
