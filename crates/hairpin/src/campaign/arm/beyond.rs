@@ -1,5 +1,5 @@
-//! Joints of runs and logs that stand where no joint of the arm can: another unit, another arm's, or angles that went
-//! on turning.
+//! Joints of runs and logs that stand where no joint of the arm can, or turn as none does: another unit, another arm's,
+//! a clock that is wrong, or angles that went on turning.
 
 use super::ArmSetup;
 use crate::robot::arm::AXES;
@@ -10,6 +10,11 @@ use crate::trajectory::Track;
 const ALLOWED: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// Who stands farther beyond them does not stand there: the unit is another, rad.
 const ANOTHER_UNIT: f64 = std::f64::consts::TAU;
+
+/// Mean speeds are looked at over so long (s), and from one sample to the next: noise counts for less over longer.
+const LOOK: f64 = 0.1;
+/// So much faster than its largest speed a joint may be told to turn, as a share of it: rated speeds are no walls.
+const FASTER: f64 = 0.1;
 
 /// A joint beyond its bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +60,66 @@ impl Beyond {
     }
 }
 
+/// A joint that turns faster than it can.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooFast {
+    /// From 1.
+    pub axis: usize,
+    /// Its mean speed, rad/s.
+    pub speed: f64,
+    /// Its largest, rad/s.
+    pub limit: f64,
+    /// From when, s.
+    pub at: f64,
+    /// For how long, s.
+    pub over: f64,
+}
+
+impl TooFast {
+    /// By what share of its largest speed, noise left out; NaN where it stands still in no time.
+    fn by(&self) -> f64 {
+        (self.speed - ALLOWED / self.over) / self.limit - 1.0
+    }
+
+    /// Why such a motion decides nothing: `axis 1 turns by 412.0°/s from t = 3.20 s on for 0.100 s, and its largest speed
+    /// is 250.0°/s (10 % and 0.5° more are allowed): no joint of this arm is that fast`.
+    pub fn in_words(&self) -> String {
+        let [speed, limit, allowed] = [self.speed, self.limit, ALLOWED].map(f64::to_degrees);
+        format!(
+            "axis {} turns by {speed:.1}°/s from t = {:.2} s on for {:.3} s, and its largest speed is {limit:.1}°/s ({:.0} % and \
+             {allowed:.1}° more are allowed): no joint of this arm is that fast",
+            self.axis,
+            self.at,
+            self.over,
+            1e2 * FASTER
+        )
+    }
+}
+
 impl ArmSetup {
+    /// The joint that is the most too fast, by its share, in a motion with the channels `q1_rad` … `q6_rad`, from one
+    /// sample to the next or for a tenth of a second, the first of equals; `None` where none is.
+    pub fn too_fast(&self, motion: &Track) -> Option<TooFast> {
+        let times = motion.times();
+        let axes = (0..AXES).filter_map(|axis| Some((axis, motion.channel(&format!("q{}_rad", axis + 1))?)));
+        let all = axes.flat_map(|(axis, angles)| {
+            let limit = self.station.arm.limits[axis].speed;
+            let from = move |i: usize, j: usize| {
+                let over = times[j] - times[i];
+                TooFast { axis: axis + 1, speed: (angles[j] - angles[i]).abs() / over, limit, at: times[i], over }
+            };
+            let mut far = 0;
+            (0..times.len().saturating_sub(1)).flat_map(move |i| {
+                while far + 1 < times.len() && times[far] - times[i] < LOOK {
+                    far += 1;
+                }
+                [from(i, i + 1), from(i, far.max(i + 1))]
+            })
+        });
+        let most = all.filter(|one| one.by() > FASTER);
+        most.reduce(|most, one| if one.by() > most.by() { one } else { most })
+    }
+
     /// The joint that stands farthest beyond its bounds in a motion with the channels `q1_rad` … `q6_rad`, the first of
     /// equals; `None` where all keep them, but for half a degree.
     pub fn beyond_bounds(&self, motion: &Track) -> Option<Beyond> {

@@ -66,7 +66,8 @@ impl Programs for ArmSetup {
     }
 
     fn beyond(&self, recording: &Track) -> Option<String> {
-        self.beyond_bounds(recording).map(|beyond| beyond.in_words())
+        let stands = self.beyond_bounds(recording).map(|beyond| beyond.in_words());
+        stands.or_else(|| self.too_fast(recording).map(|fast| fast.in_words()))
     }
 
     fn moves_seen(&self, case: &Case) -> Vec<Option<MoveFeatures>> {

@@ -60,7 +60,7 @@ mod ways;
 mod written;
 
 pub use arm_graph::ArmGraph;
-pub use beyond::Beyond;
+pub use beyond::{Beyond, TooFast};
 pub use clock::ArcClock;
 pub use graph::{graph_of, graph_until};
 pub use points::CellPoint;

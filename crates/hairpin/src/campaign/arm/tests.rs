@@ -14,7 +14,7 @@ use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{
-    self, CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, execute_run, judge, verify,
+    self, CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, Tally, execute_run, judge, verify,
 };
 use crate::judgement::{LegSource, Stress};
 use crate::math::random::stream;
@@ -438,6 +438,38 @@ fn joints_beyond_what_they_can_do_are_no_pass() {
     assert!(refused.starts_with("joint_1 is at 9.18 rad, 526°, and its range is -165° to 165°"), "{refused}");
 }
 
+/// A path that is flown along in half the time is none that the arm moved along, whatever the path says.
+#[test]
+fn joints_faster_than_they_can_are_no_pass() {
+    let limits = ("spec", json!({ "path": { "max_mm": 15.0 } }));
+    let jump = |axis: usize, t: f64, q: f64| if axis == 6 && (1.996..2.004).contains(&t) { q + 0.1 } else { q };
+    for result in run_and_log(std::slice::from_ref(&limits), 0.0, jump) {
+        let why = result.message.unwrap_or_default();
+        assert!(result.status == Status::Inconclusive && why.contains("axis 6 turns by "), "{why}");
+        assert!(why.contains("°/s (10 % and 0.5° more are allowed): no joint of this arm is that fast"), "{why}");
+    }
+    let setup = setup(&[]);
+    let arm = own(&setup);
+    let limit = arm.station.arm.limits[1].speed;
+    // Samples every `step` s for a second, all turned at a share of the largest speed, with 0.2° of noise.
+    let turned = |share: f64, step: f64, skipped: usize| {
+        let times: Vec<f64> = (0..=(1.0 / step) as usize).map(|i| i as f64 * step).collect();
+        let noise = |i: usize| if i % 2 == 0 { 0.2_f64.to_radians() } else { 0.0 };
+        let at = |(i, t): (usize, &f64)| share * limit * (t + f64::from(i > 5) * skipped as f64 * step) + noise(i);
+        let channel = Channel { name: "q2_rad".into(), values: times.iter().enumerate().map(at).collect() };
+        let poses = vec![Isometry3::identity(); times.len()];
+        arm.too_fast(&Track::new(times, poses, vec![channel]).unwrap())
+    };
+    for step in [0.002, 0.01, 0.25] {
+        assert_eq!(turned(1.0, step, 0), None, "{step}");
+        let fast = turned(1.2, step, 0).expect("too fast");
+        assert!(fast.axis == 2 && fast.over >= 0.1 && (fast.speed / limit - 1.2).abs() < 0.05, "{step}: {fast:?}");
+    }
+    // Of one of whose samples some are left out between two.
+    let jump = turned(1.0, 0.02, 3).expect("a jump");
+    assert!((jump.at - 0.1).abs() < 1e-9 && (jump.over - 0.02).abs() < 1e-9, "{jump:?}");
+}
+
 /// Moves in joints bulge away from the straight lines between their ends.
 #[test]
 fn legs_of_a_log_are_those_along_the_planned_path() {
@@ -542,4 +574,22 @@ fn meshes_in_metres_and_scales_of_nothing_are_refused() {
         let found = changed(&[("world.obstacles[1]", obstacle)]).err().unwrap_or_default();
         assert!(found.iter().any(|mistake| mistake.contains(words)), "{found:?} should say {words:?}");
     }
+}
+
+/// What was proven clear within 15 mm is not said to hold within the 500 that the limit lets runs stray by now.
+#[test]
+fn what_clear_holds_of_is_said_once() {
+    let said = |max_mm: Option<f64>| {
+        let spec = max_mm.map_or_else(|| json!({}), |max_mm| json!({ "path": { "max_mm": max_mm } }));
+        let setup = setup(&[("spec", spec)]);
+        let tally = Tally { clear_within_mm: Some(15.0), ..Tally::default() };
+        let said = campaign::assumptions(&setup, &[], &tally);
+        said.into_iter().filter(|said| said.contains("`clear")).collect::<Vec<_>>().join(" ")
+    };
+    let as_proven = "It holds as far as runs stay within the 15 mm of `spec.path.max_mm` of their path.";
+    assert!(said(Some(15.0)).ends_with(as_proven), "{}", said(Some(15.0)));
+    let short =
+        "It holds of runs within 15 mm of their path, which is less than `spec.path.max_mm` by now, and of no others.";
+    assert!(said(Some(500.0)).ends_with(short), "{}", said(Some(500.0)));
+    assert!(said(None).contains("It holds of runs on their path alone, "), "{}", said(None));
 }

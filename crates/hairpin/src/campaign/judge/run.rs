@@ -1,0 +1,205 @@
+//! One run: what it measured, what it violates, and what it leaves open.
+//!
+//! Data flow: run → [`Drawn`] → measures of the rows that stand, or of all rows as they were measured → [`Seen`] →
+//! violations, and where there are none what speaks against a pass → [`JudgedRun`].
+
+use std::borrow::Cow;
+use std::cell::OnceCell;
+
+use super::along::{latest, left_out, proven, with_legs};
+use crate::campaign::gravity::Gravity;
+use crate::campaign::hidden::{hidden, sampled};
+use crate::campaign::impossible::too_fast;
+use crate::campaign::missed::missed;
+use crate::campaign::scenario::{Asked, DeviationFrom, Terms};
+use crate::campaign::{Case, Mistake, Run, Setup};
+use crate::judgement::moves::Measured;
+use crate::judgement::{self, Clearance, JudgementError, LegSource, Measures, Reference, Settings, Violation};
+use crate::trajectory::{Ended, Flight, PlannedPath, Track};
+
+/// A run with what it comes to.
+pub(super) struct JudgedRun {
+    pub(super) measures: Measures,
+    pub(super) violations: Vec<Violation>,
+    /// Why what was recorded decides nothing.
+    pub(super) open: Option<String>,
+    pub(super) ended: String,
+    pub(super) left_world: Option<f64>,
+    /// What it is compared by where it violates nothing: what the first limit bounds.
+    within: f64,
+    pub(super) moves: Option<Measured>,
+}
+
+impl JudgedRun {
+    pub(super) fn gravity(&self) -> Gravity {
+        Gravity::of((&self.violations, &self.ended), self.measures.max_deviation, self.within)
+    }
+}
+
+/// A case's planned motion, once a run asked for it.
+#[derive(Default)]
+pub(super) struct Planned {
+    /// What deviations are measured from.
+    reference: OnceCell<Option<Track>>,
+    /// Of programs: the path with its zones and where its moves end.
+    programmed: OnceCell<Option<PlannedPath>>,
+}
+
+/// Measures one run in the world that was drawn for it.
+pub(super) fn judge_run(
+    setup: &Setup,
+    case: &Case,
+    plan: &Planned,
+    run: &Run,
+    flight: &Flight,
+) -> Result<Result<JudgedRun, JudgementError>, Mistake> {
+    let around = setup.around(case)?;
+    let setup = around.as_ref();
+    let Drawn { own, terms } = Drawn::of(setup, run)?;
+    let programs = setup.kind().programs();
+    let programmed = plan.programmed.get_or_init(|| programs?.programmed(case)).as_ref();
+    // Rows may have been left out since it was measured so; deviations that are asked for otherwise are measured of
+    // those that stand.
+    let known = run.full_rate.as_ref().filter(|known| known.is_by(&terms));
+    let path = match terms.from {
+        DeviationFrom::Path if known.is_none() => {
+            plan.reference.get_or_init(|| reference(setup, case, programmed)).as_ref()
+        }
+        _ => None,
+    };
+    let mut moves = programs.and_then(|programs| programs.measured(programmed?, &flight.track, path));
+    let legs = moves.as_mut().map(|moves| std::mem::take(&mut moves.legs)).unwrap_or_default();
+    let measured = match known {
+        Some(known) => Ok(known.measures.clone()),
+        None => of_rows(&own, &terms, path, (case, flight, &legs)).map(|rows| match &run.full_rate {
+            Some(by_others) => by_others.beside(rows),
+            None => rows,
+        }),
+    };
+    Ok(measured.map(|mut measures| {
+        measures.latest = moves.as_ref().and_then(latest);
+        let moves_of = moves.iter().flat_map(|moves| &moves.moves);
+        measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
+        let seen = Seen { own: &own, terms: &terms, case, flight, measures: &measures, moves: moves.as_ref() };
+        let violations = seen.violations();
+        JudgedRun {
+            open: seen.open(violations.is_empty()),
+            violations: match programs {
+                Some(programs) => violations.into_iter().map(|one| programs.in_their_units(one)).collect(),
+                None => violations,
+            },
+            ended: flight.ended.word().into(),
+            left_world: flight.left_world,
+            within: terms.gauge().of(&measures).unwrap_or(measures.max_deviation),
+            measures,
+            moves,
+        }
+    }))
+}
+
+/// The measures of the rows that stand, by legs that the run or its way along the planned path tells.
+fn of_rows(
+    own: &Setup,
+    terms: &Terms,
+    path: Option<&Track>,
+    (case, flight, legs): (&Case, &Flight, &[usize]),
+) -> Result<Measures, JudgementError> {
+    let clearance = own.kind().clearance();
+    let settings = settings(terms, path, clearance.as_deref());
+    match with_legs(&flight.track, legs, case.waypoints.len()) {
+        Some(track) => sampled(own, &track, &case.waypoints, &settings)
+            .map(|rows| Measures { leg_source: LegSource::Assigned, ..rows }),
+        None => sampled(own, &flight.track, &case.waypoints, &settings),
+    }
+}
+
+/// What there is to judge a run by.
+struct Seen<'a> {
+    /// As it was drawn for the run.
+    own: &'a Setup,
+    terms: &'a Terms,
+    case: &'a Case,
+    flight: &'a Flight,
+    measures: &'a Measures,
+    /// Of programs.
+    moves: Option<&'a Measured>,
+}
+
+impl Seen<'_> {
+    /// In SI.
+    fn violations(&self) -> Vec<Violation> {
+        let limits = &self.terms.limits;
+        let mut violations = judgement::violations(self.measures, self.flight, limits);
+        let Some(moves) = self.moves else { return violations };
+        let ours = self.own.kind().programs().is_some_and(|programs| programs.recordings().is_none());
+        if ours && limits.unfinished && self.flight.ended == Ended::Done {
+            violations.splice(..0, left_out(moves));
+        }
+        if let Some(unseen) = &moves.unseen {
+            proven(&mut violations, unseen.late_proven, moves);
+        }
+        violations
+    }
+
+    /// Why it decides nothing, whatever it violates or leaves out, the gravest reason first; much of that only where
+    /// it `keeps` every limit, as what violates has an answer.
+    fn open(&self, keeps: bool) -> Option<String> {
+        let Self { own, case, flight, measures, .. } = *self;
+        let limits = &self.terms.limits;
+        let programs = own.kind().programs();
+        let kept = || self.moves.filter(|_| keeps);
+        too_fast(own, case, flight, limits)
+            .or_else(|| programs.filter(|_| limits.are_given())?.beyond(&flight.track))
+            .or_else(|| self.moves?.unseen.as_ref()?.open.clone())
+            .or_else(|| kept().filter(|_| limits.unfinished)?.beside(limits.deviation.is_some()))
+            .or_else(|| kept().filter(|_| limits.late.is_some())?.unarrived())
+            .or_else(|| missed(own, flight, measures, limits).filter(|_| keeps))
+            .or_else(|| hidden(own, measures, limits))
+            .or_else(|| limits.open(measures))
+    }
+}
+
+/// What a run is judged by, with what was drawn for it.
+pub(in crate::campaign) struct Drawn<'a> {
+    /// The scenario that it was flown in.
+    pub(in crate::campaign) own: Cow<'a, Setup>,
+    pub(in crate::campaign) terms: Terms,
+}
+
+impl<'a> Drawn<'a> {
+    pub(in crate::campaign) fn of(setup: &'a Setup, run: &Run) -> Result<Self, Mistake> {
+        let own = match run.drawn.is_empty() {
+            true => Cow::Borrowed(setup),
+            false => Cow::Owned(setup.drawn(&run.drawn)?),
+        };
+        let mut terms = own.scenario.head().terms;
+        // Who asks for nothing does not ask for missions that are finished either.
+        terms.limits.unfinished = own.scenario.asked() != Asked::Nothing;
+        terms.limits.contact = own.program().is_some();
+        Ok(Self { own, terms })
+    }
+}
+
+/// How a run is measured by `terms`, from the `path` where they ask for it. Recordings of ours have no breaks.
+pub(in crate::campaign) fn settings<'a>(
+    terms: &Terms,
+    path: Option<&'a Track>,
+    clearance: Option<&'a Clearance<'a>>,
+) -> Settings<'a> {
+    let reference = match (terms.from, path) {
+        (DeviationFrom::Path, Some(path)) => Reference::Path(path),
+        (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
+        _ => Reference::Leg,
+    };
+    Settings { reference, corner: terms.corner, clearance, breaks: &[] }
+}
+
+/// The motion that deviations from the path are measured from.
+///
+/// `None` where the case has no motion: the judge then says that nothing can be measured from a path.
+pub(in crate::campaign) fn reference(setup: &Setup, case: &Case, programmed: Option<&PlannedPath>) -> Option<Track> {
+    match setup.kind().programs() {
+        Some(programs) => programs.reference(case, programmed),
+        None => setup.kind().followed(case).ok(),
+    }
+}
