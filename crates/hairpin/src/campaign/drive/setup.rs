@@ -15,6 +15,7 @@ use crate::math::simd::Simd;
 use crate::robot::rover::{Rover, Suspension};
 use crate::simulation::OwnController;
 use crate::trajectory::Direction;
+use crate::trajectory::drive::Planar;
 use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 
@@ -127,6 +128,12 @@ impl DriveSetup {
     /// The scenario's or the robot's, whichever is smaller.
     pub fn tilt(&self) -> f64 {
         self.scenario.generate.limits.tilt_deg.map_or(f64::INFINITY, f64::to_radians).min(self.rover.limits.tilt)
+    }
+
+    /// Where drives begin.
+    pub(super) fn start(&self) -> Planar {
+        let start = &self.scenario.task.start;
+        Planar { x: start.x_m, y: start.y_m, yaw: start.yaw_deg.to_radians(), curvature: start.curvature_1_m }
     }
 
     /// Radius of the circle about its origin that holds the vehicle, m.

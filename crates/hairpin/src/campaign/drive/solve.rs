@@ -22,12 +22,11 @@ use crate::campaign::scenario::{GroundReach, Manoeuvre, SearchMethod, SearchSect
 use crate::campaign::{Evidence, Stop};
 use crate::feasibility::reach::drive::{
     DriveDraft, DriveLegs, DriveLimits, DriveRoadmap, DriveSettings, DriveSite, GroundSampling, GroundScore,
-    Manoeuvres, sample_ground,
+    LegRefusal, Manoeuvres, sample_ground, stands,
 };
 use crate::feasibility::steering::shooting::families;
 use crate::math::random::{Stream, named_seed};
 use crate::search::{Found, Score};
-use crate::trajectory::drive::Planar;
 use crate::trajectory::{Drive, Passing};
 use crate::world::terrain::Terrain;
 
@@ -67,7 +66,13 @@ impl<'a> DriveSolver<'a> {
     pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
         let settings = settings(setup)?;
         let stepwise = match setup.scenario.generate.reach {
-            GroundReach::Witness => None,
+            GroundReach::Witness => {
+                // Before any ground is sampled: no leg leaves where the vehicle cannot stand, of no graph.
+                let site = DriveSite::new(&setup.planner, &setup.map, &setup.keep_out);
+                let refused = |why: LegRefusal| format!("already at `task.start` drives {}", why.says());
+                stands(&site, &settings, &setup.start()).map_err(refused)?;
+                None
+            }
             GroundReach::None | GroundReach::Sphere | GroundReach::Hull => Some(Stepwise::new(setup)?),
         };
         let search = setup.scenario.generate.search.section();
@@ -170,14 +175,7 @@ impl<'a> DriveSolver<'a> {
 
     /// The headed waypoints over `points`, with what they draw by their numbers drawn from `seed`.
     pub(super) fn roadmap(&self, seed: u64, points: &[Point3<f64>]) -> DriveRoadmap<'_> {
-        let task = &self.setup.scenario.task;
-        let start = Planar {
-            x: task.start.x_m,
-            y: task.start.y_m,
-            yaw: task.start.yaw_deg.to_radians(),
-            curvature: task.start.curvature_1_m,
-        };
-        DriveRoadmap::new(self.site(), points, &start, None, &self.settings_of(seed))
+        DriveRoadmap::new(self.site(), points, &self.setup.start(), None, &self.settings_of(seed))
     }
 
     /// Legs that were solved are kept for the next round of an adaptive campaign. Where nothing is found the reason is

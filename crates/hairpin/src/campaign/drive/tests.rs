@@ -12,7 +12,7 @@ use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::KeyPath;
 use crate::campaign::trial::{Sought, Trials};
-use crate::campaign::{Evidence, OwnSimulator, Scenario, Setup, Stop, how_obtained, verify};
+use crate::campaign::{Evidence, Mistake, OwnSimulator, Scenario, Setup, Stop, how_obtained, verify};
 use crate::judgement::Stress;
 use crate::math::random::stream;
 use crate::trajectory::drive::{Gear, Motion};
@@ -53,12 +53,17 @@ fn rover() -> Value {
     })
 }
 
-fn setup(mut value: Value, changes: &[(&str, Value)]) -> Setup {
+fn built(mut value: Value, changes: &[(&str, Value)]) -> Result<Setup, String> {
     for (key, new) in changes {
         KeyPath::parse(key).unwrap().put(&mut value, new.clone()).unwrap();
     }
     let scenario: Scenario = serde_json::from_value(value).unwrap();
-    Setup::build(scenario.into()).unwrap()
+    let told = |mistakes: Vec<Mistake>| mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+    Setup::build(scenario.into()).map_err(told)
+}
+
+fn setup(value: Value, changes: &[(&str, Value)]) -> Setup {
+    built(value, changes).unwrap()
 }
 
 fn solver(setup: &Setup) -> DriveSolver<'_> {
@@ -604,4 +609,22 @@ fn slopes_that_are_not_modelled_are_named() {
         said.iter().any(|sentence| sentence.starts_with("Slopes of the map are not modelled for `car`")),
         "{said:?}"
     );
+}
+
+/// Minutes went into graphs of which no leg could leave the start.
+#[test]
+fn where_drives_cannot_begin_nothing_is_searched() {
+    let at = |x: f64, y: f64| ("task.start", json!({ "x_m": x, "y_m": y, "yaw_deg": 0 }));
+    let mistakes = |changes: &[(&str, Value)]| built(car(), changes).err();
+    let inside = mistakes(&[at(24.0, 21.1)]).unwrap();
+    assert!(inside.contains("task.start") && inside.contains("from `pillar`; it is 0.300 m inside"), "{inside}");
+    let beside = mistakes(&[at(24.0, 21.41)]).unwrap();
+    assert!(beside.contains("the vehicle's radius, from `pillar`; it is 0.010 m from it"), "{beside}");
+    let end = mistakes(&[("task.end_m", json!([24.0, 21.0]))]).unwrap();
+    assert!(end.contains("task.end_m") && end.contains("m inside"), "{end}");
+    // Straight legs do not look at them.
+    assert_eq!(mistakes(&[at(24.0, 21.1), ("generate.reach", json!("none"))]), None);
+    let steep = setup(rover(), &[("generate.limits.tilt_deg", json!(1e-3))]);
+    let why = steep.kind().solver().err().unwrap();
+    assert_eq!(why, "already at `task.start` drives tilt more than allowed");
 }

@@ -20,8 +20,9 @@ use crate::world::terrain::ElevationMap;
 
 /// Distance of neighbouring stations, m, at most.
 const SPACING: f64 = 0.02;
-/// Steps from one station to the next, for commands that change on the way.
-const STEPS: usize = 4;
+/// Steps from one station to the next, for commands that change on the way: as long as the plant's own, so that each
+/// command is held for one of those.
+const STEPS: usize = 5;
 /// Angle between neighbouring poses of a turn in place, rad, at most.
 const TURN_SPACING: f64 = 0.05;
 
@@ -109,7 +110,7 @@ pub fn planned_track(nominal: &Rover, terrain: &ElevationMap, drive: &Drive) -> 
 
 impl Plan {
     /// Bounds of speed, curvature and acceleration are lifted, as the plan's commands keep them already; steering lags
-    /// and slip of the nominal vehicle act. 4 steps of at most 5 mm between stations.
+    /// and slip of the nominal vehicle act. 5 steps of at most 4 mm between stations.
     ///
     /// # Errors
     /// Numbers that are no drive, or a leg along which the vehicle loses ground or rest, by the leg's number.
@@ -222,7 +223,8 @@ impl Draft {
         leg: usize,
     ) -> Result<(), Lost> {
         let (length, gear) = (segment.length_m(), segment.gear.sign());
-        let (first, lags) = (segment.curvature_at(0.0), plant.vehicle.response.lags());
+        let (first, response) = (segment.curvature_at(0.0), &plant.vehicle.response);
+        let (lags, steering_lag) = (response.lags(), response.steering_time_constant);
         let direction_at = |done: f64| direction.at(driven + done, timing.length());
         let goes_on = matches!(self.sections.last(), Some(Section::Way { sign, .. }) if *sign == gear);
         let station = |plant: &Plant, s: f64, done: f64| Station {
@@ -246,7 +248,8 @@ impl Draft {
             for i in 0..STEPS {
                 let begun = step * (part * STEPS + i) as f64;
                 let time = timing.time_over(driven + begun, step);
-                let curvature = segment.curvature_at(begun + 0.5 * step);
+                let held = if lags { held_at(time, steering_lag) } else { 0.5 };
+                let curvature = segment.curvature_at(begun + held * step);
                 let direction = direction_at(begun + 0.5 * step);
                 plant
                     .advance(&DriveCommand { speed: gear * step / time, curvature, turn_rate: 0.0, direction }, time)?;
@@ -277,6 +280,16 @@ impl Draft {
         self.poses.push(plant.world_from_body());
         self.legs.push(leg as f64);
     }
+}
+
+/// At which share of a step of `time` s a ramp of commands is what a lag of first order, T = `lag` s, ends the step at
+/// when it is held all along.
+///
+/// 1/(1 − e⁻ʳ) − 1/r, r = time/T: the end of the step where nothing but a rate is bounded, as wheels that stay half a
+/// step behind turn the body by less all the way; the middle of it for slow wheels.
+fn held_at(time: f64, lag: f64) -> f64 {
+    let r = time / lag;
+    if r < 1e-4 { 0.5 } else { -1.0 / libm::expm1(-r) - lag / time }
 }
 
 /// Whether `segment` is too short for time to pass.

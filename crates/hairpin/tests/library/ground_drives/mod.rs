@@ -142,6 +142,31 @@ fn plans_take_the_time_of_their_speeds() {
     assert_eq!(told.expect_err("a ramp that stands still").field(), "drive.legs.speed");
 }
 
+/// Wheels that follow no faster than their rate are where they are commanded to be at each instant of a plan that keeps
+/// it: half a step behind they turn the body by less all the way.
+#[test]
+fn plans_of_steered_wheels_lead_where_their_curvature_does() {
+    let car = car();
+    assert!(car.response.lags() && car.response.steering_time_constant == 0.0);
+    let mut farthest = 0.0_f64;
+    for speed in [0.3, 1.5, 4.0] {
+        for length in [0.5, 1.0, 2.0, 3.0] {
+            let bend = Segment::clothoid(length, 0.0, 0.3 * length, Gear::Forward);
+            let back = Segment::clothoid(2.0, 0.3 * length, 0.0, Gear::Forward);
+            for leg in [vec![bend], vec![bend, back]] {
+                let plan = plan(&[leg], speed);
+                let path = planned_track(&car, &plane(0.0, 0.0), &plan).expect("a plan");
+                let (end, to) = (path.poses()[path.len() - 1], plan.legs[0].to);
+                let off = (end.translation.x - to.x).hypot(end.translation.y - to.y);
+                let turned = (end.rotation.euler_angles().2 - to.yaw).abs();
+                farthest = farthest.max(off);
+                assert!(off < 2e-5 && turned < 2e-5, "{speed} m/s, {length} m: {off} m, {turned} rad");
+            }
+        }
+    }
+    assert!(farthest > 0.0);
+}
+
 /// A boulder between the wheels' tracks.
 #[test]
 fn an_underside_that_sets_down_ends_the_run() {

@@ -44,3 +44,4 @@ pub use straight::StraightLegs;
 pub use stress::{GroundScore, UnknownTerms};
 pub use tally::{DriveTally, LegRefusal};
 pub use through::{Through, ThroughLeg, through};
+pub use watch::stands;

@@ -95,7 +95,7 @@ pub(super) fn watch(
 ///
 /// # Errors
 /// The first limit that is broken: keep-out, ground, rest, tilt, joints, height of the underside.
-pub(super) fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
+pub fn stands(site: &DriveSite, settings: &DriveSettings, at: &Planar) -> Result<(), LegRefusal> {
     if !keeps_out(site.keep_outs, site.radius, [at.x, at.y], 0.0) {
         return Err(LegRefusal::KeepOut);
     }
