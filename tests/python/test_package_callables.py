@@ -302,7 +302,9 @@ def test_flights_may_be_told_in_the_words_of_the_protocol():
 
     for given in ({"reason": "crash"}, {"ended": "crash"}, {"ended": "crash", "reason": "crash", "type": "end", "case": "0003", "run": 1}):
         assert answers(**given)[-1] == {"type": "end", "reason": "crash"}
-    assert answers()[-1] == answers(reason=None)[-1] == {"type": "end", "reason": "done"}
+    assert answers(ended="done")[-1] == {"type": "end", "reason": "done"}
+    # What is left out is taken for done, and told as left out.
+    assert answers()[-1] == answers(reason=None)[-1] == {"type": "end", "reason": "done", "assumed": True}
     for given, told in (
         ({"reason": "stalled"}, "`reason` = 'stalled'"),
         ({"reason": "crash", "ended": "done"}, "`reason` = 'crash'"),

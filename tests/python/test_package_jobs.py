@@ -65,7 +65,23 @@ def test_parts_are_the_commands_parts(tmp_path):
     command("judge", theirs, "--set", "spec.deviation.max_m=50.0", code=0)
     assert contents(ours) == contents(theirs) and judged.exit_code == 0
     checked = judged.verify()
-    assert checked and checked.checked == 2 and checked.failed == 0
+    assert checked and checked.checked == 2 and checked.failed == 0 and checked.nothing is None and checked.edited == ()
+
+
+def test_nothing_to_verify_is_not_verified(tmp_path):
+    unwitnessed = {**SMALL, "generate.reach": "hull", "generate.timing.step_s": 1.0}
+    checked = hairpin.generate("demo-quadrotor", out=tmp_path / "a", values=unwitnessed).verify()
+    assert (checked.checked, checked.failed, checked.exit_code) == (0, 0, 0)
+    assert not checked and "claims a witness" in checked.nothing
+
+
+def test_a_scenario_that_was_edited_is_told_and_its_cases_are_not_exported(tmp_path):
+    campaign = hairpin.generate("demo-quadrotor", out=tmp_path / "a", values=SMALL)
+    file = tmp_path / "a" / "scenario.toml"
+    file.write_text(file.read_text().replace("accept_m = 1.0", "accept_m = 2.0"))
+    assert campaign.verify().edited == ("`execute.accept_m`",)
+    said = command("export", tmp_path / "a", "--to", "waypoints", code=2)
+    assert "`execute.accept_m`" in said.stderr
 
 
 def test_a_violation_is_shrunk_compared_and_told(violating, tmp_path):

@@ -12,7 +12,7 @@ use crate::consent::{Consent, Wish};
 use crate::execute::fly_told;
 use crate::missions::{self, FENCE, MissionsTold, read_told};
 use crate::program::another_than;
-use crate::work::open_to_read;
+use crate::work::{open_to_read, same_as_made};
 use crate::{Problem, Watch};
 
 /// Our own simulator repeats a run to the bit, at any SIMD level; executors of the users' need not.
@@ -70,7 +70,7 @@ pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> 
 /// Flies the worst run of a case of the judged campaign in `folder` again, by the kernels `simd`.
 ///
 /// # Errors
-/// There is no such case, or nothing was measured of it; else as [`replay`].
+/// There is no such case, or nothing was measured of it; the scenario was edited since; else as [`replay`].
 pub fn replay_case(
     (folder, case): (&Path, CaseNumber),
     simd: Simd,
@@ -79,6 +79,7 @@ pub fn replay_case(
 ) -> Result<ReplayedRepro, Problem> {
     let work = open_to_read(folder)?;
     check_asked(&work.setup.scenario, &work.folder.file("scenario.toml"))?;
+    same_as_made(&work.folder, &work.setup, &[])?;
     let refuse = |why: &str| Problem::input(format!("--case {case}: {why}"));
     let mut found = work.folder.read_cases_without_profiles()?.into_iter().find(|one| one.number == case);
     let found = found.as_mut().ok_or_else(|| refuse("the campaign has no such case"))?;

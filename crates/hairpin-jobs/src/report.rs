@@ -16,7 +16,7 @@ use hairpin_formats::report::Motions;
 
 use crate::Problem;
 use crate::baseline::{missing, read_baseline};
-use crate::execute::{run_with_motion, why_lost};
+use crate::execute::{count_flown, run_with_motion, why_lost};
 use crate::judge::with_moves;
 use crate::missions::{compare, read_told, with_compared};
 use crate::work::{Work, open_executed};
@@ -111,6 +111,7 @@ fn assumptions(
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
+    assumptions.extend(count_flown(work, cases)?.unsaid());
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }

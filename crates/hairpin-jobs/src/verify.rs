@@ -28,6 +28,8 @@ pub struct Verified {
     pub unknown: Option<&'static str>,
     /// Why there was nothing to verify, in a sentence's part; `None` where something was.
     pub nothing: Option<String>,
+    /// What of the folder's scenario was edited since hairpin wrote it: what is proven is proven of what it is now.
+    pub edited: Vec<String>,
 }
 
 /// What came of one case.
@@ -90,7 +92,8 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let unknown = work.setup.unknown_shapes();
     let is_nothing = optimum.is_none() && graph.is_none() && !answers.iter().any(Answer::is_checked);
     let nothing = is_nothing.then(|| nothing(&work.setup, &cases));
-    Ok(Verified { answers, optimum, graph, surrounded, unknown, nothing })
+    let edited = work.folder.edited(&work.setup)?;
+    Ok(Verified { answers, optimum, graph, surrounded, unknown, nothing, edited })
 }
 
 /// Why nothing of `cases` is verified.

@@ -33,7 +33,7 @@ pub fn object(verified: &Verified, code: u8) -> Value {
         })),
         "graph": verified.graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
         "planned": { "checked": planned, "failed": planned - theirs }, "unknown": verified.unknown,
-        "nothing": verified.nothing,
+        "nothing": verified.nothing, "edited": verified.edited,
     })
 }
 
@@ -94,6 +94,10 @@ fn in_words(verified: &Verified) {
         [0, _] => String::new(),
         [all, fine] => format!("; {fine}/{all} witnesses integrated by independent code"),
     };
-    let told = format!("{integrated}{worst}{planned}{optimal}{environments}{free}{unknown}");
+    let edited = match verified.edited.join(", ") {
+        keys if keys.is_empty() => String::new(),
+        keys => format!("; of the scenario as it is now: {keys} changed since the campaign was made"),
+    };
+    let told = format!("{integrated}{worst}{planned}{optimal}{environments}{free}{unknown}{edited}");
     console::say(&format!("{word} {}", told.trim_start_matches("; ")));
 }

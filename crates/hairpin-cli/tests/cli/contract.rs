@@ -92,6 +92,26 @@ fn a_few_cases_are_exported_by_name_or_the_worst() {
 }
 
 #[test]
+fn an_end_that_nobody_told_is_said_wherever_a_verdict_rests_on_it() {
+    let place = tempfile::tempdir().unwrap();
+    let poses = "[say(type='pose', t_s=t, p_m=p) for t, p in enumerate(mission['waypoints_m'])]";
+    for (name, told, unsaid) in [("told", "", 0), ("assumed", ", assumed=True", 2)] {
+        let end = format!("return say(type='end', reason='done'{told})");
+        let program = executor(place.path(), &format!("{name}.py"), &format!("{poses}\n    {end}"));
+        let (object, error) = json(place.path(), &[&SMALL[..], &["--executor", &program, "--out", name]].concat());
+        assert_eq!(object["counts"]["executor_failed"], 0, "{object}{error}");
+        assert_eq!(error.contains("did not say how 2 of 2 runs ended"), unsaid > 0, "{error}");
+        let page = fs::read_to_string(place.path().join(name).join("report.html")).unwrap();
+        assert_eq!(page.contains("did not say how 2 of 2 runs ended"), unsaid > 0);
+        assert_eq!(json(place.path(), &["execute", name]).0["counts"]["end_unsaid"], unsaid);
+    }
+    // Who says nothing at all has made a mistake.
+    let silent = executor(place.path(), "silent.py", &format!("{poses}\n    return say(type='end')"));
+    let (object, _) = json(place.path(), &[&SMALL[..], &["--executor", &silent, "--out", "silent"]].concat());
+    assert_eq!(object["counts"]["executor_failed"], 2, "{object}");
+}
+
+#[test]
 fn an_unknown_attitude_is_said_wherever_one_would_be_read() {
     let place = tempfile::tempdir().unwrap();
     let pose = "say(type='pose', t_s=0, p_m=[3, 3, 3])\n    say(type='pose', t_s=1, p_m=[3, 3, 4])";

@@ -129,7 +129,12 @@ fn what_was_not_kept_is_not_flown_when_a_campaign_goes_on() {
     // Another simulator, or another folder's runs, are not taken for those that were measured.
     let edited = fs::read_to_string(here.join("none/scenario.toml")).unwrap().replace("fixed_velocity_m_s", "# ");
     let edited = edited.replace("controller = \"minimum-snap\"", "controller = \"unstable-waypoint\"");
-    fs::write(here.join("none/scenario.toml"), edited).unwrap();
+    fs::write(here.join("none/scenario.toml"), &edited).unwrap();
+    refused(here, &["export", "none", "--to", "csv"], &["`execute.controller`", "The runs are of what it was"]);
+    // Of a folder of before, which does not say what it was, what comes out tells it.
+    let made = edited.find("settings = ").unwrap();
+    let rest = made + edited[made..].find("simd = ").unwrap();
+    fs::write(here.join("none/scenario.toml"), format!("{}{}", &edited[..made], &edited[rest..])).unwrap();
     refused(here, &["export", "none", "--to", "csv"], &["case 0000, run 0", "comes out otherwise", "--keep all"]);
 }
 

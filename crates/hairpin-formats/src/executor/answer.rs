@@ -145,7 +145,10 @@ fn take(recording: &mut Recording, message: FromExecutor, protocol: u64) -> Resu
                 recording.push(&pose)?;
             }
         }
-        FromExecutor::End(EndMessage { reason, .. }) => return Ok(Some(reason)),
+        FromExecutor::End(EndMessage { reason, assumed, .. }) => {
+            recording.end_unsaid = assumed;
+            return Ok(Some(reason));
+        }
         FromExecutor::Error(ErrorMessage { message, .. }) => {
             return Err(Failure::Reported { message: excerpt(&message, 500) });
         }

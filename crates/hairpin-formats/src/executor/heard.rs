@@ -97,6 +97,9 @@ pub struct Row {
 pub struct EndMessage {
     /// Why.
     pub reason: EndReason,
+    /// Whether that is what is assumed where nobody said it.
+    #[serde(default)]
+    pub assumed: bool,
     /// Of which case.
     pub case: Option<Value>,
     /// Of which run.

@@ -25,7 +25,9 @@
 //! be judged as a violation that nobody flew, so it is refused ([`PoseError`]). `leg`, `v_m_s` and `q_wxyz` may be left
 //! out: legs are then assigned along the path, velocities differentiated, and the attitude counts as unknown (channel
 //! [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). `done` may be claimed anywhere: the judge sees what was flown, and a
-//! `done` without the last waypoint is an unfinished mission.
+//! `done` without the last waypoint is an unfinished mission. Who passes on flights of others and was not told how one
+//! ended says what it takes it for with `"assumed":true` ([`hairpin::trajectory::END_UNSAID`]); without a `reason` an
+//! `end` is a mistake.
 //!
 //! `"timed":false` in the first `ready` asks for missions without the planned motion, which is nearly all of their
 //! length.

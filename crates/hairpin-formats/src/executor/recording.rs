@@ -14,7 +14,7 @@ use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
 use super::velocities::{Disagreement, disagreement};
 
-use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID};
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;
@@ -87,6 +87,8 @@ pub struct Recording<'a> {
     velocities: Option<Vec<[f64; 3]>>,
     legs: Option<Vec<u64>>,
     attitude_known: bool,
+    /// Whether the reason for its end is assumed.
+    pub(super) end_unsaid: bool,
 }
 
 impl<'a> Recording<'a> {
@@ -100,6 +102,7 @@ impl<'a> Recording<'a> {
             velocities: Some(Vec::new()),
             legs: Some(Vec::new()),
             attitude_known: true,
+            end_unsaid: false,
         }
     }
 
@@ -222,6 +225,9 @@ impl<'a> Recording<'a> {
         }
         if !self.attitude_known {
             channels.push(channel(ATTITUDE_UNKNOWN, self.times.iter().map(|_| 1.0)));
+        }
+        if self.end_unsaid {
+            channels.push(channel(END_UNSAID, self.times.iter().map(|_| 1.0)));
         }
         Ok(Flight { track: Track::new(self.times, self.poses, channels)?, ended, left_world, reached })
     }

@@ -5,7 +5,7 @@ use hairpin::campaign::Setup;
 use super::list::List;
 use super::{CampaignFolder, FolderError};
 use crate::atomic;
-use crate::scenario::{MadeBy, read_made_by, settings_hash, to_toml};
+use crate::scenario::{MadeBy, changed_keys, key_digests, read_made_by, settings_hash, to_toml};
 
 impl CampaignFolder {
     /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
@@ -16,9 +16,10 @@ impl CampaignFolder {
     /// A file cannot be written; TOML cannot hold the scenario.
     pub fn keep_scenario(&self, setup: &Setup, simd: &str, clear_within: Option<f64>) -> Result<(), FolderError> {
         let root_seed = setup.scenario.seed();
-        let settings = settings_hash(&to_toml(&setup.scenario, None)?, controller_of(setup));
+        let text = to_toml(&setup.scenario, None)?;
+        let (settings, keys) = (settings_hash(&text, controller_of(setup)), key_digests(&text));
         let version = env!("CARGO_PKG_VERSION").into();
-        let made_by = MadeBy { version, root_seed, settings, clear_within_mm: clear_within, simd: simd.into() };
+        let made_by = MadeBy { version, root_seed, settings, keys, clear_within_mm: clear_within, simd: simd.into() };
         let text = to_toml(&setup.scenario, Some(&made_by))?;
         let files = setup.attachments.files();
         let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
@@ -30,15 +31,25 @@ impl CampaignFolder {
         self.write_scenario(&text)
     }
 
-    /// Whether the scenario, but for `spec`, and the controller's file are as hairpin wrote them; so are those of
-    /// earlier versions, which did not say.
+    /// What of the scenario, but for `spec`, and of the controller's file is not as hairpin wrote it: in words, keys
+    /// between backticks. Nothing of folders of earlier versions, which did not say.
     ///
     /// # Errors
     /// The scenario cannot be read.
-    pub fn has_its_settings(&self, setup: &Setup) -> Result<bool, FolderError> {
+    pub fn edited(&self, setup: &Setup) -> Result<Vec<String>, FolderError> {
         let text = self.read_scenario()?;
-        let written = read_made_by(&text).and_then(|made_by| made_by.settings);
-        Ok(written.is_none() || written == settings_hash(&text, controller_of(setup)))
+        let Some(MadeBy { settings: Some(written), keys, .. }) = read_made_by(&text) else { return Ok(Vec::new()) };
+        if settings_hash(&text, controller_of(setup)).is_some_and(|now| now == written) {
+            return Ok(Vec::new());
+        }
+        if keys.is_empty() {
+            return Ok(vec!["a key beside `spec`, or the controller's file".into()]);
+        }
+        let changed = changed_keys(&keys, &text);
+        Ok(match changed.len() {
+            0 => vec!["the controller's file".into()],
+            _ => changed.into_iter().map(|key| format!("`{key}`")).collect(),
+        })
     }
 
     /// How far off their paths (mm) what was proven clear of the plans holds, if that is written in its scenario.

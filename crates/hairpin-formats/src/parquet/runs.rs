@@ -11,7 +11,7 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray}
 use hairpin::campaign::scenario::DeviationFrom;
 use hairpin::campaign::{CaseNumber, FullRate, Run};
 use hairpin::judgement::still_since;
-use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, Ended, Flight, Track};
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::Value;
@@ -55,6 +55,8 @@ pub struct RunFacts {
     pub left_leg: Option<usize>,
     /// Whether the executor sent no attitudes.
     pub attitude_unknown: bool,
+    /// Whether it did not say how the run ended.
+    pub end_unsaid: bool,
     /// Whether its motion is kept.
     pub recorded: bool,
     /// What was measured of all of its samples.
@@ -112,6 +114,7 @@ impl RunFacts {
             end_leg: leg_at(f64::INFINITY),
             left_leg: left.and_then(leg_at),
             attitude_unknown: track.is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some()),
+            end_unsaid: track.is_some_and(|track| track.channel(END_UNSAID).is_some()),
             recorded: true,
             full_rate: run.full_rate.clone(),
         }
@@ -144,12 +147,13 @@ impl RunFacts {
         let leg = |leg: Option<usize>| leg.unwrap_or_default() as f64;
         let channel = |name: &str, values: Vec<f64>| Channel { name: name.into(), values };
         let legs = self.end_leg.map(|_| channel("leg", stamps.iter().map(|(_, told)| leg(*told)).collect()));
-        let level = self.attitude_unknown.then(|| channel(ATTITUDE_UNKNOWN, vec![1.0; stamps.len()]));
+        let mark = |is: bool, name: &str| is.then(|| channel(name, vec![1.0; stamps.len()]));
+        let (level, unsaid) = (mark(self.attitude_unknown, ATTITUDE_UNKNOWN), mark(self.end_unsaid, END_UNSAID));
         let times: Vec<f64> = stamps.iter().map(|(time, _)| *time).collect();
         // Where it was is not known, only since when it was there no longer: a kilometre away serves.
         let place = |time: &f64| Isometry3::translation(if *time < still { 1000.0 } else { 0.0 }, 0.0, 0.0);
         let poses = times.iter().map(place).collect();
-        let track = Track::new(times, poses, legs.into_iter().chain(level).collect()).ok()?;
+        let track = Track::new(times, poses, legs.into_iter().chain(level).chain(unsaid).collect()).ok()?;
         self.with_track(track)
     }
 }
@@ -206,6 +210,7 @@ pub fn read_run(path: &Path) -> Result<(Track, Option<RunFacts>), TableError> {
         end_leg: None,
         left_leg: None,
         attitude_unknown: table.has(ATTITUDE_UNKNOWN),
+        end_unsaid: table.has(END_UNSAID),
         recorded: true,
         full_rate: None,
     });
@@ -240,6 +245,9 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
     columns.push("left_leg", counts(|run| run.left_leg));
     columns.push("attitude_unknown", flags(|run| run.attitude_unknown));
     columns.push("recorded", flags(|run| run.recorded));
+    if runs.iter().any(|run| run.end_unsaid) {
+        columns.push(END_UNSAID, flags(|run| run.end_unsaid));
+    }
     let measured: Vec<Option<&FullRate>> = runs.iter().map(|run| run.full_rate.as_deref()).collect();
     if measured.iter().any(Option::is_some) {
         let from = measured.iter().map(|found| found.map(|found| from_word(found.from)));
@@ -282,6 +290,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
     let (end, end_leg, left_leg) = (table.numbers_or_none("end_s")?, counts("end_leg")?, counts("left_leg")?);
     let still = table.numbers_or_none("still_s")?;
     let (unknown, recorded) = (flags("attitude_unknown", false)?, flags("recorded", true)?);
+    let unsaid = flags(END_UNSAID, false)?;
     let full_rate = read_full_rate(&table)?;
     let mut seen = BTreeSet::new();
     let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).zip(full_rate).enumerate();
@@ -308,6 +317,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
             end_leg: end_leg[row],
             left_leg: left_leg[row],
             attitude_unknown: unknown[row],
+            end_unsaid: unsaid[row],
             recorded: recorded[row],
             full_rate: full_rate.map(Box::new),
         };

@@ -24,7 +24,7 @@ pub(super) enum Value {
 }
 
 /// A variable, constant or persistent.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Variable {
     /// As it was declared.
     pub(super) name: String,

@@ -1,6 +1,6 @@
 //! The resolved scenario of a campaign folder: a scenario file that runs again, with what made it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::campaign::Scenario;
 use serde::{Deserialize, Serialize};
@@ -19,6 +19,9 @@ pub struct MadeBy {
     /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<String>,
+    /// [`key_digests`] of it, by which what was edited since has a name; empty of earlier versions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub keys: Vec<String>,
     /// How far off their paths (mm) what was proven clear of the plans holds, whatever `spec` has become since; `None`
     /// of earlier versions, and where nothing was proven.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -63,13 +66,58 @@ pub fn to_toml(scenario: &Scenario, made_by: Option<&MadeBy>) -> Result<String, 
 ///
 /// `None` where it is no TOML.
 pub fn settings_hash(text: &str, controller: Option<&[u8]>) -> Option<String> {
+    let mut hasher = blake3::Hasher::new();
+    update(&mut hasher, &toml::Value::Table(settings(text)?));
+    hasher.update(controller.unwrap_or_default());
+    Some(hasher.finalize().to_hex().to_string())
+}
+
+/// The scenario in `text` but for `spec` and what made it; `None` where it is no TOML.
+fn settings(text: &str) -> Option<toml::Table> {
     let mut scenario: toml::Table = text.parse().ok()?;
     scenario.remove(MADE_BY);
     scenario.remove("spec");
-    let mut hasher = blake3::Hasher::new();
-    update(&mut hasher, &toml::Value::Table(scenario));
-    hasher.update(controller.unwrap_or_default());
-    Some(hasher.finalize().to_hex().to_string())
+    Some(scenario)
+}
+
+/// The dotted keys that [`settings_hash`] counts, each with the first 32 bits of its value's BLAKE3: `task.length
+/// 5f0c9a1b`. Enough to name what was edited; whether anything was is the whole hash's to say.
+///
+/// Empty where `text` is no TOML.
+pub fn key_digests(text: &str) -> Vec<String> {
+    let mut digests = Vec::new();
+    if let Some(settings) = settings(text) {
+        digest("", &toml::Value::Table(settings), &mut digests);
+    }
+    digests
+}
+
+fn digest(key: &str, value: &toml::Value, digests: &mut Vec<String>) {
+    match value {
+        toml::Value::Table(table) if key.is_empty() || !table.is_empty() => {
+            for (name, value) in table.iter().collect::<BTreeMap<_, _>>() {
+                // As it is typed: names of the user's (`[vary]`) may have dots of their own.
+                let is_bare = name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+                let name = if is_bare { name.clone() } else { format!("\"{name}\"") };
+                digest(&if key.is_empty() { name } else { format!("{key}.{name}") }, value, digests);
+            }
+        }
+        _ => {
+            let mut hasher = blake3::Hasher::new();
+            update(&mut hasher, value);
+            digests.push(format!("{key} {}", &hasher.finalize().to_hex()[..8]));
+        }
+    }
+}
+
+/// The keys of which `text` has other values than `kept` has digests of, those that are gone and those that came
+/// included.
+pub fn changed_keys(kept: &[String], text: &str) -> Vec<String> {
+    let kept: BTreeSet<&str> = kept.iter().map(String::as_str).collect();
+    let now = key_digests(text);
+    let now: BTreeSet<&str> = now.iter().map(String::as_str).collect();
+    let key = |digest: &&str| digest.rsplit_once(' ').map_or_else(String::new, |(key, _)| key.to_owned());
+    kept.symmetric_difference(&now).map(key).collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 fn update(hasher: &mut blake3::Hasher, value: &toml::Value) {

@@ -77,7 +77,7 @@ proptest! {
         let scenario = read_setup(FINE, "fine.toml", Path::new(""), &sets)
             .map_err(|report| TestCaseError::fail(report.to_string()))?
             .scenario;
-        let made_by = MadeBy { version: "1.2.3".into(), root_seed: scenario.seed(), simd: "avx2".into(), settings: None, clear_within_mm: None };
+        let made_by = MadeBy { version: "1.2.3".into(), root_seed: scenario.seed(), simd: "avx2".into(), settings: None, keys: Vec::new(), clear_within_mm: None };
         let text = to_toml(&scenario, Some(&made_by)).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let again = read_setup(&text, "scenario.toml", Path::new(""), &[])
             .map_err(|report| TestCaseError::fail(report.to_string()))?

@@ -23,6 +23,21 @@ pub struct Flown {
     pub failed: usize,
     /// Of these, runs of which the executor sent no attitudes.
     pub attitude_unknown: usize,
+    /// Of these, runs of which the executor did not say how they ended.
+    pub end_unsaid: usize,
+}
+
+impl Flown {
+    /// That the executor left out how runs ended, if it did.
+    pub(crate) fn unsaid(&self) -> Option<String> {
+        (self.end_unsaid > 0).then(|| {
+            format!(
+                "The executor did not say how {} of {} runs ended: they are taken for `done`, which holds where they came to their \
+                 last waypoint alone; a crash that it did not tell is none here.",
+                self.end_unsaid, self.runs
+            )
+        })
+    }
 }
 
 /// Flies all runs of `cases` that are not in the folder yet, and violations as often again as the scenario asks for.
@@ -56,6 +71,9 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
             "Warning: {} runs came without q_wxyz: their attitude is unknown (column {ATTITUDE_UNKNOWN}); qw … qz mean nothing",
             flown.attitude_unknown
         ));
+    }
+    if let Some(told) = flown.unsaid() {
+        watch.warn(&format!("Warning: {told}"));
     }
     Ok(flown)
 }
@@ -120,12 +138,13 @@ pub(crate) fn count_flown(work: &Work, cases: &[Case]) -> Result<Flown, Problem>
 }
 
 fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
-    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0 };
+    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0, end_unsaid: 0 };
     for case in cases {
         for facts in work.folder.facts_of(case.number)?.iter().filter(|facts| facts.run < repeat) {
             flown.runs += 1;
             flown.failed += usize::from(facts.message.is_some());
             flown.attitude_unknown += usize::from(facts.attitude_unknown);
+            flown.end_unsaid += usize::from(facts.end_unsaid);
         }
     }
     Ok(flown)

@@ -138,7 +138,9 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let replayed = replay_saved(&work.setup, work.folder.path(), (settings.repro.as_deref(), &[]), watch)?;
     check_recordings(&work, kept.as_deref().unwrap_or_default())?;
     // What the user wrote into the scenario is what is flown from here on.
-    if !sets.is_empty() || !work.folder.has_its_settings(&work.setup)? {
+    let edited = work.folder.edited(&work.setup)?;
+    tell_edited(&edited, missions.is_none(), watch);
+    if !sets.is_empty() || !edited.is_empty() {
         keep_changes(&work)?;
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
         settings.consent.mark(path, &typed);
@@ -182,6 +184,23 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     let trouble = if flown.failed > 0 { first_trouble(&work, &cases)? } else { None };
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, trouble, missions, replayed })
+}
+
+/// Tells that cases are flown by what they were not made with: once it is flown so, nothing in the folder tells it.
+fn tell_edited(edited: &[String], are_of_the_folder: bool, watch: &dyn Watch) {
+    let of_the_cases = |key: &&String| {
+        let table = key.trim_matches('`').split('.').next().unwrap_or_default();
+        key.starts_with('`') && !CHANGED.contains(&table)
+    };
+    let keys: Vec<&str> = edited.iter().filter(of_the_cases).map(String::as_str).collect();
+    if !keys.is_empty() && are_of_the_folder {
+        watch.warn(&format!(
+            "{} of the folder's scenario.toml {} changed by hand: its trajectories were made with what stood there before, and are flown by what stands \
+             there now",
+            keys.join(", "),
+            if keys.len() == 1 { "was" } else { "were" }
+        ));
+    }
 }
 
 /// The cases of a search, and what was measured of them.
@@ -231,7 +250,7 @@ mod tests {
         let (_place, folder) = generated();
         let settings = ExecuteSettings { folder, ..ExecuteSettings::default() };
         let executed = execute(&settings, &Unwatched).map(|executed| (executed.cases, executed.flown)).unwrap();
-        assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0 }));
+        assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }));
         let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
         let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
         assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
@@ -297,12 +316,31 @@ mod tests {
         let resumed = ExecuteSettings { folder: folder.clone(), resume: true, ..ExecuteSettings::default() };
         let told = [judged().unwrap_err().to_string(), refusal(&resumed)];
         let reported = crate::report::report(&folder, &[], None).unwrap_err().to_string();
-        for told in told.iter().chain([&reported]) {
+        let consent = crate::consent::Consent::default();
+        let replayed =
+            crate::replay::replay_case((&folder, hairpin::campaign::CaseNumber(0)), Simd::Widest, &consent, &Unwatched);
+        let exporting = crate::export::ExportSettings { folder: folder.clone(), ..Default::default() };
+        let exported = || crate::export::Export::open(&exporting).map(drop);
+        let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string()];
+        for told in told.iter().chain(&others) {
             assert!(
                 told.contains("scenario.toml: was changed beside `spec`") && told.contains("hairpin execute"),
                 "{told}"
             );
+            assert!(told.contains(": `execute.accept_m`. The runs are of what it was"), "{told}");
         }
+        assert_eq!(crate::verify::verify(&folder).unwrap().edited, ["`execute.accept_m`"], "what is proven is told of");
+        // Where on Earth it is, an export may need to know afterwards.
+        let placed = as_written.replace("alt_amsl_m = 180.0", "alt_amsl_m = 181.0");
+        assert_ne!(placed, as_written);
+        std::fs::write(&file, &placed).unwrap();
+        exported().unwrap();
+        // A folder of before has nothing to tell it by.
+        let made = edited.find("settings = ").unwrap();
+        let rest = edited[made..].find("clear_within_mm").or_else(|| edited[made..].find("simd")).unwrap();
+        std::fs::write(&file, format!("{}{}", &edited[..made], &edited[made + rest..])).unwrap();
+        exported().unwrap();
+        judged().unwrap();
         // Layout is no change, nor are limits.
         std::fs::write(&file, format!("# mine\n\n{as_written}")).unwrap();
         judged().unwrap();
@@ -340,7 +378,10 @@ mod tests {
         assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
         assert_eq!(kept.read_results().unwrap().len(), 2, "what was judged stays");
         named("name=\"sim 1\", version=1");
-        assert_eq!(execute(&resumed, &Unwatched).unwrap().flown, Flown { runs: 2, failed: 0, attitude_unknown: 0 });
+        assert_eq!(
+            execute(&resumed, &Unwatched).unwrap().flown,
+            Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }
+        );
         named("name=\"sim 2\"");
         execute(&settings, &Unwatched).unwrap();
         assert_eq!(CampaignFolder::open(&folder).unwrap().read_executor().unwrap().unwrap().name, "sim 2");

@@ -24,9 +24,12 @@ use hairpin::campaign::Case;
 use hairpin_formats::qgc::mission::Autopilot;
 
 use crate::Problem;
-use crate::work::{Work, open_to_read};
+use crate::work::{Work, open_to_read, same_as_made};
 
 use hardware::Hardware;
+
+/// What only says where on Earth the world is: files ask for it that nobody thought of when the campaign was made.
+const PLACE: &[&str] = &["world.origin", "world.terrain.epsg"];
 
 pub use chosen::Which;
 pub use missions::MissionFile;
@@ -85,10 +88,12 @@ impl Export {
     /// The cases that `settings` name of the campaign in their folder.
     ///
     /// # Errors
-    /// The folder is no campaign's, or broken; it has no case, or not one that is named.
+    /// The folder is no campaign's, or broken; it has no case, or not one that is named; its scenario was edited since,
+    /// beside `spec` and its place on Earth.
     pub fn open(settings: &ExportSettings) -> Result<Self, Problem> {
         let ExportSettings { folder, which, autopilot, accept_excursion } = settings;
         let work = open_to_read(folder)?;
+        same_as_made(&work.folder, &work.setup, PLACE)?;
         let cases = which.of(&work, work.folder.read_cases_without_profiles()?)?;
         if cases.is_empty() {
             return Err(Problem::input(format!("{} has no case: there is nothing to export", folder.display())));

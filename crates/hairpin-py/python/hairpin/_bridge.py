@@ -137,15 +137,16 @@ def _told(flown: Any, mission: dict[str, Any]) -> Iterator[dict[str, Any]]:
         for pose, value in zip(poses, values.tolist(), strict=True):
             pose[key] = value
     yield from poses
-    yield {"type": "end", "reason": ended}
+    # What is not said is told as not said: the verdict rests on it.
+    yield {"type": "end", "reason": ended or "done"} | ({} if ended else {"assumed": True})
 
 
-def _end(flown: Mapping[str, Any]) -> str:
-    """Why a flight is over, by our word or by the protocol's."""
+def _end(flown: Mapping[str, Any]) -> str | None:
+    """Why a flight is over, by our word or by the protocol's; ``None`` where it is left out."""
     told = [word(key, flown[key], _ENDS) for key in ("ended", "reason") if flown.get(key) is not None]
     if len(set(told)) > 1:
         raise wrong("reason", told[1], f"`ended`, which is {told[0]!r}, or left out")
-    return told[0] if told else "done"
+    return told[0] if told else None
 
 
 def _numbers(key: str, values: Any) -> Any:

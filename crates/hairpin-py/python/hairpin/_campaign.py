@@ -207,7 +207,8 @@ class Campaign:
     def verify(self, *, threads: int | None = None, progress: Progress | None = None) -> Verification:
         """Integrates every witness by independent code; see :func:`hairpin.verify`."""
         found = _native.verify(self.folder, waiting(threads, progress))
-        return Verification(found["checked"], found["failed"], found["worst"], found["exit_code"])
+        edited = tuple(found["edited"])
+        return Verification(found["checked"], found["failed"], found["worst"], found["exit_code"], found["nothing"], edited)
 
     def shrink(
         self,

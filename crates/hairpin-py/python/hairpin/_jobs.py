@@ -156,7 +156,7 @@ def execute(
             ``robot``, ``world``, ``waypoints_m``, ``accept_m``, ``time_limit_s``, ``timed`` as the executor protocol has it, and gives
             ``t_s`` (n,), ``p_m`` (n, 3), and if it knows them ``q_wxyz`` (n, 4), ``v_m_s`` (n, 3), ``leg`` (n,), ``ended`` (``done``,
             ``time`` or ``crash``; the protocol's ``reason`` as well; left out it is ``done``, which holds where it
-            came to its last waypoint alone). Other keys are refused. It is asked from several threads; with :func:`vectorised` it gets a list of the missions that are
+            came to its last waypoint alone, and the report's assumptions say so). Other keys are refused. It is asked from several threads; with :func:`vectorised` it gets a list of the missions that are
             under way, 16 at most if `execute.processes` does not say, and gives as many. See also :func:`dynamics`, :func:`adversary`.
         missions: a mission or a folder of them, which take the place of the cases.
         repro: folder of saved cases that are run first.
@@ -202,7 +202,7 @@ def execute(
 def verify(
     campaign: Campaign | str | os.PathLike[str], *, threads: int | None = None, progress: Progress | None = None
 ) -> Verification:
-    """Integrates every witness of a folder by independent code. True where all hold; `checked` is 0 where none is claimed.
+    """Integrates every witness of a folder by independent code. True where all hold; false where there was nothing to verify.
 
     Raises:
         InputError: the folder is no campaign's.

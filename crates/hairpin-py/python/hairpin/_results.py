@@ -161,15 +161,22 @@ class Judged:
 
 @dataclass(frozen=True)
 class Verification:
-    """What independent integration came to: cases checked, those of which something does not hold, the worst of them."""
+    """What independent integration came to: cases checked, those of which something does not hold, the worst of them.
+
+    Attributes:
+        nothing: why there was nothing to verify; ``None`` where something was. The exit code is 0 all the same, as the command's is.
+        edited: what of the folder's `scenario.toml` was changed since the campaign was made: what is proven is of what it is now.
+    """
 
     checked: int
     failed: int
     worst: dict[str, Any] | None
     exit_code: int
+    nothing: str | None = None
+    edited: tuple[str, ...] = ()
 
     def __bool__(self) -> bool:
-        return self.exit_code == 0
+        return self.exit_code == 0 and self.nothing is None
 
 
 @dataclass(frozen=True)

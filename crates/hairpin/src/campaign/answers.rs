@@ -33,16 +33,17 @@ pub struct Executed {
 pub type Answer = Option<Executed>;
 
 impl From<&Ran> for Executed {
-    fn from(Ran { trials, behaviour, fails }: &Ran) -> Self {
+    fn from(Ran { trials, behaviour }: &Ran) -> Self {
+        let fails = trials.iter().any(|trial| trial.fails);
         let trial = |trial: &Trial| (trial.stress, trial.worst_leg, trial.executions);
-        Self { trials: trials.iter().map(trial).collect(), behaviour: behaviour.clone(), fails: *fails }
+        Self { trials: trials.iter().map(trial).collect(), behaviour: behaviour.clone(), fails }
     }
 }
 
 impl From<Executed> for Ran {
     fn from(Executed { trials, behaviour, fails }: Executed) -> Self {
-        let trial = |(stress, worst_leg, executions)| Trial { stress, worst_leg, executions };
-        Self { trials: trials.into_iter().map(trial).collect(), behaviour, fails }
+        let trial = |(stress, worst_leg, executions)| Trial { stress, fails, worst_leg, executions };
+        Self { trials: trials.into_iter().map(trial).collect(), behaviour }
     }
 }
 

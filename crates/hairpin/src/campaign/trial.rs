@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::execute::run_of;
 use super::graph::{Plan, fingerprint};
-use super::judge::{Weighed, measured, measures_of};
+use super::judge::{Weighed, measured};
 use super::kind::Order;
 use super::learn::LegSample;
 use super::mission::run_seed;
@@ -18,7 +18,7 @@ use super::user_target::RunFacts;
 use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
 use crate::math::random::named_seed;
-use crate::search::in_loop::{self, Trial};
+use crate::search::in_loop::{self, Rank, Trial};
 use crate::search::worst::Ran;
 use crate::simulation::Airborne;
 use crate::trajectory::Ended;
@@ -73,16 +73,17 @@ struct Executed {
 }
 
 impl Trials<'_> {
-    /// Executes `plan`; `None` where the executor or the judge refuses. What comes to the stress `least` is executed
+    /// Executes `plan`; `None` where the executor or the judge refuses. What comes to the rank `least` is executed
     /// `confirm` times more, under noise, and its stress is the mean; NaN where one of those fails.
     ///
-    /// 1 or 1 + `confirm` executions. `least` is the stress from which on a trial would be kept.
-    pub(super) fn execute(&self, plan: &Plan, least: f64) -> Option<Trial> {
+    /// 1 or 1 + `confirm` executions. `least` is the rank from which on a trial would be kept. It fails if the first
+    /// execution does: that is the one that its case has later.
+    pub(super) fn execute(&self, plan: &Plan, least: Rank) -> Option<Trial> {
         let setup = self.setup;
         let executed = self.executed(plan)?;
         let first = stressed(setup, &executed)?;
         let confirm = setup.scenario.search().confirm;
-        if confirm == 0 || first.stress.is_nan() || first.stress < least {
+        if confirm == 0 || !first.reaches(least) {
             return Some(first);
         }
         let again = |number: u64| Some(stressed(setup, &self.again(&executed.case, 0, number)?)?.stress);
@@ -101,6 +102,7 @@ impl Trials<'_> {
         let executed = self.executed_as(plan, run)?;
         let trial = |sought: &Sought| Trial {
             stress: self.measured(*sought, &executed),
+            fails: executed.fails,
             worst_leg: worst_leg(*sought, &executed.measures),
             executions: 1,
         };
@@ -117,7 +119,7 @@ impl Trials<'_> {
                 (trial.stress, trial.executions) = (trial.stress / (1 + confirm) as f64, 1 + confirm);
             }
         }
-        Some(Ran { trials, behaviour: executed.measures.behaviour(), fails: executed.fails })
+        Some(Ran { trials, behaviour: executed.measures.behaviour() })
     }
 
     fn measured(&self, sought: Sought, executed: &Executed) -> f64 {
@@ -135,8 +137,9 @@ impl Trials<'_> {
 
     /// The same once, with the stress of each leg, NaN where there is none to learn from.
     pub(super) fn execute_legs(&self, plan: &Plan) -> Option<(Trial, Vec<f64>)> {
-        let Executed { measures, .. } = self.executed(plan)?;
-        Some((trial(self.setup, &measures)?, stresses_of(&measures, self.setup.scenario.search().stress)))
+        let executed = self.executed(plan)?;
+        let stresses = stresses_of(&executed.measures, self.setup.scenario.search().stress);
+        Some((trial(self.setup, &executed)?, stresses))
     }
 
     /// What there is to learn from an execution of `plan` whose legs had these stresses, as trajectory number
@@ -168,8 +171,9 @@ impl Trials<'_> {
         let setup = self.setup;
         let legs = plan.waypoints.len() as u64 - 1;
         let Some(flying) = setup.kind().leg_by_leg().filter(|_| self.executor.is_ours()) else {
-            let stress = self.executed(plan).and_then(|executed| trial(setup, &executed.measures));
-            return Ok(in_loop::Ran { stress: stress.ok_or(legs)?.stress, state: None, legs });
+            let Trial { stress, fails, .. } =
+                self.executed(plan).and_then(|executed| trial(setup, &executed)).ok_or(legs)?;
+            return Ok(in_loop::Ran { stress, fails, state: None, legs });
         };
         let case = self.case(plan);
         let executor = setup.scenario.executor();
@@ -203,12 +207,17 @@ impl Trials<'_> {
         let flight = airborne.so_far();
         let is_longer = || limit_of(&case.waypoints, case.leg_times.iter().sum()) > at_start;
         if whole && flight.ended == Ended::Time && is_longer() {
-            let stress = self.executed(plan).and_then(|executed| trial(setup, &executed.measures));
-            return Ok(in_loop::Ran { stress: stress.ok_or(flown)?.stress, state: None, legs: flown });
+            let again = self.executed(plan).and_then(|executed| trial(setup, &executed));
+            let Trial { stress, fails, .. } = again.ok_or(flown)?;
+            return Ok(in_loop::Ran { stress, fails, state: None, legs: flown });
         }
+        // The time of a part is that of short legs: over before the whole is, it says nothing.
+        let in_time = whole || flight.ended != Ended::Time;
         let run = Run { case: CaseNumber::default(), run: 0, drawn: Vec::new(), outcome: Ok(flight), full_rate: None };
-        let stress = measures_of(setup, &case, &run).and_then(|measures| setup.scenario.search().stress.of(&measures));
-        Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), state: Some(airborne), legs: flown })
+        let weighed = measured(setup, &case, &run);
+        let fails = in_time && weighed.as_ref().is_some_and(|weighed| weighed.fails);
+        let stress = weighed.and_then(|weighed| setup.scenario.search().stress.of(&weighed.measures));
+        Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), fails, state: Some(airborne), legs: flown })
     }
 
     /// How long the execution of `plan` takes, s.
@@ -222,7 +231,7 @@ impl Trials<'_> {
         let Placement { among, .. } = placement(self.setup, &self.executed(plan)?)?;
         let plan = Plan { environment: Some(among), ..plan.clone() };
         let among = self.executed(&plan)?;
-        Some((plan, trial(self.setup, &among.measures)?))
+        Some((plan, trial(self.setup, &among)?))
     }
 
     fn executed(&self, plan: &Plan) -> Option<Executed> {
@@ -272,10 +281,10 @@ fn worst_leg(sought: Sought, measures: &Measures) -> usize {
 /// The stress of an execution. Where obstacles are to be placed, it is how deep the robot gets into those that could
 /// stand in its way.
 fn stressed(setup: &Setup, executed: &Executed) -> Option<Trial> {
-    let own = trial(setup, &executed.measures);
+    let own = trial(setup, executed);
     let Some(Placement { clearance, leg, .. }) = placement(setup, executed) else { return own };
     let worst_leg = leg.min(executed.case.waypoints.len().saturating_sub(2));
-    let placed = Trial { stress: -clearance, worst_leg, executions: 1 };
+    let placed = Trial { stress: -clearance, fails: executed.fails, worst_leg, executions: 1 };
     own.filter(|own| own.stress >= placed.stress).or(Some(placed))
 }
 
@@ -288,8 +297,8 @@ fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
     setup.kind().place(case, track)
 }
 
-fn trial(setup: &Setup, measures: &Measures) -> Option<Trial> {
+fn trial(setup: &Setup, Executed { measures, fails, .. }: &Executed) -> Option<Trial> {
     let stress = setup.scenario.search().stress;
     let worst_leg = stress.worst_leg(measures).unwrap_or(0);
-    Some(Trial { stress: stress.of(measures)?, worst_leg, executions: 1 })
+    Some(Trial { stress: stress.of(measures)?, fails: *fails, worst_leg, executions: 1 })
 }

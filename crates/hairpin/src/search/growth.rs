@@ -123,7 +123,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::super::beam::Ended;
-    use super::super::in_loop::{Execute, Executed, PartialSettings, Ran};
+    use super::super::in_loop::{Execute, Executed, PartialSettings, Ran, Rank};
     use super::super::open_end::OpenEnd;
     use super::super::score::Score;
     use super::super::small::{Octahedron, START, enumerate, enumerate_open, points};
@@ -151,11 +151,13 @@ mod tests {
         wholes: Vec<Vec<u32>>,
         /// Trajectories through this waypoint cannot be executed.
         broken: Option<u32>,
+        /// Those through this one crash there.
+        crashes: Option<u32>,
     }
 
     impl<'a> Looking<'a> {
         fn new(points: &'a [Point3<f64>], resumes: bool) -> Self {
-            Self { points, resumes, legs: 0, wholes: Vec::new(), broken: None }
+            Self { points, resumes, legs: 0, wholes: Vec::new(), broken: None, crashes: None }
         }
     }
 
@@ -184,8 +186,9 @@ mod tests {
             if whole {
                 self.wholes.push(waypoints.clone());
             }
+            let fails = self.crashes.is_some_and(|crash| waypoints.contains(&crash));
             let state = self.resumes.then(|| waypoints.clone());
-            Ok(Ran { stress: hidden(self.points, waypoints), state, legs })
+            Ok(Ran { stress: hidden(self.points, waypoints), fails, state, legs })
         }
     }
 
@@ -255,6 +258,30 @@ mod tests {
         let (outcome, _) = search(&mut looking, settings(100, true));
         assert!(outcome.unkept > 0 && outcome.found.iter().all(|found| !found.waypoints.contains(&broken)));
         assert!(!outcome.found.is_empty() && looking.legs <= 500, "{}", looking.legs);
+    }
+
+    #[test]
+    fn what_crashes_leads_and_the_executions_left_go_to_others() {
+        let points = points(3, 11, 11.0);
+        let settings = |resumes| PartialSettings { wanted: 2, ..settings(100, resumes) };
+        for resumes in [true, false] {
+            let (home, largest) = search(&mut Looking::new(&points, resumes), settings(resumes));
+            let through = |found: &Found<_>, waypoint: u32| found.waypoints.contains(&waypoint);
+            let crash =
+                (1..11).rev().find(|crash| !through(&home.found[0], *crash)).expect("it passes no more than six");
+            let mut looking = Looking { crashes: Some(crash), ..Looking::new(&points, resumes) };
+            let (mut outcome, curve) = search(&mut looking, settings(resumes));
+            let of = |found: &Found<_>| Rank::of_score(found.score);
+            let crashed = outcome.found.iter().take_while(|found| of(found).fails).count();
+            assert!(crashed >= 2 && crashed < outcome.found.len(), "{crashed} of {}", outcome.found.len());
+            for (place, found) in outcome.found.iter().enumerate() {
+                assert_eq!(through(found, crash), place < crashed);
+                assert_eq!(of(found).stress, hidden(&points, &found.waypoints));
+            }
+            assert!(curve.is_sorted() && largest.is_sorted() && looking.legs <= 500, "{}", looking.legs);
+            outcome.found.sort_by(|a, b| of(b).stress.total_cmp(&of(a).stress));
+            assert_eq!(curve.last(), Some(&of(&outcome.found[0]).stress), "the curve is of stress");
+        }
     }
 
     #[test]

@@ -10,6 +10,8 @@ use crate::math::cubic::{Cubic, nearest_along};
 
 /// Channel, 1 throughout, of tracks whose attitudes nobody told: their rotations mean nothing.
 pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
+/// Channel, 1 throughout, of tracks of which nobody told how they ended: they are taken for done.
+pub const END_UNSAID: &str = "end_unsaid";
 
 /// A named column beside the poses, one value per stamp.
 ///

@@ -11,6 +11,7 @@ mod drive_environments;
 mod figure_4;
 mod flight_software;
 mod going_around;
+mod gravest_first;
 mod ground_drives;
 mod ground_roadmap;
 mod heaviest_proofs;

@@ -8,6 +8,7 @@ mod follow;
 mod frames;
 mod load;
 mod motion;
+mod round;
 mod scope;
 mod statements;
 mod variables;
@@ -49,6 +50,8 @@ pub(super) struct Machine<'a> {
     /// Names, in lower case, of the tools that moves have used.
     carried: BTreeSet<String>,
     steps: usize,
+    /// Values that were held beside others, to see whether a loop comes to an end.
+    held: usize,
     depth: usize,
     /// How many conditions are decided whatever the operand comes to that is evaluated just now.
     decided: usize,
@@ -71,6 +74,7 @@ pub(super) struct Known<'a> {
     pub(super) work_objects: &'a [WorkObject],
 }
 
+#[derive(Clone, Copy, PartialEq)]
 struct Demanded {
     linear: bool,
     joint: bool,
@@ -111,6 +115,7 @@ impl<'a> Machine<'a> {
             soft: false,
             carried: BTreeSet::new(),
             steps: 0,
+            held: 0,
             depth: 0,
             decided: 0,
             size: 0,
@@ -209,12 +214,13 @@ impl<'a> Machine<'a> {
     /// Counts work; `false` once there was too much.
     fn step(&mut self, at: At, by: usize) -> bool {
         self.steps = self.steps.saturating_add(by);
-        let enough = self.steps > MOST_STEPS || self.moves.len() >= MOST_MOVES;
-        if enough {
-            let what = format!("more than {MOST_STEPS} steps or {MOST_MOVES} moves: the rest is not followed");
-            self.mark(at, Class::ChangesMotion, what);
-        }
-        !enough
+        let most = match self.steps > MOST_STEPS {
+            true => format!("{MOST_STEPS} steps"),
+            false if self.moves.len() >= MOST_MOVES => format!("{MOST_MOVES} moves"),
+            false => return true,
+        };
+        self.mark(at, Class::ChangesMotion, format!("more than {most} until here: the rest is not followed"));
+        false
     }
 }
 

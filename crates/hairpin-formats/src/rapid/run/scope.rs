@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::rapid::syntax::Home;
 
 /// Things by their names, in lower case.
+#[derive(Clone, PartialEq)]
 pub(super) struct Scope<T> {
     shared: BTreeMap<String, T>,
     /// Of each module.

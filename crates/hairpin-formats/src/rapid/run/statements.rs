@@ -193,7 +193,8 @@ impl Machine<'_> {
     fn repeat(&mut self, condition: &Expression, body: &[Statement], at: At) -> Flow {
         // Production programs go round for ever; another round would only repeat the moves.
         let endless = super::effects::is_constant(condition) && !super::effects::has_way_out(body);
-        loop {
+        for round in 1.. {
+            let begun = if endless { None } else { self.begun(round) };
             match self.evaluate(condition, at).truth() {
                 Some(true) => {}
                 Some(false) => {
@@ -209,10 +210,17 @@ impl Machine<'_> {
             self.mark(at, Class::Understood, if endless { "without end: one round is followed" } else { "" });
             match self.block(body) {
                 Flow::Next if endless || !self.step(at, 1) => return Flow::End,
+                Flow::Next if self.comes_again(begun.as_ref()) => {
+                    let rounds = if round == 1 { "one round is".into() } else { format!("{round} rounds are") };
+                    let what = format!("no end is seen, every further round is as the last: {rounds} followed");
+                    self.mark(at, Class::Understood, what);
+                    return Flow::End;
+                }
                 Flow::Next => {}
                 other => return other,
             }
         }
+        Flow::End
     }
 
     fn count(

@@ -173,6 +173,29 @@ fn endless_programs_are_followed_once_round() {
     assert_eq!((counted.certain, counted.unclear_line), (4, None));
 }
 
+#[test]
+fn a_loop_that_comes_back_to_where_it_was_is_seen_at_once() {
+    let moves = "MoveL p10,v5,fine,tool0;\nMoveL p20,v5,fine,tool0;";
+    // Neither condition nor way out is constant, and nothing changes either.
+    for (head, way_out) in [("WHILE TRUE DO", "IF done EXIT;"), ("WHILE NOT done DO", "WaitTime 1;")] {
+        let module = main_of(&format!("VAR bool done:=FALSE;\n{head}\n{moves}\n{way_out}\nENDWHILE\n{moves}"));
+        assert_eq!((module.program.moves.len(), module.certain, module.unclear_line), (2, 2, None), "{head}");
+        assert!(module.lines[&(FIRST + 1)].what.contains("one round is followed"), "{:?}", module.lines);
+        assert_eq!(module.class(FIRST + 6), Class::Unreached);
+    }
+    // The first round is another one.
+    let module = main_of(&format!(
+        "VAR bool first:=TRUE;\nWHILE TRUE DO\nIF first MoveL p20,v5,fine,tool0;\nfirst:=FALSE;\n{moves}\n\
+         IF first RETURN;\nENDWHILE"
+    ));
+    assert_eq!((module.program.moves.len(), module.unclear_line), (5, None), "{:?}", module.lines);
+    assert!(module.lines[&(FIRST + 1)].what.contains("2 rounds are followed"), "{:?}", module.lines);
+    // What counts on never comes back: the bound is told where it was met.
+    let module = inside("VAR num n:=0;\nPROC main()\nWHILE n>=0 DO\nn:=n+1;\nENDWHILE\nENDPROC");
+    let (line, told) = (module.unclear_line.unwrap(), "more than 1000000 steps until here");
+    assert!((4..=5).contains(&line) && module.lines[&line].what.contains(told), "{:?}", module.lines);
+}
+
 /// Words that make most of what can go wrong.
 const WORDS: [&str; 48] = [
     "MODULE",

@@ -6,7 +6,7 @@
 use nalgebra::Point3;
 
 use super::plan::Plan;
-use crate::search::in_loop::{Ran, Trial};
+use crate::search::in_loop::{Ran, Rank, Trial};
 use crate::simulation::Airborne;
 
 /// Executions, each of which counts; `None` where one fails.
@@ -14,8 +14,8 @@ use crate::simulation::Airborne;
 /// `None` of a closure may also mean that the caller stopped; the search then ends by its own budget.
 #[derive(Clone, Copy)]
 pub(in crate::campaign) struct Executions<'a> {
-    /// Of a plan: once, and as often again as the search asks for if it came to the stress that is given.
-    pub(in crate::campaign) execute: &'a dyn Fn(&Plan, f64) -> Option<Trial>,
+    /// Of a plan: once, and as often again as the search asks for if it came to the rank that is given.
+    pub(in crate::campaign) execute: &'a dyn Fn(&Plan, Rank) -> Option<Trial>,
     /// How long a plan's takes, s.
     pub(in crate::campaign) duration: &'a dyn Fn(&Plan) -> Option<f64>,
     /// A plan with the obstacles that are asked for, executed twice: without them, to see where they belong, and among

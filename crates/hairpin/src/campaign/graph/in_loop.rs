@@ -134,7 +134,7 @@ struct Climber {
 }
 
 impl Climber {
-    /// Moves waypoints by `executions` at most, `per_trial` each; its largest stress after each.
+    /// Moves waypoints by `executions` at most, `per_trial` each; the largest stress after each.
     fn climb(&mut self, looped: &Looped, seed: u64, [executions, per_trial]: [u64; 2]) -> Vec<f64> {
         let largest = LARGEST_STEP * mean_leg(&self.plan);
         let settings = ShiftSettings { executions, per_trial, step: self.step, largest, free_end: false };
@@ -151,7 +151,7 @@ impl Climber {
 
 /// Beside the searches, which are compiled for each kind of node: a sort is as large as they are.
 fn hardest_first(climbers: &mut [Climber]) {
-    climbers.sort_by(|a, b| b.trial.stress.total_cmp(&a.trial.stress));
+    climbers.sort_by(|a, b| b.trial.fails.cmp(&a.trial.fails).then(b.trial.stress.total_cmp(&a.trial.stress)));
 }
 
 /// What evolution starts from: every score's optima under both aggregates, and uniform draws.

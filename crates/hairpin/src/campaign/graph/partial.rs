@@ -6,7 +6,7 @@ use super::answer::Answer;
 use super::executions::Partials;
 use super::question::Question;
 use crate::math::random::named_seed;
-use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran};
+use crate::search::in_loop::{Execute, Executed, PartialSettings, Ran, Rank};
 use crate::search::{Additive, Found, Task, beam_grown};
 use crate::simulation::Airborne;
 
@@ -59,7 +59,9 @@ pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
     let task = Task { start: question.start, candidates: question.points, reach: question.reach };
     let mut settings = question.beam_settings();
     settings.frontier = settings.frontier.min(FRONTIER);
-    let outcome = beam_grown(&task, &mut executed, may_arrive, &settings);
+    let mut outcome = beam_grown(&task, &mut executed, may_arrive, &settings);
+    // What leads by its failure is told by its stress.
+    outcome.found.iter_mut().for_each(|found| found.score = Rank::of_score(found.score).stress);
     let capped = || {
         format!(
             "neither {} iterations nor {} executions per graph led to a whole trajectory with a measure",

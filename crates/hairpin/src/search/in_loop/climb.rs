@@ -8,8 +8,8 @@
 
 use rand::RngExt;
 
-use super::Trial;
 use super::step::after;
+use super::{Rank, Trial};
 use crate::math::random::{standard_normals, stream};
 
 /// Share of the executions that is drawn uniformly.
@@ -24,7 +24,7 @@ const STEPS: [f64; 2] = [0.3, 1e-3];
 /// All entries of `place` are within −1 … 1 and as `bound` left them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Climbed {
-    /// The most stressful place, if one was better than the first.
+    /// The gravest place, if one was as grave as the first.
     pub place: Option<Vec<f64>>,
     /// Its execution, or the first one's.
     pub trial: Trial,
@@ -34,9 +34,9 @@ pub struct Climbed {
 
 /// Searches places with coordinates between −1 and 1 from `start`, whose execution came to `trial`. `bound` puts a
 /// place that is not allowed to the nearest that is; `execute` gives `None` where an execution failed; it is told the
-/// stress of the best so far. `executions` is how many there are at most, `per_trial` how many one trial takes at most.
+/// rank of the best so far. `executions` is how many there are at most, `per_trial` how many one trial takes at most.
 ///
-/// x′ = bound(x + σ n), n standard normal; accepted where the stress is no less. Places are scaled by the caller so
+/// x′ = bound(x + σ n), n standard normal; accepted where the rank is no less. Places are scaled by the caller so
 /// that ±1 are its bounds.
 ///
 /// `start` and places have as many coordinates as what surrounds the trajectory has numbers. Draws are 2 of 5
@@ -50,7 +50,7 @@ pub struct Climbed {
 ///
 /// // Stress falls with the distance from (0.5, −0.5): found within a tenth by 200 executions.
 /// let stress = |x: &[f64]| -((x[0] - 0.5).powi(2) + (x[1] + 0.5).powi(2));
-/// let trial = |stress| Trial { stress, worst_leg: 0, executions: 1 };
+/// let trial = |stress| Trial { stress, fails: false, worst_leg: 0, executions: 1 };
 /// let first = trial(stress(&[0.0, 0.0]));
 /// let answer = climb(&[0.0, 0.0], first, 1, [200, 1], |_| {}, |place, _| Some(trial(stress(place))));
 /// let place = answer.place.unwrap();
@@ -62,10 +62,11 @@ pub fn climb(
     seed: u64,
     [executions, per_trial]: [u64; 2],
     bound: impl Fn(&mut [f64]),
-    mut execute: impl FnMut(&[f64], f64) -> Option<Trial>,
+    mut execute: impl FnMut(&[f64], Rank) -> Option<Trial>,
 ) -> Climbed {
     let mut rng = stream(seed);
     let mut best = Climbed { place: None, trial, best_so_far: Vec::new() };
+    let mut most = trial.stress;
     let mut here = start.to_vec();
     let drawn = (executions as f64 * DRAWN) as u64;
     let mut step = STEPS[0];
@@ -78,10 +79,11 @@ pub fn climb(
         };
         place.iter_mut().for_each(|x| *x = x.clamp(-1.0, 1.0));
         bound(&mut place);
-        let trial = execute(&place, best.trial.stress);
+        let trial = execute(&place, best.trial.rank());
         let count = trial.map_or(1, |trial| trial.executions);
+        most = most.max(trial.map_or(f64::NAN, |trial| trial.stress));
         match trial {
-            Some(trial) if trial.stress >= best.trial.stress => {
+            Some(trial) if trial.reaches(best.trial.rank()) => {
                 here.clone_from(&place);
                 (best.place, best.trial) = (Some(place), trial);
                 step = after(step, true).min(2.0 * STEPS[0]);
@@ -89,7 +91,7 @@ pub fn climb(
             _ if number >= drawn => step = after(step, false).max(STEPS[1]),
             _ => {}
         }
-        best.best_so_far.extend((0..count).map(|_| best.trial.stress));
+        best.best_so_far.extend((0..count).map(|_| most));
     }
     best
 }
@@ -107,12 +109,12 @@ mod tests {
             x[..2].iter_mut().for_each(|x| *x /= norm);
         };
         for seed in 0..5 {
-            let first = Trial { stress: stress(&[0.0; 3]), worst_leg: 0, executions: 1 };
+            let first = Trial { stress: stress(&[0.0; 3]), fails: false, worst_leg: 0, executions: 1 };
             let mut executed = 0;
             let found = climb(&[0.0; 3], first, seed, [200, 1], bound, |x, _| {
                 executed += 1;
                 assert!(x[0] * x[0] + x[1] * x[1] <= 1.0 + 1e-12 && x[2].abs() <= 1.0);
-                (executed % 7 != 0).then(|| Trial { stress: stress(x), worst_leg: 0, executions: 1 })
+                (executed % 7 != 0).then(|| Trial { stress: stress(x), fails: false, worst_leg: 0, executions: 1 })
             });
             let place = found.place.unwrap();
             assert_eq!((executed, found.best_so_far.len()), (200, 200));
@@ -120,7 +122,8 @@ mod tests {
             assert!(found.best_so_far.windows(2).all(|pair| pair[0] <= pair[1]));
             assert_eq!(stress(&place), found.trial.stress);
         }
-        let nothing = climb(&[0.0], Trial { stress: 1.0, worst_leg: 2, executions: 1 }, 1, [9, 1], |_| {}, |_, _| None);
+        let first = Trial { stress: 1.0, fails: false, worst_leg: 2, executions: 1 };
+        let nothing = climb(&[0.0], first, 1, [9, 1], |_| {}, |_, _| None);
         assert_eq!((nothing.place, nothing.trial.worst_leg, nothing.best_so_far), (None, 2, vec![1.0; 9]));
     }
 }

@@ -1,6 +1,6 @@
 //! Evolution of waypoint sequences within the legs of a graph.
 //!
-//! A pool holds the most stressful trajectories executed so far. A child takes its parent's beginning, a stretch of
+//! A pool holds the gravest trajectories executed so far. A child takes its parent's beginning, a stretch of
 //! legs grown anew, and the rest from the same parent or another one of the pool; or it puts one of its parent's
 //! waypoints to a place nearby. Most changes lie around the leg that the parent owes its stress to. Each child is
 //! feasible, for every leg is one of the graph, and is executed once.
@@ -9,9 +9,9 @@ use std::collections::HashSet;
 
 use rand::RngExt;
 
-use super::Trial;
 use super::nearby::nearby;
 use super::regrow::{Goal, Regrow};
+use super::{Rank, Trial};
 use crate::math::random::{Stream, stream, unit};
 use crate::search::graph::LegGraph;
 use crate::search::task::Found;
@@ -69,7 +69,7 @@ pub struct Tested<N> {
 /// execution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evolved<N> {
-    /// The pool, the most stressful first.
+    /// The pool, the gravest first.
     pub pool: Vec<Tested<N>>,
     /// The largest stress after each execution.
     pub best_so_far: Vec<f64>,
@@ -88,17 +88,18 @@ struct Evolution<'g, 'a, N, F> {
     rng: Stream,
     known: HashSet<Vec<u32>>,
     pool: Vec<Member>,
+    most: f64,
     best_so_far: Vec<f64>,
 }
 
 /// Evolves trajectories of `graph` from `first` (repetitions are executed once). `execute` gives `None` where an
-/// execution failed, which counts against the budget; it is told the stress that the pool's last has.
+/// execution failed, which counts against the budget; it is told the rank that the pool's last has.
 ///
 /// `first` is executed in its order; of the budget what is left goes to children. `best_so_far` never falls and has one
 /// entry for each execution.
 ///
 /// One execution a child, no generations: steady-state evolution with truncation. Parents are drawn by u² over the pool
-/// in the order of stress, so that its first quarter has half of the children. Ends when the budget does, or when 300
+/// in the order of rank, so that its first quarter has half of the children. Ends when the budget does, or when 300
 /// children in a row were known or could not be made.
 pub fn evolve<N, F>(
     graph: &LegGraph<'_, N>,
@@ -109,7 +110,7 @@ pub fn evolve<N, F>(
 ) -> Evolved<N>
 where
     N: Copy + Eq,
-    F: FnMut(&Found<N>, f64) -> Option<Trial>,
+    F: FnMut(&Found<N>, Rank) -> Option<Trial>,
 {
     let mut evolution = Evolution {
         graph,
@@ -118,6 +119,7 @@ where
         rng: stream(seed),
         known: HashSet::new(),
         pool: Vec::new(),
+        most: f64::NEG_INFINITY,
         best_so_far: Vec::new(),
     };
     for found in first {
@@ -139,7 +141,7 @@ where
     Evolved { pool: pool.into_iter().map(tested).collect(), best_so_far }
 }
 
-impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F> {
+impl<N: Copy, F: FnMut(&Found<N>, Rank) -> Option<Trial>> Evolution<'_, '_, N, F> {
     /// Whether there are executions left for another trial.
     fn goes_on(&self) -> bool {
         self.best_so_far.len() as u64 + self.settings.per_trial.max(1) <= self.settings.executions
@@ -151,18 +153,18 @@ impl<N: Copy, F: FnMut(&Found<N>, f64) -> Option<Trial>> Evolution<'_, '_, N, F>
             return false;
         }
         let most = self.settings.pool.max(1);
-        let least = self.pool.get(most - 1).map_or(f64::NEG_INFINITY, |member| member.trial.stress);
+        let least = self.pool.get(most - 1).map_or(Rank::LEAST, |member| member.trial.rank());
         let trial = (self.execute)(&self.graph.found(&legs, 0.0), least);
         let executions = trial.map_or(1, |trial| trial.executions);
         let trial = trial.filter(|trial| !trial.stress.is_nan());
         self.known.insert(legs.clone());
         if let Some(trial) = trial {
-            let place = self.pool.partition_point(|member| member.trial.stress >= trial.stress);
+            self.most = self.most.max(trial.stress);
+            let place = self.pool.partition_point(|member| member.trial.reaches(trial.rank()));
             self.pool.insert(place, Member { legs, trial });
             self.pool.truncate(most);
         }
-        let best = self.pool.first().map_or(f64::NEG_INFINITY, |member| member.trial.stress);
-        self.best_so_far.extend((0..executions).map(|_| best));
+        self.best_so_far.extend((0..executions).map(|_| self.most));
         true
     }
 

@@ -4,10 +4,14 @@
 //! the end still takes, so that a trajectory is complete before it is spent, and a part is kept back for executing what
 //! is complete. A partial trajectory that the budget does not reach is taken to be as stressful as what it extends,
 //! behind all that was executed to that.
+//!
+//! What fails on the way leads, and all that begins with it fails alike, so that of what begins with one such failure
+//! no more trajectories are completed than are wanted: the executions left go to others.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
+use super::Rank;
 use crate::math::random::hashed_unit;
 use crate::search::growth::{Growth, Parent};
 use crate::search::objective::{Additive, LegView};
@@ -42,6 +46,8 @@ pub struct PartialSettings {
 pub struct Ran<S> {
     /// The stress so far; NaN: none was measured yet.
     pub stress: f64,
+    /// Whether it came to an end that is worse than any stress.
+    pub fails: bool,
     /// Robot and controller at its end, to go on from.
     pub state: Option<S>,
     /// Legs that were executed for it.
@@ -56,8 +62,10 @@ pub struct Step<N, S> {
     waypoint: u32,
     /// Of the leg, s.
     duration: f64,
-    /// What executing it came to, once it was executed.
+    /// What executing it came to, once it was executed: its rank's score, and the state that it led to.
     ran: OnceCell<(f64, Option<S>)>,
+    /// Trajectories that were completed of what begins with its first failure, if it fails.
+    failure: OnceCell<Rc<Cell<usize>>>,
 }
 
 impl<N, S> Drop for Step<N, S> {
@@ -67,6 +75,14 @@ impl<N, S> Drop for Step<N, S> {
         while let Some(mut step) = next.and_then(Rc::into_inner) {
             next = step.before.take();
         }
+    }
+}
+
+impl<N, S> Step<N, S> {
+    /// The first failure that it goes on from, as far as was executed.
+    fn failed_before(&self) -> Option<Rc<Cell<usize>>> {
+        let steps = std::iter::successors(self.before.as_ref(), |step| step.before.as_ref());
+        steps.filter_map(|step| step.failure.get()).next().map(Rc::clone)
     }
 }
 
@@ -103,7 +119,8 @@ pub trait Execute<N> {
     ) -> Result<Ran<Self::State>, u64>;
 }
 
-/// Scores by what `execute` measures; `objective` tells which legs are executed first where not all can be.
+/// Scores by what `execute` measures ([`Rank::score`]); `objective` tells which legs are executed first where not all
+/// can be.
 ///
 /// Which legs of an expansion are executed is settled when it meets them: half are those that `objective` puts first,
 /// half are drawn. The others stand behind what they extend.
@@ -193,13 +210,13 @@ impl<'o, O: Additive, E> Executed<'o, O, E> {
         steps.take_while(|step| step.before.is_some() && !known(step)).count() as u64
     }
 
-    /// The stress of `path`, executed if it was not before; `last`: it is a trajectory that is complete.
-    fn stress<N: Copy>(&mut self, path: &Path<N, E::State>, last: bool) -> Result<f64, Unscored>
+    /// The score of `path`, executed if it was not before; `last`: it is a trajectory that is complete.
+    fn score<N: Copy>(&mut self, path: &Path<N, E::State>, last: bool) -> Result<f64, Unscored>
     where
         E: Execute<N>,
     {
-        if let Some((stress, _)) = path.ran.get() {
-            return Ok(*stress);
+        if let Some((score, _)) = path.ran.get() {
+            return Ok(*score);
         }
         let cost = self.pending(path);
         let kept_back = if last { 0 } else { self.reserve() };
@@ -218,25 +235,36 @@ impl<'o, O: Additive, E> Executed<'o, O, E> {
         self.executed += legs;
         let executions = self.executed.div_ceil(self.legs()) as usize;
         self.best_so_far.resize(executions.max(self.best_so_far.len()), self.best);
-        let Ran { stress, state, .. } = ran.map_err(|_| Unscored::Failed)?;
+        let Ran { stress, fails, state, .. } = ran.map_err(|_| Unscored::Failed)?;
         if !stress.is_nan() {
-            let _ = path.ran.set((stress, state));
-            return Ok(stress);
+            if fails {
+                let _ = path.failure.set(path.failed_before().unwrap_or_default());
+            }
+            let score = Rank { fails, stress }.score();
+            let _ = path.ran.set((score, state));
+            return Ok(score);
         }
         // Nothing was measured yet: as its beginning, but there is a state to go on from.
-        let before = path.before.as_ref().and_then(|before| before.ran.get()).map(|(stress, _)| *stress);
+        let before = path.before.as_ref().and_then(|before| before.ran.get()).map(|(score, _)| *score);
         match (last, before) {
-            (false, Some(stress)) => {
-                let _ = path.ran.set((stress, state));
-                Ok(stress)
+            (false, Some(score)) => {
+                let _ = path.ran.set((score, state));
+                Ok(score)
             }
             _ => Err(Unscored::Failed),
         }
     }
 
     /// Takes note of a complete trajectory.
-    fn completed(&mut self, stress: f64) {
+    fn completed<N>(&mut self, path: &Path<N, E::State>, score: f64)
+    where
+        E: Execute<N>,
+    {
         self.complete += 1;
+        if let Some(completed) = path.failure.get() {
+            completed.set(completed.get() + 1);
+        }
+        let stress = Rank::of_score(score).stress;
         if stress > self.best {
             self.best = stress;
             if let Some(last) = self.best_so_far.last_mut() {
@@ -271,7 +299,8 @@ where
 
     fn start(&mut self, node: &N) -> (f64, Self::Memory) {
         let ran = OnceCell::from((f64::NEG_INFINITY, None));
-        (f64::NEG_INFINITY, Rc::new(Step { before: None, node: *node, waypoint: 0, duration: 0.0, ran }))
+        let failure = OnceCell::new();
+        (f64::NEG_INFINITY, Rc::new(Step { before: None, node: *node, waypoint: 0, duration: 0.0, ran, failure }))
     }
 
     /// Chooses the legs of this parent that are to be executed, as the budget's share allows: half of them those that
@@ -285,7 +314,7 @@ where
             return;
         }
         // It may have been passed over: its legs are then executed once, not with each that extends it.
-        self.barren = matches!(self.stress(parent.memory, false), Err(Unscored::Failed));
+        self.barren = matches!(self.score(parent.memory, false), Err(Unscored::Failed));
         let (objective, seed) = (self.objective, self.settings.seed);
         let drawn = |leg: &LegView| hashed_unit(seed, &[leg.from.into(), leg.to.into(), done]);
         let both: Vec<[f64; 2]> = legs.map(|leg| [objective.own(&leg), drawn(&leg)]).collect();
@@ -301,17 +330,22 @@ where
         }
     }
 
-    /// An executed leg's score is the stress measured; a leg passed over inherits its parent's, one unit in the last
-    /// place lower, so that what was measured leads; a parent whose own run failed has no legs.
+    /// An executed leg's score is that of what was measured; a leg passed over inherits its parent's, one unit in the
+    /// last place lower, so that what was measured leads. A parent that could not be executed has no legs, nor has what
+    /// begins with a failure that enough trajectories begin with.
     fn extend(&mut self, parent: &Parent<Self::Memory>, leg: &LegView<'_>, to: &N) -> Option<(f64, Self::Memory)> {
         let done = parent.length as u64;
         let before = Some(Rc::clone(parent.memory));
-        let path = Rc::new(Step { before, node: *to, waypoint: leg.to, duration: leg.duration, ran: OnceCell::new() });
+        let (ran, failure) = (OnceCell::new(), OnceCell::new());
+        let path = Rc::new(Step { before, node: *to, waypoint: leg.to, duration: leg.duration, ran, failure });
+        if path.failed_before().is_some_and(|completed| completed.get() >= self.settings.wanted.max(1)) {
+            return None;
+        }
         if done >= self.legs() + u64::from(self.settings.free_end) {
             let whole = if self.settings.free_end { parent.memory } else { &path };
-            let stress = self.stress(whole, true).ok()?;
-            self.completed(stress);
-            return Some((stress, path));
+            let score = self.score(whole, true).ok()?;
+            self.completed(whole, score);
+            return Some((score, path));
         }
         let chosen = self.chosen.get(self.next).copied().unwrap_or(false);
         self.next += 1;
@@ -319,8 +353,8 @@ where
             return None;
         }
         if chosen {
-            match self.stress(&path, false) {
-                Ok(stress) => return Some((stress, path)),
+            match self.score(&path, false) {
+                Ok(score) => return Some((score, path)),
                 Err(Unscored::Failed) => return None,
                 Err(Unscored::Spent) => {}
             }

@@ -11,8 +11,8 @@
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 
-use super::Trial;
 use super::step::after;
+use super::{Rank, Trial};
 use crate::math::random::{Stream, standard_normals, stream, unit};
 
 /// Draws for one execution at most; where none is feasible the step is halved.
@@ -50,7 +50,7 @@ pub struct ShiftSettings {
 /// `best_so_far` never falls and has one entry for each execution; it is empty where no waypoint may move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shifted<P> {
-    /// The most stressful plan, if one was better than the first.
+    /// The gravest plan, if one was as grave as the first.
     pub plan: Option<P>,
     /// Its execution, or the first one's.
     pub trial: Trial,
@@ -61,9 +61,9 @@ pub struct Shifted<P> {
 }
 
 /// Moves `points`, whose execution came to `trial`. `feasible` plans through given waypoints; `execute` carries a plan
-/// out, and is told the stress of the best so far.
+/// out, and is told the rank of the best so far.
 ///
-/// Only feasible plans are executed; drawing them is free. Accepted where the stress is no less, so that plateaus are
+/// Only feasible plans are executed; drawing them is free. Accepted where the rank is no less, so that plateaus are
 /// walked.
 ///
 /// x′ = x + σ n for 1 … 3 waypoints in a row (3 of 10 changes); one waypoint anew at neighbour + f · longest leg in a
@@ -82,7 +82,7 @@ pub struct Shifted<P> {
 /// let inside = |p: &[Point3<f64>]| p.iter().all(|p| (p.x - 1.0).abs() <= 1.0 && p.y.abs() <= 1.0 && p.z == 0.0);
 /// let flat = |p: &[Point3<f64>]| p.iter().map(|p| Point3::new(p.x, p.y, 0.0)).collect::<Vec<_>>();
 /// let length = |p: &[Point3<f64>]| p.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum::<f64>();
-/// let trial = |stress| Trial { stress, worst_leg: 0, executions: 1 };
+/// let trial = |stress| Trial { stress, fails: false, worst_leg: 0, executions: 1 };
 /// let settings = ShiftSettings { executions: 200, per_trial: 1, step: 0.2, largest: 1.0, free_end: false };
 /// let feasible = |p: &[Point3<f64>]| inside(&flat(p)).then(|| flat(p));
 /// let moved = shift(&points, trial(length(&points)), 1, &settings, feasible, |plan, _| Some(trial(length(plan))));
@@ -94,10 +94,11 @@ pub fn shift<P>(
     seed: u64,
     settings: &ShiftSettings,
     mut feasible: impl FnMut(&[Point3<f64>]) -> Option<P>,
-    mut execute: impl FnMut(&P, f64) -> Option<Trial>,
+    mut execute: impl FnMut(&P, Rank) -> Option<Trial>,
 ) -> Shifted<P> {
     let mut rng = stream(seed);
     let mut best = Shifted { plan: None, trial, step: settings.step, best_so_far: Vec::new() };
+    let mut most = trial.stress;
     let mut points = points.to_vec();
     let last = points.len() - usize::from(!settings.free_end);
     if last < 2 {
@@ -119,10 +120,11 @@ pub fn shift<P>(
             }
             continue;
         };
-        let trial = execute(&plan, best.trial.stress);
+        let trial = execute(&plan, best.trial.rank());
         let executions = trial.map_or(1, |trial| trial.executions);
+        most = most.max(trial.map_or(f64::NAN, |trial| trial.stress));
         match trial {
-            Some(trial) if trial.stress >= best.trial.stress => {
+            Some(trial) if trial.reaches(best.trial.rank()) => {
                 (best.plan, best.trial, points) = (Some(plan), trial, moved);
                 best.step = after(best.step, true);
             }
@@ -132,7 +134,7 @@ pub fn shift<P>(
         if best.step < SMALLEST * settings.largest {
             best.step = 0.5 * settings.largest;
         }
-        best.best_so_far.extend((0..executions).map(|_| best.trial.stress));
+        best.best_so_far.extend((0..executions).map(|_| most));
     }
     best
 }

@@ -14,12 +14,12 @@ pub(super) const LENGTH: usize = 6;
 /// A stress that no leg alone tells: how sharply two long legs meet, largest over the trajectory.
 fn hidden(points: &[Point3<f64>], waypoints: &[u32]) -> Trial {
     let leg = |k: usize| points[waypoints[k + 1] as usize] - points[waypoints[k] as usize];
-    let mut trial = Trial { stress: 0.0, worst_leg: 0, executions: 1 };
+    let mut trial = Trial { stress: 0.0, fails: false, worst_leg: 0, executions: 1 };
     for k in 1..waypoints.len() - 1 {
         let (before, after) = (leg(k - 1), leg(k));
         let stress = before.norm() * after.norm() - before.dot(&after);
         if stress > trial.stress {
-            trial = Trial { stress, worst_leg: k, executions: 1 };
+            trial = Trial { stress, fails: false, worst_leg: k, executions: 1 };
         }
     }
     trial
@@ -52,7 +52,7 @@ fn the_most_stressful_is_found_and_every_child_is_feasible() {
         let executions = all.len() as u64;
         let settings = EvolveSettings { length: LENGTH, executions, ..EvolveSettings::default() };
         let mut executed = Vec::new();
-        let mut run = |found: &Found<StepNode>, _: f64| {
+        let mut run = |found: &Found<StepNode>, _: Rank| {
             executed.push(found.waypoints.clone());
             Some(hidden(&points, &found.waypoints))
         };
@@ -77,6 +77,41 @@ fn the_most_stressful_is_found_and_every_child_is_feasible() {
 }
 
 #[test]
+fn what_fails_is_kept_before_what_is_stressed_more() {
+    let points = points(3, 11, 11.0);
+    let task = Task { start: START, candidates: &points, reach: &SMALL };
+    let all = enumerate(&task, &Score::Random { seed: 3 }, (LENGTH, false, Aggregate::Sum));
+    let graph = LegGraph::explore(START, &points, &SMALL, LENGTH);
+    // Those through one waypoint crash, a hundred times less stressed until then.
+    let crash = all[0].0[1];
+    let execute = |found: &Found<StepNode>, _: Rank| {
+        let trial = hidden(&points, &found.waypoints);
+        let fails = found.waypoints.contains(&crash);
+        Some(Trial { stress: if fails { 0.01 * trial.stress } else { trial.stress }, fails, ..trial })
+    };
+    let settings = EvolveSettings { length: LENGTH, executions: all.len() as u64, ..EvolveSettings::default() };
+    let evolved = evolve(&graph, &first(&all), 3, &settings, execute);
+    let [best, other, ..] = &evolved.pool[..] else { panic!("{:?}", evolved.pool) };
+    assert!(best.trial.fails && other.trial.fails && best.trial.stress >= other.trial.stress);
+    let largest = evolved.best_so_far.last().expect("executed");
+    assert!(evolved.best_so_far.is_sorted() && *largest > best.trial.stress, "the curve is of stress");
+
+    // A wall at y > 1, met before anything is strained.
+    let line = [0.0, 1.0, 2.0, 3.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let settings = ShiftSettings { executions: 200, per_trial: 1, step: 0.3, largest: 0.6, free_end: false };
+    let walled = |y: f64| {
+        let fails = y > 1.0;
+        Trial { stress: if fails { 0.1 * (2.0 - y) } else { y }, fails, worst_leg: 1, executions: 1 }
+    };
+    let within = |moved: &[Point3<f64>]| moved.iter().all(|p| p.y.abs() <= 2.0).then(|| moved[1].y);
+    let shifted = shift(&line, walled(0.0), 1, &settings, within, |y, _| Some(walled(*y)));
+    assert!(shifted.trial.fails && shifted.best_so_far.is_sorted(), "{:?}", shifted.trial);
+    assert!(shifted.trial.stress > 0.09 && shifted.best_so_far[199] > 0.5, "{:?}", shifted.trial);
+    let climbed = climb(&[0.0], walled(0.0), 1, [200, 1], |_| {}, |x, _| Some(walled(2.0 * x[0])));
+    assert!(climbed.trial.fails && climbed.best_so_far.is_sorted() && climbed.best_so_far[199] > 0.5);
+}
+
+#[test]
 fn a_small_graph_is_used_up_and_failures_count() {
     let points = points(3, 4, 9.0);
     let task = Task { start: START, candidates: &points, reach: &SMALL };
@@ -98,9 +133,10 @@ fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
         assert_eq!((moved[0], moved[3]), (points[0], points[3]), "ends stay");
         moved.iter().all(|p| p.y.abs() <= 2.0 && p.z.abs() <= 1.0).then(|| moved.to_vec())
     };
-    let execute =
-        |plan: &Vec<Point3<f64>>, _: f64| Some(Trial { stress: plan[1].y + plan[2].z, worst_leg: 1, executions: 1 });
-    let trial = Trial { stress: 0.0, worst_leg: 1, executions: 1 };
+    let execute = |plan: &Vec<Point3<f64>>, _: Rank| {
+        Some(Trial { stress: plan[1].y + plan[2].z, fails: false, worst_leg: 1, executions: 1 })
+    };
+    let trial = Trial { stress: 0.0, fails: false, worst_leg: 1, executions: 1 };
     let shifted = shift(&points, trial, 1, &settings, feasible, execute);
     assert!(shifted.trial.stress > 2.9 && shifted.trial.stress <= 3.0, "{}", shifted.trial.stress);
     assert_eq!(shifted.best_so_far.len(), 400);
@@ -114,7 +150,7 @@ fn waypoints_move_to_the_edge_of_what_is_feasible_and_never_beyond() {
         2,
         &free,
         |p| Some(p[3]),
-        |end, _| Some(Trial { stress: end.coords.dot(&far), worst_leg: 2, executions: 1 }),
+        |end, _| Some(Trial { stress: end.coords.dot(&far), fails: false, worst_leg: 2, executions: 1 }),
     );
     assert!(moved.trial.stress > 3.0);
 }
@@ -131,7 +167,7 @@ fn what_is_confirmed_counts_within_the_budget_and_luck_is_let_go_of() {
     let evolved = evolve(&graph, &[], 2, &settings, |found, least| {
         let lasting = hidden(&points, &found.waypoints);
         let first = if lucky(found) { 10.0 * lasting.stress } else { lasting.stress };
-        let again = first >= least;
+        let again = first >= least.stress;
         let trial = Trial { stress: if again { lasting.stress / 2.0 } else { first }, ..lasting };
         executed += if again { 3 } else { 1 };
         confirmed += u64::from(again);
@@ -144,7 +180,7 @@ fn what_is_confirmed_counts_within_the_budget_and_luck_is_let_go_of() {
     }
     let settings = ShiftSettings { executions: 50, per_trial: 3, step: 0.3, largest: 0.6, free_end: false };
     let mut executed = 0;
-    let start = Trial { stress: points[1].x, worst_leg: 1, executions: 1 };
+    let start = Trial { stress: points[1].x, fails: false, worst_leg: 1, executions: 1 };
     let moved = shift(
         &points[..4],
         start,
@@ -152,9 +188,9 @@ fn what_is_confirmed_counts_within_the_budget_and_luck_is_let_go_of() {
         &settings,
         |p| Some(p[1].x),
         |&x, least| {
-            let executions = if x >= least { 3 } else { 1 };
+            let executions = if x >= least.stress { 3 } else { 1 };
             executed += executions;
-            Some(Trial { stress: x, worst_leg: 1, executions })
+            Some(Trial { stress: x, fails: false, worst_leg: 1, executions })
         },
     );
     assert!(executed <= 50 && executed > 47 && moved.trial.stress > points[1].x);

@@ -1,7 +1,7 @@
 //! The worst trajectories that differ: what a search keeps of all that it has executed.
 //!
-//! Clearing: in the order of stress, what [fails](super::Ran::fails) before what does not, each trajectory stands that
-//! is far enough from all that stand before it. Those that stand are the answer, the first as many as are asked for,
+//! Clearing: in the order of [ranks](crate::search::in_loop::Rank), each trajectory stands that is far enough from all
+//! that stand before it. Those that stand are the answer, the first as many as are asked for,
 //! and the parents of what is tried next. Source: Pétrowski, A clearing procedure as a niching method for genetic
 //! algorithms, 1996.
 
@@ -15,21 +15,12 @@ use crate::search::in_loop::Trial;
 pub(super) struct Member<P> {
     pub(super) plan: P,
     pub(super) trial: Trial,
-    /// What fails is worse than what does not, whatever its stress.
-    pub(super) fails: bool,
     pub(super) placed: Placed,
     /// Step of its moved waypoints, as a share of its mean leg.
     pub(super) step: f64,
     /// Its number among all that were executed.
     /// It names the member when ranks are asked; it is the index of its first execution.
     pub(super) number: u64,
-}
-
-impl<P> Member<P> {
-    /// Greater is worse.
-    fn rank(&self) -> (bool, f64) {
-        (self.fails, self.trial.stress)
-    }
 }
 
 /// Executed trajectories in the order of their ranks, of which some stand.
@@ -74,7 +65,7 @@ impl<P> Archive<P> {
     /// `offer` has sorted out those that are not.
     pub(super) fn take(&mut self, new: Vec<Member<P>>) {
         for member in new {
-            let place = self.members.partition_point(|known| known.rank() >= member.rank());
+            let place = self.members.partition_point(|known| known.trial.reaches(member.trial.rank()));
             self.members.insert(place, member);
         }
         self.clear();
@@ -167,8 +158,8 @@ mod tests {
     }
 
     fn member(x: f64, stress: f64) -> Member<f64> {
-        let trial = Trial { stress, worst_leg: 0, executions: 1 };
-        Member { plan: x, trial, fails: false, placed: scale().place(&trace(x)), step: 0.1, number: 0 }
+        let trial = Trial { stress, fails: false, worst_leg: 0, executions: 1 };
+        Member { plan: x, trial, placed: scale().place(&trace(x)), step: 0.1, number: 0 }
     }
 
     fn plans(archive: &Archive<f64>) -> Vec<f64> {
@@ -189,7 +180,10 @@ mod tests {
     #[test]
     fn what_fails_stands_before_what_is_stressed_more() {
         let mut archive = Archive::new(scale(), 0.2, 3);
-        let crash = |x, stress| Member { fails: true, ..member(x, stress) };
+        let crash = |x, stress| {
+            let Member { trial, .. } = member(x, stress);
+            Member { trial: Trial { fails: true, ..trial }, ..member(x, stress) }
+        };
         archive.take(vec![member(9.0, 5.0), crash(5.0, 0.1), crash(0.0, 0.2), member(0.5, 9.0)]);
         assert_eq!(plans(&archive), [0.0, 5.0, 9.0], "one beside a crash does not stand, however far it strays");
     }

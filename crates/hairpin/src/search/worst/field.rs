@@ -15,7 +15,8 @@ use crate::search::in_loop::Trial;
 /// counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// Its stress by each target, and the leg that it is owed to; NaN where that was not measured.
+    /// Its stress by each target, and the leg that it is owed to; NaN where that was not measured. What fails is the
+    /// worst for every target, among such by their stresses.
     /// [`WorstSettings::targets`](super::WorstSettings::targets) entries. An infinite stress counts as not measured.
     /// `executions` of all is that of the one with the most, as they share their runs.
     pub trials: Vec<Trial>,
@@ -24,9 +25,6 @@ pub struct Ran {
     /// In fixed order, each in its own unit; the scale divides each by its range over the first executions. Empty
     /// where nothing else is known; if one trajectory of the first has none, ways alone are compared.
     pub behaviour: Vec<f64>,
-    /// Whether it came to an end that is worse than any stress: a crash, whose stress is that of the way until then.
-    /// Such are the worst for every target, among themselves by their stresses.
-    pub fails: bool,
 }
 
 /// Feasible plans. Each answer is a plan of its own that is proven as the first was; what is asked twice is answered

@@ -57,7 +57,6 @@ pub(super) struct Search<'a, F: Field> {
 pub(super) struct Executed<P> {
     plan: P,
     trials: Vec<Trial>,
-    fails: bool,
     pub(super) trace: Trace,
     step: f64,
     /// Executions before it.
@@ -73,7 +72,6 @@ pub(super) fn offer<P: Clone>(archives: &mut [Archive<P>], executed: Vec<Execute
         let members = measured.map(|executed| Member {
             plan: executed.plan.clone(),
             trial: executed.trials[target],
-            fails: executed.fails,
             placed: archive.place(&executed.trace),
             step: executed.step,
             number: executed.number,
@@ -252,9 +250,9 @@ impl<'a, F: Field> Search<'a, F> {
             let executions =
                 ran.as_ref().map_or(1, |ran| ran.trials.iter().map(|trial| trial.executions).max().unwrap_or(1));
             self.stresses.extend((0..executions).map(|_| stresses.clone()));
-            executed.push(ran.map(|Ran { trials, behaviour, fails }| {
+            executed.push(ran.map(|Ran { trials, behaviour }| {
                 let route = Route::along(self.field.points(&plan));
-                Executed { plan, trials, fails, trace: Trace { route, behaviour }, step, number }
+                Executed { plan, trials, trace: Trace { route, behaviour }, step, number }
             }));
         }
         executed

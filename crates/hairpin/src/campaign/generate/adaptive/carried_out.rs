@@ -5,10 +5,10 @@ use crate::campaign::answers::{Answer, Executed};
 use crate::campaign::graph::{Plan, fingerprint};
 use crate::campaign::learn::LegSample;
 use crate::campaign::{Batch, RoundTally};
-use crate::search::in_loop::Trial;
+use crate::search::in_loop::{Rank, Trial};
 
-/// A stress, and the legs that it was measured on.
-type Learned = (f64, Vec<LegSample>);
+/// What an execution came to, and the legs that its stress was measured on.
+type Learned = (Rank, Vec<LegSample>);
 
 impl Campaign<'_> {
     /// Executes `todo` in part `part` of round `number`; stresses are added to `sums`, by origin.
@@ -31,16 +31,16 @@ impl Campaign<'_> {
             told.by_hand += u64::from(origin == Origin::ByHand);
             let graph = &mut self.graphs[graph];
             graph.known.insert(fingerprint(plan.waypoints.iter().copied()));
-            graph.curve.push(result.as_ref().map(|(stress, _)| *stress));
-            let Some((stress, samples)) = result else {
+            graph.curve.push(result.as_ref().map(|(rank, _)| rank.stress));
+            let Some((rank, samples)) = result else {
                 told.failed += 1;
                 continue;
             };
             let (sum, count) = &mut sums[origin as usize];
-            (*sum, *count) = (*sum + stress, *count + 1);
+            (*sum, *count) = (*sum + rank.stress, *count + 1);
             self.samples.extend(samples);
-            let place = graph.kept.partition_point(|kept| kept.score >= stress);
-            graph.kept.insert(place, Plan { score: stress, bound: None, ..plan });
+            let place = graph.kept.partition_point(|(kept, _)| *kept >= rank);
+            graph.kept.insert(place, (rank, Plan { score: rank.stress, bound: None, ..plan }));
             graph.kept.truncate(self.search.per_graph as usize);
         }
     }
@@ -55,20 +55,20 @@ impl Campaign<'_> {
         let trials = |todo: &Todo| self.sampled.trials(self.graphs[todo.graph].number);
         let execute = |place: usize| {
             let todo = &todo[place];
-            let answer = |(Trial { stress, worst_leg, executions }, behaviour)| Executed {
+            let answer = |(Trial { stress, fails, worst_leg, executions }, behaviour)| Executed {
                 trials: vec![(stress, worst_leg, executions)],
                 behaviour,
-                fails: false, // what is learned is stress
+                fails,
             };
             self.begins(number, part).then(|| trials(todo).execute_legs(&todo.plan).map(answer))
         };
         let answers = self.sampled.executor.carry_out(&Batch { names: &names, execute: &execute });
         let learned = |place: usize, answer: Answer| {
-            let Executed { trials: stresses, behaviour, .. } = answer?;
+            let Executed { trials: stresses, behaviour, fails } = answer?;
             // An infinite stress could not be told from a mistake.
             let (stress, ..) = stresses.first().copied().filter(|(stress, ..)| stress.is_finite())?;
             let trajectory = self.executed as usize + place;
-            Some((stress, trials(&todo[place]).learned(&todo[place].plan, &behaviour, trajectory)))
+            Some((Rank { fails, stress }, trials(&todo[place]).learned(&todo[place].plan, &behaviour, trajectory)))
         };
         answers.into_iter().enumerate().map(|(place, answer)| answer.map(|answer| learned(place, answer))).collect()
     }

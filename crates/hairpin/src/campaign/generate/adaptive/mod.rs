@@ -6,10 +6,13 @@
 //! hand, the others stay uniform, so that no model sees stressful legs alone. Whatever runs on several threads is taken
 //! over in order.
 //!
+//! What is learned is stress alone, on the legs that were flown: of a run that fails the legs until then, as they were
+//! measured. That it fails is no number of a leg's; it decides what is kept.
+//!
 //! ```text
 //! round 0:   uniform draws in every graph                     ─▶ executed
 //! round k:   legs of all rounds ─▶ models ─▶ optima of each graph, + by hand, + uniform ─▶ executed
-//! at last:   the most stressful of each graph are the cases; the model of all legs is kept
+//! at last:   the gravest of each graph are the cases; the model of all legs is kept
 //! ```
 //!
 //! Executions are dealt evenly over rounds and graphs; the last graph of a round is another one each time, so that
@@ -30,6 +33,7 @@ use crate::campaign::samples::learn;
 use crate::campaign::scenario::{SearchSection, UNMEASURED};
 use crate::campaign::trial::executed_case;
 use crate::campaign::{Case, RoundTally, Setup, Stop, Tally};
+use crate::search::in_loop::Rank;
 
 /// Models of a round, the one of all trajectories included: what else is executed are second bests.
 const MODELS: usize = 8;
@@ -48,10 +52,10 @@ struct Graph {
     number: u64,
     /// Fingerprints of what was executed.
     known: HashSet<[u8; 16]>,
-    /// The most stressful, the first of equals first.
+    /// The gravest, the first of equals first.
     ///
     /// At most `generate.search.per_graph`.
-    kept: Vec<Plan>,
+    kept: Vec<(Rank, Plan)>,
     curve: Curve,
 }
 
@@ -146,7 +150,8 @@ impl Campaign<'_> {
         }
         let mean = |(sum, count): (f64, u64)| (count > 0).then(|| sum / count as f64);
         [told.chosen_mean, told.by_hand_mean, told.drawn_mean] = sums.map(mean);
-        let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.kept.first()?.score)).collect();
+        // Of all that was executed: what is kept first may have failed, with less.
+        let largest: Vec<f64> = self.graphs.iter().filter_map(|graph| Some(graph.curve.rises.last()?.1)).collect();
         told.largest = largest.iter().copied().reduce(f64::max);
         told.mean_largest = mean((largest.iter().sum(), largest.len() as u64));
         self.tally.expansions += told.executions;
@@ -172,7 +177,7 @@ impl Campaign<'_> {
         self.search.time_s.is_none_or(|time| (self.stop.clock)() - self.begun < share * time)
     }
 
-    /// Cases come graph after graph, the most stressful of each first, until as many as asked for; a trajectory that
+    /// Cases come graph after graph, the gravest of each first, until as many as asked for; a trajectory that
     /// two graphs share counts once.
     fn finish(mut self, sink: &mut dyn FnMut(&[Case], &Tally)) -> Tally {
         let wanted = self.search.cases as usize;
@@ -186,7 +191,7 @@ impl Campaign<'_> {
         let mut seen = HashSet::new();
         for Graph { number, kept, curve, .. } in self.graphs {
             self.tally.curves.push(curve);
-            for plan in kept {
+            for (_, plan) in kept {
                 // Graphs of few waypoints may have the same trajectory.
                 if cases.len() == wanted {
                     break;
