@@ -51,24 +51,6 @@ pub(super) fn written<'b>(function: &str, arguments: &'b [Argument]) -> Vec<&'b 
     if outputs::only_reads(function) { outputs(arguments).collect() } else { paths(arguments).collect() }
 }
 
-/// Whether the expression is the same whatever happens.
-pub(super) fn is_constant(expression: &Expression) -> bool {
-    match expression {
-        Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => true,
-        Expression::Unary { of, .. } => is_constant(of),
-        Expression::Chain { first, rest } => is_constant(first) && rest.iter().all(|(_, part)| is_constant(part)),
-        Expression::Aggregate(_) | Expression::Path(_) | Expression::Call { .. } => false,
-    }
-}
-
-/// Whether a block can be left other than by its end.
-pub(super) fn has_way_out(block: &[Statement]) -> bool {
-    block.iter().any(|statement| match &statement.what {
-        What::Return(_) | What::Exit | What::Goto(_) => true,
-        _ => inner(statement).into_iter().any(has_way_out),
-    })
-}
-
 impl Machine<'_> {
     /// What the routine might do, whenever it is executed.
     pub(super) fn effects_of(&mut self, routine: &Routine) -> Effects {

@@ -2,6 +2,7 @@
 //! told.
 
 mod calls;
+mod decides;
 mod effects;
 mod expressions;
 mod follow;
@@ -49,6 +50,8 @@ pub(super) struct Machine<'a> {
     soft: bool,
     /// Names, in lower case, of the tools that moves have used.
     carried: BTreeSet<String>,
+    /// Names, in lower case, of what may decide anything.
+    deciding: BTreeSet<String>,
     steps: usize,
     /// Values that were held beside others, to see whether a loop comes to an end.
     held: usize,
@@ -114,6 +117,7 @@ impl<'a> Machine<'a> {
             gripped: false,
             soft: false,
             carried: BTreeSet::new(),
+            deciding: decides::deciding(source),
             steps: 0,
             held: 0,
             depth: 0,

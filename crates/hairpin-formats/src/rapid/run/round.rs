@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::scope::Scope;
-use super::{Demanded, Frame, Machine};
+use super::{Demanded, Machine};
 use crate::rapid::value::Variable;
 
 /// Values that are held beside what is executed, at most, and as many again as there were steps: so that looking takes
@@ -12,7 +12,6 @@ use crate::rapid::value::Variable;
 const HELD: usize = 100_000;
 
 /// All that decides what a round does. What depends on the cell is unknown in it, in every round.
-#[derive(PartialEq)]
 pub(super) struct State {
     globals: Scope<Variable>,
     variables: Vec<BTreeMap<String, Variable>>,
@@ -20,32 +19,65 @@ pub(super) struct State {
     gripped: bool,
     soft: bool,
     carried: BTreeSet<String>,
+    /// Number of the round, from 1.
+    round: usize,
 }
 
 impl Machine<'_> {
-    /// The state in which round number `round` of a loop begins, from 1; of some rounds, ever fewer.
-    pub(super) fn begun(&mut self, round: usize) -> Option<State> {
-        let size = self.size + 1;
-        if !round.is_power_of_two() || self.held.saturating_add(size) > HELD.saturating_add(self.steps) {
-            return None;
-        }
-        self.held += size;
-        Some(self.state())
-    }
-
-    /// Whether a round has ended where it `begun`: all that follow are as it was.
-    pub(super) fn comes_again(&self, begun: Option<&State>) -> bool {
-        begun.is_some_and(|begun| *begun == self.state())
-    }
-
-    fn state(&self) -> State {
-        State {
-            globals: self.globals.clone(),
-            variables: self.frames.iter().map(|Frame { variables, .. }| variables.clone()).collect(),
-            demanded: self.demanded,
-            gripped: self.gripped,
-            soft: self.soft,
-            carried: self.carried.clone(),
+    /// Keeps in `begun` the state in which round number `round` of a loop begins, from 1; of some rounds, ever fewer
+    /// (Brent's method), so that a loop is found that comes back after several rounds.
+    pub(super) fn begins(&mut self, round: usize, begun: &mut Option<State>) {
+        if round.is_power_of_two() && self.may_look() {
+            *begun = Some(State {
+                globals: self.globals.clone(),
+                variables: self.frames.iter().map(|frame| frame.variables.clone()).collect(),
+                demanded: self.demanded,
+                gripped: self.gripped,
+                soft: self.soft,
+                carried: self.carried.clone(),
+                round,
+            });
         }
     }
+
+    /// Whether a round has ended where one has `begun`: all that follow are as those since. What only counts and tells
+    /// may have gone on ([`super::decides`]).
+    pub(super) fn comes_again(&mut self, begun: Option<&State>) -> bool {
+        let Some(begun) = begun.filter(|_| self.may_look()) else { return false };
+        let counts = |name: &str| !self.deciding.contains(name);
+        let frames = begun.variables.iter().zip(&self.frames);
+        (begun.demanded, begun.gripped, begun.soft) == (self.demanded, self.gripped, self.soft)
+            && begun.carried == self.carried
+            && begun.variables.len() == self.frames.len()
+            && frames.into_iter().all(|(then, now)| agree(then, &now.variables, &counts))
+            && begun.globals.agrees(&self.globals, |then, now| agree(then, now, &counts))
+    }
+
+    /// Leaves out the moves of the rounds since one has `begun` where as many rounds before were the same moves: a loop
+    /// that first has to come to its state is not told twice. `before` are the moves before each round.
+    pub(super) fn tell_once(&mut self, begun: Option<&State>, before: &[usize]) {
+        let Some(last) = begun.map(|begun| begun.round - 1) else { return };
+        let Some(earlier) = (2 * last).checked_sub(before.len()) else { return };
+        let (from, to) = (before[earlier], before[last]);
+        let is_same = self.moves[from..to] == self.moves[to..];
+        if is_same && self.unclear.is_none_or(|(certain, _)| certain <= to) {
+            self.moves.truncate(to);
+        }
+    }
+
+    /// Whether there is work left for looking, which is taken.
+    fn may_look(&mut self) -> bool {
+        let held = self.held.saturating_add(self.size + 1);
+        let may = held <= HELD.saturating_add(self.steps);
+        if may {
+            self.held = held;
+        }
+        may
+    }
+}
+
+/// Whether both hold the same, but for what `counts`.
+fn agree(then: &BTreeMap<String, Variable>, now: &BTreeMap<String, Variable>, counts: &dyn Fn(&str) -> bool) -> bool {
+    let same = |(name, was): (&String, &Variable)| counts(name) || now.get(name) == Some(was);
+    then.len() == now.len() && then.iter().all(same)
 }

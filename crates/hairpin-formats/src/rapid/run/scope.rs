@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::rapid::syntax::Home;
 
 /// Things by their names, in lower case.
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 pub(super) struct Scope<T> {
     shared: BTreeMap<String, T>,
     /// Of each module.
@@ -28,6 +28,16 @@ impl<T> Scope<T> {
     /// Puts a thing under the name; what was there before gives way.
     pub(super) fn insert(&mut self, home: Home, name: String, thing: T) {
         self.names(home).insert(name, thing);
+    }
+
+    /// Whether both have the same things, names by names as `agree` says of what is shared and of what each module has.
+    pub(super) fn agrees(
+        &self,
+        other: &Self,
+        agree: impl Fn(&BTreeMap<String, T>, &BTreeMap<String, T>) -> bool,
+    ) -> bool {
+        let local = self.local.iter().zip(&other.local);
+        agree(&self.shared, &other.shared) && local.into_iter().all(|(one, other)| agree(one, other))
     }
 
     /// What the name means in a module.

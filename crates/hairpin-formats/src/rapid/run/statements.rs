@@ -191,10 +191,10 @@ impl Machine<'_> {
     }
 
     fn repeat(&mut self, condition: &Expression, body: &[Statement], at: At) -> Flow {
-        // Production programs go round for ever; another round would only repeat the moves.
-        let endless = super::effects::is_constant(condition) && !super::effects::has_way_out(body);
+        let (mut begun, mut before) = (None, Vec::new());
         for round in 1.. {
-            let begun = if endless { None } else { self.begun(round) };
+            self.begins(round, &mut begun);
+            before.push(self.moves.len());
             match self.evaluate(condition, at).truth() {
                 Some(true) => {}
                 Some(false) => {
@@ -207,12 +207,14 @@ impl Machine<'_> {
                     return Flow::Next;
                 }
             }
-            self.mark(at, Class::Understood, if endless { "without end: one round is followed" } else { "" });
+            self.mark(at, Class::Understood, "");
             match self.block(body) {
-                Flow::Next if endless || !self.step(at, 1) => return Flow::End,
+                Flow::Next if !self.step(at, 1) => return Flow::End,
+                // Production programs go round for ever.
                 Flow::Next if self.comes_again(begun.as_ref()) => {
+                    self.tell_once(begun.as_ref(), &before);
                     let rounds = if round == 1 { "one round is".into() } else { format!("{round} rounds are") };
-                    let what = format!("no end is seen, every further round is as the last: {rounds} followed");
+                    let what = format!("no end is seen, all further rounds are as before: {rounds} followed");
                     self.mark(at, Class::Understood, what);
                     return Flow::End;
                 }

@@ -190,6 +190,25 @@ fn a_loop_that_comes_back_to_where_it_was_is_seen_at_once() {
     ));
     assert_eq!((module.program.moves.len(), module.unclear_line), (5, None), "{:?}", module.lines);
     assert!(module.lines[&(FIRST + 1)].what.contains("2 rounds are followed"), "{:?}", module.lines);
+    // What is only counted and told decides nothing.
+    let counted = main_of(&format!(
+        "VAR num parts:=0;\nWHILE TRUE DO\n{moves}\nIncr parts;\nTPWrite \"parts\"\\Num:=parts;\nENDWHILE"
+    ));
+    assert_eq!((counted.program.moves.len(), counted.unclear_line), (2, None), "{:?}", counted.lines);
+    // Every third round is another one.
+    let third = main_of(&format!(
+        "VAR num n:=0;\nWHILE TRUE DO\n{moves}\nn:=n+1;\nIF n=3 THEN\nMoveL p10,v5,fine,tool0;\nn:=0;\nENDIF\nENDWHILE"
+    ));
+    let all = third.program.moves.len();
+    assert!((7..=21).contains(&all) && third.unclear_line.is_none(), "{all} {:?}", third.lines);
+    // A place that goes on is never the same, whatever the condition.
+    for head in ["WHILE TRUE DO", "WHILE 1=1 DO"] {
+        let on = main_of(&format!("VAR num n:=0;\n{head}\nMoveL Offs(p10,0,n,0),v5,fine,tool0;\nn:=n+400;\nENDWHILE"));
+        assert!(on.program.moves.len() > 3 && on.unclear_line.is_some(), "{head}: {:?}", on.program.moves.len());
+    }
+    // A flag that the first round sets lets the second one move.
+    let later = main_of("VAR bool b:=FALSE;\nWHILE TRUE DO\nIF b MoveL p20,v5,fine,tool0;\nb:=TRUE;\nENDWHILE");
+    assert_eq!((later.program.moves.len(), later.unclear_line), (1, None), "{:?}", later.lines);
     // What counts on never comes back: the bound is told where it was met.
     let module = inside("VAR num n:=0;\nPROC main()\nWHILE n>=0 DO\nn:=n+1;\nENDWHILE\nENDPROC");
     let (line, told) = (module.unclear_line.unwrap(), "more than 1000000 steps until here");

@@ -170,7 +170,7 @@ fn what_the_world_keeps_out_is_kept_out_of() {
     for place in [
         json!({ "name": "put", "circle": { "center_m": [x, y], "radius_m": 0.1 } }),
         json!({ "name": "put", "polygon": { "points_m": corners } }),
-        json!({ "name": "grown", "circle": { "center_m": [24, 21], "radius_m": 8 } }),
+        json!({ "name": "grown", "circle": { "center_m": [24, 21], "radius_m": 3.5 } }),
     ] {
         let found = found_under(car(), 0, &[("world.keep_out", json!([place]))]);
         assert!(!found.is_empty() && found.iter().all(|one| one == "keep_out[0].clearance"), "{found:?}");
@@ -367,7 +367,11 @@ fn draws_end_where_the_task_does_and_say_why_there_are_none() {
 /// Nowhere is the underside so high, which takes 50 000 draws to find out: minutes, where ground is steep.
 #[test]
 fn places_are_looked_for_no_longer_than_one_may() {
-    let setup = setup(rover(), &[("generate.limits.belly_clearance_m", json!(7.0))]);
+    // Nowhere but about the start.
+    let around =
+        |x: f64, y: f64| json!({ "name": "ring", "circle": { "center_m": [15.0 + x, 15.0 + y], "radius_m": 20 } });
+    let ring = [(21.5, 0.0), (-21.5, 0.0), (0.0, 21.5), (0.0, -21.5)].map(|(x, y)| around(x, y));
+    let setup = setup(rover(), &[("world.keep_out", json!(ring))]);
     let asked = AtomicUsize::new(0);
     let cancelled = || asked.fetch_add(1, Ordering::Relaxed) > 20;
     solver(&setup).draw(0, &Stop { cancelled: &cancelled, ..Stop::never() }).unwrap_err();

@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::descend::{Descent, descend, settle};
-use super::objective::Objective;
+use super::objective::{Objective, Parameter};
 use super::spread::Spread;
 
 /// An end of an interval.
@@ -30,7 +30,9 @@ const NEAR: f64 = 0.04;
 
 /// Lower and upper end of the interval of parameter `free[k]` about `at`, where Q rises by `rise`.
 ///
-/// Ends by secants of √(Q_k − Q), which is straight where Q is a parabola, from where the curvature says.
+/// Ends by secants of √(Q_k − Q), which is straight where Q is a parabola, from where the curvature says. None is nearer
+/// than that, t √C_kk: where Q is rough, a small step out of the minimum may cost as much as a large one, and says
+/// nothing of what others would have been found.
 pub fn profile(
     objective: &Objective,
     at: &Descent,
@@ -38,7 +40,15 @@ pub fn profile(
     spread: &Spread,
     (k, rise): (usize, f64),
 ) -> [Side; 2] {
-    [-1.0, 1.0].map(|sign| end(objective, at, free, spread, (k, rise, sign)))
+    let (own, least) = (free[k], (rise * spread.white[(k, k)]).sqrt());
+    let Parameter { low, high, .. } = objective.parameters[own];
+    [-1.0, 1.0].map(|sign| match end(objective, at, free, spread, (k, rise, sign)) {
+        Side::Closed(found) if (found - at.theta[own]).abs() < least => {
+            let there = at.theta[own] + sign * least;
+            if there > low && there < high { Side::Closed(there) } else { Side::Open(there.clamp(low, high)) }
+        }
+        found => found,
+    })
 }
 
 fn end(

@@ -110,6 +110,29 @@ fn what_one_block_tells_of_has_one_degree_of_freedom() {
     assert!(spread.freedom[1] < 1.1 && spread.freedom[0] > 6.0, "{:?}", spread.freedom);
 }
 
+/// Where a step out of the minimum costs much however small it is, the ends are where the curvature has them.
+#[test]
+fn rough_ground_does_not_close_an_interval_in() {
+    let y = measured(3, 0.0);
+    let smooth = |theta: &[f64], i: usize| y[i] - decay(theta, i);
+    let residuals = |theta: &[f64]| Some((0..SAMPLES).map(|i| smooth(theta, i)).collect());
+    let (free, start) = ([0, 1], [1.0, 1.0, 0.0]);
+    let centre = descend(&objective(&residuals), &start, &free).unwrap().theta;
+    // Beyond what derivatives look at.
+    let grain =
+        |theta: &[f64], i: usize| if (theta[0] - centre[0]).abs() > 3e-3 { 0.2 - 0.4 * (i % 2) as f64 } else { 0.0 };
+    let rough = |theta: &[f64]| Some((0..SAMPLES).map(|i| smooth(theta, i) + grain(theta, i)).collect());
+    let objective = objective(&rough);
+    let at = descend(&objective, &centre, &free).unwrap();
+    let spread = spread(&objective, &at, &free).unwrap();
+    let half = (3.84 * spread.white[(0, 0)]).sqrt();
+    assert!(half > 0.02, "{half}");
+    for (sign, side) in [-1.0, 1.0].into_iter().zip(profile(&objective, &at, &free, &spread, (0, 3.84))) {
+        let Side::Closed(end) = side else { panic!("{side:?}") };
+        assert!(sign * (end - at.theta[0]) >= 0.999 * half, "{end} {half} about {}", at.theta[0]);
+    }
+}
+
 /// Of two numbers that act through their sum neither is closed in.
 #[test]
 fn what_is_confounded_stays_open() {
