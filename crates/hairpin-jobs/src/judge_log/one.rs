@@ -61,6 +61,9 @@ pub(super) fn judge(
     let progress =
         logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
     let progress = of_flight(progress, &span, (logged, &against.cases, against.accept));
+    if frame.told.by_earth {
+        in_reach(&samples, against.setup.handed().farthest)?;
+    }
     let (case, matched) = match &against.cases[..] {
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
@@ -139,6 +142,19 @@ pub(super) fn judge(
         Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),
     }
+}
+
+/// Refuses a log of which no sample lies within `farthest` m of the world's origin: as of missions, it is of another
+/// place, or its latitudes and longitudes are exchanged.
+fn in_reach(samples: &[Sample], farthest: f64) -> Result<(), Problem> {
+    let is_there = |sample: &Sample| sample.p_m.iter().all(|x| x.abs() <= farthest);
+    let Some(first) = samples.first().filter(|_| !samples.iter().any(is_there)) else { return Ok(()) };
+    let (far, most) = (first.p_m.coords.norm() / 1000.0, farthest / 1000.0);
+    Err(Problem::input(format!(
+        "it was flown elsewhere on Earth: {far:.1} km from the world's origin at t = {:.1} s, {most} at most; latitude and \
+         longitude may be exchanged, or world.origin is another place's",
+        first.t_s
+    )))
 }
 
 struct Judging<'a> {
