@@ -46,8 +46,8 @@ pub enum Answer {
         /// Whether the rows of its planned motion were held to the witness: where the folder has them, and the witness
         /// holds.
         planned: bool,
-        /// The largest end error over its legs, m.
-        position_m: f64,
+        /// The largest end error over its legs, m; `None` where no witness could be read.
+        position_m: Option<f64>,
         /// What does not hold.
         findings: Vec<String>,
     },
@@ -127,6 +127,20 @@ impl Verified {
         self.answers.iter().filter(|answer| answer.is_checked()).count()
     }
 
+    /// Cases whose witness could not be read, which no number is known of.
+    pub fn unread(&self) -> usize {
+        self.answers.iter().filter(|answer| matches!(answer, Answer::Checked { position_m: None, .. })).count()
+    }
+
+    /// The largest end error over the legs of all witnesses that could be read, m.
+    pub fn largest_m(&self) -> Option<f64> {
+        let of = |answer: &Answer| match answer {
+            Answer::Checked { witness: true, position_m, .. } => *position_m,
+            _ => None,
+        };
+        self.answers.iter().filter_map(of).max_by(f64::total_cmp)
+    }
+
     /// Cases with a witness, and those of them that hold.
     pub fn witnesses(&self) -> [usize; 2] {
         let witnesses = self.answers.iter().filter(|answer| answer.is_witnessed());
@@ -145,7 +159,7 @@ impl Verified {
         let mut worst: Option<((bool, f64), &Answer)> = None;
         for answer in &self.answers {
             let Answer::Checked { position_m, findings, .. } = answer else { continue };
-            let rank = (!findings.is_empty(), *position_m);
+            let rank = (!findings.is_empty(), position_m.unwrap_or(f64::INFINITY));
             if worst.as_ref().is_none_or(|(before, _)| *before < rank) {
                 worst = Some((rank, answer));
             }
@@ -160,7 +174,7 @@ fn check(work: &Work, case: &Case, hold: fn(&Setup, &Case) -> campaign::Verified
         case: case.number,
         witness: true,
         planned: false,
-        position_m: f64::MAX,
+        position_m: None,
         findings: vec![what],
     };
     let mut case = case.clone();
@@ -183,7 +197,7 @@ fn check(work: &Work, case: &Case, hold: fn(&Setup, &Case) -> campaign::Verified
                 case: case.number,
                 witness,
                 planned: planned.is_some(),
-                position_m: proof.position.value,
+                position_m: (!proof.findings.iter().any(is_no_number)).then_some(proof.position.value),
                 findings,
             }
         }
@@ -202,11 +216,17 @@ fn of_rows(work: &Work, case: &Case) -> Option<Vec<String>> {
     }
 }
 
+/// Whether what was written is no number, so that nothing was flown by it.
+fn is_no_number(finding: &Finding) -> bool {
+    finding.value.is_nan() && finding.bound == f64::MAX
+}
+
 fn words(finding: &Finding) -> String {
     let Finding { field, value, bound, unit, at, leg } = finding;
     // What is refused in words alone has neither.
     let numbers = match bound.is_nan() {
         true => String::new(),
+        false if is_no_number(finding) => " holds a number that cannot be".to_owned(),
         false => format!(" = {value:.6e} {unit}, bound {bound:.6e} {unit}"),
     };
     format!("{field}{numbers}, leg {leg}→{}, t = {at:.3} s", leg + 1)
@@ -234,6 +254,8 @@ mod tests {
         assert_eq!(words(&finding), "it stops, leg 1→2, t = 0.500 s");
         let finding = Finding { field: "end".into(), value: 2.0, bound: 1.0, unit: "m", ..finding };
         assert_eq!(words(&finding), "end = 2.000000e0 m, bound 1.000000e0 m, leg 1→2, t = 0.500 s");
+        let finding = Finding { field: "legs[1]".into(), value: f64::NAN, bound: f64::MAX, unit: "", ..finding };
+        assert_eq!(words(&finding), "legs[1] holds a number that cannot be, leg 1→2, t = 0.500 s");
     }
 
     #[test]
@@ -241,10 +263,12 @@ mod tests {
         let (_place, folder) = generated();
         let verified = verify(&folder).unwrap();
         assert_eq!((verified.witnesses(), verified.has_findings()), ([2, 2], false));
+        assert!(verified.unread() == 0 && verified.largest_m().is_some_and(|error| error < 1e-3), "{verified:?}");
         std::fs::write(folder.join("profiles/part-00000.parquet"), "broken").unwrap();
         let broken = verify(&folder).unwrap();
         assert_eq!((broken.checked(), broken.failed().count(), broken.witnesses()), (2, 2, [2, 0]));
         assert_eq!(broken.worst(), broken.failed().next());
+        assert_eq!((broken.unread(), broken.largest_m()), (2, None), "no end error is known of what cannot be read");
         assert_eq!(broken.planned(), [0, 0], "rows are held to what holds");
         std::fs::remove_dir_all(folder.join("profiles")).unwrap();
         let lost = verify(&folder).unwrap();

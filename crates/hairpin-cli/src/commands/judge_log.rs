@@ -177,6 +177,10 @@ fn found_object(found: &Found) -> Value {
         "missed": found.missed.map(|missed| json!({
             "waypoint": missed.waypoint, "nearest_m": finite(missed.nearest_m), "accept_m": missed.accept_m,
         })),
+        "legs_left_out": found.left_out.map(|left_out| json!({
+            "first_judged": left_out.first_leg, "is_cut": left_out.cuts_leg, "began_s": left_out.began_s,
+            "lost_s": left_out.lost_s,
+        })),
         "never_began": found.never_began,
         "cuts": found.cuts.iter().map(cut).collect::<Vec<_>>(),
         "measures": found.flown.as_ref().map(measures),

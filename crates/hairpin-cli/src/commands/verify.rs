@@ -41,8 +41,7 @@ fn of_case(answer: &Answer) -> Value {
     match answer {
         Answer::NothingClaimed => Value::Null,
         Answer::Checked { case, position_m, findings, .. } => {
-            let position = (*position_m < f64::MAX).then_some(*position_m);
-            json!({ "case": case.to_string(), "end_error_m": position, "findings": findings })
+            json!({ "case": case.to_string(), "end_error_m": position_m, "findings": findings })
         }
     }
 }
@@ -61,11 +60,11 @@ fn in_words(verified: &Verified) {
     if all > checked {
         console::warn(&format!("{} of {all} cases claim no witness: nothing to verify there", all - checked));
     }
-    let worst = match verified.worst() {
-        Some(Answer::Checked { witness: true, position_m, .. }) => {
-            format!("; largest end error of a leg {position_m:.3e} m")
-        }
-        _ => String::new(),
+    let worst =
+        verified.largest_m().map_or(String::new(), |error| format!("; largest end error of a leg {error:.3e} m"));
+    let unread = match verified.unread() {
+        0 => String::new(),
+        unread => format!("; of {unread} cases no witness can be read"),
     };
     let planned = match verified.planned() {
         [0, _] => String::new(),
@@ -98,6 +97,6 @@ fn in_words(verified: &Verified) {
         keys if keys.is_empty() => String::new(),
         keys => format!("; of the scenario as it is now: {keys} changed since the campaign was made"),
     };
-    let told = format!("{integrated}{worst}{planned}{optimal}{environments}{free}{unknown}{edited}");
+    let told = format!("{integrated}{unread}{worst}{planned}{optimal}{environments}{free}{unknown}{edited}");
     console::say(&format!("{word} {}", told.trim_start_matches("; ")));
 }

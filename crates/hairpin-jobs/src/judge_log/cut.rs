@@ -14,7 +14,7 @@ const GAP: f64 = 5.0;
 const GAP_OF_DROPOUT: f64 = 1.5;
 
 /// A topic's first message may be told with a stamp of before the log began, which others are not, s.
-const STALE_S: f64 = 1.0;
+pub(super) const STALE_S: f64 = 1.0;
 
 /// So many cuts are told one by one, at most.
 const TOLD_EACH: usize = 5;

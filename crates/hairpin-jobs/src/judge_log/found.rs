@@ -9,6 +9,7 @@ use hairpin::judgement::Verdict;
 use super::arm::FoundProgram;
 use super::cut::Cut;
 use super::frame::FrameTold;
+use super::left_out::LeftOut;
 use super::legs::LegsBy;
 use super::matching::Matched;
 use super::sheet::Sheet;
@@ -90,6 +91,10 @@ pub struct Found {
     pub ended: Option<String>,
     /// Whether the whole mission was flown: every waypoint reached, in order, up to the last.
     pub finished: bool,
+    /// Whether it was flown to its last waypoint, wherever the judged part begins.
+    pub to_the_end: bool,
+    /// The legs before the judged part, where the log's mission state tells of any.
+    pub left_out: Option<LeftOut>,
     /// The first waypoint that was not; where an autopilot itself tells which it flew to, the first that it says it was
     /// at and was nowhere near.
     pub missed: Option<Missed>,

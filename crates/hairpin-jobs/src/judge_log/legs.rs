@@ -138,6 +138,11 @@ impl Course {
         self.steps.iter().find(|(_, waypoint)| *waypoint > 0).map(|(t_s, _)| *t_s)
     }
 
+    /// When it began to fly the leg `leg`, s.
+    pub(super) fn flies_s(&self, leg: usize) -> Option<f64> {
+        self.steps.iter().find(|(_, waypoint)| *waypoint > leg).map(|(t_s, _)| *t_s)
+    }
+
     /// When it went on behind the last waypoint, s.
     pub(super) fn done_s(&self) -> Option<f64> {
         self.done_s

@@ -17,6 +17,9 @@ const SAMPLES: usize = 256;
 /// Another case must be so many times as far away as the best.
 pub(super) const CLEAR: f64 = 2.0;
 
+/// Cases that are smaller than this may be flown this far beside, m.
+const LEAST_EXTENT_M: f64 = 10.0;
+
 /// How a log was matched to a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matched {
@@ -47,7 +50,7 @@ impl Matched {
 /// path that goes on elsewhere is then told from one that does not.
 ///
 /// # Errors
-/// Two cases are as near.
+/// Two cases are as near, or none is anywhere near.
 pub(crate) fn matched<'a>(
     cases: &'a [Case],
     samples: &[Sample],
@@ -72,7 +75,20 @@ pub(crate) fn matched<'a>(
         let mean_m = by_distance.iter().find(|(_, other)| other.number == case.number).map_or(0.0, |(far, _)| *far);
         return Ok((case, told(case, mean_m, true, &by_distance)));
     }
-    if let Some((nearest, _)) = by_distance.first().copied() {
+    if let Some((nearest, case)) = by_distance.first().copied() {
+        let across = extent(&case.waypoints);
+        if nearest > across.max(LEAST_EXTENT_M) {
+            return Err(Problem::input(format!(
+                "flew none of the {} cases: the nearest, {}, is {} away in the mean, and no more than {} across; usual \
+                 causes are another unit (mm for m), another frame or origin (a map's coordinates, heights above the sea), \
+                 another campaign. Where it is one of these cases all the same, {}",
+                cases.len(),
+                case.id(),
+                far_words(nearest),
+                far_words(across),
+                asks.case
+            )));
+        }
         let near = by_distance.iter().take_while(|(far, _)| *far <= CLEAR * nearest).count();
         let both = |(far, case): &(f64, &'a Case)| (far.max(covered(case, &ways)), *case);
         let mut near: Vec<(f64, &Case)> = match near {
@@ -98,6 +114,18 @@ pub(crate) fn matched<'a>(
         }
     }
     Err(Problem::input("the campaign has no case"))
+}
+
+/// The diagonal of what `waypoints` lie in, m: who is farther from all of them in the mean flew something else.
+fn extent(waypoints: &[Point3<f64>]) -> f64 {
+    let first = waypoints.first().copied().unwrap_or_default();
+    let corners = waypoints.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+    (corners.1 - corners.0).norm()
+}
+
+/// `24.9 km`, `47.1 m`.
+pub(super) fn far_words(metres: f64) -> String {
+    if metres >= 1000.0 { format!("{:.1} km", metres / 1000.0) } else { format!("{metres:.1} m") }
 }
 
 fn thinned(samples: &[Sample]) -> Vec<Point3<f64>> {

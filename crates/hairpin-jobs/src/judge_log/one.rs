@@ -18,6 +18,7 @@ use super::cut::{Left, cut};
 use super::due::due;
 use super::found::{Found, JudgedLog};
 use super::frame::IntoWorld;
+use super::left_out::LeftOut;
 use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
 use super::reached::{missed, untrue};
 use super::settings::LogSettings;
@@ -60,6 +61,9 @@ pub(super) fn judge(
     let progress =
         logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
     let progress = of_flight(progress, &span, (logged, &against.cases, against.accept));
+    if frame.told.by_earth {
+        in_reach(&samples, against.setup.handed().farthest)?;
+    }
     let (case, matched) = match &against.cases[..] {
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
@@ -70,8 +74,8 @@ pub(super) fn judge(
     };
     check_column(logged, case.waypoints.len()).map_err(Problem::input)?;
     let course = course(logged, &progress, &case.waypoints, against.accept);
-    let (by_earth, is_part) = (frame.told.by_earth, settings.from_s.is_some());
-    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth, is_part };
+    let by_earth = frame.told.by_earth;
+    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth };
     let seen_s = samples.first().map(|sample| sample.t_s);
     let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };
     let mut due = due(logged, &span, course.as_ref());
@@ -80,7 +84,9 @@ pub(super) fn judge(
         due.from_s = f64::NEG_INFINITY;
     }
     let left = cut(&own, (motion, due), &logged.dropouts, &against.swiftness);
-    let (missed, finished) = judged.end(&own, &left);
+    let left_out = judged.told_course().and_then(|course| LeftOut::of(course, &own, motion, settings.from_s));
+    let (missed, to_the_end) = judged.end(&own, &left, left_out.is_some());
+    let finished = to_the_end && left_out.is_none();
     let is_asked = settings.from_s.or(settings.to_s).is_some();
     let behind = |near_m| again(logged, &span, (&frame, motion), (&case.waypoints, near_m));
     let again_s = if is_asked { None } else { behind(judged.near_m())? };
@@ -91,6 +97,7 @@ pub(super) fn judge(
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
     notes.extend(again_s.map(told::again));
+    notes.extend(left_out.as_ref().map(LeftOut::in_words));
     let (accuracy, untold) = accuracies(&left.samples);
     notes.extend(untold);
     let mut found = Found {
@@ -103,6 +110,8 @@ pub(super) fn judge(
         cuts: left.cuts.clone(),
         ended: span.ended.clone(),
         finished,
+        to_the_end,
+        left_out,
         missed,
         again_s,
         never_began: span.never_began.clone(),
@@ -135,6 +144,19 @@ pub(super) fn judge(
     }
 }
 
+/// Refuses a log of which no sample lies within `farthest` m of the world's origin: as of missions, it is of another
+/// place, or its latitudes and longitudes are exchanged.
+fn in_reach(samples: &[Sample], farthest: f64) -> Result<(), Problem> {
+    let is_there = |sample: &Sample| sample.p_m.iter().all(|x| x.abs() <= farthest);
+    let Some(first) = samples.first().filter(|_| !samples.iter().any(is_there)) else { return Ok(()) };
+    let (far, most) = (first.p_m.coords.norm() / 1000.0, farthest / 1000.0);
+    Err(Problem::input(format!(
+        "it was flown elsewhere on Earth: {far:.1} km from the world's origin at t = {:.1} s, {most} at most; latitude and \
+         longitude may be exchanged, or world.origin is another place's",
+        first.t_s
+    )))
+}
+
 struct Judging<'a> {
     logged: &'a Logged,
     against: &'a Ready,
@@ -143,8 +165,6 @@ struct Judging<'a> {
     case: &'a Case,
     /// Whether its place is known by the Earth's.
     by_earth: bool,
-    /// Whether its user asked for less than all of it.
-    is_part: bool,
 }
 
 impl Judging<'_> {
@@ -193,19 +213,25 @@ impl Judging<'_> {
         (NOWHERE * self.accept_m()).max(OWN_RADIUS_M)
     }
 
-    /// The first waypoint that it was never at, and whether it flew the whole mission.
+    /// The course that an autopilot tells of itself, which a table's column is not.
+    fn told_course(&self) -> Option<&Course> {
+        self.course.filter(|_| self.logged.format != "CSV")
+    }
+
+    /// The first waypoint that it was never at, and whether it flew the mission to its end; of what `is_part` the
+    /// beginning is not looked at.
     ///
     /// An autopilot says itself when it has reached one, and its own acceptance may be wider than the scenario's, but
     /// not as if anything were: what it says it was at it was near. What it says after the judged part has ended is of
     /// what is not judged. Of all others ending at the last waypoint is not enough: a mission may lead back to its
     /// start, or cross itself.
-    fn end(&self, own: &[Sample], left: &Left) -> (Option<Missed>, bool) {
+    fn end(&self, own: &[Sample], left: &Left, is_part: bool) -> (Option<Missed>, bool) {
         let waypoints = &self.case.waypoints[..];
         let accept = self.accept_m();
         let (last, to_s) = (waypoints.len() - 1, self.span.to_s);
         let flew = self.course.is_none_or(|course| course.is_whole(waypoints.len(), to_s));
         let near_last = own.last().is_some_and(|sample| (sample.p_m - waypoints[last]).norm() <= self.against.accept);
-        let Some(course) = self.course.filter(|_| self.logged.format != "CSV") else {
+        let Some(course) = self.told_course() else {
             let missed = missed(&left.samples, waypoints, accept);
             return (missed, flew && near_last && missed.is_none());
         };
@@ -214,7 +240,7 @@ impl Judging<'_> {
         let leg = |sample: Option<&Sample>| course.leg_at(sample?.t_s);
         let (Some(begins), Some(ends)) = (leg(own.first()), leg(own.last())) else { return (None, false) };
         // Where it was when it left a waypoint that --from leaves out is not seen.
-        let first = if begins == 0 && !self.is_part { 0 } else { begins + 1 };
+        let first = if begins == 0 && !is_part { 0 } else { begins + 1 };
         let told = first..=if is_over { last } else { ends };
         let missed = untrue(own, (course, told), waypoints, self.near_m());
         (missed, flew && missed.is_none() && (is_over || near_last))

@@ -79,7 +79,7 @@ fn sheet(case: &Case, result: CaseResult, run: Drawn, begins: f64, against: &Rea
 
 /// How the judged part ended.
 fn ended(found: &Found) -> &str {
-    match (&found.ended, found.finished) {
+    match (&found.ended, found.to_the_end) {
         (Some(words), _) => words,
         (None, true) => "done",
         (None, false) => "the log ends",

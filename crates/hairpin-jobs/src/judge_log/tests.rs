@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use hairpin::campaign::scenario::Origin;
+use hairpin::campaign::{Case, CaseNumber};
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{
     Clock, Event, EventKind, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span,
@@ -331,6 +332,51 @@ fn a_log_that_lies_elsewhere_is_refused_and_moved_by_name_only() {
     // Half a metre within the acceptance is not taken off either: it is deviation.
     let near = judged_as(&moved(0.0, Vector3::new(0.0, 0.6, 0.0)), |_, _| {}).unwrap();
     assert_eq!(near.verdict.exit_code, 1, "{}", near.verdict.sentence);
+}
+
+#[test]
+fn a_log_of_another_place_on_earth_is_refused() {
+    let world = |settings: &mut LogSettings, _: &Path| settings.world = Some("cage-30m".into());
+    let at = |lat_deg: f64, lon_deg: f64| {
+        let origin = Geodetic { lat_deg, lon_deg, alt_amsl_m: 180.0 };
+        judged_as(&Logged { frame: LogFrame::Enu(Some(origin)), ..log(100.0, 0.3) }, world)
+    };
+    let told = at(-78.5079772, 38.0335530).unwrap_err();
+    assert!(
+        told.contains("it was flown elsewhere on Earth: 1") && told.contains(" km from the world's origin"),
+        "{told}"
+    );
+    assert!(told.contains(", 20 at most; latitude and longitude may be exchanged"), "{told}");
+    // What jumps there is a jump, and what is within the bound is judged.
+    let mut jumps = log(100.0, 0.3);
+    jumps.frame = LogFrame::Enu(Some(Geodetic { lat_deg: 38.0335530, lon_deg: -78.5079772, alt_amsl_m: 180.0 }));
+    jumps.motions[0].samples.last_mut().unwrap().p_m.x = 3e6;
+    let told = judged_as(&jumps, world).map(|judged| judged.verdict.sentence).unwrap_or_else(|why| why);
+    assert!(!told.contains("elsewhere on Earth"), "{told}");
+}
+
+#[test]
+fn a_log_that_is_near_no_case_is_asked_for_none() {
+    let case = |number: usize, off: f64| {
+        Case::bare(CaseNumber(number), 1, corners().map(|p| p + Vector3::new(0.0, off, 0.0)).to_vec())
+    };
+    let cases = [case(0, 0.0), case(1, 60.0)];
+    let found = |scale: f64, by: f64| {
+        let mut log = log(10.0, 0.0);
+        let moved = |p: Point3<f64>| Point3::from(p.coords * scale + Vector3::z() * by);
+        log.motions[0].samples.iter_mut().for_each(|sample| sample.p_m = moved(sample.p_m));
+        let found = matched(&cases, &log.motions[0].samples, (&log, &[], 1.0), &Asks::JUDGE);
+        found.map(|(case, _)| case.id()).map_err(|why| why.to_string())
+    };
+    assert_eq!(found(1.0, 0.0).as_deref(), Ok("0000"));
+    for (scale, by, far) in [(1e3, 0.0, " km away in the mean"), (1.0, 47.0, "is 47.0 m away in the mean")] {
+        let told = found(scale, by).unwrap_err();
+        assert!(told.contains("flew none of the 2 cases: the nearest, 000") && told.contains(far), "{told}");
+        assert!(told.contains("no more than 28.3 m across") && told.contains("mm for m"), "{told}");
+        assert!(!told.contains("too near each other") && told.ends_with("--case ID says which"), "{told}");
+    }
+    // Who is beside one is matched to it, to be judged.
+    assert_eq!(found(1.0, 8.0).as_deref(), Ok("0000"));
 }
 
 /// Axes of a cage whose x points to 73.5° in east and north, by the compass: nothing of our conversions is used.

@@ -14,6 +14,7 @@ use hairpin_formats::quote::shortened;
 
 use super::cut::Cut;
 use super::found::{Found, JudgedLog, Outcome};
+use super::left_out::LeftOut;
 use super::remedy::log_at;
 use crate::Problem;
 
@@ -126,7 +127,7 @@ pub(super) fn again(t_s: f64) -> String {
     )
 }
 
-/// Why what was flown is not the whole mission: where it ends, or what it left out.
+/// Why what was flown is not the whole mission: where it begins or ends, or what it left out.
 fn unfinished(found: &Found, flown: &Flown) -> String {
     let last = flown.measures.legs.iter().rposition(|leg| leg.time > 0.0).unwrap_or(0);
     let of = flown.measures.legs.len() + 1;
@@ -137,7 +138,9 @@ fn unfinished(found: &Found, flown: &Flown) -> String {
         _ => format!("{why}, on leg {last}→{} of {of} waypoints: what was left of the mission is not judged", last + 1),
     };
     let missed = missed.filter(|words| !first.starts_with(words.as_str()));
-    [Some(first), missed, nearest(flown)].into_iter().flatten().collect::<Vec<_>>().join("; ")
+    let first = Some(first).filter(|_| !found.to_the_end);
+    let before = found.left_out.as_ref().map(LeftOut::in_words);
+    [before, first, missed, nearest(flown)].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 /// `0.65 m > 0.50 m, t = 12.34 s, leg 4→5`.

@@ -9,26 +9,31 @@ pub(super) struct Cdr<'a> {
     little: bool,
 }
 
-/// A message is shorter than its type, or none.
+/// Why a message tells nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NoMessage;
+pub(super) enum NoMessage {
+    /// It is shorter than its type, or none of it.
+    Broken,
+    /// It is one of its type, and its numbers are no place.
+    NotFinite,
+}
 
 type Answer<T> = Result<T, NoMessage>;
 
 impl<'a> Cdr<'a> {
     pub(super) fn of(message: &'a [u8]) -> Answer<Self> {
-        let (head, body) = message.split_first_chunk::<4>().ok_or(NoMessage)?;
+        let (head, body) = message.split_first_chunk::<4>().ok_or(NoMessage::Broken)?;
         let little = match head[..2] {
             [0, 0] => false,
             [0, 1] => true,
-            _ => return Err(NoMessage),
+            _ => return Err(NoMessage::Broken),
         };
         Ok(Self { body, at: 0, little })
     }
 
     fn take<const N: usize>(&mut self) -> Answer<[u8; N]> {
         let from = self.at.next_multiple_of(N);
-        let mut bytes = *self.body.get(from..).and_then(|rest| rest.first_chunk()).ok_or(NoMessage)?;
+        let mut bytes = *self.body.get(from..).and_then(|rest| rest.first_chunk()).ok_or(NoMessage::Broken)?;
         self.at = from + N;
         if !self.little {
             bytes.reverse();
@@ -59,16 +64,16 @@ impl<'a> Cdr<'a> {
     /// A string, whose length counts the zero at its end.
     pub(super) fn string(&mut self) -> Answer<&'a str> {
         let length = self.u32()? as usize;
-        let text = self.body.get(self.at..).and_then(|rest| rest.get(..length)).ok_or(NoMessage)?;
+        let text = self.body.get(self.at..).and_then(|rest| rest.get(..length)).ok_or(NoMessage::Broken)?;
         self.at += length;
-        std::str::from_utf8(text.strip_suffix(b"\0").unwrap_or(text)).map_err(|_| NoMessage)
+        std::str::from_utf8(text.strip_suffix(b"\0").unwrap_or(text)).map_err(|_| NoMessage::Broken)
     }
 
     /// The length of a sequence of things of this size at least, which must be there.
     pub(super) fn length(&mut self, least: usize) -> Answer<usize> {
         let length = self.u32()? as usize;
         let left = self.body.len().saturating_sub(self.at);
-        if length <= left / least { Ok(length) } else { Err(NoMessage) }
+        if length <= left / least { Ok(length) } else { Err(NoMessage::Broken) }
     }
 }
 
@@ -87,10 +92,10 @@ mod tests {
             let mut cdr = Cdr::of(&message).unwrap();
             assert_eq!((cdr.string(), cdr.u32()), (Ok("a"), Ok(7)));
             // Twelve bytes behind the head: the number begins at sixteen.
-            assert_eq!((cdr.f64(), cdr.f64()), (Ok(1.5), Err(NoMessage)));
+            assert_eq!((cdr.f64(), cdr.f64()), (Ok(1.5), Err(NoMessage::Broken)));
             let mut cdr = Cdr::of(&message).unwrap();
             assert_eq!(cdr.length(10), Ok(2));
-            assert_eq!(Cdr::of(&message).unwrap().length(11), Err(NoMessage));
+            assert_eq!(Cdr::of(&message).unwrap().length(11), Err(NoMessage::Broken));
         }
         assert!(Cdr::of(&[0, 7, 0, 0, 1]).is_err() && Cdr::of(&[0, 1]).is_err());
     }

@@ -42,12 +42,13 @@ pub(super) struct Header<'a> {
     pub(super) frame: &'a str,
 }
 
-/// A pose with its header; `attitude` where the quaternion is one.
+/// A pose with its header; `attitude` where the quaternion is one, and how long that is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pose<'a> {
     pub(super) header: Header<'a>,
     pub(super) p_m: Point3<f64>,
     pub(super) attitude: Option<UnitQuaternion<f64>>,
+    pub(super) quaternion_length: f64,
     pub(super) v_m_s: Option<Vector3<f64>>,
     pub(super) accuracy_m: Option<[f64; 2]>,
     /// Whether it is told across or up alone.
@@ -60,28 +61,29 @@ fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, NoMessage> {
     Ok(Header { stamp_ns, frame: cdr.string()? })
 }
 
-fn place(cdr: &mut Cdr) -> Result<(Point3<f64>, Option<UnitQuaternion<f64>>), NoMessage> {
+fn place(cdr: &mut Cdr) -> Result<(Point3<f64>, Option<UnitQuaternion<f64>>, f64), NoMessage> {
     let p = cdr.numbers::<3>()?;
     let [x, y, z, w] = cdr.numbers()?;
-    if !p.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M) {
-        return Err(NoMessage);
-    }
     let q = Quaternion::new(w, x, y, z);
-    let is_turn = (q.norm() - 1.0).abs() < QUATERNION;
-    Ok((p.into(), is_turn.then(|| UnitQuaternion::from_quaternion(q))))
+    let length = q.norm();
+    if !p.iter().all(|p| p.is_finite() && p.abs() < FARTHEST_M) || !length.is_finite() {
+        return Err(NoMessage::NotFinite);
+    }
+    let is_turn = (length - 1.0).abs() < QUATERNION;
+    Ok((p.into(), is_turn.then(|| UnitQuaternion::from_quaternion(q)), length))
 }
 
 pub(super) fn pose<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
     let header = header(cdr)?;
-    let (p_m, attitude) = place(cdr)?;
-    Ok(Pose { header, p_m, attitude, v_m_s: None, accuracy_m: None, is_half: false })
+    let (p_m, attitude, quaternion_length) = place(cdr)?;
+    Ok(Pose { header, p_m, attitude, quaternion_length, v_m_s: None, accuracy_m: None, is_half: false })
 }
 
 /// The twist of an odometry is in the child's frame, the body.
 pub(super) fn odometry<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
     let header = header(cdr)?;
     cdr.string()?;
-    let (p_m, attitude) = place(cdr)?;
+    let (p_m, attitude, quaternion_length) = place(cdr)?;
     let covariance = cdr.numbers::<36>()?;
     let linear = Vector3::from(cdr.numbers::<3>()?);
     let v_m_s = attitude.filter(|_| linear.iter().all(|v| v.is_finite())).map(|turn| turn * linear);
@@ -89,7 +91,7 @@ pub(super) fn odometry<'a>(cdr: &mut Cdr<'a>) -> Result<Pose<'a>, NoMessage> {
     let variances = [covariance[0].max(covariance[7]), covariance[14]];
     let (accuracy_m, is_half) = both(variances.map(|of| known(of.sqrt())));
     let accuracy_m = accuracy_m.filter(|deviations| *deviations != [0.0; 2]);
-    Ok(Pose { header, p_m, attitude, v_m_s, accuracy_m, is_half })
+    Ok(Pose { header, p_m, attitude, quaternion_length, v_m_s, accuracy_m, is_half })
 }
 
 /// The poses of a path, with its own frame where a pose has none.
@@ -113,8 +115,11 @@ pub(super) fn joints<'a>(cdr: &mut Cdr<'a>) -> Result<(i64, Vec<&'a str>, Vec<f6
     let positions = (0..cdr.length(8)?).map(|_| cdr.f64()).collect::<Result<Vec<_>, _>>()?;
     // Of a joint that is named twice nobody knows which position is its own.
     let each_once = names.iter().collect::<HashSet<_>>().len() == names.len();
-    if names.len() != positions.len() || !each_once || !positions.iter().all(|q| q.is_finite()) {
-        return Err(NoMessage);
+    if names.len() != positions.len() || !each_once {
+        return Err(NoMessage::Broken);
+    }
+    if !positions.iter().all(|q| q.is_finite()) {
+        return Err(NoMessage::NotFinite);
     }
     Ok((stamp_ns, names, positions))
 }

@@ -31,6 +31,12 @@ pub(super) struct Topic {
     /// Messages that are none of the type, and where the first is.
     broken: usize,
     first_broken: usize,
+    /// Messages whose numbers are no place or no angles, and where the first is.
+    not_finite: usize,
+    first_not_finite: usize,
+    /// Poses whose quaternion turns nothing; stamp (s) and length of the first.
+    unturned: usize,
+    first_unturned: Option<(f64, f64)>,
     /// Samples in another frame than the first.
     elsewhere: usize,
     /// Samples whose accuracy is told across or up alone.
@@ -48,7 +54,8 @@ struct Set {
 impl Topic {
     pub(super) fn of(name: String, kind: Kind) -> Self {
         let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
-        let (broken, first_broken, elsewhere, halves) = Default::default();
+        let (broken, first_broken, not_finite, first_not_finite) = Default::default();
+        let (unturned, first_unturned, elsewhere, halves) = Default::default();
         Self {
             name,
             kind,
@@ -61,6 +68,10 @@ impl Topic {
             seen,
             broken,
             first_broken,
+            not_finite,
+            first_not_finite,
+            unturned,
+            first_unturned,
             elsewhere,
             halves,
         }
@@ -77,7 +88,14 @@ impl Topic {
         let taken = Cdr::of(data).and_then(|mut cdr| self.take(&mut cdr, received_ns as f64 / 1e9));
         match taken {
             Ok(samples) => (0..samples).try_for_each(|_| budget.take()),
-            Err(NoMessage) => {
+            Err(NoMessage::NotFinite) => {
+                if self.not_finite == 0 {
+                    self.first_not_finite = offset;
+                }
+                self.not_finite += 1;
+                Ok(())
+            }
+            Err(NoMessage::Broken) => {
                 if self.broken == 0 {
                     self.first_broken = offset;
                 }
@@ -123,6 +141,10 @@ impl Topic {
             return 0;
         }
         self.stamped |= pose.header.stamp_ns != 0;
+        if pose.attitude.is_none() {
+            self.unturned += 1;
+            self.first_unturned.get_or_insert((pose.header.stamp_ns as f64 / 1e9, pose.quaternion_length));
+        }
         self.received.push(received_s);
         self.halves += usize::from(pose.is_half && pose.accuracy_m.is_some());
         self.samples.push(Sample {
@@ -153,7 +175,7 @@ impl Topic {
                 self.sets.push(Set { names, times: Vec::new(), received: Vec::new(), rows: Vec::new() });
                 (self.sets.len() - 1, order)
             }
-            None => return Err(NoMessage),
+            None => return Err(NoMessage::Broken),
         };
         self.stamped |= stamp_ns != 0;
         let set = &mut self.sets[index];
@@ -194,6 +216,20 @@ impl Topic {
                 self.broken, self.first_broken
             ));
         }
+        if self.not_finite > 0 {
+            let what = if self.kind == Kind::Joints { "finite positions" } else { "a finite pose" };
+            notes.push(format!(
+                "{name}: {} messages without {what} are not read, the first at byte {}",
+                self.not_finite, self.first_not_finite
+            ));
+        }
+        // A table of such quaternions is refused as well.
+        let unturned = self.first_unturned.map(|(t_s, length)| {
+            let count = self.unturned;
+            format!(
+                "{count} quaternions that are none, the first of length {length:.4} with the stamp {t_s} s, must be 1"
+            )
+        });
         if self.elsewhere > 0 {
             notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));
         }
@@ -215,6 +251,8 @@ impl Topic {
             let far = |one: &Sample, other: &Sample| places_apart(&one.p_m, &other.p_m).unwrap_or_default();
             let (rows, twice) = rising(rows, clock, &far);
             let unfit = twice.tell(&name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
+            notes.extend(unturned.iter().map(|why| format!("{name}: {why}")));
+            let unfit = unfit.or(unturned);
             let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
             motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid, unfit });

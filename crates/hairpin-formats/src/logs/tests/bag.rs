@@ -34,6 +34,40 @@ fn odometry_and_joints_are_read_however_they_are_packed() {
     }
 }
 
+#[test]
+fn poses_that_are_no_place_are_told_as_such_and_quaternions_of_no_length_are_not_judged() {
+    let kind = "geometry_msgs/msg/PoseStamped";
+    let of = |numbers: [f64; 7]| {
+        let one = |t: u32, numbers: [f64; 7]| {
+            let body = Cdr::new(true).header(t, 0, "map").numbers(&numbers).bytes();
+            ("/a", kind, u64::from(t) * 1_000_000_000, body)
+        };
+        let place = |x: f64| [x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        parse(&bag(&[one(1, place(1.0)), one(2, numbers), one(3, place(3.0))], None), "a.mcap").unwrap()
+    };
+    let nan = f64::NAN;
+    for numbers in [[nan, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [2.0, 0.0, 0.0, 0.0, 0.0, nan, 1.0]] {
+        let read = of(numbers);
+        let [note] = &read.notes[..] else { panic!("{:?}", read.notes) };
+        assert!(note.starts_with("/a: 1 messages without a finite pose are not read, the first at byte "), "{note}");
+        assert_eq!((read.motions[0].samples.len(), &read.motions[0].unfit), (2, &None));
+    }
+    for (numbers, length) in
+        [([2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "0.0000"), ([2.0, 0.0, 0.0, 0.0, 0.0, 0.9, 0.0], "0.9000")]
+    {
+        let read = of(numbers);
+        let why = format!("1 quaternions that are none, the first of length {length} with the stamp 2 s, must be 1");
+        assert_eq!((read.motions[0].samples.len(), read.motions[0].unfit.as_deref()), (3, Some(&why[..])));
+        assert_eq!(read.notes, [format!("/a: {why}")]);
+    }
+    assert_eq!(of([2.0, 0.0, 0.0, 0.0, 0.0, 0.995, 0.0]).motions[0].unfit, None);
+    let joints = |q: f64| Cdr::new(true).header(1, 0, "").u32(1).text("q").u32(1).numbers(&[q]).u32(0).u32(0).bytes();
+    let kind = "sensor_msgs/msg/JointState";
+    let messages = [("/j", kind, 1, joints(1.0)), ("/j", kind, 2, joints(f64::INFINITY))];
+    let notes = parse(&bag(&messages, None), "a.mcap").unwrap().notes;
+    assert!(notes[0].starts_with("/j: 1 messages without finite positions are not read"), "{notes:?}");
+}
+
 /// Of a joint that is named twice nobody knows which position is its own.
 #[test]
 fn messages_that_name_a_joint_twice_are_not_read() {

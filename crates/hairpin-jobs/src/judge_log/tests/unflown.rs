@@ -225,6 +225,69 @@ fn a_mission_that_is_flown_twice_is_judged_by_the_flight_that_is_chosen() {
     assert_eq!(chosen(Some(17.92), None)[0], 18.0);
 }
 
+/// The square by an autopilot's word, 0.65 m above the middle of its first leg, judged from `from_s` to `to_s`.
+fn from(from_s: Option<f64>, to_s: Option<f64>, change: impl FnOnce(&mut Logged)) -> (String, u8, Found) {
+    let mut log = by_autopilot(&SQUARE, &SQUARE, &[0.0, 2.0, 6.0, 10.0, 14.0]);
+    let first_leg = log.motions[0].samples.iter_mut().filter(|s| (2.0..6.0).contains(&s.t_s));
+    first_leg.for_each(|s| s.p_m.z += 0.65 * (std::f64::consts::PI * (s.t_s - 2.0) / 4.0).sin().powi(2));
+    change(&mut log);
+    let judged = judged_as(&log, |settings, here| {
+        let rows = SQUARE.map(|[x, y, z]| format!("{x},{y},{z}\n")).concat();
+        fs::write(here.join("m.csv"), format!("x_m,y_m,z_m\n{rows}")).unwrap();
+        (settings.from_s, settings.to_s) = (from_s, to_s);
+    });
+    let judged = judged.unwrap();
+    (judged.verdict.sentence, judged.verdict.exit_code, judged.found.unwrap())
+}
+
+#[test]
+fn what_is_judged_from_the_middle_cannot_pass() {
+    // The violation is on the first leg: seen, it is one, whatever is left out before it.
+    for from_s in [None, Some(1.5), Some(2.0), Some(3.0)] {
+        let (sentence, code, _) = from(from_s, None, |_| {});
+        assert!(code == 1 && sentence.starts_with("FAIL"), "{sentence}");
+    }
+    for (from_s, words) in [
+        (5.0, "--from leaves out a part of leg 0→1: 3.00 s since the mission left waypoint 0 at t = 2.00 s"),
+        (6.0, "--from leaves out leg 0→1: 4.00 s since the mission left waypoint 0 at t = 2.00 s"),
+        (7.0, "--from leaves out leg 0→1 and a part of leg 1→2: 5.00 s since"),
+        (12.0, "--from leaves out legs 0→1 to 1→2 and a part of leg 2→3: 10.00 s since"),
+    ] {
+        let (sentence, code, found) = from(Some(from_s), None, |_| {});
+        assert!(code == 5 && sentence.contains(&format!("told): {words}")), "{sentence}");
+        assert!(!found.finished && found.to_the_end && sentence.contains(" are not judged; 0."));
+        assert!(found.notes.iter().any(|note| note.starts_with(words)), "{:?}", found.notes);
+    }
+    // Both ends are told.
+    let (sentence, code, _) = from(Some(7.0), Some(12.0), |_| {});
+    assert!(code == 5 && sentence.contains("--from leaves out leg 0→1 and a part"), "{sentence}");
+    assert!(sentence.contains("; the log ends, on leg 2→3 of 5 waypoints: what was left"), "{sentence}");
+    // What is left out before the mission left its first waypoint is none of it.
+    let keep = |log: &mut Logged| log.motions[0].samples.iter_mut().for_each(|s| s.p_m.z = 5.0);
+    for from_s in [None, Some(0.5), Some(1.995), Some(2.0)] {
+        let (sentence, code, found) = from(from_s, None, keep);
+        assert!(code == 0 && found.left_out.is_none(), "{sentence}");
+    }
+    // Nor is what begins between two samples; positions that begin late are a gap, from when on ever they are judged.
+    let (sentence, code, _) = from(Some(2.005), None, |log| {
+        keep(log);
+        log.progress[1].t_s = 2.001;
+    });
+    assert_eq!(code, 0, "{sentence}");
+    for from_s in [2.5, 4.9] {
+        let (sentence, code, _) = from(Some(from_s), None, |log| log.motions[0].samples.retain(|s| s.t_s >= 5.0));
+        assert!(code == 5 && !sentence.starts_with("PASS"), "{sentence}");
+    }
+    // A first leg that is over before the first position.
+    let (sentence, code, found) = from(None, None, |log| {
+        keep(log);
+        log.motions[0].samples.retain(|s| s.t_s >= 6.1);
+        log.progress[1].t_s = 5.5;
+    });
+    let words = "the positions leave out leg 0→1: 0.60 s since the mission left waypoint 0 at t = 5.50 s";
+    assert!(code == 5 && sentence.contains(words) && found.left_out.is_some(), "{sentence}");
+}
+
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
     let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
