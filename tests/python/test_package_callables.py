@@ -248,6 +248,19 @@ def test_a_score_that_raises_stops_the_search_with_its_cause(tmp_path):
         hairpin.generate("demo-quadrotor", score=lambda leg: float("nan"), out=tmp_path / "out", values=SMALL, if_there="replace")
 
 
+LOOPED = {**SMALL, "generate.search": {"method": "worst", "executions": 6, "cases": 2}, "execute.baseline": 0}
+
+
+@pytest.mark.parametrize("what", ["executor", "controller"])
+def test_who_fails_every_execution_of_a_search_is_its_cause(what, tmp_path):
+    def broken(*asked):
+        raise ZeroDivisionError("boom")
+
+    with pytest.raises(hairpin.ExecutorError, match="none of .* came to a flight.*boom") as found:
+        hairpin.stress("demo-quadrotor", **{what: broken}, out=tmp_path / "out", values=LOOPED)
+    assert isinstance(found.value.__cause__, ZeroDivisionError)
+
+
 def test_targets_measure_runs(tmp_path):
     seen = []
 

@@ -137,7 +137,7 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
         }
         Status::Pass => match &suite.inconclusive {
             None => TestCaseStatus::success(),
-            Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
+            Some(why) => not_passed(NonSuccessKind::Error, no_verdict(why), why, &[]),
         },
         Status::Unjudged => skipped("spec = \"none\": nothing was asked for"),
         Status::Fail => {
@@ -167,9 +167,14 @@ fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
 /// A case that was not found is skipped; where there is none at all and nobody knows why, that is no success.
 fn not_found(suite: &Suite, none_at_all: bool) -> TestCaseStatus {
     match suite.inconclusive.as_ref().filter(|_| none_at_all) {
-        Some(why) => not_passed(NonSuccessKind::Error, "Inconclusive", why, &[]),
+        Some(why) => not_passed(NonSuccessKind::Error, no_verdict(why), why, &[]),
         None => skipped(&suite.missing),
     }
+}
+
+/// The type of a verdict on the campaign as a whole that is no pass, by its beginning.
+fn no_verdict(sentence: &str) -> &'static str {
+    if sentence.starts_with("EXECUTOR FAILED") { "ExecutorFailed" } else { "Inconclusive" }
 }
 
 fn skipped(why: &str) -> TestCaseStatus {

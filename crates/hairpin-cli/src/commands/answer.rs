@@ -110,6 +110,7 @@ impl Answer<'_> {
                 "inconclusive": self.count(Status::Inconclusive),
                 "attitude_unknown": self.judgement.attitude_unknown,
             },
+            "search": search(self.tally),
             "share": self.share(),
             "baseline": self.judgement.baseline.as_ref().map(baseline),
             "stress_percent": self.judgement.baseline.as_ref().and_then(|it| it.stress_percent(&self.judgement.results)),
@@ -128,6 +129,15 @@ impl Answer<'_> {
             "paths": paths,
         })
     }
+}
+
+/// What the search executed, and what of that failed; null of one that executed nothing.
+fn search(tally: &Tally) -> Value {
+    let (executed, failures) = (tally.executed(), &tally.failures);
+    if executed == 0 {
+        return Value::Null;
+    }
+    json!({ "executions": executed, "failed": failures.failed, "why": failures.why })
 }
 
 /// How stressful missions made elsewhere are, beside what a search finds.
@@ -153,7 +163,7 @@ fn missions(found: &Compared) -> Value {
 /// What random feasible cases came to.
 pub(super) fn baseline(found: &Baseline) -> Value {
     json!({
-        "cases": found.cases, "executions": found.executions, "metric": found.stress.column(), "mean": found.mean,
+        "cases": found.cases, "failed": found.failed, "executions": found.executions, "metric": found.stress.column(), "mean": found.mean,
         "interval": found.interval, "median": found.median, "max": found.max, "worst": found.worst,
     })
 }

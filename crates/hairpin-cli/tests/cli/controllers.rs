@@ -386,3 +386,93 @@ fn another_word_is_another_controller() {
     let refused = with("python:other.py").unwrap_err();
     assert_eq!((refused.key.as_str(), refused.bound.as_str()), ("execute.controller", "read with its scenario"));
 }
+
+/// Searches that execute, with little.
+const SEARCHES: [&str; 3] = [
+    r#"{ method = "worst", waypoints = 60, cases = 2, executions = 16 }"#,
+    r#"{ method = "in-loop", waypoints = 60, cases = 2, executions = 16 }"#,
+    r#"{ method = "adaptive", waypoints = 60, cases = 2, executions = 26, rounds = 2 }"#,
+];
+
+/// Hull legs that `search` executes, steered by `controller`.
+fn searched(search: &str, controller: &str) -> String {
+    scenario(controller).replace("{ method = \"uniform\", waypoints = 60, cases = 4 }", search)
+}
+
+/// It gives up on about every third mission; so does the program.
+const GIVES_UP: &str = "def control(t_s, state, reference):\n    \
+    if round(1000 * reference['waypoints_m'][1][0]) % 3 == 0:\n        \
+    raise RuntimeError('no table for this')\n    \
+    target = reference['waypoints_m'][min(reference['next'], len(reference['waypoints_m']) - 1)]\n    \
+    return {'v_m_s': [goal - at for goal, at in zip(target, state['p_m'])]}\n";
+
+#[test]
+fn a_search_in_which_a_controller_fails_passes_of_nothing_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.py"), GIVES_UP).unwrap();
+    let wide = ["--set", "spec.deviation.max_m=1000", "--set", "execute.baseline=6", "--json"];
+    for (place, search) in SEARCHES.into_iter().enumerate() {
+        fs::write(here.join("q.toml"), searched(search, "python:part.py")).unwrap();
+        let mut kept = Vec::new();
+        for threads in ["1", "2"] {
+            let out = format!("{place}-{threads}");
+            let arguments = [&["stress", "q.toml", "--out", &out, "--threads", threads][..], &wide].concat();
+            let (code, said, error) = run(here, &arguments);
+            assert_eq!(code, 4, "{said}{error}");
+            let told: Value = serde_json::from_str(&said).unwrap();
+            let (failed, of) =
+                (told["search"]["failed"].as_u64().unwrap(), told["search"]["executions"].as_u64().unwrap());
+            assert!(0 < failed && failed < of, "{told}");
+            let verdict = told["verdict"].as_str().unwrap();
+            let begins = format!(
+                "EXECUTOR FAILED {failed}/{of} executions of the search (controller `python:part.py` at t = 0 s: "
+            );
+            assert!(verdict.starts_with(&begins) && verdict.contains("no table for this"), "{verdict}");
+            assert!(verdict.contains("; 2 judged (simulated, "), "{verdict}");
+            assert!(error.contains(" executions in the loop failed; the last: controller `python:part.py`"), "{error}");
+            let beside = &told["baseline"];
+            let (measured, lost) = (beside["cases"].as_u64().unwrap(), beside["failed"].as_u64().unwrap());
+            assert!(measured + lost == 6 && lost > 0, "{beside}");
+            assert!(verdict.contains(&format!(" at worst of {measured}, {lost} more failed")), "{verdict}");
+            let file = |name: &str| fs::read_to_string(here.join(&out).join(name)).unwrap();
+            assert!(file("junit.xml").contains("type=\"ExecutorFailed\""), "{}", file("junit.xml"));
+            assert!(file("report.html").contains(&format!("{failed} of {of} executions of the search failed")));
+            kept.push(file("generation.json"));
+            // It stays so for whoever goes on, and judges anew.
+            let (code, said, _) = run(here, &["judge", &out, "--json"]);
+            let again: Value = serde_json::from_str(&said).unwrap();
+            assert_eq!((code, again["verdict"].as_str()), (4, Some(verdict)));
+        }
+        assert_eq!(kept[0], kept[1], "threads change what failed");
+        let (code, said, _) =
+            run(here, &["stress", "q.toml", "--out", "narrow", "--force", "--set", "spec.deviation.max_m=0.001"]);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.starts_with("FAIL 2/2 ") && said.contains("; executor failed in "), "{said}");
+    }
+}
+
+#[test]
+fn a_controller_that_always_fails_ends_a_search_with_its_cause() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let always = |body: &str| format!("import sys, time\ndef control(t_s, state, reference):\n    {body}\n");
+    let one = &SEARCHES[..1];
+    for (body, searches, words) in [
+        ("raise RuntimeError('boom')", &SEARCHES[..], "boom"),
+        ("return None", one, "None"),
+        ("return {'v_m_s': [float('nan'), 0.0, 0.0]}", one, "controller `python:bad.py`"),
+        ("return {'v_m_s': [0.0]}", one, "v_m_s"),
+        ("sys.exit(3)", one, "controller `python:bad.py`"),
+        ("time.sleep(60)", one, "execute.timeout_s"),
+    ] {
+        fs::write(here.join("bad.py"), always(body)).unwrap();
+        for search in searches {
+            fs::write(here.join("q.toml"), searched(search, "python:bad.py")).unwrap();
+            let limit = ["--set", "execute.timeout_s=1", "--threads", "2"];
+            let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a", "--force"], &limit[..]].concat());
+            assert_eq!(code, 4, "{body}: {said}{error}");
+            assert!(error.contains("EXECUTOR FAILED: ") && error.contains(words), "{body}: {error}");
+        }
+    }
+}

@@ -153,6 +153,21 @@ fn what_fails_is_no_trial_and_counts() {
     }
 }
 
+/// As of controllers in our simulator: `controllers.rs`.
+#[test]
+fn a_search_in_which_a_program_fails_passes_of_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("q.toml"), scenario(ADAPTIVE, "high-velocity-90", "--sick error")).unwrap();
+    let wide = ["--set", "spec.deviation.max_m=1000", "--set", "execute.baseline=0", "--json"];
+    let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a"], &wide[..]].concat());
+    assert_eq!(code, 4, "{said}{error}");
+    let told: Value = serde_json::from_str(&said).unwrap();
+    let failed = told["search"]["failed"].as_u64().unwrap();
+    let verdict = told["verdict"].as_str().unwrap();
+    assert!(verdict.starts_with(&format!("EXECUTOR FAILED {failed}/42 executions of the search (")), "{verdict}");
+}
+
 #[test]
 fn a_program_that_flies_nothing_ends_the_search() {
     let folder = tempfile::tempdir().unwrap();

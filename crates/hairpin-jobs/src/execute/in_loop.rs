@@ -1,10 +1,13 @@
-//! Who executes what a search asks for: our own simulator, or the user's program.
+//! Who executes what a search asks for: our own simulator, with whoever steers there, or the user's program. What fails
+//! is counted and told alike, whoever it was.
+
+use std::sync::{Mutex, PoisonError};
 
 use hairpin::campaign::answers::Answer;
 use hairpin::campaign::{Batch, Case, Executor, Mission, OwnSimulator, Setup};
 use hairpin::judgement::Measures;
 use hairpin::trajectory::Flight;
-use hairpin_formats::executor::{Greeting, InLoop, Told};
+use hairpin_formats::executor::{Greeting, InLoop};
 use rayon::ThreadPoolBuilder;
 
 use super::fly::{command_of, processes, while_wanted};
@@ -25,6 +28,18 @@ struct Seeing<'a> {
     watch: &'a dyn Watch,
     rounds: Option<&'a Rounds>,
     stop: &'a (dyn Fn() -> bool + Sync),
+    told: &'a Mutex<Told>,
+}
+
+/// What came of all executions that a search asked for.
+#[derive(Debug, Clone, Default)]
+struct Told {
+    /// Those that came to a flight.
+    flown: u64,
+    /// Those that did not.
+    failed: u64,
+    /// Why the last of these did not.
+    last: Option<String>,
 }
 
 impl Executor for Seeing<'_> {
@@ -41,6 +56,16 @@ impl Executor for Seeing<'_> {
 
     fn measured(&self, measures: &Measures, violates: bool) {
         self.watch.seen(Seen { deviation: Some(measures.max_deviation), violates });
+    }
+
+    fn ended(&self, outcome: Result<(), &str>) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        match outcome {
+            Ok(()) => told.flown += 1,
+            // Who is not waited for has failed at nothing.
+            Err(_) if (self.stop)() => {}
+            Err(why) => (told.failed, told.last) = (told.failed + 1, Some(why.into())),
+        }
     }
 
     fn is_ours(&self) -> bool {
@@ -65,21 +90,29 @@ pub(crate) fn in_the_loop<T: Send>(
     search: impl FnOnce(Asked) -> T + Send,
 ) -> Result<(T, Option<Problem>), Problem> {
     let apart = || rounds.is_some_and(Rounds::is_in_trouble);
+    let told = &Mutex::new(Told::default());
+    let all = || told.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says
+    // nothing for who executed, and came to no flight in it.
+    let goes_on = || watch.stopped() || rounds.is_some_and(Rounds::any_flown);
     let program = if setup.scenario.executes() { command_of(setup)? } else { None };
     let Some((command, limits)) = program else {
         let steers = setup.steering_code();
         let trouble = || steers.and_then(|(_, code)| code.trouble());
         let stop = || stopped() || trouble().is_some() || apart();
         // The limit of a search's time is none of who steers: what was found is executed after it.
-        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop };
+        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop, told };
         let found = while_wanted(setup, watch, || search(Asked { executor, stop: &stop }));
-        return Ok((found, trouble().map(Problem::Executor).or_else(|| rounds?.trouble())));
+        let told = all();
+        tell(&told, "", watch);
+        let in_vain = || told.in_vain().filter(|_| !goes_on());
+        return Ok((found, trouble().or_else(in_vain).map(Problem::Executor).or_else(|| rounds?.trouble())));
     };
     let processes = processes(setup);
     let may = |now: &Greeting| executing.may(now) && rounds.is_none_or(|rounds| rounds.may(now));
     let program = InLoop::new(&command, limits, processes, stopped).only_if(&may);
     let stop = || stopped() || program.trouble().is_some() || program.is_unwanted() || apart();
-    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop };
+    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop, told };
     let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
         let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;
@@ -90,31 +123,34 @@ pub(crate) fn in_the_loop<T: Send>(
     if let Some(refused) = executing.refusal() {
         return Err(refused);
     }
-    let told = program.all();
-    tell(&told, watch);
-    // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says
-    // nothing for a program that flew nothing in it.
-    let goes_on = watch.stopped() || rounds.is_some_and(Rounds::any_flown);
-    Ok((found, trouble(&program, &told, goes_on).or_else(|| rounds?.trouble())))
+    // The last of what it did not answer is what ended the search, and was told to nobody yet.
+    let of_program = program.all();
+    let last = of_program.last.as_ref();
+    let mut told = all();
+    told.failed = told.failed.max(of_program.failed);
+    told.last = last.map(|last| last.in_full()).or(told.last);
+    tell(&told, last.map_or("", |last| &last.stderr), watch);
+    let in_vain = || told.in_vain().filter(|_| !goes_on()).map(|why| program.by_name(why));
+    let trouble = of_program.trouble.clone().or_else(in_vain).map(Problem::Executor);
+    Ok((found, trouble.or_else(|| rounds?.trouble())))
 }
 
-/// What the user's program did not fly.
-fn tell(told: &Told, watch: &dyn Watch) {
-    let Told { flown, failed, again, last, .. } = told;
-    tracing::info!("{flown} executions in the loop, {failed} failed, {again} that were known");
+/// What was not flown, with the end of what a program wrote to stderr the last time.
+fn tell(Told { flown, failed, last }: &Told, stderr: &str, watch: &dyn Watch) {
+    tracing::info!("{flown} executions in the loop, {failed} failed");
     let Some(last) = last else { return };
     watch.warn(&format!("Warning: {failed} of {} executions in the loop failed; the last: {last}", flown + failed));
-    if !last.stderr.trim().is_empty() {
-        watch.warn(last.stderr.trim_end());
+    if !stderr.trim().is_empty() {
+        watch.warn(stderr.trim_end());
     }
 }
 
-/// Why the search was in vain, or had to end.
-fn trouble(program: &InLoop, told: &Told, goes_on: bool) -> Option<Problem> {
-    let Told { flown, failed, last, .. } = told;
-    let in_vain = *flown == 0 && *failed > 0 && !goes_on;
-    let last = last.as_ref().map_or(String::new(), |last| format!("; the last: {}", last.in_full()));
-    let in_vain =
-        || in_vain.then(|| program.by_name(format!("none of {failed} executions in the loop came to a flight{last}")));
-    told.trouble.clone().or_else(in_vain).map(Problem::Executor)
+impl Told {
+    /// Why the search was in vain: nothing that it asked for was flown.
+    fn in_vain(&self) -> Option<String> {
+        let Self { flown, failed, last } = self;
+        let last = last.as_ref().map_or(String::new(), |last| format!("; the last: {last}"));
+        let none = *flown == 0 && *failed > 0;
+        none.then(|| format!("none of {failed} executions in the loop came to a flight{last}"))
+    }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::generate::{Known, generate_units};
-use hairpin::campaign::{Case, Setup, Stop, Tally, learn, planned, planned_rows};
+use hairpin::campaign::{Case, Failures, Setup, Stop, Tally, learn, planned, planned_rows};
 use hairpin_formats::atomic;
 use hairpin_formats::parquet::track;
 use rayon::prelude::*;
@@ -214,7 +214,9 @@ fn known(work: &Work) -> Result<Known, Problem> {
     let answers = folder.read_executed()?.map(Box::new);
     if !folder.has_cases() || !folder.has_tally() {
         // As where it was gone on with, and could not be.
-        return Ok(Known { cases: Vec::new(), tally: Tally { answers, ..Tally::default() } });
+        let failures = if folder.has_tally() { folder.read_tally()?.failures } else { Failures::default() };
+        let failures = answers.as_ref().map_or_else(Failures::default, |_| failures);
+        return Ok(Known { cases: Vec::new(), tally: Tally { answers, failures, ..Tally::default() } });
     }
     let tally = Tally { answers, cut: None, ..folder.read_tally()? };
     let known = Known { cases: folder.read_cases()?, tally };
@@ -234,6 +236,10 @@ fn known(work: &Work) -> Result<Known, Problem> {
             folder.take_executor(&program)?;
         }
         folder.write_executed(known.tally.answers.as_deref())?;
+        if !known.tally.failures.is_none() {
+            // What failed is executed no second time, and is to be known however the search ends now.
+            folder.write_tally(&unfinished(&known.tally))?;
+        }
     }
     Ok(known)
 }

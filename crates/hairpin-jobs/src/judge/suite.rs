@@ -28,13 +28,15 @@ pub(super) fn suite(
         (result.case, worse.map(|one| format!("{} against {against}", one.in_words())).chain(lost).collect())
     });
     let scenario = &work.setup.scenario;
-    let by_a_case = results.iter().any(|result| result.status == Status::Inconclusive);
+    // No single case is to blame for what failed in the search for them.
+    let blamed = if verdict.exit_code == 4 { Status::ExecutorFailed } else { Status::Inconclusive };
+    let by_a_case = results.iter().any(|result| result.status == blamed);
     let property = |name: &str, value: String| (name.to_owned(), value);
     Suite {
         name: work.setup.robot_name().to_owned(),
         asked: tally.asked(scenario.search().cases),
         missing: tally.nothing.clone().unwrap_or_else(|| "not found within the budget".into()),
-        inconclusive: (verdict.exit_code == 5 && !by_a_case).then(|| verdict.sentence.clone()),
+        inconclusive: ([4, 5].contains(&verdict.exit_code) && !by_a_case).then(|| verdict.sentence.clone()),
         properties: [
             property("verdict", verdict.sentence.clone()),
             property("seed", scenario.seed().to_string()),

@@ -41,8 +41,10 @@ _NAMES = {
 
 
 @contextlib.contextmanager
-def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
-    """The command that executes; while it is in use the callable is served."""
+def serving(executor: Callable[..., Any] | str | None, raised: list[BaseException] | None = None) -> Iterator[str | None]:
+    """The command that executes; while it is in use the callable is served, and what it last ``raised`` kept."""
+    raised = [] if raised is None else raised
+    raised.clear()
     if executor is None or isinstance(executor, str):
         yield executor
         return
@@ -55,13 +57,26 @@ def serving(executor: Callable[..., Any] | str | None) -> Iterator[str | None]:
         name = next(
             name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors
         )
-        _executors[name] = Together(executor) if takes_many(executor) else executor
+        _executors[name] = _keeping(Together(executor) if takes_many(executor) else executor, raised)
     try:
         # Of the package it needs nothing, whose import takes longer than many a mission.
         yield shlex.join([sys.executable, "-IS", str(Path(__file__).with_name("_relay.py")), name])
     finally:
         with _lock:
             del _executors[name]
+
+
+def _keeping(executor: Callable[..., Any], raised: list[BaseException]) -> Callable[..., Any]:
+    """``executor``, what it raised last being kept for whoever asks why nothing was flown."""
+
+    def fly(mission: dict[str, Any]) -> Any:
+        try:
+            return executor(mission)
+        except BaseException as error:
+            raised[:] = [error]
+            raise
+
+    return fly
 
 
 def _begin_to_listen() -> None:

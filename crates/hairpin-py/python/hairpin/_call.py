@@ -10,6 +10,7 @@ from typing import Any
 
 from hairpin import _native
 from hairpin._asked import flag, function, whole, word, wrong
+from hairpin._errors import ExecutorError
 
 _LOG = logging.getLogger("hairpin")
 
@@ -25,14 +26,18 @@ class Brought:
     controller: Callable[[dict[str, Any]], Any] | None = None
     sets: list[tuple[str, str]] = field(default_factory=list)
     raised: list[BaseException] = field(default_factory=list)
+    flying: list[BaseException] = field(default_factory=list)
+    """What an executor raised last."""
 
     def code(self) -> _native.Code:
         return _native.Code(self.score, self.target, self.controller)
 
     def why(self, error: BaseException) -> BaseException:
         """``error``, with what a callable raised as its cause."""
-        if self.raised and error.__cause__ is None:
-            error.__cause__ = self.raised[0]
+        # Who fails runs may have failed many, and its last one is told; a search ends with the first that its score raises.
+        causes = [*self.raised, *self.flying][::-1] if isinstance(error, ExecutorError) else self.raised
+        if causes and error.__cause__ is None:
+            error.__cause__ = causes[0]
         return error
 
 

@@ -82,7 +82,7 @@ def stress(
     """
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
-    with serving(executor) as command:
+    with serving(executor, brought.flying) as command:
         begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s, budget_s)
         given = (place_or_none("missions", missions), place_or_none("repro", repro))
         said = _called(
@@ -122,7 +122,7 @@ def generate(
     """
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
-    with serving(executor) as command:
+    with serving(executor, brought.flying) as command:
         begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s)
         said = _called(
             brought, lambda: _native.generate(begun, means(brought, portable, allow_commands), waiting(threads, progress))
@@ -174,7 +174,7 @@ def execute(
     brought = bring(controller)
     if controller is None and executor is None and own is not None:
         brought = own
-    with serving(executor) as command:
+    with serving(executor, brought.flying) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
         sets += _side_by_side(executor, os.fspath(folder / "scenario.toml"), sets)
         flights = SimpleNamespace(

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::case::CaseResult;
+use super::case::{CaseResult, Status};
 use super::digits::number;
 use super::setup::Setup;
 use crate::judgement::{Measures, Statistics, Stress, Violation, mean_interval, told};
@@ -19,6 +19,8 @@ use crate::trajectory::Ended;
 pub struct Baseline {
     /// Cases that were measured.
     pub cases: usize,
+    /// Cases beside these that were not, because an execution failed.
+    pub failed: usize,
     /// Runs of all cases.
     pub executions: usize,
     /// What is measured, of each case its worst run.
@@ -51,6 +53,7 @@ impl Baseline {
         let bound = |end: f64| if min >= 0.0 { end.max(0.0) } else { end };
         Some(Self {
             cases: values.len(),
+            failed: results.iter().filter(|result| result.status == Status::ExecutorFailed).count(),
             executions: results.len() * repeat as usize,
             stress,
             less_is_worse,
@@ -94,7 +97,13 @@ impl Baseline {
                 format!(", {count} of them cut short ({})", ways.join(", "))
             }
         };
-        format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {}{cut}", self.cases)
+        let of = format!("{}{cut}{}", self.cases, self.failed_in_words());
+        format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {of}")
+    }
+
+    /// `, 2 more failed`, or nothing.
+    pub(super) fn failed_in_words(&self) -> String {
+        if self.failed == 0 { String::new() } else { format!(", {} more failed", self.failed) }
     }
 
     /// What they are, for whoever reads what a campaign rests on.
@@ -102,9 +111,20 @@ impl Baseline {
         let sampler = setup.kind().solver().map_or("not drawn", |solver| solver.drawn_how());
         format!(
             "Random feasible cases: {} of the same feasible set, drawn from a graph of their own each, {sampler}, with as many runs each and draws of their own (baseline.parquet); \
-             measured, not judged, and counted nowhere. The interval of their mean is Student's, 95 %.",
-            self.cases
+             measured, not judged, and counted nowhere. The interval of their mean is Student's, 95 %.{}",
+            self.cases,
+            self.failed_in_full()
         )
+    }
+
+    /// That some were not measured, in a sentence of its own, or nothing.
+    fn failed_in_full(&self) -> String {
+        match self.failed {
+            0 => String::new(),
+            failed => {
+                format!(" Executions of {failed} more failed: their stress is not known, and no part of the mean.")
+            }
+        }
     }
 
     /// `1.05 to 1.40`, in the unit that [`Self::told`] has.

@@ -52,6 +52,14 @@ pub trait Executor: Sync {
         let _ = (measures, violates);
     }
 
+    /// Told of each run that a search asked for: that it came to a flight, or why not.
+    ///
+    /// Called from the thread that asked, also for what was not asked of [`Self::fly`]: a mission that cannot be made,
+    /// a part of a flight in our own simulator. Does nothing by default.
+    fn ended(&self, outcome: Result<(), &str>) {
+        let _ = outcome;
+    }
+
     /// Whether it is our own simulator, which can be left in the middle of a run and gone on with.
     fn is_ours(&self) -> bool {
         false

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::answers::Answers;
 use super::curve::Curve;
+use super::digits::grouped;
+use super::failures::Failures;
 use super::learn::ScoreModel;
 use super::scenario::{Keys, SearchMethod, SearchSection};
 use crate::judgement::Chosen;
@@ -44,6 +46,9 @@ pub struct Tally {
     pub cut: Option<String>,
     /// Where nothing was found: why, in a sentence's part.
     pub nothing: Option<String>,
+    /// Executions that failed: of trajectories that are no cases for it.
+    #[serde(skip_serializing_if = "Failures::is_none")]
+    pub failures: Failures,
     /// Where trajectories were executed in the loop: the largest stress so far in every graph, as executions went on.
     /// In the order of graphs; one for a pool.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -94,6 +99,20 @@ impl Tally {
     /// off.
     pub fn proven_short_of(&self, scenario: &dyn Keys) -> Option<f64> {
         self.clear_within_mm.filter(|within| scenario.clear_within_mm().is_some_and(|now| now > *within))
+    }
+
+    /// Executions of the search, those that failed among them.
+    pub fn executed(&self) -> u64 {
+        let curves = self.curves.iter().map(|curve| curve.executions).sum::<u64>();
+        curves.max(self.failures.failed)
+    }
+
+    /// `31 of 80 executions of the search failed (why)`; `None` where none did.
+    pub fn failures_in_words(&self) -> Option<String> {
+        let Failures { failed, .. } = self.failures;
+        let why = self.failures.why_in_words();
+        let of = grouped(self.executed());
+        (failed > 0).then(|| format!("{} of {of} executions of the search failed{why}", grouped(failed)))
     }
 
     /// How the cases were come by, that `search` was to find.

@@ -20,7 +20,7 @@ use crate::judgement::{Measures, Stress};
 use crate::math::random::named_seed;
 use crate::search::in_loop::{self, Rank, Trial};
 use crate::search::worst::Ran;
-use crate::simulation::Airborne;
+use crate::simulation::{Airborne, SimulationError};
 use crate::trajectory::Ended;
 
 /// Numbers of the noise that stress is confirmed under begin here: no run and no re-run of a violation has the same.
@@ -176,6 +176,7 @@ impl Trials<'_> {
             return Ok(in_loop::Ran { stress, fails, state: None, legs });
         };
         let case = self.case(plan);
+        let failed = |error: SimulationError| self.executor.ended(Err(&error.to_string()));
         let executor = setup.scenario.executor();
         let length = setup.scenario.length().unwrap_or_default() as usize;
         let limit_of = |waypoints: &[Point3<f64>], planned: f64| {
@@ -193,17 +194,18 @@ impl Trials<'_> {
                     seed: run_seed(case.seed, 0),
                     obstacles: true,
                 };
-                flying.at_start(&order).map_err(|_| legs)?
+                flying.at_start(&order).map_err(failed).map_err(|()| legs)?
             }
         };
         let mut flown = 0;
         for waypoint in &case.waypoints[airborne.waypoints()..] {
             flown += u64::from(!airborne.ended());
-            flying.fly_to(&mut airborne, *waypoint).map_err(|_| flown)?;
+            flying.fly_to(&mut airborne, *waypoint).map_err(failed).map_err(|()| flown)?;
         }
         if whole {
-            flying.finish(&mut airborne).map_err(|_| flown)?;
+            flying.finish(&mut airborne).map_err(failed).map_err(|()| flown)?;
         }
+        self.executor.ended(Ok(()));
         let flight = airborne.so_far();
         let is_longer = || limit_of(&case.waypoints, case.leg_times.iter().sum()) > at_start;
         if whole && flight.ended == Ended::Time && is_longer() {
@@ -254,6 +256,7 @@ impl Trials<'_> {
 
     /// A run with its measures; whoever carried it out is told.
     fn weighed(&self, case: Case, run: Run) -> Option<Executed> {
+        self.executor.ended(run.outcome.as_ref().map(drop).map_err(String::as_str));
         let Weighed { measures, violates, fails } = measured(self.setup, &case, &run)?;
         self.executor.measured(&measures, violates);
         Some(Executed { case, run, measures, fails })

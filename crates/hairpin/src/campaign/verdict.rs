@@ -17,7 +17,8 @@ use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation
 /// nothing was feasible.
 ///
 /// `results` belong to `cases`, and may be fewer. Without cases the verdict is `NOTHING FEASIBLE` (3), or
-/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure.
+/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure, or `EXECUTOR FAILED`
+/// (4) where some of that failed.
 pub fn verdict(setup: &Setup, cases: &[Case], judged: (&[CaseResult], Option<&Baseline>), tally: &Tally) -> Verdict {
     let runs = judged.0.len() * setup.scenario.executor().repeat as usize;
     verdict_on(setup, cases, judged, tally, runs)
@@ -36,6 +37,10 @@ pub fn verdict_on(
     if cases.is_empty() {
         return match tally.nothing.as_deref() {
             _ if tally.stopped => nothing_found(setup, tally, asked),
+            // Whether anything is stressful was not found out where who executes gave up.
+            Some(why) if !tally.failures.is_none() => {
+                judgement::search_in_vain(search_failed(tally), search_trouble(tally), why)
+            }
             Some(UNMEASURED) => nothing_measured(setup, tally, asked),
             _ => nothing_feasible(setup, tally, None),
         };
@@ -86,6 +91,8 @@ pub fn verdict_on(
         inconclusive: results.iter().filter(is_doubt).count(),
         undone: undone.iter().sum(),
         cut: cut.as_deref(),
+        search_failed: search_failed(tally),
+        search_trouble: search_trouble(tally),
         trouble: &trouble,
         doubt: doubt.as_deref().unwrap_or_default(),
         worst: worst.as_ref().map(|named| Worst { case: &case, value: &named.value, saturation: named.saturation }),
@@ -100,6 +107,16 @@ pub fn verdict_on(
         estimated: setup.unknown_shapes(),
         proof: proof.as_deref(),
     })
+}
+
+/// Executions of the search that failed, of how many.
+fn search_failed(tally: &Tally) -> [u64; 2] {
+    if tally.failures.is_none() { [0, 0] } else { [tally.failures.failed, tally.executed()] }
+}
+
+/// Why one of them did.
+fn search_trouble(tally: &Tally) -> &str {
+    tally.failures.why.as_deref().unwrap_or_default()
 }
 
 /// `0001, my simulator, run 0: ended without "end"`: the first case that the executor failed to fly, and why.
@@ -258,7 +275,8 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
 fn nothing_found(setup: &Setup, tally: &Tally, asked: usize) -> Verdict {
     let searched = format!("{} graphs searched", tally.graphs);
     let how = [searched.as_str(), setup.scenario.reach()];
-    let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    let failed = tally.failures_in_words().map_or(String::new(), |failed| format!("; {failed}"));
+    let why = tally.nothing.as_ref().map_or(String::new(), |reason| format!(": {reason}")) + &failed;
     let what = format!("stopped before the first trajectory was found{why}");
     judgement::inconclusive(&format!("0/{asked}"), &how, &what)
 }

@@ -3,7 +3,8 @@
 //!
 //! Exit codes: 0 within spec, 1 violation, 3 nothing feasible, 4 executor failed, 5 inconclusive or invalid data
 //! (2, wrong input, is no verdict). A violation is a fact whatever else went wrong, so it comes first; then a failed
-//! executor, because what was not flown was not judged; then data or an interval that allow no verdict.
+//! executor, because what was not flown was not judged, be it a case or what a search for cases tried; then data or an
+//! interval that allow no verdict.
 //!
 //! One sentence, whatever the robot: outcome, how obtained, worst and where, share of violations (with its interval
 //! where cases were drawn at random), evidence. What was not counted is said, what was derived has its word, and an
@@ -86,6 +87,11 @@ pub struct Judged<'a> {
     pub undone: usize,
     /// What was left undone of the campaign for want of time, in a sentence's part: it is no pass then.
     pub cut: Option<&'a str>,
+    /// Executions of the search that failed, of how many: what it kept says nothing of the trajectories of these, so that
+    /// it is no pass then.
+    pub search_failed: [u64; 2],
+    /// Why one of these did.
+    pub search_trouble: &'a str,
     /// What the executor's failures were: `time-out 60 s, stderr kept`.
     pub trouble: &'a str,
     /// Why the data of the first case that allows no verdict allow none.
@@ -128,6 +134,8 @@ impl Default for Judged<'_> {
             inconclusive: 0,
             undone: 0,
             cut: None,
+            search_failed: [0, 0],
+            search_trouble: "",
             trouble: "",
             doubt: "",
             worst: None,
@@ -176,9 +184,8 @@ pub fn verdict(judged: &Judged) -> Verdict {
     let (k, n) = (judged.failed, judged.cases);
     let (start, exit_code) = if fails {
         (format!("FAIL {k}/{n} {}", how(judged)), 1)
-    } else if judged.executor_failed > 0 {
-        let trouble = if judged.trouble.is_empty() { String::new() } else { format!(" ({})", judged.trouble) };
-        let start = format!("EXECUTOR FAILED {}/{n}{trouble}: not counted as pass or fail", judged.executor_failed);
+    } else if judged.executor_failed > 0 || judged.search_failed[0] > 0 {
+        let start = executor_failed(judged);
         if counted == 0 {
             return Verdict::of(&start, 4);
         }
@@ -192,6 +199,28 @@ pub fn verdict(judged: &Judged) -> Verdict {
         (format!("PASS {}/{n} {}", n - k, how(judged)), 0)
     };
     Verdict::of(&format!("{start}: {}", findings(judged, &count, limit).join("; ")), exit_code)
+}
+
+/// `EXECUTOR FAILED 4/200 (time-out 60 s, stderr kept): not counted as pass or fail`: of the cases, or of what the search
+/// for them executed.
+fn executor_failed(judged: &Judged) -> String {
+    let (failed, trouble) = match judged.executor_failed {
+        0 => (search_failed(judged.search_failed), judged.search_trouble),
+        failed => (format!("{failed}/{}", judged.cases), judged.trouble),
+    };
+    let trouble = if trouble.is_empty() { String::new() } else { format!(" ({trouble})") };
+    format!("EXECUTOR FAILED {failed}{trouble}: not counted as pass or fail")
+}
+
+/// `31/80 executions of the search`.
+fn search_failed([failed, of]: [u64; 2]) -> String {
+    format!("{failed}/{of} executions of the search")
+}
+
+/// `EXECUTOR FAILED 12/12 executions of the search (why): what`, of one that found nothing; exit 4.
+pub fn search_in_vain(failed: [u64; 2], trouble: &str, what: &str) -> Verdict {
+    let trouble = if trouble.is_empty() { String::new() } else { format!(" ({trouble})") };
+    Verdict::of(&format!("EXECUTOR FAILED {}{trouble}: {what}", search_failed(failed)), 4)
 }
 
 /// `NOTHING FEASIBLE (proof, hull): no chain of 10 waypoints from start to end; smallest change: …`; exit 3.
@@ -250,6 +279,9 @@ fn findings(judged: &Judged, count: &Count, limit: Option<f64>) -> Vec<String> {
     parts.extend(judged.reruns.map(str::to_owned));
     if judged.executor_failed > 0 && judged.failed > 0 {
         parts.push(format!("executor failed in {}/{}, not counted", judged.executor_failed, judged.cases));
+    }
+    if judged.search_failed[0] > 0 && judged.failed + judged.executor_failed > 0 {
+        parts.push(format!("executor failed in {}", search_failed(judged.search_failed)));
     }
     // Else the outcome is that they were not.
     let [lost, of] = judged.unflown;
@@ -339,6 +371,23 @@ mod tests {
         assert!(told(3).contains("; 3 of 1000 runs not flown; all 200 witnessed"), "{}", told(3));
         assert!(!told(0).contains("not flown"), "{}", told(0));
         assert!(!verdict(&with(3, &far)).sentence.contains("not flown"));
+    }
+
+    #[test]
+    fn a_search_whose_executions_failed_is_no_pass() {
+        let value = violation("deviation", 0.3, 0.5);
+        let searched = Judged { search_failed: [31, 80], search_trouble: "boom", ..with(0, &value) };
+        let told = verdict(&searched);
+        let words = "EXECUTOR FAILED 31/80 executions of the search (boom): not counted as pass or fail; 200 judged (";
+        assert!(told.exit_code == 4 && told.sentence.starts_with(words), "{told:?}");
+        // Cases come before what was tried for them, and violations before both; what is left is told beside them.
+        let cases = verdict(&Judged { executor_failed: 4, ..searched });
+        assert!(cases.exit_code == 4 && cases.sentence.starts_with("EXECUTOR FAILED 4/200: "), "{cases:?}");
+        let fails = verdict(&Judged { failed: 3, ..searched });
+        assert!(fails.exit_code == 1 && fails.sentence.starts_with("FAIL 3/200 "), "{fails:?}");
+        for told in [cases, fails] {
+            assert!(told.sentence.contains("; executor failed in 31/80 executions of the search"), "{told:?}");
+        }
     }
 
     #[test]

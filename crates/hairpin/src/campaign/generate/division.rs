@@ -104,6 +104,7 @@ pub fn joined(scenario: &Scenario, parts: impl IntoIterator<Item = Known>) -> (K
         tally.duplicates += part.duplicates;
         tally.nothing = if tally.solved == 0 { part.nothing.or(tally.nothing.take()) } else { None };
         tally.curves.extend(part.curves);
+        tally.failures.add(part.failures);
         let mut stayed = Vec::new();
         for case in cases {
             if all.cases.len() as u64 >= wanted {

@@ -1,5 +1,6 @@
 //! The graphs that trajectories are searched in, one after the other.
 
+use crate::campaign::failures::Counted;
 use crate::campaign::graph::{Executions, Outcome, Partials, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::EXECUTED;
@@ -57,7 +58,8 @@ impl<'a> Graphs<'a> {
     ///
     /// Executions and scores that `stop` cancelled are refused to the search, which ends with what it has.
     pub(super) fn solve(&self, graph: u64, wanted: Wanted, stop: &Stop) -> Outcome {
-        let trials = self.trials(graph);
+        let counted = Counted::new(self.executor, stop.cancelled);
+        let trials = Trials { executor: &counted, ..self.trials(graph) };
         let goes_on = || (!(stop.cancelled)()).then_some(());
         let execute = |plan: &Plan, least| goes_on().and_then(|()| trials.execute(plan, least));
         let duration = |plan: &Plan| goes_on().and_then(|()| trials.duration(plan));
@@ -68,6 +70,7 @@ impl<'a> Graphs<'a> {
         let executed = self.setup.scenario.score() == EXECUTED;
         let partial = executed.then(|| Partials { execute: &part, resumes: trials.resumes() });
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
-        self.solver.solve(graph, executions, wanted, stop)
+        let outcome = self.solver.solve(graph, executions, wanted, stop);
+        Outcome { failures: counted.take(), ..outcome }
     }
 }

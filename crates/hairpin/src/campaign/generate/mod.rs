@@ -56,7 +56,8 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
         // What a round chooses depends on all before it, and one search is one: there is no place to go on from.
         let done = !known.tally.stopped && known.tally.units > 0;
         // What was executed need not be executed again.
-        let begun = || Tally { answers: known.tally.answers.clone(), ..Tally::default() };
+        let failures = known.tally.answers.as_ref().map(|_| known.tally.failures.clone()).unwrap_or_default();
+        let begun = || Tally { answers: known.tally.answers.clone(), failures, ..Tally::default() };
         return if done { known } else { Known { cases: Vec::new(), tally: begun() } };
     }
     let varied = varies(scenario);
@@ -212,13 +213,14 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
     if search.method == SearchMethod::Worst {
         let executions = setup.scenario.searched_executions() / search.cases;
         let pool = worst::pool(&graphs, 1, [executions, case * GRAPHS_OF_A_CASE], &Answers::default(), stop);
+        let (graphs, expansions, failures) = (pool.drawn, pool.curve.executions, pool.failures());
         let plans = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
-        let (graphs, expansions) = (pool.drawn, pool.curve.executions);
         return Outcome {
             plans,
             graphs,
             expansions,
             curves: vec![pool.curve],
+            failures,
             reason: pool.nothing,
             ..Outcome::default()
         };
@@ -272,6 +274,7 @@ impl<'a> Collector<'a> {
             self.tally.nothing = None;
         }
         self.tally.curves.extend(outcome.curves);
+        self.tally.failures.add(outcome.failures);
         for (graph, plan) in outcome.plans {
             if self.cases as u64 >= wanted {
                 break;

@@ -14,9 +14,10 @@ use super::known::Known;
 use super::targets::{Margins, column, targets};
 use crate::campaign::answers::{Answers, Executed};
 use crate::campaign::curve::Curve;
+use crate::campaign::failures::{Counted, Failures};
 use crate::campaign::graph::{Plan, fingerprint, met};
 use crate::campaign::scenario::UNMEASURED;
-use crate::campaign::trial::{Sought, executed_case};
+use crate::campaign::trial::{Sought, Trials, executed_case};
 use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::{Stream, named_seed};
 use crate::search::in_loop::Trial;
@@ -43,6 +44,8 @@ pub(super) struct Drawn {
 /// The plans of one setup.
 struct Plans<'a> {
     graphs: &'a Graphs<'a>,
+    /// Who executes.
+    executor: &'a Counted<'a>,
     stop: &'a Stop<'a>,
     /// Of the first draw: cases that vary draw from graphs of their own.
     first: u64,
@@ -107,7 +110,7 @@ impl Field for Plans<'_> {
     }
 
     fn run(&self, drawn: &Drawn, least: &[f64]) -> Option<Ran> {
-        self.graphs.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
+        self.trials(drawn.graph).execute_for((&drawn.plan, self.run), &self.sought, least)
     }
 
     /// Both `None`s are told apart: not begun, and failed. What is known from before costs no execution.
@@ -135,6 +138,10 @@ impl Field for Plans<'_> {
 }
 
 impl Plans<'_> {
+    fn trials(&self, graph: u64) -> Trials<'_> {
+        Trials { executor: self.executor, ..self.graphs.trials(graph) }
+    }
+
     /// What whoever executes has of a batch, of which `execute` carries one out, measured by so many targets. What
     /// cannot be an execution's, as files of a stranger's may have it, counts as failed.
     fn carried_out(
@@ -146,7 +153,8 @@ impl Plans<'_> {
         let sound = |trial: &Trial| trial.executions <= most && u32::try_from(trial.worst_leg).is_ok();
         let fits = |ran: &Ran| ran.trials.len() == targets && ran.trials.iter().all(sound);
         let execute = |place: usize| Some(execute(place)?.as_ref().map(Executed::from));
-        let answers = self.graphs.executor.carry_out(&Batch { names, execute: &execute });
+        let is_known = |name: &[u8; 16]| self.known.of(name).is_some();
+        let answers = self.executor.carry_out_but(&Batch { names, execute: &execute }, &is_known);
         answers.into_iter().map(|answer| Some(answer?.map(Ran::from).filter(fits))).collect()
     }
 
@@ -172,7 +180,7 @@ impl Plans<'_> {
         let names: Vec<[u8; 16]> = pairs.iter().map(|(_, drawn)| self.fingerprint(drawn)).collect();
         let ran = self.carried_out((&names, 1), &|place| {
             let (run, Drawn { graph, plan }) = pairs[place];
-            Some(self.graphs.trials(*graph).execute_for((plan, run), &self.sought[..1], &[f64::INFINITY]))
+            Some(self.trials(*graph).execute_for((plan, run), &self.sought[..1], &[f64::INFINITY]))
         });
         let stress = |ran: Option<Option<Ran>>| ran.flatten().map_or(f64::NAN, |ran| ran.trials[0].stress);
         let stresses: Vec<(usize, f64)> = pairs.iter().zip(ran).map(|((run, _), ran)| (*run, stress(ran))).collect();
@@ -203,6 +211,17 @@ pub(super) struct Pool {
     pub(super) nothing: Option<String>,
     /// What was executed, for a search that goes on.
     pub(super) answers: Answers,
+    /// Executions that failed: of the choice of the run, which whoever goes on makes anew, and of the search.
+    failed: [Failures; 2],
+}
+
+impl Pool {
+    /// All executions that failed.
+    pub(super) fn failures(&self) -> Failures {
+        let [mut all, searched] = self.failed.clone();
+        all.add(searched);
+        all
+    }
 }
 
 /// The worst `cases` of `graphs` in so many executions, drawn from graph number `first` on; what is `known` is not
@@ -219,8 +238,10 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
     let late = || search.seconds.is_some_and(|seconds| (stop.clock)() - begun >= seconds);
     let told = |made: u64| (stop.progress)(made as usize, executions as usize);
     let sought = targets.iter().map(|target| target.sought).collect();
-    let mut plans = Plans { graphs, stop, first, sought, run: 0, known, all: Mutex::new(known.clone()) };
+    let executor = &Counted::new(graphs.executor, stop.cancelled);
+    let mut plans = Plans { graphs, executor, stop, first, sought, run: 0, known, all: Mutex::new(known.clone()) };
     let tried = plans.choose_run(executions);
+    let of_choice = executor.take();
     let per_trial = 1 + search.confirm;
     let sized_for = executions.saturating_sub(tried);
     let settings = WorstSettings {
@@ -245,7 +266,7 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
         let plan = graphs.solver.finished(Plan { score, bound: None, ..plan });
         Drawn { graph, plan }
     });
-    Pool { plans: plans.collect(), curve, drawn, run, apart, nothing, answers }
+    Pool { plans: plans.collect(), curve, drawn, run, apart, nothing, answers, failed: [of_choice, executor.take()] }
 }
 
 /// The cases that a scenario asks for, from one pool of executions; those of `known`, if it has all of them.
@@ -261,8 +282,12 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
     let search = setup.scenario.search();
     let before = known.tally.answers.as_deref().cloned().unwrap_or_default();
     let executions = [setup.scenario.searched_executions(), 0];
-    let Pool { plans, curve, drawn, run, apart, nothing, answers } =
-        pool(graphs, search.cases as usize, executions, &before, stop);
+    let found = pool(graphs, search.cases as usize, executions, &before, stop);
+    let stopped = (stop.cancelled)();
+    let mut failures = known.tally.failures.clone();
+    // What the run is chosen by is executed again by whoever goes on, and counted then.
+    failures.add(if stopped { found.failed[1].clone() } else { found.failures() });
+    let Pool { plans, curve, drawn, run, apart, nothing, answers, .. } = found;
     let nothing = if plans.is_empty() && curve.executions > 0 { Some(UNMEASURED.into()) } else { nothing };
     let mut tally = Tally {
         units: 1,
@@ -270,11 +295,12 @@ pub(super) fn generate(graphs: &Graphs, known: &Known, stop: &Stop, sink: &mut d
         solved: u64::from(!plans.is_empty()),
         expansions: curve.executions,
         complete: plans.len() as u64 >= search.cases,
-        stopped: (stop.cancelled)(),
+        stopped,
         drawn,
         run: run as u64,
         sampler: Some(graphs.solver.drawn_how().into()),
         apart: Some(apart),
+        failures,
         nothing,
         told_in: Some(column(setup)),
         ..Tally::default()

@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::plan::Plan;
 use crate::campaign::curve::Curve;
+use crate::campaign::failures::Failures;
 
 /// What one unit of work gave.
 ///
@@ -27,6 +28,8 @@ pub(in crate::campaign) struct Outcome {
     pub(in crate::campaign) by_hand: usize,
     /// Of searches in the loop: the largest stress after each execution, of every graph that was executed in.
     pub(in crate::campaign) curves: Vec<Curve>,
+    /// Executions that failed.
+    pub(in crate::campaign) failures: Failures,
     /// Why there is no plan.
     pub(in crate::campaign) reason: Option<String>,
     /// As in [`Answer`]: the graph is to be searched again.
@@ -53,6 +56,7 @@ impl Outcome {
                 .then(|| Curve::of(graph, &answer.best_so_far))
                 .into_iter()
                 .collect(),
+            failures: Failures::default(),
             reason: answer.reason.or(refused),
             stopped: answer.stopped,
         }
@@ -67,6 +71,7 @@ impl Outcome {
         self.dropped += other.dropped;
         self.duplicates += other.duplicates;
         self.curves.extend(other.curves);
+        self.failures.add(other.failures);
         self.reason = other.reason;
         self.stopped |= other.stopped;
     }

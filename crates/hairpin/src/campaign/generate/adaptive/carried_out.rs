@@ -4,7 +4,8 @@ use super::{Campaign, Origin, Todo};
 use crate::campaign::answers::{Answer, Executed};
 use crate::campaign::graph::{Plan, fingerprint};
 use crate::campaign::learn::LegSample;
-use crate::campaign::{Batch, RoundTally};
+use crate::campaign::trial::Trials;
+use crate::campaign::{Batch, Executor, RoundTally};
 use crate::search::in_loop::{Rank, Trial};
 
 /// What an execution came to, and the legs that its stress was measured on.
@@ -52,7 +53,8 @@ impl Campaign<'_> {
     /// fingerprints of the waypoints, by which an executor may know an earlier answer.
     fn carried_out(&self, (number, part): (u64, u64), todo: &[Todo]) -> Vec<Option<Option<Learned>>> {
         let names: Vec<[u8; 16]> = todo.iter().map(|todo| fingerprint(todo.plan.waypoints.iter().copied())).collect();
-        let trials = |todo: &Todo| self.sampled.trials(self.graphs[todo.graph].number);
+        let trials =
+            |todo: &Todo| Trials { executor: self.executor, ..self.sampled.trials(self.graphs[todo.graph].number) };
         let execute = |place: usize| {
             let todo = &todo[place];
             let answer = |(Trial { stress, fails, worst_leg, executions }, behaviour)| Executed {
@@ -62,7 +64,7 @@ impl Campaign<'_> {
             };
             self.begins(number, part).then(|| trials(todo).execute_legs(&todo.plan).map(answer))
         };
-        let answers = self.sampled.executor.carry_out(&Batch { names: &names, execute: &execute });
+        let answers = self.executor.carry_out(&Batch { names: &names, execute: &execute });
         let learned = |place: usize, answer: Answer| {
             let Executed { trials: stresses, behaviour, fails } = answer?;
             // An infinite stress could not be told from a mistake.

@@ -27,6 +27,7 @@ use super::graphs::Graphs;
 use super::known::Known;
 use super::shares::dealt;
 use crate::campaign::curve::Curve;
+use crate::campaign::failures::Counted;
 use crate::campaign::graph::{Plan, fingerprint};
 use crate::campaign::learn::LegSample;
 use crate::campaign::samples::learn;
@@ -80,6 +81,8 @@ enum Origin {
 struct Campaign<'a> {
     setup: &'a Setup,
     sampled: &'a Graphs<'a>,
+    /// Who executes.
+    executor: &'a Counted<'a>,
     stop: &'a Stop<'a>,
     search: SearchSection,
     /// s, by the clock of the caller.
@@ -111,7 +114,8 @@ pub(super) fn generate(
     let search = setup.scenario.search();
     let begun = (stop.clock)();
     let (graphs, samples, tally) = (Vec::new(), Vec::new(), Tally::default());
-    let mut campaign = Campaign { setup, sampled, stop, search, begun, graphs, samples, executed: 0, tally };
+    let executor = &Counted::new(sampled.executor, stop.cancelled);
+    let mut campaign = Campaign { setup, sampled, executor, stop, search, begun, graphs, samples, executed: 0, tally };
     for round in 0..campaign.search.adaptive_rounds() {
         let done = campaign.graphs.is_empty() || !campaign.in_time(campaign.search.adaptive_rounds() as f64);
         if round > 0 && done || (stop.cancelled)() {
@@ -203,6 +207,7 @@ impl Campaign<'_> {
                 }
             }
         }
+        self.tally.failures = self.executor.take();
         self.tally.stopped = (self.stop.cancelled)() || in_vain;
         self.tally.complete = !self.tally.stopped && cases.len() >= wanted;
         if !cases.is_empty() {
