@@ -13,14 +13,16 @@
 //! | to 14 | subsets, O(2ⁿ n²) | `subsets` |
 //! | to 16 | branch and bound first, subsets if it has to split much | `one` |
 //! | more | branch and bound under Lagrangian bounds | `prove`, `root`, `branch` |
+//! | several parts, no way between them | each by itself, the largest bound first | `parts` |
 //! | any, points K times | branch and bound on circulations | `walk` |
 //! | any, moves that pass points | subsets to 20, else annealing under walks with prices | `triples` |
 //!
 //! Costs are whole numbers (µm, µs, counts): every sum and bound is exact, and a certificate can be checked by
 //! addition. Data flow of branch and bound: a path by local search (`local`) → first multipliers → subgradient steps
-//! (`ascent`, means of solutions in `volume`) on a relaxation (`forest` where costs are symmetric, `arborescence` where
-//! they are not) → what the bound decides under a guessed cost (`choices`, `prove`) → splits (`branch`) → a tree of
-//! steps (`record`), which [`crate::verification::verify_heaviest`] recomputes.
+//! (`ascent`, means of solutions in `volume`, the paths they are close to in `rounded`) on a relaxation (`forest` where
+//! costs are symmetric, `arborescence` where they are not) → what the bound decides under a guessed cost (`choices`,
+//! `prove`) → splits (`branch`) → a tree of steps (`record`), which [`crate::verification::verify_heaviest`]
+//! recomputes.
 
 mod arborescence;
 mod ascent;
@@ -35,12 +37,14 @@ mod first_multipliers;
 mod forest;
 mod local;
 mod one;
+mod parts;
 mod problem;
 mod prove;
 mod question;
 mod record;
 mod relaxation;
 mod root;
+mod rounded;
 mod several;
 mod solve;
 mod subsets;

@@ -16,7 +16,7 @@ use super::subsets::{MOST_SUBSET_POINTS, best_by_subsets, subset_bytes};
 /// Up to so many points subsets are the quicker way.
 const FEW: usize = 14;
 /// Up to so many points subsets are the quicker way where branch and bound has to split more than [`QUICK_NODES`].
-const SOME: usize = 16;
+pub(super) const SOME: usize = 16;
 /// Problems that each part of branch and bound looks at before subsets take over.
 const QUICK_NODES: u64 = 4;
 
@@ -85,7 +85,7 @@ fn choose(arcs: &Arcs, settings: &HeaviestSettings) -> Result<Method, HeaviestMi
 }
 
 /// Each point's heaviest arc out.
-fn simple_bound(arcs: &Arcs) -> i64 {
+pub(super) fn simple_bound(arcs: &Arcs) -> i64 {
     let n = arcs.points();
     (0..n).map(|from| (0..n).filter_map(|to| arcs.cost(from, to)).max().unwrap_or(0)).sum()
 }

@@ -9,7 +9,7 @@
 //! Each of K paths splits into at most as many parts as it has points, each a smaller question of the same kind; the
 //! heaviest part is split next.
 
-use super::one::one;
+use super::parts::in_parts;
 use super::problem::{Arcs, Ends};
 use super::question::{Heaviest, HeaviestMistake, HeaviestSettings, Outcome};
 
@@ -30,7 +30,7 @@ struct Part {
 
 /// The `settings.programs` heaviest paths of `arcs`, the heaviest first, given the heaviest itself.
 ///
-/// At most programs · n questions to [`one`]. `proven` holds for the list as a whole: that no path outside it is
+/// At most programs · n questions to [`in_parts`]. `proven` holds for the list as a whole: that no path outside it is
 /// heavier than its last. Ties come in the order in which parts were made.
 pub(super) fn several(
     arcs: &Arcs,
@@ -154,7 +154,7 @@ fn solve(
         proof: false,
         ..settings.clone()
     };
-    let found = one(&smaller, &settings, stop)?;
+    let found = in_parts(&smaller, &settings, stop)?;
     *nodes += found.nodes;
     part.proven = found.proven;
     part.bound = done + (found.bound.unwrap_or(0) - 1).max(0);

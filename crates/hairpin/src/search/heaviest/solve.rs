@@ -1,6 +1,6 @@
 //! The heaviest path, or several.
 
-use super::one::one;
+use super::parts::in_parts;
 use super::problem::Arcs;
 use super::question::{Heaviest, HeaviestMistake, HeaviestSettings, Method, wanted};
 use super::several::several;
@@ -28,8 +28,8 @@ pub fn heaviest(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Heaviest, HeaviestMistake> {
     if settings.programs <= 1 || settings.method != Method::Auto {
-        return one(arcs, settings, stop);
+        return in_parts(arcs, settings, stop);
     }
-    let first = one(arcs, &HeaviestSettings { programs: 1, ..settings.clone() }, stop)?;
+    let first = in_parts(arcs, &HeaviestSettings { programs: 1, ..settings.clone() }, stop)?;
     Ok(wanted(several(arcs, settings, first, stop)?, settings))
 }

@@ -3,7 +3,7 @@
 use rand::Rng;
 
 use super::*;
-use crate::math::random::{Stream, stream, unit};
+use crate::math::random::{Stream, named_seed, stream, unit};
 
 /// A random question of up to `most` points: sparse to dense, with zero and equal costs, fixed ends, directed or not.
 fn question(seed: u64, most: u64, directed: bool) -> (Arcs, Ends) {
@@ -210,4 +210,78 @@ fn what_is_no_problem_is_refused_with_its_place() {
     let (arcs, _) = loop_free_instance(40);
     let settings = HeaviestSettings { method: Method::Subsets, ..Default::default() };
     assert!(matches!(heaviest(&arcs, &settings, &|| false), Err(HeaviestMistake::Memory { points: 40, .. })));
+}
+
+/// Points in `groups` narrow clusters, with some of the arcs inside a cluster and of those between two of them:
+/// costs of a few units inside, of hundreds between.
+fn clusters(seed: u64, n: usize, groups: usize, between: f64, directed: bool) -> Arcs {
+    let mut random = stream(seed);
+    let far: Vec<i64> = (0..groups * groups).map(|_| 200 + (unit(&mut random) * 800.0) as i64).collect();
+    let mut costs = vec![None; n * n];
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).filter(|(i, j)| i < j || directed && i != j) {
+        let (a, b) = (i % groups, j % groups);
+        let narrow = (unit(&mut random) * 20.0) as i64;
+        if unit(&mut random) < if a == b { 0.9 } else { between } {
+            costs[i * n + j] = Some(narrow + if a == b { 0 } else { far[a.min(b) * groups + a.max(b)] });
+        }
+        if !directed {
+            costs[j * n + i] = costs[i * n + j];
+        }
+    }
+    Arcs::new(n, &costs).unwrap()
+}
+
+#[test]
+fn narrow_clusters_of_which_some_are_left_out_agree_with_dynamic_programming() {
+    let mut left_out = 0;
+    for seed in 0..400 {
+        let between = [0.0, 0.03, 0.1, 0.5][seed as usize % 4];
+        let arcs = clusters(seed, 6 + seed as usize % 9, 2 + seed as usize % 3, between, seed % 5 == 0);
+        let n = arcs.points();
+        let end = |index: u64| Some((seed.wrapping_mul(index) % n as u64) as usize).filter(|_| seed % 7 == index % 7);
+        let ends = Ends { start: end(3), end: end(4) };
+        let exact = by(Method::Subsets, &arcs, ends);
+        let branched = by(Method::Branch, &arcs, ends);
+        assert_eq!(essence(&arcs, ends, &exact), essence(&arcs, ends, &branched), "seed {seed}");
+        let local = by(Method::Local, &arcs, ends);
+        assert!(exact.bound <= local.bound, "seed {seed}: {:?} > {:?}", exact.bound, local.bound);
+        left_out += exact.paths.first().map_or(0, |(_, path)| n - path.len());
+    }
+    assert!(left_out > 400, "{left_out} points were left out");
+}
+
+#[test]
+fn parts_by_themselves_have_no_larger_bound_than_the_whole() {
+    let mut smaller = 0;
+    for seed in 0..60 {
+        let arcs = clusters(seed, 20 + seed as usize % 11, 2 + seed as usize % 2, 0.0, seed % 4 == 0);
+        let settings = HeaviestSettings { method: Method::Local, ..Default::default() };
+        let whole = one::one(&arcs, &settings, &|| false).unwrap();
+        let parts = heaviest(&arcs, &settings, &|| false).unwrap();
+        assert!(parts.bound <= whole.bound, "seed {seed}: {:?} > {:?}", parts.bound, whole.bound);
+        assert!(parts.paths[0].0 >= whole.paths[0].0, "seed {seed}");
+        let exact = by(Method::Branch, &arcs, Ends::default());
+        assert!(exact.proven && exact.bound <= parts.bound, "seed {seed}");
+        smaller += usize::from(parts.bound < whole.bound);
+    }
+    assert!(smaller > 10, "of {smaller} questions the bound is smaller");
+}
+
+/// The first is one whose best path local search does not find alone; of the next two single trees leave the
+/// multipliers far from their best while few arcs are open; the last has 12 points apart from the others.
+#[test]
+fn narrow_clusters_are_proven_at_once() {
+    for (points, index) in [(50, 2), (30, 38), (30, 53), (50, 8)] {
+        let seed = named_seed(1, "robtest", 1000 * points as u64 + index);
+        let points = Workspace::PUBLISHED.clustered(points, 4, 0.01, seed);
+        let arcs = Workspace::PUBLISHED.arcs(&points).unwrap();
+        let settings = HeaviestSettings { most_nodes: Some(4), ..Default::default() };
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| heaviest(&arcs, &settings, &|| false).unwrap())
+        };
+        let (found, again) = (on(1), on(3));
+        assert!(found.proven, "{} points, question {index}: {:?} > {}", points.len(), found.bound, found.paths[0].0);
+        assert_eq!((&found.paths, found.bound, found.nodes), (&again.paths, again.bound, again.nodes));
+    }
 }

@@ -130,6 +130,17 @@ impl<'a> Local<'a> {
         }
     }
 
+    /// Goes on from `path`, improved, if that is no worse than the best.
+    ///
+    /// It may pass missing arcs, at their penalty, and points may be left out.
+    pub(super) fn mend(&mut self, path: &[usize], stop: &(dyn Fn() -> bool + Sync)) {
+        self.tour = Tour::of_path(&self.table, path);
+        self.total = self.tour.total(&self.table);
+        self.wake_all();
+        self.improve(stop);
+        self.keep();
+    }
+
     /// Kicks and improves `times`, or until `stop` says so, which is asked now and then. Returns how often.
     ///
     /// `stop` is asked every 64 kicks. A kick costs the few points that it woke, not a look at the whole tour.
