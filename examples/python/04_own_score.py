@@ -1,4 +1,4 @@
-"""A score of one's own, of all legs at once, and a judge of one's own beside the folder's verdict."""
+"""A score of one's own, of many legs at once, and a judge of one's own beside the folder's verdict."""
 
 import tempfile
 

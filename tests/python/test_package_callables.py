@@ -237,6 +237,30 @@ def test_vectorised_scores_find_what_single_ones_and_files_do(tmp_path):
     assert ways[0] == ways[1] == ways[2] and found[0].cases[0].score > 0.0
 
 
+def test_vectorised_scores_are_asked_for_legs_that_there_are_and_give_numbers(tmp_path):
+    asked = []
+
+    @hairpin.vectorised
+    def counted(legs):
+        asked.append(len(legs["turn_rad"]))
+        return legs["turn_rad"]
+
+    values = {**SMALL, "generate.search.method": "exact", "generate.search.waypoints": 40}
+    hairpin.generate("demo-quadrotor", score=counted, out=tmp_path / "counted", values=values)
+    assert min(asked) > 0 and max(asked) > 1
+    for answer in (lambda legs: legs["turn_rad"] > 1.0, lambda legs: [True] * len(legs["turn_rad"])):
+        with pytest.raises(hairpin.InputError, match="neither 0 nor 1"):
+            hairpin.generate("demo-quadrotor", score=hairpin.vectorised(answer), out=tmp_path / "out", values=SMALL, if_there="replace")
+
+
+@pytest.mark.parametrize("method", ["worst", "adaptive"])
+def test_a_score_that_the_search_does_not_read_is_refused(method, tmp_path):
+    values = {**SMALL, "generate.search.method": method}
+    with pytest.raises(hairpin.InputError) as found:
+        hairpin.generate("quadrotor", score=sharp, out=tmp_path / "out", values=values)
+    assert found.value.field == "generate.score" and not (tmp_path / "out").exists()
+
+
 def test_a_score_that_raises_stops_the_search_with_its_cause(tmp_path):
     def broken(leg):
         raise KeyError("speed")

@@ -112,7 +112,12 @@ def test_tables_reach_arrow_numpy_and_pandas(violating):
     one = violating.to_arrow("executions", filters=[("case", "==", "0001")])
     assert set(one["case"].to_pylist()) == {"0001"}
     assert len(violating.table("executions", case=1, run=0).to_numpy()["t_s"]) == one.num_rows
-    assert len(violating.table("executions", case=1, run=7).to_numpy()["t_s"]) == 0
+    for ask in (lambda: violating.table("executions", case=1, run=7), lambda: violating.execution(1, 7)):
+        with pytest.raises(hairpin.InputError, match="case 0001: 0") as found:
+            ask()
+        assert found.value.field == "run"
+    with pytest.raises(hairpin.InputError, match="one that is there: 0"):
+        violating.table("runs", run=7)
     with pytest.raises(hairpin.InputError, match="executions") as found:
         violating.table("../x")
     assert found.value.field == "table"

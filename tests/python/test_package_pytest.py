@@ -72,6 +72,75 @@ def test_scenarios_and_tests_go_together_and_mistakes_are_told(place):
     assert code == 2 and "execute.repeat" in said
 
 
+def two(place):
+    """Two scenarios of one name: what the first asks no flight keeps, the second asks next to nothing."""
+    for name, most in (("a", "0.5"), ("b", "50")):
+        (place / name).mkdir()
+        (place / name / "sc.toml").write_text(SHIPPED.read_text().replace("max_m = 4.5", f"max_m = {most}"))
+    return "--hairpin", "a/sc.toml", "--hairpin", "b/sc.toml", *SMALL
+
+
+def test_scenarios_of_one_name_have_folders_of_their_own(place):
+    both = two(place)
+    code, said = run(place, *both, "--hairpin-out", "od")
+    assert code == 1 and "2 failed, 2 passed" in said and "od/a-sc/repro" in said, said
+    assert sorted(folder.name for folder in (place / "od").iterdir()) == ["a-sc", "b-sc"]
+    worst = [max(case.max_deviation_m for case in hairpin.Campaign(place / "od" / name)) for name in ("a-sc", "b-sc")]
+    assert worst[0] == worst[1] and (place / "od/a-sc/repro").is_dir() and not (place / "od/b-sc/repro").exists()
+    # In the cache, which outlives a run, also where they are given one at a time.
+    for only in (both[:2], both[2:4]):
+        run(place, *only, *SMALL)
+    assert sorted(folder.name for folder in (place / ".pytest_cache/d/hairpin").iterdir()) == ["a-sc", "b-sc"]
+
+
+@pytest.mark.parametrize(
+    ("scenarios", "names"),
+    [
+        (["/x/sc.toml"], ["sc"]),
+        (["/x/a/sc.toml", "/x/b/sc.toml", "/x/b/other.toml"], ["a-sc", "b-sc", "other"]),
+        (["/x/a/sc.toml", "/y/a/sc.toml"], ["x-a-sc", "y-a-sc"]),
+        (["/x/sc.toml", "/y/SC.toml"], ["x-sc", "y-SC"]),
+        (["/x/a/sc.toml", "/x/b/sc.toml", "/x/a-sc.toml"], ["a-sc", "b-sc", "a-sc-2"]),
+    ],
+)
+def test_folders_are_named_apart(scenarios, names):
+    from hairpin.pytest_plugin import _names
+
+    files = [Path(name) for name in scenarios]
+    assert [_names(files)[file] for file in files] == names
+    assert _names(files[:1], Path("/x"))[files[0]] == "-".join(files[0].with_suffix("").parts[2:])
+
+
+def test_a_case_can_be_run_again_by_its_name(place):
+    few = (*SMALL, "--hairpin-set", "spec.deviation.max_m=50")
+    code, said = run(place, "--hairpin", "scenario.toml", "scenario.toml::0001", *few)
+    assert code == 0 and "1 passed" in said and "scenario.toml::0001" in said, said
+    code, said = run(place, "--hairpin", "scenario.toml", "scenario.toml", *few)
+    assert code == 0 and "2 passed" in said, said
+
+
+def test_workers_read_the_campaign_that_was_made_before_them(place):
+    pytest.importorskip("xdist")
+    both = (*two(place), "--hairpin-out", "od", "test_other.py")
+    code, said = run(place, *both, "-n", "2")
+    assert code == 1 and "2 failed, 3 passed" in said and "od/a-sc/repro" in said, said
+    code, said = run(place, "--hairpin", "scenario.toml", "--hairpin-set", "execute.repeat=0", "-n", "2")
+    assert code != 0 and "execute.repeat" in said and "Different tests" not in said, said
+
+
+def test_calls_of_the_fixture_have_folders_of_their_own_and_what_asks_for_nothing_is_skipped(place):
+    (place / "test_own.py").write_text(
+        "VALUES = {'generate.search.cases': 1, 'execute.repeat': 1, 'execute.baseline': 0, 'spec.deviation.max_m': 90.0}\n"
+        "def test_twice(hairpin_stress):\n"
+        "    first, second = [hairpin_stress(values=VALUES, seed=seed) for seed in (1, 2)]\n"
+        "    assert first.folder != second.folder\n"
+        "def test_of_nothing(hairpin_stress):\n"
+        "    hairpin_stress(values={key: value for key, value in VALUES.items() if 'spec' not in key} | {'spec': 'none'})\n"
+    )
+    code, said = run(place, "test_own.py")
+    assert code == 0 and "1 passed, 1 skipped" in said and "nothing is asked of it" in said, said
+
+
 def test_the_fixture_fails_with_the_shrunk_case(place):
     (place / "test_own.py").write_text(
         "VALUES = {'generate.search.cases': 1, 'execute.repeat': 1, 'execute.baseline': 0, 'spec.deviation.max_m': 0.5}\n"

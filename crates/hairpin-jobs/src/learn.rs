@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::learn::{LegSample, MoveSample, ScoreModel};
 use hairpin::campaign::samples::{self, learn_moves, leg_samples, move_samples};
+use hairpin::campaign::scenario::SearchMethod;
 use hairpin::campaign::{Case, Run, Setup};
 use hairpin::judgement::Stress;
 use hairpin::math::ridge::NoFit;
@@ -132,11 +133,25 @@ fn nothing(work: &Work, cases: &[Case], unflown: bool, stress: Stress) -> Proble
     let missing = if unflown {
         format!("nothing was executed: hairpin execute {place}")
     } else if !arm && cases.iter().all(|case| case.seen.is_empty()) {
-        "no search saw the legs of its cases, as of missions made elsewhere".to_owned()
+        unseen(work)
     } else {
         format!("{} was measured on none of them", stress.word())
     };
     Problem::input(format!("{place}: no {} to learn from: {missing}", what(arm)))
+}
+
+/// Why no search saw the legs of its cases, and what helps.
+fn unseen(work: &Work) -> String {
+    let scenario = &work.setup.scenario;
+    let helps = "give `learn` a campaign whose trajectories are draws of graphs: hairpin stress SCENARIO --out flown --set \
+                 generate.search.method=uniform";
+    if work.folder.read_tally().is_ok_and(|tally| !tally.missions.is_empty()) {
+        format!("its missions were made elsewhere, and no search saw their legs; {helps}")
+    } else if scenario.search().method == SearchMethod::Worst {
+        format!("the method `worst` proves their legs one by one, and `learn` knows those of graphs; {helps}")
+    } else {
+        format!("no search saw the legs of its cases; {helps}")
+    }
 }
 
 #[cfg(test)]
@@ -213,5 +228,15 @@ mod tests {
         let (_place, folder) = executed();
         let too_few = refused(&folder);
         assert!(too_few.contains("2 trajectories with executed legs"), "{too_few}");
+        // The default search has witnesses beside its graphs; draws are what helps.
+        let place = tempfile::tempdir().unwrap();
+        let mut settings = small(&place);
+        let search = "{ method = \"worst\", waypoints = 60, cases = 2, executions = 4 }";
+        settings.sets[0] = ("generate.search".into(), search.into());
+        let folder = generate(&settings, &Unwatched).unwrap().work.folder.path().to_owned();
+        execute(&ExecuteSettings { folder: folder.clone(), ..ExecuteSettings::default() }, &Unwatched).unwrap();
+        let unseen = refused(&folder);
+        let words = ["the method `worst` proves their legs one by one", "--set generate.search.method=uniform"];
+        assert!(words.iter().all(|word| unseen.contains(word)) && !unseen.contains("elsewhere"), "{unseen}");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use hairpin::campaign::scenario::Asked;
+use hairpin::campaign::scenario::{Asked, Mistake};
 use hairpin::campaign::{CallersCode, PassedOver, Scenario, Setup, Tally, UserCode, vary};
 use hairpin::judgement::{Chosen, cases_needed};
 use hairpin::math::simd::Simd;
@@ -119,10 +119,22 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     for PassedOver { key, value, why } in setup.passed_over() {
         watch.warn(&format!("`{key}` = {value} is passed over: {why}"));
     }
-    may_make(&path, &setup, settings.if_there)?;
+    let goes_on = may_make(&path, &setup, settings.if_there)?;
+    if !goes_on {
+        // What was begun before such scores were refused may be finished.
+        check_score(&setup)?;
+    }
     let code = setup.user_code().into_iter().chain(setup.steering_code());
     try_out(code, Deadline::after(settings.time_limit_s), watch)?;
     Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })
+}
+
+/// Whether the method of `setup` reads its score, which is told as it was given.
+fn check_score(setup: &Setup) -> Result<(), Mistake> {
+    let (score, files) = (setup.scenario.score(), &setup.attachments);
+    let of_model = files.model(score).map(|file| &file.given);
+    let given = of_model.or(files.user_score(score).map(|file| &file.given));
+    setup.scenario.check_score(given.map_or(score, |given| given))
 }
 
 /// Whether the user's own code loads: before anything that it is to take the place of is removed.
@@ -197,8 +209,11 @@ pub(crate) fn saying_what_is_asked(setup: Setup) -> Result<Setup, Problem> {
     Ok(setup.changed(scenario.with_vary(varied))?)
 }
 
-/// Whether `path` can become the folder of a campaign, or be taken up again.
-fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem> {
+/// Whether `path`, which can become the folder of a campaign, is taken up again.
+///
+/// # Errors
+/// It can be neither.
+fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<bool, Problem> {
     // `new/../old` is no place before `new` is made, and `old` once it is.
     let mut begun = PathBuf::new();
     for part in path.components() {
@@ -209,7 +224,7 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
     }
     CampaignFolder::refuse_anothers(path)?;
     let old = match CampaignFolder::open(path) {
-        Err(FolderError::NoCampaign { .. }) => return Ok(()),
+        Err(FolderError::NoCampaign { .. }) => return Ok(false),
         old => old?,
     };
     match if_there {
@@ -217,8 +232,8 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<(), Problem
             "{} holds a campaign already: --resume goes on with it, --force replaces it, --out DIR keeps both",
             path.display()
         ))),
-        IfThere::Resume => may_resume(&old, setup),
-        IfThere::Replace => Ok(()),
+        IfThere::Resume => may_resume(&old, setup).map(|()| true),
+        IfThere::Replace => Ok(false),
     }
 }
 
@@ -548,6 +563,48 @@ mod tests {
             end_m: [7.0, 0.0, 0.0],
         };
         assert_eq!(planned.setup.user_score().unwrap().own_and_left(&[leg]), [[7.0, 0.0]]);
+    }
+
+    #[test]
+    fn a_score_that_the_method_does_not_read_is_refused_where_it_would_be_searched_by() {
+        let place = tempfile::tempdir().unwrap();
+        let settings = |scenario: &str, sets: &[(&str, &str)]| CampaignSettings {
+            scenario: scenario.into(),
+            out: Some(place.path().join("out")),
+            sets: sets.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect(),
+            ..CampaignSettings::default()
+        };
+        let planned = |scenario: &str, sets: &[(&str, &str)]| {
+            plan(&settings(scenario, sets), &Unwatched).map(drop).map_err(|refused| refused.to_string())
+        };
+        let (score, of_drives) = ("generate.score", "generate.search.score");
+        let shipped = [("quadrotor", score), ("boat", score), ("rover", of_drives), ("car", of_drives)];
+        for (scenario, key) in shipped {
+            planned(scenario, &[]).unwrap_or_else(|refused| panic!("{scenario}: {refused}"));
+            let told = planned(scenario, &[(key, "random")]).unwrap_err();
+            let words = ["= \"random\"", "\"beam\", \"exact\", \"in-loop\"", "the method `worst` reads none"];
+            assert!(told.contains(key) && words.iter().all(|word| told.contains(word)), "{told}");
+            planned(scenario, &[(key, "random"), ("generate.search.method", "uniform")]).unwrap();
+        }
+        let rounds = [(score, "random"), ("generate.search.method", "adaptive"), ("generate.search.executions", "900")];
+        assert!(planned("quadrotor", &rounds).unwrap_err().contains("the method `adaptive` reads none"));
+        // A file is told as it was typed, not as the folder would call it.
+        let file = place.path().join("mine.py");
+        std::fs::write(&file, "def score(leg):\n    return 1.0\n").unwrap();
+        let typed = format!("python:{}", file.display());
+        assert!(planned("quadrotor", &[(score, &format!("'{typed}'"))]).unwrap_err().contains(&typed));
+        // Arms, whose first program is the heaviest, read their costs.
+        let search = ("generate.search", "{ method = \"worst\", programs = 2 }");
+        planned("arm", &[search, ("generate.cost", "\"time\"")]).unwrap();
+        // What was begun with one is read, and gone on with.
+        let sets = [(score, "random")];
+        let old = setup_for("quadrotor", &settings("quadrotor", &sets).sets).unwrap();
+        drop(make(&place.path().join("out"), old, IfThere::Refuse).unwrap());
+        assert_eq!(open_to_read(&place.path().join("out")).unwrap().setup.scenario.score(), "random");
+        let again =
+            |if_there| plan(&CampaignSettings { if_there, ..settings("quadrotor", &sets) }, &Unwatched).map(drop);
+        again(IfThere::Resume).unwrap();
+        assert!(again(IfThere::Replace).unwrap_err().to_string().contains("reads none"));
     }
 
     #[test]

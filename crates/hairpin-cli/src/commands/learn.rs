@@ -55,7 +55,9 @@ fn in_words(asked: &Learn, Learned { model, score_key, arm }: &Learned) {
         held_out.r2,
         error(held_out.rmse),
     ));
-    console::say(&format!("use it: {score_key} = \"learned:{out}\""));
+    // Of the methods that ask a score, the one whose answer is the best there is; arms' costs are read by all of theirs.
+    let by = if *arm { "" } else { ", with generate.search.method = \"exact\"" };
+    console::say(&format!("use it: {score_key} = \"learned:{out}\"{by}"));
 }
 
 /// An error with three significant digits and its unit; of arms, whose users count in mm, in mm.

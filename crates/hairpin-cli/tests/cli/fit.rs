@@ -50,12 +50,14 @@ fn a_fit_helps_on_logs_that_it_has_not_seen() {
     logs.sort();
     assert_eq!(logs.len(), 5);
     let logs: Vec<&str> = logs.iter().map(String::as_str).collect();
-    let asked = [
-        &["fit"][..],
-        &logs,
-        &["--robot", "flightgoggles", "--campaign", "plan", "--out", "mine.toml", "--holdout", "0.2", "--json"],
-    ]
-    .concat();
+    let how = ["--robot", "flightgoggles", "--campaign", "plan", "--out", "mine.toml", "--holdout", "0.2", "--json"];
+    // A log says once what it says, under whatever name it comes again.
+    fs::create_dir(here.join("copies")).unwrap();
+    fs::copy(logs[1], here.join("copies/0001-7.csv")).unwrap();
+    let words = ["copies/0001-7.csv", logs[1], "would count twice"];
+    refused(here, &[&["fit"][..], &logs, &["copies/0001-7.csv"], &how].concat(), &words);
+    refused(here, &[&["fit"][..], &logs, &logs[..1], &how].concat(), &[logs[0], "would count twice"]);
+    let asked = [&["fit"][..], &logs, &how].concat();
     let (code, answer, errors) = run(here, &asked);
     assert_eq!(code, 0, "{answer}{errors}");
     let found: Value = serde_json::from_str(&answer).unwrap();

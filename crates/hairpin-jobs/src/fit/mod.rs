@@ -2,11 +2,13 @@
 
 mod flown;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::fit::{self, Estimate, Fit, FitError, Flown};
 use hairpin::campaign::{Setup, vary};
 use hairpin::math::simd::Simd;
+use hairpin::trajectory::Track;
 use hairpin_formats::atomic;
 use hairpin_formats::fitted_robot::{self, FittedNumber, four_digits};
 use hairpin_formats::scenario::{setup_for, shadowed};
@@ -59,13 +61,14 @@ pub struct Fitted {
 ///
 /// # Errors
 /// Neither a mission nor a campaign; a robot, campaign, mission or log that cannot be read; a log that is no flight of
-/// its mission; too little in all of them; it was asked to stop.
+/// its mission, or has the samples of one before it; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
     let (setup, missions) = missions(settings)?;
     let setup = setup.with_simd(settings.simd);
     let logs: Vec<Flown> =
         settings.logs.iter().map(|log| flown(log, &missions, &setup, watch)).collect::<Result<_, _>>()?;
+    refuse_twice(&settings.logs, &logs)?;
     let held_out = settings.hold_out.map_or(0, |share| (share * logs.len() as f64).ceil() as usize);
     if held_out > 0 && held_out >= logs.len() {
         let of = logs.len();
@@ -85,6 +88,39 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     let execute = found.keys.iter().filter_map(|(key, value)| Some((key.strip_prefix("execute.")?, value)));
     let execute = execute.map(|(key, value)| format!("{key} = {}", four_digits(*value))).collect();
     Ok(Fitted { fit: found, setup, logs: logs.len(), logged_s, execute, text })
+}
+
+/// Whether no log is one that is there already, under whatever name: it would shrink intervals as if it were new, and be
+/// tried on a fit to itself.
+fn refuse_twice(files: &[PathBuf], logs: &[Flown]) -> Result<(), Problem> {
+    let mut seen: HashMap<[u8; 32], &PathBuf> = HashMap::new();
+    for (file, log) in files.iter().zip(logs) {
+        if let Some(before) = seen.insert(samples_of(&log.track), file) {
+            let before = before.display();
+            return Err(Problem::of_file(
+                file,
+                format!("has the samples of {before}: what they say would count twice"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// A hash of all that a motion says: of two recordings no two samples agree to the bit.
+fn samples_of(track: &Track) -> [u8; 32] {
+    let mut hash = blake3::Hasher::new();
+    let mut take = |numbers: &[f64]| {
+        for number in numbers {
+            hash.update(&number.to_le_bytes());
+        }
+    };
+    take(track.times());
+    for pose in track.poses() {
+        take(pose.translation.vector.as_slice());
+        take(pose.rotation.coords.as_slice());
+    }
+    track.channels().iter().for_each(|channel| take(&channel.values));
+    hash.finalize().into()
 }
 
 /// The same with every number of its robot given: what R leaves out was derived from others, and is not derived anew

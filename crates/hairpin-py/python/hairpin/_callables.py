@@ -149,13 +149,19 @@ def _scoring(given: Callable[..., Any], raised: list[BaseException]) -> Callable
 
     def score(table: bytes) -> Any:
         legs = np.frombuffer(table, dtype=np.float64).reshape(-1, _OF_A_LEG)
+        if not len(legs):
+            # Waypoints that no leg leaves.
+            return []
         try:
             if many:
                 columns = {name: legs[:, place] for place, name in enumerate(_NUMBERS)}
                 for place, name in enumerate(_PLACES):
                     first = len(_NUMBERS) + 3 * place
                     columns[name] = legs[:, first : first + 3]
-                parts = floats("score", given(columns), _FINITE)
+                answer = given(columns)
+                if np.ma.asarray(answer).dtype.kind == "b":
+                    raise wrong("score", answer, "numbers: a truth is neither 0 nor 1")
+                parts = floats("score", answer, _FINITE)
                 if parts.ndim == 1:
                     parts = np.stack([parts, np.zeros_like(parts)], axis=1)
                 if parts.shape != (len(legs), 2):

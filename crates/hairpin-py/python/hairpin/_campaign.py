@@ -118,8 +118,27 @@ class Campaign:
     def table(self, name: str = "results", *, case: str | int | None = None, run: int | None = None) -> Table:
         """A table of the folder: ``results``, ``waypoints``, ``executions``, ``trajectories``, ``profiles``, …, whole or of a case or
         a run of it alone, as a :class:`Table`, which Polars, DuckDB and whatever else reads Arrow take. Columns: docs/folder.md.
+
+        Raises:
+            InputError: there is no such table, case or run; a run that is there without rows, as one that failed, has none.
         """
-        return Table(self.folder, name, case=None if case is None else self[case].number, run=run)
+        number = None if case is None else self[case].number
+        found = Table(self.folder, name, case=number, run=run)
+        if run is not None and name in ("executions", "runs") and not len(found.to_numpy()["run"]):
+            self._check_run(number, run)
+        return found
+
+    def _check_run(self, case: int | None, run: int) -> None:
+        """Whether there is such a run, of the case or of any."""
+        try:
+            there = set(Table(self.folder, "runs", case=case).to_numpy()["run"].tolist())
+        except InputError:
+            # Folders from before there was that table.
+            there = set(Table(self.folder, "executions", case=case).to_numpy()["run"].tolist())
+        if run not in there:
+            of = "" if case is None else f" of case {self[case].id}"
+            known = ", ".join(str(one) for one in sorted(there)[:10]) + (", …" if len(there) > 10 else "")
+            raise wrong("run", run, f"one that is there{of}: {known or 'none'}")
 
     def to_arrow(self, table: str = "results", filters: Any = None) -> Any:
         """The same as a ``pyarrow.Table``. Needs pyarrow.
@@ -154,7 +173,9 @@ class Campaign:
         """
         one = self[case]
         wanted = whole("run", (one.run or 0) if run is None else run, 0)
-        rows = self.table("executions", case=case, run=wanted).to_numpy()
+        rows = Table(self.folder, "executions", case=one.number, run=wanted).to_numpy()
+        if run is not None and not len(rows["run"]):
+            self._check_run(one.number, wanted)
         numbers = {name: values for name, values in rows.items() if values.dtype != object and name not in ("case", "run")}
         return {name: np.asarray(values, dtype=np.float64) for name, values in numbers.items()}
 

@@ -53,7 +53,7 @@ def stress(
         values: dotted keys with other values, ``{"execute.repeat": 5}``.
         controller: steers flights, drives, boats and arms in this process, see :class:`Controller`; or a word of
             `execute.controller`. A run that it fails is EXECUTOR FAILED.
-        score: scores legs: of a dictionary a number; :func:`vectorised` of all legs at once; or a word of `score`.
+        score: scores legs: of a dictionary a number; :func:`vectorised` of many legs at once; or a word of `score`.
         target: measures a run for the search: of a dictionary (``t_s`` (n,), ``p_m`` (n, 3), ``q_wxyz`` (n, 4), ``channels``,
             ``waypoints_m``, ``reached_s``, ``ended``) a number, more is worse, or ``None``; or a word of `generate.search.target`.
         executor: carries missions out: a command, or a callable as :func:`hairpin.execute` says.

@@ -3,7 +3,8 @@ controller and fails with its shrunk worst case."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import itertools
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     import hairpin
 
 DEMO = "demo-quadrotor"
+# Of a run of pytest: the campaign of each scenario, or why there is none.
+_CAMPAIGNS: pytest.StashKey[dict[Path, Any]] = pytest.StashKey()
+NOTHING_ASKED = 'nothing is asked of it: spec = "none"'
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -33,6 +37,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     scenarios = [Path(name) for name in config.getoption("--hairpin")]
+    config.stash[_CAMPAIGNS] = {}
     for scenario in scenarios:
         if not scenario.is_file():
             raise pytest.UsageError(
@@ -40,13 +45,27 @@ def pytest_configure(config: pytest.Config) -> None:
             )
     if scenarios:
         asked = config.args_source is pytest.Config.ArgsSource.ARGS
-        named = [str(scenario) for scenario in scenarios]
-        config.args = [*(config.args if asked else []), *(name for name in named if name not in config.args or not asked)]
+        given = config.args if asked else []
+        # `scenario.toml::0002` is that case of it alone.
+        known = {Path(word.partition("::")[0]).resolve() for word in given}
+        config.args = [*given, *(str(scenario) for scenario in scenarios if scenario.resolve() not in known)]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node: Any) -> None:
+    """Of pytest-xdist: campaigns are made before the first worker begins, and workers read them."""
+    made: dict[str, dict[str, Any]] = {}
+    for scenario in _scenarios(node.config):
+        found = _made(node.config, scenario)
+        if isinstance(found, str):
+            made[str(scenario)] = {"trouble": found}
+        else:
+            made[str(scenario)] = {"folder": str(found.folder), "verdict": found.verdict, "exit_code": found.exit_code}
+    node.workerinput["hairpin"] = made
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    scenarios = [Path(name).resolve() for name in parent.config.getoption("--hairpin")]
-    if file_path.resolve() in scenarios:
+    if file_path.resolve() in _scenarios(parent.config):
         return ScenarioFile.from_parent(parent, path=file_path)
     return None
 
@@ -55,21 +74,9 @@ class ScenarioFile(pytest.File):
     """A scenario; its tests are the cases of its campaign, which is run where they are collected."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        import hairpin
-
-        config = self.config
-        place = config.getoption("--hairpin-out")
-        folder = Path(place) if place else Path(config.cache.mkdir("hairpin")) if config.cache else Path(".hairpin")
-        folder.mkdir(parents=True, exist_ok=True)
-        values = dict(_split(pair) for pair in config.getoption("--hairpin-set"))
-        from hairpin._jobs import _stress_with_texts
-
-        try:
-            campaign = _stress_with_texts(
-                self.path, out=folder / self.path.stem, texts=values, executor=config.getoption("--hairpin-executor")
-            )
-        except (hairpin.InputError, hairpin.ExecutorError) as error:
-            raise self.CollectError(str(error)) from None
+        campaign = _made(self.config, self.path.resolve())
+        if isinstance(campaign, str):
+            raise self.CollectError(campaign)
         for case in campaign:
             yield CaseItem.from_parent(self, name=case.id, campaign=campaign, case=case)
         if campaign.exit_code and all(case.status in ("pass", "unjudged") for case in campaign):
@@ -89,7 +96,7 @@ class CaseItem(pytest.Item):
         if case is None:
             raise CaseFailed(str(self.campaign.verdict))
         if case.status == "unjudged":
-            pytest.skip('nothing is asked of it: spec = "none"')
+            pytest.skip(NOTHING_ASKED)
         if case.status != "pass":
             raise CaseFailed(_told(self.campaign, case))
 
@@ -121,6 +128,60 @@ def _told(campaign: hairpin.Campaign, case: hairpin.Case) -> str:
     return "\n".join(lines)
 
 
+def _scenarios(config: pytest.Config) -> list[Path]:
+    """Each once, whatever it is called."""
+    return list(dict.fromkeys(Path(name).resolve() for name in config.getoption("--hairpin")))
+
+
+def _made(config: pytest.Config, scenario: Path) -> hairpin.Campaign | str:
+    """The campaign of a scenario, made where nobody has made it yet; or why there is none."""
+    import hairpin
+    from hairpin._jobs import _stress_with_texts
+
+    made = config.stash[_CAMPAIGNS]
+    if scenario in made:
+        return made[scenario]
+    elsewhere = getattr(config, "workerinput", {}).get("hairpin", {}).get(str(scenario))
+    if elsewhere is not None:
+        found = elsewhere.get("trouble") or hairpin.Campaign(elsewhere["folder"], said=elsewhere)
+    else:
+        place = config.getoption("--hairpin-out")
+        folder = Path(place) if place else Path(config.cache.mkdir("hairpin")) if config.cache else Path(".hairpin")
+        folder.mkdir(parents=True, exist_ok=True)
+        out = folder.resolve() / _names(_scenarios(config), None if place else config.rootpath)[scenario]
+        values = dict(_split(pair) for pair in config.getoption("--hairpin-set"))
+        try:
+            found = _stress_with_texts(scenario, out=out, texts=values, executor=config.getoption("--hairpin-executor"))
+        except (hairpin.InputError, hairpin.ExecutorError) as error:
+            found = str(error)
+    made[scenario] = found
+    return found
+
+
+def _names(scenarios: list[Path], root: Path | None = None) -> dict[Path, str]:
+    """A campaign folder's name for each: the file's own, with as many of its folders' before it as tell it from the others. From
+    `root` on all of them: what lies there outlives a run, whose scenarios are not those of the next."""
+    names: dict[Path, str] = {}
+    for scenario in scenarios:
+        within = scenario.relative_to(root) if root is not None and scenario.is_relative_to(root) else scenario
+        parts = [*(part for part in within.parts[:-1] if part != within.anchor), within.stem]
+        others = [(*other.parts[:-1], other.stem) for other in scenarios if other != scenario]
+        count = len(parts) if root is not None else 1
+        while count < len(parts) and any(_alike(other[-count:], parts[-count:]) for other in others):
+            count += 1
+        name = whole = "-".join(parts[-count:])
+        number = 2
+        while any(_alike([name], [taken]) for taken in names.values()):
+            name, number = f"{whole}-{number}", number + 1
+        names[scenario] = name
+    return names
+
+
+def _alike(a: Sequence[str], b: Sequence[str]) -> bool:
+    """Whether a disk that does not tell capitals from small letters takes one for the other."""
+    return [part.casefold() for part in a] == [part.casefold() for part in b]
+
+
 def _split(pair: str) -> tuple[str, str]:
     key, equals, value = pair.partition("=")
     if not equals:
@@ -133,16 +194,22 @@ def hairpin_stress(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[.
     """Stresses a controller, and fails with the shrunk worst case if one of its runs violates the spec.
 
     ``hairpin_stress(controller, scenario=None, *, shrink_budget=50, **settings)``: what steers, a scenario (that of the ini key
-    ``hairpin_scenario`` if not given), and settings of :func:`hairpin.stress`. Gives the campaign.
+    ``hairpin_scenario`` if not given), and settings of :func:`hairpin.stress`. Gives the campaign. Where nothing is asked of its runs
+    (``spec = "none"``) the test is skipped. Each call has a folder of its own, unless ``out`` names one.
     """
+    calls = itertools.count(1)
 
     def run(controller: Any = None, scenario: Any = None, *, shrink_budget: int = 50, **settings: Any) -> hairpin.Campaign:
         import hairpin
 
         __tracebackhide__ = True
         source = scenario if scenario is not None else request.config.getini("hairpin_scenario")
-        campaign = hairpin.stress(source, controller=controller, out=settings.pop("out", tmp_path / "campaign"), **settings)
+        number = next(calls)
+        own = tmp_path / ("campaign" if number == 1 else f"campaign-{number}")
+        campaign = hairpin.stress(source, controller=controller, out=settings.pop("out", own), **settings)
         if campaign.exit_code == 0:
+            if len(campaign) and all(case.status == "unjudged" for case in campaign):
+                pytest.skip(NOTHING_ASKED)
             return campaign
         lines = [str(campaign.verdict)]
         worst = next(iter(campaign.failing), None)

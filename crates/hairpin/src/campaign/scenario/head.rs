@@ -77,6 +77,8 @@ pub struct Head<'a> {
     pub score: &'a str,
     /// The key that says it.
     pub score_key: &'static str,
+    /// The score where the scenario gives none; `None` where every method reads what is given.
+    pub usual_score: Option<&'static str>,
     /// The key that says how many cases are asked for.
     pub cases_key: &'static str,
     /// The word of the reach set, or of what is proven clear.
@@ -310,5 +312,23 @@ pub trait Keys: Any {
         let bound =
             "another one, or execute.controller or execute.command given: recordings are not executed in the loop";
         Err(Mistake { key: key.into(), value, bound: bound.into() })
+    }
+
+    /// Whether its method reads its score, which the user gave as `given`. Resolved scenarios say the usual one of any
+    /// method.
+    ///
+    /// # Errors
+    /// The score: what is found would be the same without.
+    fn check_score(&self, given: &str) -> Result<(), Mistake> {
+        let Head { score_key, usual_score, search, .. } = self.head();
+        if search.method.reads_scores() || usual_score.is_none_or(|usual| usual == given) {
+            return Ok(());
+        }
+        let bound = format!(
+            "left out, or generate.search.method one of \"beam\", \"exact\", \"in-loop\", which search by a score (\"uniform\" tells it of \
+             what it draws): the method `{}` reads none",
+            search.method.word()
+        );
+        Err(Mistake { key: score_key.into(), value: format!("\"{given}\""), bound })
     }
 }

@@ -243,6 +243,11 @@ impl SearchMethod {
     pub fn executes(self) -> bool {
         matches!(self, Self::Worst | Self::InLoop | Self::Adaptive)
     }
+
+    /// Whether the scenario's score is asked: executions, or what rounds learn of them, take its place else.
+    pub fn reads_scores(self) -> bool {
+        !matches!(self, Self::Worst | Self::Adaptive)
+    }
 }
 
 /// Executions that a round needs at least to learn from: one more than a model does, so that one that fails does not

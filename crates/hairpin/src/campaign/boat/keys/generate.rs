@@ -36,8 +36,6 @@ pub struct BoatGenerate {
 /// The score that boats have beside those of all: a corner that is entered and left fast, the more the farther it leads
 /// across the current.
 pub(in crate::campaign::boat) const ACROSS_CURRENT: &str = "across-current";
-/// The score of a scenario that gives none, and of what is executed only in part.
-const BY_HAND: &str = ACROSS_CURRENT;
 
 impl Default for BoatGenerate {
     fn default() -> Self {
@@ -45,16 +43,19 @@ impl Default for BoatGenerate {
             leg_time_s: [10.0, 80.0],
             velocities: 4,
             search: SearchSection::default(),
-            score: BY_HAND.into(),
+            score: Self::BY_HAND.into(),
             limits: BoatLimitsSection::default(),
         }
     }
 }
 
 impl BoatGenerate {
+    /// The score of a scenario that gives none, and of what is executed only in part.
+    pub const BY_HAND: &str = ACROSS_CURRENT;
+
     /// The name of the score that single legs have.
     pub(in crate::campaign::boat) fn score_of_legs(&self) -> &str {
-        if self.score == EXECUTED { BY_HAND } else { &self.score }
+        if self.score == EXECUTED { Self::BY_HAND } else { &self.score }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{BoatExecute, BoatScenario};
+use super::{BoatExecute, BoatGenerate, BoatScenario};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Steering, Subject, Terms, sections,
@@ -25,6 +25,7 @@ impl Keys for BoatScenario {
             search: self.generate.search.clone(),
             score: &self.generate.score,
             score_key: "generate.score",
+            usual_score: Some(BoatGenerate::BY_HAND),
             cases_key: "generate.search.cases",
             reach: "witness",
             executor: Executor {

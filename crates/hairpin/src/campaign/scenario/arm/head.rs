@@ -35,6 +35,7 @@ impl Keys for ArmScenario {
             search: self.generate.search.section(self.task.count(0)),
             score: self.generate.cost.word(),
             score_key: "generate.cost",
+            usual_score: None,
             cases_key: "generate.search.programs",
             reach: self.generate.mode.word(),
             executor: Executor {

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{DriveExecute, DriveScenario, GroundDescription, GroundReach};
+use super::{DriveExecute, DriveScenario, DriveSearch, GroundDescription, GroundReach};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Steering,
@@ -45,6 +45,7 @@ impl Keys for DriveScenario {
             search: self.generate.search.section(),
             score: &self.generate.search.score,
             score_key: "generate.search.score",
+            usual_score: Some(DriveSearch::BY_HAND),
             cases_key: "generate.search.cases",
             reach: self.generate.reach.word(),
             executor: Executor {

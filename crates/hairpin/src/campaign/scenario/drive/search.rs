@@ -27,6 +27,9 @@ macro_rules! drive_search {
         }
 
         impl DriveSearch {
+    /// The score of a scenario that gives none, and of what is executed only in part.
+    pub const BY_HAND: &str = "slope+slip";
+
             fn of(score: &str, section: SearchSection) -> Self {
                 Self { $first: section.$first, score: score.to_owned(), $($key: section.$key,)+ }
             }
@@ -97,19 +100,16 @@ drive_search! {
     pub stress: Stress,
 }
 
-/// The score of a scenario that gives none, and of what is executed only in part.
-const BY_HAND: &str = "slope+slip";
-
 impl Default for DriveSearch {
     fn default() -> Self {
         // Every leg is a boundary-value problem: a graph of 60 has some thousand of them within reach.
-        Self::of(BY_HAND, SearchSection { waypoints: 60, ..SearchSection::default() })
+        Self::of(Self::BY_HAND, SearchSection { waypoints: 60, ..SearchSection::default() })
     }
 }
 
 impl DriveSearch {
     /// The name of the score that single legs have.
     pub fn score_of_legs(&self) -> &str {
-        if self.score == EXECUTED { BY_HAND } else { &self.score }
+        if self.score == EXECUTED { Self::BY_HAND } else { &self.score }
     }
 }

@@ -46,9 +46,6 @@ pub struct GenerateSection {
     pub environment: Option<EnvironmentSection>,
 }
 
-/// The score of a scenario that gives none, and of what is executed only in part.
-const BY_HAND: &str = "high-velocity-90";
-
 impl Default for GenerateSection {
     fn default() -> Self {
         Self {
@@ -59,7 +56,7 @@ impl Default for GenerateSection {
             velocities: 8,
             certify: false,
             search: SearchSection::default(),
-            score: BY_HAND.into(),
+            score: Self::BY_HAND.into(),
             limits: LimitsSection::default(),
             environment: None,
         }
@@ -67,9 +64,12 @@ impl Default for GenerateSection {
 }
 
 impl GenerateSection {
+    /// The score of a scenario that gives none, and of what is executed only in part.
+    pub const BY_HAND: &str = "high-velocity-90";
+
     /// The name of the score that single legs have.
     pub fn score_of_legs(&self) -> &str {
-        if self.score == EXECUTED { BY_HAND } else { &self.score }
+        if self.score == EXECUTED { Self::BY_HAND } else { &self.score }
     }
 
     /// The timing in force: as given, else the paper's step of 1 s, or for `witness`, which finds next to nothing in

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 
-use super::{ExecuteSection, FlightScenario, ReachName};
+use super::{ExecuteSection, FlightScenario, GenerateSection, ReachName};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Steering, Subject, Terms,
@@ -25,6 +25,7 @@ impl Keys for FlightScenario {
             search: self.generate.search.clone(),
             score: &self.generate.score,
             score_key: "generate.score",
+            usual_score: Some(GenerateSection::BY_HAND),
             cases_key: "generate.search.cases",
             reach: self.generate.reach.word(),
             executor: Executor {
