@@ -122,7 +122,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     let goes_on = may_make(&path, &setup, settings.if_there)?;
     if !goes_on {
         // What was begun before such scores were refused may be finished.
-        check_score(&setup)?;
+        check_score(&setup, watch)?;
     }
     let code = setup.user_code().into_iter().chain(setup.steering_code());
     try_out(code, Deadline::after(settings.time_limit_s), watch)?;
@@ -130,11 +130,21 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
 }
 
 /// Whether the method of `setup` reads its score, which is told as it was given.
-fn check_score(setup: &Setup) -> Result<(), Mistake> {
+///
+/// # Errors
+/// A file of the user's own that it does not: who brings one means it. A name may be left from another method, and is
+/// passed over with a word.
+fn check_score(setup: &Setup, watch: &dyn Watch) -> Result<(), Mistake> {
     let (score, files) = (setup.scenario.score(), &setup.attachments);
     let of_model = files.model(score).map(|file| &file.given);
-    let given = of_model.or(files.user_score(score).map(|file| &file.given));
-    setup.scenario.check_score(given.map_or(score, |given| given))
+    let of_file = of_model.or(files.user_score(score).map(|file| &file.given));
+    match (setup.scenario.check_score(of_file.map_or(score, |given| given)), of_file) {
+        (Err(Mistake { key, value, bound }), None) => {
+            watch.warn(&format!("`{key}` = {value} is passed over; it is to be {bound}"));
+            Ok(())
+        }
+        (checked, _) => checked,
+    }
 }
 
 /// Whether the user's own code loads: before anything that it is to take the place of is removed.
@@ -565,8 +575,17 @@ mod tests {
         assert_eq!(planned.setup.user_score().unwrap().own_and_left(&[leg]), [[7.0, 0.0]]);
     }
 
+    #[derive(Default)]
+    struct Heard(std::sync::Mutex<Vec<String>>);
+
+    impl Watch for Heard {
+        fn warn(&self, line: &str) {
+            self.0.lock().unwrap().push(line.to_owned());
+        }
+    }
+
     #[test]
-    fn a_score_that_the_method_does_not_read_is_refused_where_it_would_be_searched_by() {
+    fn a_score_that_the_method_does_not_read_is_told_where_it_would_be_searched_by() {
         let place = tempfile::tempdir().unwrap();
         let settings = |scenario: &str, sets: &[(&str, &str)]| CampaignSettings {
             scenario: scenario.into(),
@@ -574,21 +593,25 @@ mod tests {
             sets: sets.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect(),
             ..CampaignSettings::default()
         };
+        // What is said beside it.
         let planned = |scenario: &str, sets: &[(&str, &str)]| {
-            plan(&settings(scenario, sets), &Unwatched).map(drop).map_err(|refused| refused.to_string())
+            let heard = Heard::default();
+            let planned = plan(&settings(scenario, sets), &heard).map(drop).map_err(|refused| refused.to_string());
+            let lines = heard.0.into_inner().unwrap();
+            planned.map(|()| lines.into_iter().filter(|line| line.contains("score")).collect::<String>())
         };
         let (score, of_drives) = ("generate.score", "generate.search.score");
         let shipped = [("quadrotor", score), ("boat", score), ("rover", of_drives), ("car", of_drives)];
         for (scenario, key) in shipped {
-            planned(scenario, &[]).unwrap_or_else(|refused| panic!("{scenario}: {refused}"));
-            let told = planned(scenario, &[(key, "random")]).unwrap_err();
+            assert_eq!(planned(scenario, &[]).unwrap(), "", "{scenario}");
+            let told = planned(scenario, &[(key, "random")]).unwrap();
             let words = ["= \"random\"", "\"beam\", \"exact\", \"in-loop\"", "the method `worst` reads none"];
             assert!(told.contains(key) && words.iter().all(|word| told.contains(word)), "{told}");
-            planned(scenario, &[(key, "random"), ("generate.search.method", "uniform")]).unwrap();
+            assert_eq!(planned(scenario, &[(key, "random"), ("generate.search.method", "uniform")]).unwrap(), "");
         }
         let rounds = [(score, "random"), ("generate.search.method", "adaptive"), ("generate.search.executions", "900")];
-        assert!(planned("quadrotor", &rounds).unwrap_err().contains("the method `adaptive` reads none"));
-        // A file is told as it was typed, not as the folder would call it.
+        assert!(planned("quadrotor", &rounds).unwrap().contains("the method `adaptive` reads none"));
+        // A file is meant, and refused as it was typed, not as the folder would call it.
         let file = place.path().join("mine.py");
         std::fs::write(&file, "def score(leg):\n    return 1.0\n").unwrap();
         let typed = format!("python:{}", file.display());
@@ -597,10 +620,11 @@ mod tests {
         let search = ("generate.search", "{ method = \"worst\", programs = 2 }");
         planned("arm", &[search, ("generate.cost", "\"time\"")]).unwrap();
         // What was begun with one is read, and gone on with.
-        let sets = [(score, "random")];
+        let typed = format!("'{typed}'");
+        let sets = [(score, typed.as_str())];
         let old = setup_for("quadrotor", &settings("quadrotor", &sets).sets).unwrap();
         drop(make(&place.path().join("out"), old, IfThere::Refuse).unwrap());
-        assert_eq!(open_to_read(&place.path().join("out")).unwrap().setup.scenario.score(), "random");
+        assert!(open_to_read(&place.path().join("out")).is_ok());
         let again =
             |if_there| plan(&CampaignSettings { if_there, ..settings("quadrotor", &sets) }, &Unwatched).map(drop);
         again(IfThere::Resume).unwrap();
