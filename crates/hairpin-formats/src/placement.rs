@@ -48,6 +48,12 @@ impl Placement {
         Self::Cage(Cage::new(origin))
     }
 
+    /// East, north, up about a place.
+    pub fn about(place: &Geodetic) -> Self {
+        let Geodetic { lat_deg, lon_deg, alt_amsl_m } = *place;
+        Self::by_origin(&Origin { lat_deg, lon_deg, alt_amsl_m, x_axis_heading_deg: 90.0 })
+    }
+
     /// Where on Earth a point of the world is.
     ///
     /// # Errors

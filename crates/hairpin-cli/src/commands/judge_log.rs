@@ -167,6 +167,7 @@ fn found_object(found: &Found) -> Value {
         "source": source(&found.source),
         "frame": {
             "log": frame.log, "how": frame.how, "by_earth": frame.by_earth,
+            "heights": if frame.heights_by_map { "map" } else { "log" },
             "altitude_difference_m": frame.altitude_difference_m, "altitude_applied": frame.altitude_applied,
             "turn_deg": frame.named.turn_deg, "offset_m": frame.named.offset_m,
         },

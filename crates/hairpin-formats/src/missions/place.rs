@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use hairpin::campaign::Scenario;
-use hairpin::campaign::scenario::Origin;
 use hairpin::world::terrain::{KeepOut, KeepOuts};
 use nalgebra::{Point2, Point3};
 
@@ -36,7 +35,7 @@ pub(super) fn place(
     }
     let (world, frame) = match Placement::of(scenario).map_err(refuse)? {
         Some(world) => (world, Frame::Placed),
-        None => (about(&home), Frame::Home(home)),
+        None => (Placement::about(&home), Frame::Home(home)),
     };
     let ground = world.geodetic(&Point3::origin()).map_err(refuse)?;
     let above = home.alt_amsl_m - ground.alt_amsl_m;
@@ -83,16 +82,6 @@ pub(super) fn place(
             .collect::<Result<_, _>>()
             .map_err(refuse)?,
         environment: None,
-    })
-}
-
-/// East, north, up about `home`.
-fn about(home: &Geodetic) -> Placement {
-    Placement::by_origin(&Origin {
-        lat_deg: home.lat_deg,
-        lon_deg: home.lon_deg,
-        alt_amsl_m: home.alt_amsl_m,
-        x_axis_heading_deg: 90.0,
     })
 }
 

@@ -1,6 +1,7 @@
 //! A mission made elsewhere against the claim of a robot: a witness, or the first limit that breaks.
 
 mod fences;
+mod ground;
 mod settings;
 mod vehicle;
 mod world;
@@ -43,9 +44,9 @@ pub struct Checked {
 /// # Errors
 /// A robot, world or mission that is none, or a robot whose missions are not checked.
 pub fn check(settings: &CheckSettings, watch: &dyn Watch) -> Result<Checked, Problem> {
-    let (setup, mission, world) = world::read(settings, watch)?;
+    let (setup, mission, world, above_home) = world::read(settings, watch)?;
     let of = setup.with_simd(settings.simd);
-    check_in(&of, mission, world)
+    check_over(&of, mission, world, &above_home)
 }
 
 /// Checks `mission` in the world of `setup`, in words `world`.
@@ -53,11 +54,17 @@ pub fn check(settings: &CheckSettings, watch: &dyn Watch) -> Result<Checked, Pro
 /// # Errors
 /// A robot whose missions are not checked.
 pub(crate) fn check_in(setup: &Setup, mission: Mission, world: String) -> Result<Checked, Problem> {
+    check_over(setup, mission, world, &[])
+}
+
+/// The same where no ground is known but that under the mission's home, which its waypoints are so much above (m).
+fn check_over(setup: &Setup, mission: Mission, world: String, above_home: &[f64]) -> Result<Checked, Problem> {
     let stops: Vec<usize> = mission.stops.iter().map(|stop| stop.waypoint).collect();
     let Mission { waypoints, speeds, .. } = &mission;
     let asked = Demands { waypoints, speeds, stops: &stops, hold: mission.hold() };
     let mut passage = passes(setup, &asked).map_err(|why| Problem::of_file(&mission.path, why))?;
     fences::hold(&mission, &mut passage);
+    ground::hold(above_home, &mut passage);
     let (feasible, broken) = answer(&mission, &passage);
     let heights = heights(&mission, &passage);
     let verdict = verdict(setup, &mission, &passage, (feasible, broken.as_ref(), heights.as_deref()));
@@ -243,6 +250,54 @@ mod tests {
         assert_eq!(along("2.5").feasible, Some(true), "{:?}", along("2.5").verdict);
         let high = along("9");
         assert_eq!((high.feasible, high.broken.unwrap().limit), (Some(false), "cage"));
+    }
+
+    /// A mission of the robot's own class without a world: take-off to 10 m, and two waypoints at `altitudes`.
+    fn at(altitudes: [&str; 2], robot: &str, world: Option<&str>) -> Checked {
+        let place = tempfile::tempdir().unwrap();
+        let mission = place.path().join("mine.waypoints");
+        let home = "38.0335500\t-78.5079700";
+        let [first, second] = altitudes;
+        let text = format!(
+            "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t{home}\t180\t1\n1\t0\t3\t22\t0\t0\t0\t0\t{home}\t10\t1\n\
+             2\t0\t3\t16\t0\t0\t0\t0\t38.0336500\t-78.5079700\t{first}\t1\n\
+             3\t0\t3\t16\t0\t0\t0\t0\t38.0336500\t-78.5077700\t{second}\t1\n"
+        );
+        std::fs::write(&mission, text).unwrap();
+        let (robot, world) = (robot.to_owned(), world.map(str::to_owned));
+        check(&CheckSettings { mission, robot, world, ..CheckSettings::default() }, &Unwatched).unwrap()
+    }
+
+    #[test]
+    fn without_a_world_no_flight_below_its_home_is_called_feasible() {
+        for robot in ["anafi", "x500"] {
+            let low = at(["-5", "10"], robot, None);
+            assert_eq!((low.feasible, low.verdict.exit_code), (None, 5), "{:?}", low.verdict);
+            let broken = low.broken.unwrap();
+            assert_eq!((broken.waypoint, broken.limit, broken.unit), (1, "ground", "m"));
+            assert!((broken.excess.unwrap() - 5.0).abs() < 1e-6, "{broken:?}");
+            let words = "waypoint 1 (item 2): ground: it lies 5.00 m below its home's ground, and no other is known without --world";
+            assert!(low.verdict.sentence.contains(words), "{:?}", low.verdict);
+            let on_it = at(["0", "10"], robot, None);
+            assert_eq!((on_it.feasible, on_it.broken.unwrap().waypoint), (None, 1), "{:?}", on_it.verdict);
+            // Who ends at rest on the ground stands on it, not below.
+            assert_eq!(at(["10", "0"], robot, None).feasible, Some(true));
+            assert_eq!(at(["10", "-1"], robot, None).feasible, None);
+            let high = at(["10", "12"], robot, None);
+            assert_eq!(high.feasible, Some(true), "{:?}", high.verdict);
+            assert!(high.world.contains("no ground (waypoints alone are held to") && !high.world.contains("level"));
+        }
+        // Metres of a world have no home, and nobody says that a ground was looked at.
+        let table = checked(SQUARE, "flightgoggles", None);
+        assert!(
+            table.feasible == Some(true) && table.world.contains("no ground (none is looked at)"),
+            "{}",
+            table.world
+        );
+        let drive = checked("x_m,y_m,z_m\n0,0,0\n6,0,0\n12,2,0\n", "car", None);
+        assert!(drive.world.contains("level ground"), "{}", drive.world);
+        let boat = checked("x_m,y_m,z_m\n0,0,5\n6,0,5\n12,2,5\n", "cybership-ii", None);
+        assert!(boat.world.contains("open water"), "{}", boat.world);
     }
 
     #[test]

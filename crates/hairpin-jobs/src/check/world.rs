@@ -9,6 +9,7 @@ use hairpin_formats::scenario::{is_scenario, setup_for, setup_for_missions, shad
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
+use super::ground::above_home;
 use super::settings::CheckSettings;
 use super::vehicle::same_vehicle;
 use crate::sets::Set;
@@ -21,8 +22,12 @@ const ANYBODY: &str = "flightgoggles";
 /// Endings of maps.
 const MAPS: [&str; 5] = ["tif", "tiff", "asc", "png", "npy"];
 
-/// The robot in its world, the mission there, and the world in words.
-pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup, Mission, String), Problem> {
+/// The robot in its world, the mission there, the world in words, and, of a flight in none, altitudes of the mission's
+/// waypoints above its home, m.
+type Read = (Setup, Mission, String, Vec<f64>);
+
+/// What `settings` name.
+pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<Read, Problem> {
     let CheckSettings { mission, robot, world, sets, .. } = settings;
     shadowed(robot).iter().for_each(|note| watch.warn(note));
     let (setup, name) = match world {
@@ -51,7 +56,7 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<(Setup
     if given {
         let read = missions::read(mission, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
         same_vehicle(&setup, &read)?;
-        return Ok((setup, read, format!("world of {name}")));
+        return Ok((setup, read, format!("world of {name}"), Vec::new()));
     }
     in_the_open((&setup, sets), mission)
 }
@@ -80,12 +85,14 @@ fn not_open(setup: &Setup, mission: &Path, mistake: Option<Mistake>) -> Problem 
 }
 
 /// A robot alone: nothing is around it, and where the mission begins does not matter.
-fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup, Mission, String), Problem> {
+fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<Read, Problem> {
     let setup = &with_its_own_limits(setup, sets)?;
     let refuse = |mistake| not_open(setup, mission, mistake);
     let (somewhere, _) = open_around(setup, &[Point3::origin()]).map_err(refuse)?;
     let mut read = missions::read(mission, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)?;
     same_vehicle(setup, &read)?;
+    let flies = setup.room().is_some_and(|room| room.flies);
+    let above_home = if flies { above_home(&read, &read.waypoints)? } else { Vec::new() };
     let (there, shift) = open_around(setup, &read.waypoints).map_err(refuse)?;
     for point in &mut read.waypoints {
         *point += shift;
@@ -93,7 +100,13 @@ fn in_the_open((setup, sets): (&Setup, &[Set]), mission: &Path) -> Result<(Setup
     for fence in &mut read.fences {
         fence.outline.shift(&shift.xy());
     }
-    Ok((there, read, "no world given: no walls, no obstacles, level ground, the robot's own limits".into()))
+    let ground = match (flies, setup.footing()) {
+        (true, _) if above_home.is_empty() => "no ground (none is looked at)",
+        (true, _) => "no ground (waypoints alone are held to the height of its home)",
+        (false, Some(_)) => "level ground",
+        (false, None) => "open water",
+    };
+    Ok((there, read, format!("no world given: no walls, no obstacles, {ground}, the robot's own limits"), above_home))
 }
 
 /// The robot of `setup` in an open world with room around `places`, and how far they lie from where they are in it.

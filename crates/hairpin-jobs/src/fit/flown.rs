@@ -10,7 +10,7 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::waypoints;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use crate::judge_log::{Asks, FrameSettings, IntoWorld, LegsBy, arm_of, best, course, matched, ran};
+use crate::judge_log::{Asks, FrameSettings, Heights, IntoWorld, LegsBy, arm_of, best, course, matched, ran};
 use crate::{Problem, Watch};
 
 /// What logs are flights of.
@@ -120,7 +120,12 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
     }
     let motion = best(&logged, &Asks::FIT).map_err(|why| Problem::of_file(file, why))?;
     let frame = IntoWorld::of(&logged.frame, place.as_ref(), &FrameSettings::default())?;
-    let samples = mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<_, _>>()?;
+    let mut samples =
+        mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, _>>()?;
+    if let Some(heights) = Heights::of(setup, (&logged.frame, motion), 0.0) {
+        // Its case is looked for in space; a fit of what drives is in the plane.
+        heights.put(&mut samples);
+    }
     let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<_, _>>()?;
     let log = InWorld { logged: &logged, progress, samples, accept: setup.scenario.executor().accept };
     let case = missions.of(file, &log)?;

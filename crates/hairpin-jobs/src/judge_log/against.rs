@@ -9,6 +9,7 @@ use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for_
 use hairpin_formats::waypoints;
 use serde_json::{Map, Value};
 
+use super::heights::on_ground;
 use super::settings::{Against, LogSettings};
 use crate::Problem;
 use crate::sets::Set;
@@ -126,7 +127,10 @@ impl Ready {
         let setup = setup_for_missions(base, &sets)?;
         check_asked(&setup.scenario, file)?;
         let farthest = setup.handed().farthest;
-        let (waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
+        let (mut waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
+        if named.is_some() {
+            on_ground(&setup, &mut waypoints);
+        }
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let case = Case::bare(CaseNumber(0), setup.scenario.seed(), waypoints);
         let in_world = named.is_some();

@@ -1,7 +1,6 @@
 //! From a log's frame to the world's: by places on Earth where both have one, by what the user names, and by nothing
 //! else.
 
-use hairpin::campaign::scenario::Origin;
 use hairpin::math::rotation::from_rotation_vector;
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{LogFrame, Progress, Sample};
@@ -41,6 +40,8 @@ pub struct FrameTold {
     pub how: String,
     /// Whether both say where on Earth they are, so that nothing is assumed but for altitudes.
     pub by_earth: bool,
+    /// Whether heights are those of the map's ground, for the log of what drives has none.
+    pub heights_by_map: bool,
     /// Altitude of the log's origin above the world's by what both say, m: AMSL less AMSL, however far apart they are.
     pub altitude_difference_m: Option<f64>,
     /// Whether it was added.
@@ -76,6 +77,7 @@ impl<'a> IntoWorld<'a> {
             log: in_words(frame),
             how: String::new(),
             by_earth: false,
+            heights_by_map: false,
             altitude_difference_m: None,
             altitude_applied: false,
             named: *named,
@@ -83,7 +85,7 @@ impl<'a> IntoWorld<'a> {
         let mut lower = 0.0;
         let how = match (frame, place) {
             (LogFrame::Enu(Some(origin)), Some(world)) => {
-                let log = Placement::by_origin(&east_north_up(origin));
+                let log = Placement::about(origin);
                 let (at, turn) = tangent(&log, world)?;
                 let is_plane = matches!(world, Placement::Plane(_));
                 told.by_earth = true;
@@ -163,12 +165,6 @@ impl<'a> IntoWorld<'a> {
     pub(crate) fn progress(&self, step: &Progress) -> Result<Progress, Problem> {
         Ok(Progress { target_m: step.target_m.map(|target| self.point(&target)).transpose()?, ..*step })
     }
-}
-
-/// The origin of axes that point east, north and up.
-fn east_north_up(origin: &Geodetic) -> Origin {
-    let Geodetic { lat_deg, lon_deg, alt_amsl_m } = *origin;
-    Origin { lat_deg, lon_deg, alt_amsl_m, x_axis_heading_deg: 90.0 }
 }
 
 /// Where the log's origin is in the world, and how its axes lie there: both are turned rigidly about the Earth's

@@ -6,7 +6,7 @@ use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
 use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
-use hairpin_formats::logs::{self, Logged, Progress, Sample};
+use hairpin_formats::logs::{self, Logged, LoggedMotion, Progress, Sample};
 use nalgebra::Isometry3;
 
 use super::accuracy::accuracies;
@@ -17,7 +17,8 @@ use super::begin::Before;
 use super::cut::{Left, cut};
 use super::due::due;
 use super::found::{Found, JudgedLog};
-use super::frame::IntoWorld;
+use super::frame::{FrameTold, IntoWorld};
+use super::heights::Heights;
 use super::left_out::LeftOut;
 use super::legs::{Course, LegsBy, Mission, check_column, course, first_near, mission};
 use super::reached::{missed, untrue};
@@ -57,7 +58,11 @@ pub(super) fn judge(
     let frame = IntoWorld::of(&logged.frame, against.place.as_ref(), &settings.frame)?;
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
-    let samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
+    let mut samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
+    let lift_m = settings.frame.offset_m[2];
+    let heights = Heights::of(&against.setup, (&logged.frame, motion), lift_m).filter(|_| against.in_world);
+    let unstable = heights.as_ref().map_or_else(Vec::new, |heights| heights.put(&mut samples));
+    let heights_told = heights.as_ref().map(|heights| heights.in_words(&samples, unstable.len()));
     let progress =
         logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<Vec<Progress>, Problem>>()?;
     let progress = of_flight(progress, &span, (logged, &against.cases, against.accept));
@@ -75,7 +80,8 @@ pub(super) fn judge(
     check_column(logged, case.waypoints.len()).map_err(Problem::input)?;
     let course = course(logged, &progress, &case.waypoints, against.accept);
     let by_earth = frame.told.by_earth;
-    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth };
+    let no_heights = heights.is_some();
+    let judged = Judging { logged, against, span: &span, course: course.as_ref(), case, by_earth, no_heights };
     let seen_s = samples.first().map(|sample| sample.t_s);
     let own = if span.never_began.is_some() { Vec::new() } else { judged.own_part(samples)? };
     let mut due = due(logged, &span, course.as_ref());
@@ -83,7 +89,15 @@ pub(super) fn judge(
         // On its way to the first waypoint it is at none of the legs.
         due.from_s = f64::NEG_INFINITY;
     }
-    let left = cut(&own, (motion, due), &logged.dropouts, &against.swiftness);
+    let unsound = LoggedMotion {
+        name: motion.name.clone(),
+        source: motion.source,
+        samples: Vec::new(),
+        resets: motion.resets.clone(),
+        invalid: motion.invalid.iter().copied().chain(unstable).collect(),
+        unfit: None,
+    };
+    let left = cut(&own, (&unsound, due), &logged.dropouts, &against.swiftness);
     let left_out = judged.told_course().and_then(|course| LeftOut::of(course, &own, motion, settings.from_s));
     let (missed, to_the_end) = judged.end(&own, &left, left_out.is_some());
     let finished = to_the_end && left_out.is_none();
@@ -96,6 +110,7 @@ pub(super) fn judge(
     if !logged.progress.is_empty() && course.is_none() {
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
+    notes.extend(heights_told);
     notes.extend(again_s.map(told::again));
     notes.extend(left_out.as_ref().map(LeftOut::in_words));
     let (accuracy, untold) = accuracies(&left.samples);
@@ -104,7 +119,7 @@ pub(super) fn judge(
         case: name,
         matched,
         source,
-        frame: frame.told,
+        frame: FrameTold { heights_by_map: no_heights, ..frame.told },
         span_s: left.samples.first().zip(left.samples.last()).map(|(first, last)| [first.t_s, last.t_s]),
         legs_by: course.as_ref().map_or(LegsBy::Assigned, |course| course.by),
         cuts: left.cuts.clone(),
@@ -165,6 +180,8 @@ struct Judging<'a> {
     case: &'a Case,
     /// Whether its place is known by the Earth's.
     by_earth: bool,
+    /// Whether its heights are the ground's.
+    no_heights: bool,
 }
 
 impl Judging<'_> {
@@ -261,7 +278,7 @@ impl Judging<'_> {
             self.against.accept,
             move_by.x,
             move_by.y,
-            move_by.z,
+            if self.no_heights { 0.0 } else { move_by.z },
         ))
     }
 

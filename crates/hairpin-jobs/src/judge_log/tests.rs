@@ -16,6 +16,7 @@ use tempfile::TempDir;
 use super::against::Ready;
 use super::*;
 
+mod heights;
 mod open;
 mod unflown;
 

@@ -18,7 +18,7 @@ use serde_json::Value;
 use super::attachments::{Attachments, Resolved};
 use super::case::Case;
 use super::check::check_vary;
-use super::kind::{Build, Drawing, Given, Handed, Kind, PassedOver, Programs, Returning, RobotWords, Room};
+use super::kind::{Build, Drawing, Footing, Given, Handed, Kind, PassedOver, Programs, Returning, RobotWords, Room};
 use super::own_controller::AnyController;
 use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
 use super::user_code::UserCode;
@@ -297,6 +297,11 @@ impl Setup {
     /// Which legs of `track`, a motion over the mission of `case`, were gone backwards, in words.
     pub fn backwards(&self, case: &Case, track: &Track) -> Option<String> {
         self.kind.backwards(case, track)
+    }
+
+    /// What stands under its robot; `None` of what does not drive.
+    pub fn footing(&self) -> Option<&dyn Footing> {
+        self.kind.footing()
     }
 
     /// How fast its robot can be and become.

@@ -67,7 +67,7 @@ impl Reading {
         if flat {
             // Read as x and y alone; what is put in the place of z is not read.
             position[2] = position[0].clone();
-            notes.push("no column of z: at 0 m".into());
+            notes.push("no column of z: at 0 m, unless it drives on a map".into());
         }
         let position = all(&position);
         if position.is_none() && (columns.joints.is_empty() || columns.position.iter().any(Option::is_some)) {

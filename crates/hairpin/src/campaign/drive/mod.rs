@@ -30,6 +30,7 @@ mod drawing;
 mod execute;
 mod figure;
 mod fit;
+mod footing;
 mod held;
 mod imitate;
 mod knobs;

@@ -6,7 +6,8 @@ use serde_json::json;
 use super::{DriveSetup, assumptions, backwards, drawing};
 use crate::campaign::bounds::FARTHEST_M;
 use crate::campaign::kind::{
-    Assumptions, Axis, BEYOND, Drawing, Facts, FrameWords, Handed, Motion, RobotWords, Room, Say, reached_within, word,
+    Assumptions, Axis, BEYOND, Drawing, Facts, Footing, FrameWords, Handed, Motion, RobotWords, Room, Say,
+    reached_within, word,
 };
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
@@ -128,6 +129,10 @@ impl Say for DriveSetup {
         let (places, radius) = (&self.keep_out, self.radius());
         (!self.scenario.world.keep_out.is_empty())
             .then(|| Box::new(move |p: &Point3<f64>| places.distance(p.x, p.y) - radius) as Box<Clearance<'_>>)
+    }
+
+    fn footing(&self) -> Option<&dyn Footing> {
+        Some(self)
     }
 
     /// The vehicle's own limit of speed. How suddenly bumps turn its velocity nothing bounds.

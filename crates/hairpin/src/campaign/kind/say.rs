@@ -7,7 +7,7 @@ use nalgebra::Point3;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Axis, Drawing, Programs, Returning, Room};
+use super::{Axis, Drawing, Footing, Programs, Returning, Room};
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
 use crate::robot::battery::Battery;
@@ -203,6 +203,11 @@ pub(in crate::campaign) trait Say {
     /// The height (m, world frame) at which an autopilot that flies it may come home from anywhere on a mission, or why
     /// there is none; `None` of what does not fly.
     fn homeward(&self, _: &Returning) -> Option<Result<f64, &'static str>> {
+        None
+    }
+
+    /// What stands under it; `None` of what does not drive.
+    fn footing(&self) -> Option<&dyn Footing> {
         None
     }
 
