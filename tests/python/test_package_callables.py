@@ -248,9 +248,9 @@ def test_vectorised_scores_are_asked_for_legs_that_there_are_and_give_numbers(tm
     values = {**SMALL, "generate.search.method": "exact", "generate.search.waypoints": 40}
     hairpin.generate("demo-quadrotor", score=counted, out=tmp_path / "counted", values=values)
     assert min(asked) > 0 and max(asked) > 1
-    for answer in (lambda legs: legs["turn_rad"] > 1.0, lambda legs: [True] * len(legs["turn_rad"])):
+    for place, answer in enumerate((lambda legs: legs["turn_rad"] > 1.0, lambda legs: [True] * len(legs["turn_rad"]))):
         with pytest.raises(hairpin.InputError, match="neither 0 nor 1"):
-            hairpin.generate("demo-quadrotor", score=hairpin.vectorised(answer), out=tmp_path / "out", values=SMALL, if_there="replace")
+            hairpin.generate("demo-quadrotor", score=hairpin.vectorised(answer), out=tmp_path / str(place), values=SMALL)
 
 
 @pytest.mark.parametrize("method", ["worst", "adaptive"])

@@ -4,6 +4,7 @@ controller and fails with its shrunk worst case."""
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 DEMO = "demo-quadrotor"
 # Of a run of pytest: the campaign of each scenario, or why there is none.
-_CAMPAIGNS: pytest.StashKey[dict[Path, Any]] = pytest.StashKey()
+_CAMPAIGNS: pytest.StashKey[dict[Path, hairpin.Campaign | str]] = pytest.StashKey()
 NOTHING_ASKED = 'nothing is asked of it: spec = "none"'
 
 
@@ -60,7 +61,7 @@ def pytest_configure_node(node: Any) -> None:
         if isinstance(found, str):
             made[str(scenario)] = {"trouble": found}
         else:
-            made[str(scenario)] = {"folder": str(found.folder), "verdict": found.verdict, "exit_code": found.exit_code}
+            made[str(scenario)] = {"folder": str(found.folder.resolve()), "verdict": found.verdict, "exit_code": found.exit_code}
     node.workerinput["hairpin"] = made
 
 
@@ -128,9 +129,12 @@ def _told(campaign: hairpin.Campaign, case: hairpin.Case) -> str:
     return "\n".join(lines)
 
 
-def _scenarios(config: pytest.Config) -> list[Path]:
-    """Each once, whatever it is called."""
-    return list(dict.fromkeys(Path(name).resolve() for name in config.getoption("--hairpin")))
+def _scenarios(config: pytest.Config) -> dict[Path, Path]:
+    """Each once, whatever it is called: by the file that it is, as it was first given, which is where its own files are."""
+    found: dict[Path, Path] = {}
+    for name in config.getoption("--hairpin"):
+        found.setdefault(Path(name).resolve(), Path(os.path.abspath(name)))
+    return found
 
 
 def _made(config: pytest.Config, scenario: Path) -> hairpin.Campaign | str:
@@ -141,6 +145,7 @@ def _made(config: pytest.Config, scenario: Path) -> hairpin.Campaign | str:
     made = config.stash[_CAMPAIGNS]
     if scenario in made:
         return made[scenario]
+    found: hairpin.Campaign | str
     elsewhere = getattr(config, "workerinput", {}).get("hairpin", {}).get(str(scenario))
     if elsewhere is not None:
         found = elsewhere.get("trouble") or hairpin.Campaign(elsewhere["folder"], said=elsewhere)
@@ -148,10 +153,11 @@ def _made(config: pytest.Config, scenario: Path) -> hairpin.Campaign | str:
         place = config.getoption("--hairpin-out")
         folder = Path(place) if place else Path(config.cache.mkdir("hairpin")) if config.cache else Path(".hairpin")
         folder.mkdir(parents=True, exist_ok=True)
-        out = folder.resolve() / _names(_scenarios(config), None if place else config.rootpath)[scenario]
+        given = _scenarios(config)
+        out = folder / _names(list(given.values()), None if place else config.rootpath)[given[scenario]]
         values = dict(_split(pair) for pair in config.getoption("--hairpin-set"))
         try:
-            found = _stress_with_texts(scenario, out=out, texts=values, executor=config.getoption("--hairpin-executor"))
+            found = _stress_with_texts(given[scenario], out=out, texts=values, executor=config.getoption("--hairpin-executor"))
         except (hairpin.InputError, hairpin.ExecutorError) as error:
             found = str(error)
     made[scenario] = found
@@ -194,8 +200,8 @@ def hairpin_stress(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[.
     """Stresses a controller, and fails with the shrunk worst case if one of its runs violates the spec.
 
     ``hairpin_stress(controller, scenario=None, *, shrink_budget=50, **settings)``: what steers, a scenario (that of the ini key
-    ``hairpin_scenario`` if not given), and settings of :func:`hairpin.stress`. Gives the campaign. Where nothing is asked of its runs
-    (``spec = "none"``) the test is skipped. Each call has a folder of its own, unless ``out`` names one.
+    ``hairpin_scenario`` if not given), and settings of :func:`hairpin.stress`. Gives the campaign. Where nothing is asked of its
+    runs (``spec = "none"``) the test is skipped. Each call has a folder of its own, unless ``out`` names one.
     """
     calls = itertools.count(1)
 
