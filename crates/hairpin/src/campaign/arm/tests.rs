@@ -454,7 +454,7 @@ fn joints_faster_than_they_can_are_no_pass() {
     // Samples every `step` s for a second, all turned at a share of the largest speed, with 0.2° of noise.
     let turned = |share: f64, step: f64, skipped: usize| {
         let times: Vec<f64> = (0..=(1.0 / step) as usize).map(|i| i as f64 * step).collect();
-        let noise = |i: usize| if i % 2 == 0 { 0.2_f64.to_radians() } else { 0.0 };
+        let noise = |i: usize| if i.is_multiple_of(2) { 0.2_f64.to_radians() } else { 0.0 };
         let at = |(i, t): (usize, &f64)| share * limit * (t + f64::from(i > 5) * skipped as f64 * step) + noise(i);
         let channel = Channel { name: "q2_rad".into(), values: times.iter().enumerate().map(at).collect() };
         let poses = vec![Isometry3::identity(); times.len()];
