@@ -61,7 +61,10 @@ fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, NoMessage> {
     Ok(Header { stamp_ns, frame: cdr.string()? })
 }
 
-fn place(cdr: &mut Cdr) -> Result<(Point3<f64>, Option<UnitQuaternion<f64>>, f64), NoMessage> {
+/// Where, how it is turned if its quaternion is one, and that one's length.
+type Place = (Point3<f64>, Option<UnitQuaternion<f64>>, f64);
+
+fn place(cdr: &mut Cdr) -> Result<Place, NoMessage> {
     let p = cdr.numbers::<3>()?;
     let [x, y, z, w] = cdr.numbers()?;
     let q = Quaternion::new(w, x, y, z);
