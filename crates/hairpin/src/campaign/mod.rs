@@ -38,6 +38,7 @@ mod check;
 mod clock;
 pub mod compare;
 pub mod convoy;
+mod counted;
 pub mod coverage;
 pub mod curve;
 pub mod digits;

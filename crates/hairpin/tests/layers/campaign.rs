@@ -10,7 +10,7 @@ use super::house::House;
 /// each other.
 pub(crate) const ROOMS: &[&[&str]] = &[
     // What was typed, and values that know nothing else.
-    &["digits", "testing", "stop", "curve", "case_number", "bounds", "answers"],
+    &["digits", "testing", "stop", "curve", "case_number", "bounds", "answers", "failures"],
     &["scenario"],
     &["boat::keys"],
     // All keys are one sum: the table of the kinds.
@@ -38,7 +38,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["mission", "judge", "rank"],
     &["landed", "flown"],
     &["executor", "samples"],
-    &["execute"],
+    &["execute", "counted"],
     &["calibrate", "fit", "trial", "verify", "verdict", "select", "compare", "shrink", "passes"],
     &["generate"],
     &["explain", "assumptions"],

@@ -1,6 +1,6 @@
 //! The graphs that trajectories are searched in, one after the other.
 
-use crate::campaign::failures::Counted;
+use crate::campaign::counted::Counted;
 use crate::campaign::graph::{Executions, Outcome, Partials, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::EXECUTED;
