@@ -55,7 +55,7 @@ fn in_words(asked: &Learn, Learned { model, score_key, arm }: &Learned) {
         held_out.r2,
         error(held_out.rmse),
     ));
-    // Of the methods that ask a score, the one whose answer is the best there is; arms' costs are read by all of theirs.
+    // Of the methods that ask a score, the one whose answer is the best there is. Arms read their costs with any.
     let by = if *arm { "" } else { ", with generate.search.method = \"exact\"" };
     console::say(&format!("use it: {score_key} = \"learned:{out}\"{by}"));
 }

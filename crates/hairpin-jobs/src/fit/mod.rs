@@ -90,8 +90,8 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     Ok(Fitted { fit: found, setup, logs: logs.len(), logged_s, execute, text })
 }
 
-/// Whether no log is one that is there already, under whatever name: it would shrink intervals as if it were new, and be
-/// tried on a fit to itself.
+/// Whether no log is one that is there already, under whatever name: it would shrink intervals as if it were new,
+/// and be tried on a fit to itself.
 fn refuse_twice(files: &[PathBuf], logs: &[Flown]) -> Result<(), Problem> {
     let mut seen: HashMap<[u8; 32], &PathBuf> = HashMap::new();
     for (file, log) in files.iter().zip(logs) {
