@@ -2,8 +2,9 @@
 //! the ground there. Taken as 0 m they would be deviations from a plan that goes up and down with the map.
 
 use hairpin::campaign::{Footing, Setup};
+use hairpin::math::rotation::euler_from_quaternion;
 use hairpin_formats::logs::{LogFrame, LoggedMotion, Sample, Span};
-use nalgebra::Point3;
+use nalgebra::{Point3, UnitQuaternion};
 
 /// A way as long as this tells the heading of a log without attitudes, m.
 const WAY_M: f64 = 0.05;
@@ -86,6 +87,7 @@ fn headings(samples: &[Sample]) -> Vec<f64> {
         }
         headings.push(heading.unwrap_or(0.0));
     }
-    let told = |(sample, way): (&Sample, f64)| sample.attitude.map_or(way, |attitude| attitude.euler_angles().2);
+    let yaw_of = |turn: UnitQuaternion<f64>| euler_from_quaternion(&[turn.w, turn.i, turn.j, turn.k])[2];
+    let told = |(sample, way): (&Sample, f64)| sample.attitude.map_or(way, yaw_of);
     samples.iter().zip(headings).map(told).collect()
 }

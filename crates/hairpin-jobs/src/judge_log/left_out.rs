@@ -36,8 +36,8 @@ impl LeftOut {
         (first_leg > 0 || is_cut).then_some(Self { first_leg, cuts_leg, began_s, lost_s, is_asked: asked.is_some() })
     }
 
-    /// `--from leaves out legs 0→1 to 3→4 and a part of leg 4→5: 12.3 s since the mission left waypoint 0 at t = 28.00 s
-    /// are not judged`.
+    /// `--from leaves out legs 0→1 to 3→4 and a part of leg 4→5: 12.3 s since the mission left waypoint 0 at t = 28.00
+    /// s are not judged`.
     pub fn in_words(&self) -> String {
         let Self { first_leg, began_s, lost_s, .. } = self;
         let leg = |leg: usize| format!("{leg}→{}", leg + 1);

@@ -17,8 +17,8 @@ use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation
 /// nothing was feasible.
 ///
 /// `results` belong to `cases`, and may be fewer. Without cases the verdict is `NOTHING FEASIBLE` (3), or
-/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure, or `EXECUTOR FAILED`
-/// (4) where some of that failed.
+/// `INCONCLUSIVE` (5) where a time ended the search, or nothing that was executed came to a measure, or `EXECUTOR
+/// FAILED` (4) where some of that failed.
 pub fn verdict(setup: &Setup, cases: &[Case], judged: (&[CaseResult], Option<&Baseline>), tally: &Tally) -> Verdict {
     let runs = judged.0.len() * setup.scenario.executor().repeat as usize;
     verdict_on(setup, cases, judged, tally, runs)

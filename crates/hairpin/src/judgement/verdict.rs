@@ -87,8 +87,8 @@ pub struct Judged<'a> {
     pub undone: usize,
     /// What was left undone of the campaign for want of time, in a sentence's part: it is no pass then.
     pub cut: Option<&'a str>,
-    /// Executions of the search that failed, of how many: what it kept says nothing of the trajectories of these, so that
-    /// it is no pass then.
+    /// Executions of the search that failed, of how many: what it kept says nothing of the trajectories of these, so
+    /// that it is no pass then.
     pub search_failed: [u64; 2],
     /// Why one of these did.
     pub search_trouble: &'a str,
@@ -201,8 +201,8 @@ pub fn verdict(judged: &Judged) -> Verdict {
     Verdict::of(&format!("{start}: {}", findings(judged, &count, limit).join("; ")), exit_code)
 }
 
-/// `EXECUTOR FAILED 4/200 (time-out 60 s, stderr kept): not counted as pass or fail`: of the cases, or of what the search
-/// for them executed.
+/// `EXECUTOR FAILED 4/200 (time-out 60 s, stderr kept): not counted as pass or fail`: of the cases, or of what the
+/// search for them executed.
 fn executor_failed(judged: &Judged) -> String {
     let (failed, trouble) = match judged.executor_failed {
         0 => (search_failed(judged.search_failed), judged.search_trouble),

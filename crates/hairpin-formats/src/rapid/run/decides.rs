@@ -1,7 +1,7 @@
 //! Which data may decide where a program goes and how it moves: all but what it only counts and tells.
 //!
-//! By names alone, wherever they are declared: data of one name decide if any of them does. A name decides that stands in
-//! a condition, an index, a move or what is handed over, and what is assigned to one that decides.
+//! By names alone, wherever they are declared: data of one name decide if any of them does. A name decides that stands
+//! in a condition, an index, a move or what is handed over, and what is assigned to one that decides.
 
 use std::collections::{BTreeMap, BTreeSet};
 

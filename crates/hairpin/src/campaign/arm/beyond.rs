@@ -81,8 +81,8 @@ impl TooFast {
         (self.speed - ALLOWED / self.over) / self.limit - 1.0
     }
 
-    /// Why such a motion decides nothing: `axis 1 turns by 412.0°/s from t = 3.20 s on for 0.100 s, and its largest speed
-    /// is 250.0°/s (10 % and 0.5° more are allowed): no joint of this arm is that fast`.
+    /// Why such a motion decides nothing: `axis 1 turns by 412.0°/s from t = 3.20 s on for 0.100 s, and its largest
+    /// speed is 250.0°/s (10 % and 0.5° more are allowed): no joint of this arm is that fast`.
     pub fn in_words(&self) -> String {
         let [speed, limit, allowed] = [self.speed, self.limit, ALLOWED].map(f64::to_degrees);
         format!(

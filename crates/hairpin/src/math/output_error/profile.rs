@@ -30,9 +30,9 @@ const NEAR: f64 = 0.04;
 
 /// Lower and upper end of the interval of parameter `free[k]` about `at`, where Q rises by `rise`.
 ///
-/// Ends by secants of √(Q_k − Q), which is straight where Q is a parabola, from where the curvature says. None is nearer
-/// than that, t √C_kk: where Q is rough, a small step out of the minimum may cost as much as a large one, and says
-/// nothing of what others would have been found.
+/// Ends by secants of √(Q_k − Q), which is straight where Q is a parabola, from where the curvature says. None is
+/// nearer than that, t √C_kk: where Q is rough, a small step out of the minimum may cost as much as a large one, and
+/// says nothing of what others would have been found.
 pub fn profile(
     objective: &Objective,
     at: &Descent,
