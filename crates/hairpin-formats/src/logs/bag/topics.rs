@@ -37,6 +37,8 @@ pub(super) struct Topic {
     /// Poses whose quaternion turns nothing; stamp (s) and length of the first.
     unturned: usize,
     first_unturned: Option<(f64, f64)>,
+    /// How many of them are zeros, as of who tells places alone.
+    zeros: usize,
     /// Samples in another frame than the first.
     elsewhere: usize,
     /// Samples whose accuracy is told across or up alone.
@@ -55,7 +57,7 @@ impl Topic {
     pub(super) fn of(name: String, kind: Kind) -> Self {
         let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
         let (broken, first_broken, not_finite, first_not_finite) = Default::default();
-        let (unturned, first_unturned, elsewhere, halves) = Default::default();
+        let (unturned, first_unturned, zeros, elsewhere, halves) = Default::default();
         Self {
             name,
             kind,
@@ -72,6 +74,7 @@ impl Topic {
             first_not_finite,
             unturned,
             first_unturned,
+            zeros,
             elsewhere,
             halves,
         }
@@ -143,6 +146,7 @@ impl Topic {
         self.stamped |= pose.header.stamp_ns != 0;
         if pose.attitude.is_none() {
             self.unturned += 1;
+            self.zeros += usize::from(pose.quaternion_length == 0.0);
             self.first_unturned.get_or_insert((pose.header.stamp_ns as f64 / 1e9, pose.quaternion_length));
         }
         self.received.push(received_s);
@@ -223,8 +227,12 @@ impl Topic {
                 self.not_finite, self.first_not_finite
             ));
         }
+        let of_places = self.zeros > 0 && self.zeros == samples.len();
+        if of_places {
+            notes.push(format!("{name}: quaternions of zeros: no attitude is told"));
+        }
         // A table of such quaternions is refused as well.
-        let unturned = self.first_unturned.map(|(t_s, length)| {
+        let unturned = self.first_unturned.filter(|_| !of_places).map(|(t_s, length)| {
             let count = self.unturned;
             format!(
                 "{count} quaternions that are none, the first of length {length:.4} with the stamp {t_s} s, must be 1"

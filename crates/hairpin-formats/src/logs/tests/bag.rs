@@ -61,6 +61,14 @@ fn poses_that_are_no_place_are_told_as_such_and_quaternions_of_no_length_are_not
         assert_eq!(read.notes, [format!("/a: {why}")]);
     }
     assert_eq!(of([2.0, 0.0, 0.0, 0.0, 0.0, 0.995, 0.0]).motions[0].unfit, None);
+    // Who publishes places alone leaves them all zeros.
+    let place =
+        |t: u32| Cdr::new(true).header(t, 0, "map").numbers(&[f64::from(t), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).bytes();
+    let places = [1, 2, 3].map(|t| ("/a", kind, u64::from(t) * 1_000_000_000, place(t)));
+    let read = parse(&bag(&places, None), "a.mcap").unwrap();
+    assert_eq!((read.motions[0].samples.len(), &read.motions[0].unfit), (3, &None));
+    assert!(read.motions[0].samples.iter().all(|sample| sample.attitude.is_none()));
+    assert_eq!(read.notes, ["/a: quaternions of zeros: no attitude is told"]);
     let joints = |q: f64| Cdr::new(true).header(1, 0, "").u32(1).text("q").u32(1).numbers(&[q]).u32(0).u32(0).bytes();
     let kind = "sensor_msgs/msg/JointState";
     let messages = [("/j", kind, 1, joints(1.0)), ("/j", kind, 2, joints(f64::INFINITY))];
