@@ -621,9 +621,9 @@ fn where_drives_cannot_begin_nothing_is_searched() {
     let at = |x: f64, y: f64| ("task.start", json!({ "x_m": x, "y_m": y, "yaw_deg": 0 }));
     let mistakes = |changes: &[(&str, Value)]| built(car(), changes).err();
     let inside = mistakes(&[at(24.0, 21.1)]).unwrap();
-    assert!(inside.contains("task.start") && inside.contains("from `pillar`; it is 0.300 m inside"), "{inside}");
-    let beside = mistakes(&[at(24.0, 21.41)]).unwrap();
-    assert!(beside.contains("the vehicle's radius, from `pillar`; it is 0.010 m from it"), "{beside}");
+    assert!(inside.contains("task.start") && inside.contains("outside `pillar`; it is 0.300 m inside"), "{inside}");
+    let beside = setup(car(), &[at(24.0, 21.41)]);
+    assert_eq!(beside.kind().solver().err().unwrap(), "already at `task.start` drives enter a keep-out");
     let end = mistakes(&[("task.end_m", json!([24.0, 21.0]))]).unwrap();
     assert!(end.contains("task.end_m") && end.contains("m inside"), "{end}");
     // Straight legs do not look at them.

@@ -50,7 +50,7 @@ impl Build for DriveSetup {
         check_task(&keys.task, rover, &mut found);
         let map = Self::map(keys, files, known);
         let map = match found.0.is_empty() {
-            true => found.take(map).inspect(|map| places::check(keys, (rover, keep_out.as_deref()), map, &mut found)),
+            true => found.take(map).inspect(|map| places::check(keys, keep_out.as_deref(), map, &mut found)),
             // What is wrong with the ground is told once all before it is right.
             false => map.ok(),
         };
