@@ -390,8 +390,8 @@ fn another_word_is_another_controller() {
 /// Searches that execute, with little.
 const SEARCHES: [&str; 3] = [
     r#"{ method = "worst", waypoints = 60, cases = 2, executions = 16 }"#,
-    r#"{ method = "in-loop", waypoints = 60, cases = 2, executions = 16 }"#,
-    r#"{ method = "adaptive", waypoints = 60, cases = 2, executions = 26, rounds = 2 }"#,
+    r#"{ method = "in-loop", waypoints = 60, cases = 2, executions = 16, move_waypoints = true }"#,
+    r#"{ method = "adaptive", waypoints = 120, cases = 2, executions = 26, rounds = 2 }"#,
 ];
 
 /// Hull legs that `search` executes, steered by `controller`.

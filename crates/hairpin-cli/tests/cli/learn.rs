@@ -78,6 +78,14 @@ fn came_to(folder: &Path) -> Vec<(u64, f64, f64)> {
     both.map(|(case, result)| (case.graph, case.score, result.measures.as_ref().unwrap().max_deviation)).collect()
 }
 
+/// The graphs whose case did not come to its end, which stands before all that strays farther.
+fn cut_off(folder: &Path) -> Vec<u64> {
+    let kept = CampaignFolder::open(folder).unwrap();
+    let (cases, results) = (kept.read_cases().unwrap(), kept.read_results().unwrap());
+    let both = cases.iter().zip(&results);
+    both.filter(|(_, result)| result.ended != "done").map(|(case, _)| case.graph).collect()
+}
+
 #[test]
 fn partial_trajectories_that_are_executed_lead_the_beam_to_more_stress_than_random_scores() {
     let folder = tempfile::tempdir().unwrap();
@@ -157,13 +165,17 @@ fn executions_in_the_loop_tell_the_stress_that_is_judged_and_beat_uniform_draws(
     let (found, moved, uniform) = (came_to("looped"), came_to("moved"), came_to("flown"));
     assert_eq!(found.len(), 3);
     assert_eq!(came_to("one-thread"), found, "threads change nothing");
+    let cut_off = ["looped", "moved"].map(|out| cut_off(&here.join(out)));
+    assert!(cut_off.concat().len() <= 3, "{cut_off:?}");
     let mut better = 0;
-    for (graph, score, deviation) in found.iter().chain(&moved) {
+    let [in_graphs, with_moves] = &cut_off;
+    let all = found.iter().map(|one| (one, in_graphs)).chain(moved.iter().map(|one| (one, with_moves)));
+    for ((graph, score, deviation), cut_off) in all {
         assert!((score - deviation).abs() < 1e-12, "{score} {deviation}: the score is the judge's own number");
         // The uniform draws of the same graph are among those that were executed first.
         let drawn = uniform.iter().filter(|(other, ..)| other == graph).map(|(.., drawn)| *drawn);
         let worst = drawn.fold(0.0, f64::max);
-        assert!(*deviation >= worst, "graph {graph}: {deviation} {worst}");
+        assert!(*deviation >= worst || cut_off.contains(graph), "graph {graph}: {deviation} {worst}");
         better += usize::from(*deviation > 1.05 * worst);
     }
     assert!(better >= 3, "{found:?} {moved:?} {uniform:?}");
