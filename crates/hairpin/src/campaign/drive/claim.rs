@@ -22,7 +22,10 @@ const REFERENCE_RATE: f64 = 2.0;
 
 impl Claim for DriveSetup {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
-        Ok(Box::new(DriveSolver::new(self)?))
+        let solver = DriveSolver::new(self)?;
+        // Before any ground is sampled.
+        solver.may_begin()?;
+        Ok(Box::new(solver))
     }
 
     fn lost(&self, graphs: u64) -> Losses {

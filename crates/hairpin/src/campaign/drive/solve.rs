@@ -66,17 +66,23 @@ impl<'a> DriveSolver<'a> {
     pub(super) fn new(setup: &'a DriveSetup) -> Result<Self, String> {
         let settings = settings(setup)?;
         let stepwise = match setup.scenario.generate.reach {
-            GroundReach::Witness => {
-                // Before any ground is sampled: no leg leaves where the vehicle cannot stand, of no graph.
-                let site = DriveSite::new(&setup.planner, &setup.map, &setup.keep_out);
-                let refused = |why: LegRefusal| format!("already at `task.start` drives {}", why.says());
-                stands(&site, &settings, &setup.start()).map_err(refused)?;
-                None
-            }
+            GroundReach::Witness => None,
             GroundReach::None | GroundReach::Sphere | GroundReach::Hull => Some(Stepwise::new(setup)?),
         };
         let search = setup.scenario.generate.search.section();
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
+    }
+
+    /// Whether drives may begin at the task's start: no leg leaves where the vehicle cannot stand, of no graph.
+    ///
+    /// # Errors
+    /// Why it cannot, in a sentence's part.
+    pub(super) fn may_begin(&self) -> Result<(), String> {
+        let refused = |why: LegRefusal| format!("already at `task.start` drives {}", why.says());
+        match &self.stepwise {
+            Some(_) => Ok(()),
+            None => stands(&self.site(), &self.settings, &self.setup.start()).map_err(refused),
+        }
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's, and only legs with a
