@@ -134,7 +134,7 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
 /// # Errors
 /// A file of the user's own that it does not: who brings one means it. A name may be left from another method, and is
 /// passed over with a word.
-fn check_score(setup: &Setup, watch: &dyn Watch) -> Result<(), Mistake> {
+fn check_score(setup: &Setup, watch: &dyn Watch) -> Result<(), Problem> {
     let (score, files) = (setup.scenario.score(), &setup.attachments);
     let of_model = files.model(score).map(|file| &file.given);
     let of_file = of_model.or(files.user_score(score).map(|file| &file.given));
@@ -143,7 +143,10 @@ fn check_score(setup: &Setup, watch: &dyn Watch) -> Result<(), Mistake> {
             watch.warn(&format!("`{key}` = {value} is passed over; it is to be {bound}"));
             Ok(())
         }
-        (checked, _) => checked,
+        (Err(Mistake { key, value, bound }), Some(_)) => {
+            Err(Problem::input(format!("`{key}` = {value}: must be {bound}")))
+        }
+        (Ok(()), _) => Ok(()),
     }
 }
 
