@@ -1,15 +1,26 @@
 //! Small campaigns for the tests of jobs.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use tempfile::TempDir;
 
-use crate::Unwatched;
 use crate::execute::{ExecuteSettings, execute};
 use crate::generate::generate;
 use crate::judge::judge;
 use crate::sets::Set;
 use crate::work::CampaignSettings;
+use crate::{Unwatched, Watch};
+
+/// Keeps what it is told.
+#[derive(Default)]
+pub(crate) struct Told(pub(crate) Mutex<Vec<String>>);
+
+impl Watch for Told {
+    fn warn(&self, line: &str) {
+        self.0.lock().unwrap().push(line.to_owned());
+    }
+}
 
 /// Two cases of the demo, each flown once, in `place`/out.
 pub(crate) fn small(place: &TempDir) -> CampaignSettings {

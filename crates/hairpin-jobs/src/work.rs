@@ -488,7 +488,7 @@ mod tests {
 
     use super::*;
     use crate::Unwatched;
-    use crate::testing::generated;
+    use crate::testing::{Told, generated};
 
     #[test]
     fn a_scenario_that_lost_its_end_is_refused() {
@@ -578,15 +578,6 @@ mod tests {
         assert_eq!(planned.setup.user_score().unwrap().own_and_left(&[leg]), [[7.0, 0.0]]);
     }
 
-    #[derive(Default)]
-    struct Heard(std::sync::Mutex<Vec<String>>);
-
-    impl Watch for Heard {
-        fn warn(&self, line: &str) {
-            self.0.lock().unwrap().push(line.to_owned());
-        }
-    }
-
     #[test]
     fn a_score_that_the_method_does_not_read_is_told_where_it_would_be_searched_by() {
         let place = tempfile::tempdir().unwrap();
@@ -598,7 +589,7 @@ mod tests {
         };
         // What is said beside it.
         let planned = |scenario: &str, sets: &[(&str, &str)]| {
-            let heard = Heard::default();
+            let heard = Told::default();
             let planned = plan(&settings(scenario, sets), &heard).map(drop).map_err(|refused| refused.to_string());
             let lines = heard.0.into_inner().unwrap();
             planned.map(|()| lines.into_iter().filter(|line| line.contains("score")).collect::<String>())

@@ -123,7 +123,7 @@ mod tests {
     use crate::consent::Consent;
     use crate::execute::{ExecuteSettings, execute};
     use crate::judge::judge;
-    use crate::testing::{generated, program, violating};
+    use crate::testing::{Told, generated, program, violating};
 
     #[test]
     fn a_violating_case_gets_smaller_and_its_answers_stay_known() {
@@ -139,16 +139,6 @@ mod tests {
         let refused =
             Shrinking::open(ShrinkSettings { case: CaseNumber(7), ..settings }).map(|_| ()).unwrap_err().to_string();
         assert!(refused.ends_with("has the cases 0000, 0001"), "{refused}");
-    }
-
-    /// Keeps what it is told.
-    #[derive(Default)]
-    struct Told(std::sync::Mutex<Vec<String>>);
-
-    impl Watch for Told {
-        fn warn(&self, line: &str) {
-            self.0.lock().unwrap().push(line.to_owned());
-        }
     }
 
     #[test]

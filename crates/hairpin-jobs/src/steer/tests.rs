@@ -1,12 +1,12 @@
 //! Questions answered without a binary.
 
 use std::fs;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hairpin_formats::steering::Status;
 
 use super::*;
+use crate::testing::Told;
 use crate::{Unwatched, Watch};
 
 fn generic() -> Vehicle {
@@ -52,16 +52,6 @@ fn a_file_is_answered_in_its_order() {
     let ids: Vec<&str> = shown.lines().filter(|row| row.contains(",0,")).map(|row| &row[..1]).collect();
     assert!(shown.starts_with("id,segment,"), "{shown}");
     assert!(ids.is_sorted() && ["a", "b", "c"].iter().all(|id| ids.contains(id)), "{shown}");
-}
-
-/// Collects what it is told.
-#[derive(Default)]
-struct Told(Mutex<Vec<String>>);
-
-impl Watch for Told {
-    fn warn(&self, line: &str) {
-        self.0.lock().unwrap().push(line.to_owned());
-    }
 }
 
 /// Their answers could not be told apart, and nobody said so.
