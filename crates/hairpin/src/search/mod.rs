@@ -53,4 +53,4 @@ pub use open_end::{OpenEnd, OpenNode, OpenScore};
 pub use score::{Score, ScoreMistake};
 pub use stroll::{NoWalk, stroll};
 pub use task::{Found, Task};
-pub use uniform::{UniformOutcome, UniformSettings, uniform};
+pub use uniform::{UniformOutcome, UniformSettings, uniform, uniform_proven};

@@ -121,12 +121,17 @@ impl<R> OpenEnd<R> {
     }
 }
 
-impl<N: Copy, R: Reach<N>> Reach<OpenNode<N>> for OpenEnd<R> {
-    fn legs(&self, from: &OpenNode<N>, candidates: &[Point3<f64>], out: &mut Vec<Leg<OpenNode<N>>>) {
+impl<R> OpenEnd<R> {
+    /// The legs of the reach set by `inner`, and the one to the sink.
+    fn and_over<N: Copy>(
+        &self,
+        from: &OpenNode<N>,
+        inner: impl FnOnce(&N, &mut Vec<Leg<N>>),
+        out: &mut Vec<Leg<OpenNode<N>>>,
+    ) {
         let OpenNode::At(from) = from else { return };
-        let sink = self.sink();
         let mut legs = Vec::new();
-        self.inner.legs(from, &candidates[..sink as usize], &mut legs);
+        inner(from, &mut legs);
         out.extend(legs.into_iter().map(|Leg { to, waypoint, duration, features }| Leg {
             to: OpenNode::At(to),
             waypoint,
@@ -134,7 +139,27 @@ impl<N: Copy, R: Reach<N>> Reach<OpenNode<N>> for OpenEnd<R> {
             features,
         }));
         let (to, features) = (OpenNode::Over(*from), LegFeatures::default());
-        out.push(Leg { to, waypoint: sink, duration: 0.0, features });
+        out.push(Leg { to, waypoint: self.sink(), duration: 0.0, features });
+    }
+}
+
+impl<N: Copy, R: Reach<N>> Reach<OpenNode<N>> for OpenEnd<R> {
+    fn legs(&self, from: &OpenNode<N>, candidates: &[Point3<f64>], out: &mut Vec<Leg<OpenNode<N>>>) {
+        let inner = |from: &N, out: &mut Vec<Leg<N>>| self.inner.legs(from, &candidates[..self.sink() as usize], out);
+        self.and_over(from, inner, out);
+    }
+
+    fn possible(&self, from: &OpenNode<N>, candidates: &[Point3<f64>], out: &mut Vec<Leg<OpenNode<N>>>) {
+        let inner =
+            |from: &N, out: &mut Vec<Leg<N>>| self.inner.possible(from, &candidates[..self.sink() as usize], out);
+        self.and_over(from, inner, out);
+    }
+
+    fn proven(&self, from: &OpenNode<N>, to: &OpenNode<N>, duration: f64) -> Option<f64> {
+        match (from, to) {
+            (OpenNode::At(from), OpenNode::At(to)) => self.inner.proven(from, to, duration),
+            _ => Some(duration),
+        }
     }
 }
 

@@ -3,7 +3,8 @@
 //! The number of walks from each node with s legs to go, N_s(v) = Σ over legs v→w of N_{s−1}(w), makes drawing exact:
 //! rank r in [0, N) is resolved leg by leg (Nijenhuis and Wilf, "Combinatorial Algorithms", 2nd ed. 1978). Integers up
 //! to 2¹²⁸; beyond, floating point in proportion. Trajectories without revisits are the draws that have none: still
-//! uniform, by rejection.
+//! uniform, by rejection. So are those that are proven among walks over legs that may be ([`uniform_proven`]), where
+//! proving all legs to draw a few would be nearly all of the time.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -11,8 +12,9 @@ use std::collections::HashSet;
 use rand::{Rng, RngExt};
 
 use super::graph::{Count, Counts, Layer, LegGraph};
-use super::objective::{Aggregate, Objective};
+use super::objective::{Aggregate, LegView, Objective};
 use super::task::Found;
+use crate::feasibility::reach::Reach;
 use crate::math::random::{Stream, stream};
 
 /// What is asked for.
@@ -48,12 +50,17 @@ pub struct UniformOutcome<N> {
     pub found: Vec<Found<N>>,
     /// How many different ones (by waypoints) are among them.
     pub distinct: usize,
-    /// Draws made, those rejected for a revisit included.
+    /// Draws made, those rejected for a revisit or a leg that is none included.
     pub draws: u64,
-    /// What was drawn from: with revisits all trajectories, without them all but those that fly straight back.
-    /// Zero: nothing was drawn, since there is nothing.
+    /// What was drawn from: with revisits all trajectories, without them all but those that fly straight back; over
+    /// legs that may be, more than these. Zero: nothing was drawn, since there is nothing.
     pub walks: Count,
 }
+
+/// Walks without revisits that may have a leg that is none before [`uniform_proven`] gives up, and more for each that
+/// has none.
+const REFUSED: u64 = 64;
+const REFUSED_EACH: u64 = 8;
 
 /// Draws walks of one length from the start to the end, each equally likely.
 ///
@@ -172,10 +179,53 @@ where
     N: Copy,
     O: Objective,
 {
+    let all = drawn(graph, |_| true, objective, seed, settings);
+    all.expect("nothing is refused")
+}
+
+/// The same of a graph of legs that may be ([`LegGraph::explore_possible`]) by `reach`, which is asked for the legs of
+/// what is drawn alone: a walk of which one is none is drawn again, so that those that are left are equally likely.
+///
+/// `None` where so few walks are left that the legs of the graph are better proven first.
+pub fn uniform_proven<N, O, R>(
+    possible: &LegGraph<'_, N>,
+    reach: &R,
+    objective: &O,
+    seed: u64,
+    settings: &UniformSettings,
+) -> Option<UniformOutcome<N>>
+where
+    N: Copy,
+    O: Objective,
+    R: Reach<N> + ?Sized,
+{
+    let prove = |found: &mut Found<N>| {
+        found.nodes.windows(2).zip(&mut found.leg_times).all(|(nodes, time)| {
+            let proven = reach.proven(&nodes[0], &nodes[1], *time);
+            *time = proven.unwrap_or(*time);
+            proven.is_some()
+        })
+    };
+    drawn(possible, prove, objective, seed, settings)
+}
+
+/// `prove` says whether what was found is a trajectory, and puts its leg times right.
+fn drawn<N, O>(
+    graph: &LegGraph<'_, N>,
+    prove: impl Fn(&mut Found<N>) -> bool,
+    objective: &O,
+    seed: u64,
+    settings: &UniformSettings,
+) -> Option<UniformOutcome<N>>
+where
+    N: Copy,
+    O: Objective,
+{
     let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
     let graph = &*graph;
     let mut outcome = UniformOutcome { found: Vec::new(), distinct: 0, draws: 0, walks: Count::Exact(0) };
-    let Some(sampler) = Sampler::new(graph, settings.length) else { return outcome };
+    let Some(sampler) = Sampler::new(graph, settings.length) else { return Some(outcome) };
+    let mut refused = 0;
     outcome.walks = sampler.total();
     let (mut rng, mut legs, mut known) = (stream(seed), Vec::new(), HashSet::new());
     let mut used = vec![u64::MAX; graph.candidates().len()];
@@ -188,21 +238,36 @@ where
             let waypoint = graph.waypoint(graph.target(leg as usize)) as usize;
             std::mem::replace(&mut used[waypoint], draw) != draw
         };
-        if settings.revisits || legs.iter().all(once) {
-            let found = graph.found(&legs, score(graph, objective, &legs, settings.aggregate));
-            known.insert(found.waypoints.clone());
-            outcome.found.push(found);
+        if !(settings.revisits || legs.iter().all(once)) {
+            continue;
         }
+        let mut found = graph.found(&legs, 0.0);
+        if !prove(&mut found) {
+            refused += 1;
+            if refused > REFUSED + REFUSED_EACH * outcome.found.len() as u64 {
+                return None;
+            }
+            continue;
+        }
+        found.score = score(graph, objective, (&legs, &found.leg_times), settings.aggregate);
+        known.insert(found.waypoints.clone());
+        outcome.found.push(found);
     }
     outcome.distinct = known.len();
-    outcome
+    Some(outcome)
 }
 
-/// A trajectory's score, added up from its start, as a search would have.
-fn score<N: Copy, O: Objective>(graph: &LegGraph<'_, N>, objective: &O, legs: &[u32], aggregate: Aggregate) -> f64 {
+/// A trajectory's score, added up from its start over legs that take `times` (s), as a search would have.
+fn score<N: Copy, O: Objective>(
+    graph: &LegGraph<'_, N>,
+    objective: &O,
+    (legs, times): (&[u32], &[f64]),
+    aggregate: Aggregate,
+) -> f64 {
     let (mut total, mut memory, mut node) = (aggregate.neutral(), objective.start(), 0);
-    for &leg in legs {
-        let (score, after) = objective.extend(&memory, &graph.view(node, leg as usize));
+    for (&leg, &duration) in legs.iter().zip(times) {
+        let view = LegView { duration, ..graph.view(node, leg as usize) };
+        let (score, after) = objective.extend(&memory, &view);
         (total, memory) = (aggregate.add(total, score), after);
         node = graph.target(leg as usize);
     }
@@ -213,12 +278,82 @@ fn score<N: Copy, O: Objective>(graph: &LegGraph<'_, N>, objective: &O, legs: &[
 mod tests {
     use std::collections::HashMap;
 
+    use nalgebra::Point3;
+
     use super::super::score::Score;
     use super::super::small::{Octahedron, START, enumerate, points};
     use super::super::task::Task;
     use super::*;
+    use crate::feasibility::reach::{Leg, StepNode};
 
     const SMALL: Octahedron = Octahedron::WIDE;
+
+    /// More legs may be than there are.
+    struct Loose<'a> {
+        may_be: Octahedron,
+        points: &'a [Point3<f64>],
+    }
+
+    impl Reach<StepNode> for Loose<'_> {
+        fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+            SMALL.legs(from, candidates, out);
+        }
+
+        fn possible(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+            self.may_be.legs(from, candidates, out);
+            out.iter_mut().for_each(|leg| leg.duration = 0.5);
+        }
+
+        fn proven(&self, from: &StepNode, to: &StepNode, duration: f64) -> Option<f64> {
+            assert_eq!(duration, 0.5);
+            let mut legs = Vec::new();
+            SMALL.legs(from, self.points, &mut legs);
+            Some(legs.iter().find(|leg| leg.to == *to)?.duration)
+        }
+    }
+
+    /// What is left of walks over more legs than there are is drawn as evenly as where all are known, with what legs
+    /// take and are worth; where hardly any is left it is said.
+    #[test]
+    fn what_is_proven_of_what_may_be_is_equally_likely() {
+        let (mut tested, mut given_up) = (0, 0);
+        for seed in 0..100 {
+            let points = points(seed, 8, 11.0);
+            let loose =
+                |share: f64| Loose { may_be: Octahedron { half: SMALL.half * share, ..SMALL }, points: &points };
+            let task = Task { start: START, candidates: &points, reach: &SMALL };
+            let objective = |leg: &LegView<'_>| leg.duration * leg.features.length;
+            let all = enumerate(&task, &objective, (6, false, Aggregate::Sum));
+            if !(10..2_000).contains(&all.len()) {
+                continue;
+            }
+            let wanted = 50 * all.len();
+            let settings = UniformSettings { length: 6, wanted, ..Default::default() };
+            let more = loose(1.1);
+            let possible = LegGraph::explore_possible(START, &points, &more, 6);
+            assert!(possible.legs() > LegGraph::explore(START, &points, &more, 6).legs());
+            let Some(outcome) = uniform_proven(&possible, &more, &objective, seed, &settings) else {
+                given_up += 1;
+                continue;
+            };
+            assert_eq!(outcome.found.len(), wanted, "seed {seed}");
+            let mut times: HashMap<&[u32], (f64, f64)> =
+                all.iter().map(|(w, score)| (w.as_slice(), (0.0, *score))).collect();
+            for found in &outcome.found {
+                let (times, score) = times.get_mut(found.waypoints.as_slice()).expect("feasible");
+                assert_eq!((found.score, found.leg_times.iter().sum::<f64>()), (*score, 5.0));
+                *times += 1.0;
+            }
+            let chi: f64 = times.values().map(|(n, _)| (n - 50.0).powi(2) / 50.0).sum();
+            let freedom = all.len() as f64 - 1.0;
+            assert!((chi - freedom).abs() < 5.0 * (2.0 * freedom).sqrt(), "seed {seed}: χ² {chi} of {freedom}");
+            tested += 1;
+            let everything = loose(100.0);
+            let possible = LegGraph::explore_possible(START, &points, &everything, 6);
+            given_up += usize::from(uniform_proven(&possible, &everything, &objective, seed, &settings).is_none());
+        }
+        assert!(tested > 10 && given_up > 3, "{tested}, {given_up}");
+    }
 
     #[test]
     fn every_trajectory_is_equally_likely() {

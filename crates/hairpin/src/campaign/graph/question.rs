@@ -178,7 +178,15 @@ impl<N: Copy + Eq + Ord + Hash, O: Additive> Question<'_, N, O> {
     ///
     /// `None` once nobody waits for them.
     pub(super) fn leg_graph(&self) -> Option<LegGraph<'_, N>> {
-        let graph = LegGraph::explore(self.start, self.points, self.reach, self.length);
+        self.cut_down(LegGraph::explore(self.start, self.points, self.reach, self.length))
+    }
+
+    /// The same of all legs that may be.
+    pub(super) fn possible_graph(&self) -> Option<LegGraph<'_, N>> {
+        self.cut_down(LegGraph::explore_possible(self.start, self.points, self.reach, self.length))
+    }
+
+    fn cut_down<'g>(&self, graph: LegGraph<'g, N>) -> Option<LegGraph<'g, N>> {
         let graph = (!(self.looped.over)()).then_some(graph)?;
         Some(if self.search.revisits { graph } else { graph.into_without_returns(self.length) })
     }

@@ -10,7 +10,7 @@ use super::question::{Question, Wanted};
 use super::rounds::by_round;
 use crate::campaign::scenario::SearchMethod;
 use crate::feasibility::reach::Until;
-use crate::search::{Additive, ExactSettings, Task, UniformSettings, beam, exact, uniform};
+use crate::search::{Additive, ExactSettings, Task, UniformSettings, beam, exact, uniform, uniform_proven};
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
 ///
@@ -86,10 +86,10 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Questio
 
 /// Proven empty where no walk of the length leads from start to end.
 ///
-/// With replacement; with revisits forbidden a draw that repeats a waypoint is thrown away and counts.
+/// With replacement; with revisits forbidden a draw that repeats a waypoint is thrown away and counts. Legs are proven
+/// as they are drawn, and all of them first only where most draws would fail.
 fn by_uniform_draws<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
-    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let settings = UniformSettings {
         length: question.length,
         wanted: search.per_graph as usize,
@@ -97,12 +97,21 @@ fn by_uniform_draws<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<
         revisits: search.revisits,
         aggregate: search.aggregate,
     };
-    let outcome = uniform(&graph, &question.score, question.seed, &settings);
+    let Some(possible) = question.possible_graph() else { return Answer::stopped() };
+    let proven = uniform_proven(&possible, question.reach, &question.score, question.seed, &settings);
+    let (outcome, legs) = match proven {
+        Some(outcome) => (outcome, possible.legs()),
+        None => {
+            drop(possible);
+            let Some(graph) = question.leg_graph() else { return Answer::stopped() };
+            (uniform(&graph, &question.score, question.seed, &settings), graph.legs())
+        }
+    };
     let proven_empty = outcome.walks.is_zero();
     let reason = match (outcome.found.is_empty(), proven_empty) {
         (false, _) => None,
-        (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
-        (true, false) => Some(format!("{} draws all used a waypoint twice", outcome.draws)),
+        (true, true) => Some(format!("none among the {legs} legs that may be of the last graph")),
+        (true, false) => Some(format!("{} draws all used a waypoint twice or a leg that is none", outcome.draws)),
     };
     // Repetitions are counted where they are not taken over.
     Answer { proven_empty, expansions: outcome.draws, reason, ..question.answer(outcome.found, None) }

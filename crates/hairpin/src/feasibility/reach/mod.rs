@@ -128,6 +128,21 @@ pub trait Reach<N> {
     /// Appends the feasible legs from `from` to `out`.
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>);
 
+    /// The same order and more: all feasible legs, and others that nothing cheap refuses. None of them is
+    /// shorter than is told here.
+    ///
+    /// For who needs few of all legs: what [`Self::proven`] says of one of these is then asked of those few.
+    fn possible(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
+        self.legs(from, candidates, out);
+    }
+
+    /// The duration of the leg from `from` to `to`, s, that [`Self::possible`] gave with `duration`; `None` where it is
+    /// none.
+    fn proven(&self, from: &N, to: &N, duration: f64) -> Option<f64> {
+        let _ = (from, to);
+        Some(duration)
+    }
+
     /// How `from` is entered, where all nodes of its state stand at one waypoint and have the same legs but for `turn`
     /// and `slope_in`, which follow from the waypoint before; `None` where legs are each node's own.
     ///
@@ -141,6 +156,14 @@ pub trait Reach<N> {
 impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
         (**self).legs(from, candidates, out);
+    }
+
+    fn possible(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
+        (**self).possible(from, candidates, out);
+    }
+
+    fn proven(&self, from: &N, to: &N, duration: f64) -> Option<f64> {
+        (**self).proven(from, to, duration)
     }
 
     fn entry(&self, from: &N) -> Option<Entry> {

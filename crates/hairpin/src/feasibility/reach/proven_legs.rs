@@ -80,6 +80,18 @@ pub(crate) trait ProveLegs {
         }
     }
 
+    /// The same of legs that may be, which all legs are among; none is shorter.
+    fn possible(
+        &self,
+        from: &Self::End,
+        to: (&[Self::End], &[Self::Lanes]),
+        asked: &[Asked],
+        durations: &[f64],
+        found: impl FnMut(usize, usize),
+    ) {
+        self.firsts(from, to, asked, durations, found);
+    }
+
     /// No leg is faster than this on the mean, m/s.
     fn fastest(&self) -> f64;
 

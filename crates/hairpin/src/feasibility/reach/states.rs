@@ -234,17 +234,21 @@ impl<'a, J: ProveLegs> States<'a, J> {
         if let Some(legs) = &self.kept.borrow()[from] {
             return Arc::clone(legs);
         }
+        let mut legs = Vec::new();
+        self.each_shortest(from, &self.all_asked(from), |state, rung| legs.push(Judged { state, rung }));
+        let legs: Arc<[Judged]> = legs.into();
+        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
+        legs
+    }
+
+    /// All states of the waypoints that the longest rung can reach from a state.
+    fn all_asked(&self, from: usize) -> Vec<Asked> {
         let own = self.place(from as u32).0 as usize;
         let asked = |w: usize| {
             let least = self.least_time(own, w);
             (least <= self.longest()).then(|| self.asked(w, 0..self.of(w).len(), least))
         };
-        let asked: Vec<Asked> = (0..self.points.len()).filter(|w| *w != own).filter_map(asked).collect();
-        let mut legs = Vec::new();
-        self.each_shortest(from, &asked, |state, rung| legs.push(Judged { state, rung }));
-        let legs: Arc<[Judged]> = legs.into();
-        self.kept.borrow_mut()[from] = Some(Arc::clone(&legs));
-        legs
+        (0..self.points.len()).filter(|w| *w != own).filter_map(asked).collect()
     }
 
     /// Which states have a leg to the end, one leg judged for each.
@@ -271,14 +275,49 @@ impl<'a, J: ProveLegs> States<'a, J> {
         ground: impl Fn(&LegFeatures, &Vector3<f64>) -> f64,
         out: &mut Vec<Leg<WitnessNode>>,
     ) {
+        self.seen(from, &self.kept_legs(self.number(from)), candidates, ground, out);
+    }
+
+    /// Appends what may be legs from `from`, in the order of their states: all legs are among them, none is shorter.
+    /// Nothing is kept of them.
+    ///
+    /// # Panics
+    /// If `candidates` are not the graph's waypoints.
+    pub(in crate::feasibility) fn possible(
+        &self,
+        from: &WitnessNode,
+        candidates: &[Point3<f64>],
+        out: &mut Vec<Leg<WitnessNode>>,
+    ) {
+        let (number, mut legs) = (self.number(from), Vec::new());
+        let found = |state: usize, rung: usize| legs.push(Judged { state: state as u32, rung: rung as u32 });
+        let asked = self.all_asked(number);
+        self.judge.possible(&self.states[number], (&self.states, &self.lanes), &asked, &self.rungs, found);
+        self.seen(from, &legs, candidates, |_, _| 0.0, out);
+    }
+
+    /// The shortest duration of a leg between two nodes' states, s.
+    pub(in crate::feasibility) fn proven(&self, from: &WitnessNode, to: &WitnessNode) -> Option<f64> {
+        let least = self.least_time(from.waypoint as usize, to.waypoint as usize);
+        Some(self.rungs[self.shortest(self.number(from), self.number(to), least)? as usize])
+    }
+
+    /// Appends the `judged` legs from `from`.
+    fn seen(
+        &self,
+        from: &WitnessNode,
+        judged: &[Judged],
+        candidates: &[Point3<f64>],
+        ground: impl Fn(&LegFeatures, &Vector3<f64>) -> f64,
+        out: &mut Vec<Leg<WitnessNode>>,
+    ) {
         assert_eq!(candidates.len(), self.points.len(), "a roadmap serves the graph that it was drawn over");
         let (here, left) = (self.points[from.waypoint as usize], self.number(from));
         let v_in = J::speed(&self.states[left]);
         // States of a waypoint follow on one another: they share the straight way to it, and the turn into that.
         let (mut to, mut outgoing, mut way) = (from.waypoint, Vector3::zeros(), LegFeatures::default());
-        let legs = self.kept_legs(left);
-        out.reserve(legs.len());
-        for leg in legs.iter() {
+        out.reserve(judged.len());
+        for leg in judged {
             if leg.state >= self.first[to as usize + 1] || to == from.waypoint {
                 to = self.place(leg.state).0;
                 outgoing = self.points[to as usize] - here;

@@ -43,16 +43,30 @@ impl<'a, N> Until<'a, N> {
     pub fn cut(&self) -> bool {
         self.cut.get()
     }
+
+    fn goes_on(&self) -> bool {
+        if !self.cut.get() {
+            self.cut.set((self.over)());
+        }
+        !self.cut.get()
+    }
 }
 
 impl<N> Reach<N> for Until<'_, N> {
     fn legs(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
-        if !self.cut.get() {
-            self.cut.set((self.over)());
-        }
-        if !self.cut.get() {
+        if self.goes_on() {
             self.inner.legs(from, candidates, out);
         }
+    }
+
+    fn possible(&self, from: &N, candidates: &[Point3<f64>], out: &mut Vec<Leg<N>>) {
+        if self.goes_on() {
+            self.inner.possible(from, candidates, out);
+        }
+    }
+
+    fn proven(&self, from: &N, to: &N, duration: f64) -> Option<f64> {
+        if self.goes_on() { self.inner.proven(from, to, duration) } else { None }
     }
 
     fn entry(&self, from: &N) -> Option<Entry> {

@@ -92,6 +92,17 @@ impl ProveLegs for LegJudge {
         self.firsts(from, to, asked, durations, found);
     }
 
+    fn possible(
+        &self,
+        from: &LegEnd,
+        to: (&[LegEnd], &[Vec<Ends>]),
+        asked: &[Asked],
+        durations: &[f64],
+        found: impl FnMut(usize, usize),
+    ) {
+        self.possible(from, to, asked, durations, found);
+    }
+
     fn fastest(&self) -> f64 {
         self.limits().max_speed
     }
@@ -256,6 +267,14 @@ fn target(points: &[Point3<f64>], own: usize, radius: f64, draw: f64) -> usize {
 impl Reach<WitnessNode> for Roadmap<'_> {
     fn legs(&self, from: &WitnessNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<WitnessNode>>) {
         self.states.legs(from, candidates, |_, _| 0.0, out);
+    }
+
+    fn possible(&self, from: &WitnessNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<WitnessNode>>) {
+        self.states.possible(from, candidates, out);
+    }
+
+    fn proven(&self, from: &WitnessNode, to: &WitnessNode, _: f64) -> Option<f64> {
+        self.states.proven(from, to)
     }
 
     fn entry(&self, from: &WitnessNode) -> Option<Entry> {

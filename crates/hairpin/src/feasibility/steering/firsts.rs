@@ -9,6 +9,7 @@ use super::eight_ends::{Ends, LANES, Open};
 use super::leg::LegJudge;
 use super::leg_end::LegEnd;
 use super::together::Together;
+use crate::trajectory::ProfileLeg;
 
 /// States of one waypoint to which legs are asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +52,38 @@ impl LegJudge {
     pub(crate) fn firsts(
         &self,
         from: &LegEnd,
+        to: (&[LegEnd], &[Vec<Ends>]),
+        asked: &[Asked],
+        durations: &[f64],
+        found: impl FnMut(usize, usize),
+    ) {
+        let mut together = Together::default();
+        let prove = |legs: &[ProfileLeg], proven: &mut dyn FnMut(usize)| {
+            together.prove(self.body(), self.flatness(), legs, proven);
+        };
+        self.firsts_by(prove, from, to, asked, durations, found);
+    }
+
+    /// The same of legs that may be: of which all is settled but the proof of the body's limits.
+    ///
+    /// All legs are among these, and none is shorter.
+    pub(crate) fn possible(
+        &self,
+        from: &LegEnd,
+        to: (&[LegEnd], &[Vec<Ends>]),
+        asked: &[Asked],
+        durations: &[f64],
+        found: impl FnMut(usize, usize),
+    ) {
+        let all = |legs: &[ProfileLeg], each: &mut dyn FnMut(usize)| (0..legs.len()).for_each(each);
+        self.firsts_by(all, from, to, asked, durations, found);
+    }
+
+    /// `prove` calls with the number of each of the legs that it takes.
+    fn firsts_by(
+        &self,
+        mut prove: impl FnMut(&[ProfileLeg], &mut dyn FnMut(usize)),
+        from: &LegEnd,
         (to, lanes): (&[LegEnd], &[Vec<Ends>]),
         asked: &[Asked],
         durations: &[f64],
@@ -66,7 +99,7 @@ impl LegJudge {
             }
         }
         let mut left = vec![0; few.len()];
-        let (mut legs, mut places, mut together) = (Vec::new(), Vec::new(), Together::default());
+        let (mut legs, mut places) = (Vec::new(), Vec::new());
         for (number, &duration) in durations.iter().enumerate() {
             let begun = open.iter_mut().zip(&few).filter(|(_, few)| few.first == number);
             begun.for_each(|(open, few)| open.open = few.states);
@@ -81,8 +114,8 @@ impl LegJudge {
                     }
                 }
             }
-            together.prove(self.body(), self.flatness(), &legs, |leg| {
-                let (place, lane) = places[leg];
+            prove(&legs, &mut |leg| {
+                let (place, lane): (usize, usize) = places[leg];
                 open[place].open &= !(1 << lane);
                 few[place].firsts[lane] = number as u32;
             });

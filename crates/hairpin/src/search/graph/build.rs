@@ -26,6 +26,17 @@ impl<'a, N: Copy + Eq + Ord + Hash> LegGraph<'a, N> {
         Self::grow(start, candidates, length, legs_of, |from| reach.entry(from)).trimmed(length)
     }
 
+    /// The same of all legs that may be by `reach`, of which those that are none are still among them.
+    pub fn explore_possible<R: Reach<N> + ?Sized>(
+        start: N,
+        candidates: &'a [Point3<f64>],
+        reach: &R,
+        length: usize,
+    ) -> Self {
+        let legs_of = |from: &N, out: &mut Vec<Leg<N>>| reach.possible(from, candidates, out);
+        Self::grow(start, candidates, length, legs_of, |from| reach.entry(from)).trimmed(length)
+    }
+
     /// The same from a list of (from, leg); their order does not matter. Of legs between the same two nodes the first
     /// in the list is taken.
     ///

@@ -189,15 +189,25 @@ impl<'a> Plant<'a> {
         }
         let from = self.place();
         let first = self.motion((&self.pose, &self.gradient), from[2], way, bend, turn);
+        let halfway = from[2] + 0.5 * first[2];
+        if matches!(self.vehicle.suspension, Suspension::Level) {
+            // It stands as it did, and has no gradient: only its height goes with the ground.
+            let moved = self.motion((&self.pose, &self.gradient), halfway, way, bend, turn);
+            self.go_on_from(from, moved);
+            self.pose.z = self.terrain.height(self.x, self.y)?;
+            return Ok(());
+        }
         let half = self.pose.moved(&self.gradient.over(first.map(|d| 0.5 * d)));
-        let moved = self.motion((&half, &self.gradient), from[2] + 0.5 * first[2], way, bend, turn);
-        (self.x, self.y, self.yaw) = (from[0] + moved[0], from[1] + moved[1], from[2] + moved[2]);
+        let moved = self.motion((&half, &self.gradient), halfway, way, bend, turn);
+        self.go_on_from(from, moved);
         let guess = self.pose.moved(&self.gradient.over(moved));
-        (self.pose, self.gradient) = match self.vehicle.suspension {
-            Suspension::Level => self.rest_from_nothing()?,
-            _ => self.vehicle.suspension.carry_on(self.terrain, self.place(), &guess, GAP).map_err(Lost::from)?,
-        };
+        (self.pose, self.gradient) =
+            self.vehicle.suspension.carry_on(self.terrain, self.place(), &guess, GAP).map_err(Lost::from)?;
         Ok(())
+    }
+
+    fn go_on_from(&mut self, from: [f64; 3], moved: [f64; 3]) {
+        (self.x, self.y, self.yaw) = (from[0] + moved[0], from[1] + moved[1], from[2] + moved[2]);
     }
 
     /// Change of (x, y, ψ) on `way` m (signed) and `turn` rad in place of the wheels, which the vehicle follows on its

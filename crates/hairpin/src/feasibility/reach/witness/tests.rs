@@ -54,6 +54,38 @@ fn legs_are_those_of_the_judge_and_the_shortest_of_the_ladder() {
     assert!(found > 100, "{found} legs");
 }
 
+/// All legs are among those that may be, in their order, and what is none is said to be.
+#[test]
+fn legs_that_may_be_are_proven_to_be_those_that_are() {
+    let judge = judge();
+    let (mut many, mut none, mut longer) = (0, 0, 0);
+    for seed in 0..6 {
+        let points = graph(seed, 30);
+        let map = Roadmap::new(&judge, &points, &settings(seed));
+        let mut open = vec![map.start()];
+        for step in 0..40 {
+            let Some(&from) = open.get(step) else { break };
+            let (mut legs, mut possible) = (Vec::new(), Vec::new());
+            map.legs(&from, &points, &mut legs);
+            map.possible(&from, &points, &mut possible);
+            open.extend(legs.iter().map(|leg| leg.to));
+            many += legs.len();
+            let proven: Vec<_> = possible
+                .iter()
+                .filter_map(|leg| {
+                    let duration = map.proven(&from, &leg.to, leg.duration);
+                    none += usize::from(duration.is_none());
+                    longer += usize::from(duration > Some(leg.duration));
+                    assert!(duration.is_none_or(|duration| duration >= leg.duration), "seed {seed}");
+                    Some(Leg { duration: duration?, ..*leg })
+                })
+                .collect();
+            assert_eq!(proven, legs, "seed {seed}");
+        }
+    }
+    assert!(many > 1_000 && none > 10 && longer > 10, "{many} legs, {none} none, {longer} longer");
+}
+
 #[test]
 fn walks_become_continuous_profiles_with_their_features() {
     let judge = judge();
