@@ -17,6 +17,7 @@ use thiserror::Error;
 use crate::atomic::{self, WriteError};
 use crate::bounds;
 use crate::executor::Greeting;
+use crate::missions::Demands;
 use crate::rapid::{self, Frames};
 
 /// A file that is no repro file.
@@ -61,6 +62,9 @@ pub struct Repro {
     /// What the program of the user's that flew it says of itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flown_by: Option<Greeting>,
+    /// What its mission asks beside the spec, where it was made elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mission: Option<Demands>,
     /// What it was made of, where it is smaller than the case was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shrunk: Option<ShrunkFrom>,
@@ -161,6 +165,7 @@ impl Repro {
             drive: case.commands().cloned(),
             program: case.program().and_then(|program| rapid::module(program, &[]).ok()),
             flown_by: None,
+            mission: None,
             shrunk: None,
             scenario: scenario_of(setup, case, result),
         }
@@ -200,6 +205,9 @@ impl Repro {
                 "waypoints_m[{i}] = {:?}: must be m, {FARTHEST_ON_EARTH_M} at most",
                 self.waypoints_m[i]
             ));
+        }
+        if let Some(mission) = &self.mission {
+            mission.check()?;
         }
         let legs = waypoints - 1;
         if ![0, legs].contains(&self.leg_times_s.len()) {

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{self, Case, CaseNumber, CaseResult, Setup, Status};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::missions::Demands;
 use hairpin_formats::repro::{Expected, Repro};
 use hairpin_formats::scenario::{self, check_asked};
 
 use crate::consent::{Consent, Wish};
 use crate::execute::fly_told;
-use crate::missions::{self, FENCE, MissionsTold, read_told};
+use crate::missions::{self, read_told};
 use crate::program::another_than;
 use crate::work::{open_to_read, same_as_made};
 use crate::{Problem, Watch};
@@ -59,12 +60,16 @@ pub fn replay(file: &Path, simd: Simd, consent: &Consent, watch: &dyn Watch) -> 
     let folder = campaign_of(file);
     consent.ask(&folder, &Wish::of_execution(&setup))?;
     let campaign = CampaignFolder::open(&folder).ok();
-    let told = campaign.as_ref().map(read_told).transpose()?.flatten();
-    if let Some(campaign) = campaign.filter(|_| repro.flown_by.is_none()) {
+    if let Some(campaign) = campaign {
         // As of earlier versions, whose repro files do not say it.
-        repro.flown_by = campaign.read_executor()?;
+        if repro.flown_by.is_none() {
+            repro.flown_by = campaign.read_executor()?;
+        }
+        if repro.mission.is_none() {
+            repro.mission = asked_of(&campaign, case.number)?;
+        }
     }
-    fly(repro, (&setup, &case), told.as_ref(), watch)
+    fly(repro, (&setup, &case), watch)
 }
 
 /// Flies the worst run of a case of the judged campaign in `folder` again, by the kernels `simd`.
@@ -87,31 +92,26 @@ pub fn replay_case(
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case);
     let result = result.filter(|result| result.measures.is_some());
     let result = result.ok_or_else(|| refuse("nothing was measured of it: hairpin execute, then hairpin judge"))?;
-    let repro = Repro { flown_by: work.folder.read_executor()?, ..Repro::of(&work.setup, found, &result) };
+    let (flown_by, mission) = (work.folder.read_executor()?, asked_of(&work.folder, case)?);
+    let repro = Repro { flown_by, mission, ..Repro::of(&work.setup, found, &result) };
     let setup = work.setup.changed(repro.scenario.clone())?.with_simd(simd).answered_by(&consent.code)?;
     let case = repro.case().map_err(|why| refuse(&why))?;
     consent.ask(folder, &Wish::of_execution(&setup))?;
-    fly(repro, (&setup, &case), read_told(&work.folder)?.as_ref(), watch)
+    fly(repro, (&setup, &case), watch)
 }
 
-/// Flies it, and judges it by the spec and, where its campaign has `told` of missions, by its own.
-fn fly(
-    repro: Repro,
-    (setup, case): (&Setup, &Case),
-    told: Option<&MissionsTold>,
-    watch: &dyn Watch,
-) -> Result<ReplayedRepro, Problem> {
+/// What the mission of `case` asks beside the spec, as `campaign` keeps it.
+fn asked_of(campaign: &CampaignFolder, case: CaseNumber) -> Result<Option<Demands>, Problem> {
+    Ok(read_told(campaign)?.and_then(|told| told.asked_of(case).cloned()))
+}
+
+/// Flies it, and judges it by the spec and by what its mission asks.
+fn fly(repro: Repro, (setup, case): (&Setup, &Case), watch: &dyn Watch) -> Result<ReplayedRepro, Problem> {
     let (flown, now) = fly_told(&[(setup, case, repro.run)], watch)?;
     let another = another_than(repro.flown_by.as_ref(), now.as_ref());
     let mut result = campaign::judge(setup, case, &flown)?;
-    missions::hold(told, (setup, case), || Ok(flown), &mut result)?;
-    if told.is_none()
-        && result.status == Status::Pass
-        && repro.expected.violations.iter().any(|one| one.starts_with(FENCE))
-    {
-        result.status = Status::Inconclusive;
-        result.message = Some("it broke a fence of its mission, which its campaign's folder keeps".into());
-    }
+    missions::hold(repro.mission.as_ref(), (setup, case), || Ok(flown), &mut result)?;
+    missions::doubt_lost_fence(&repro, &mut result);
     let same = result.measures.is_some() && repro.expected.is_within(SAME, &Expected::of(&result));
     Ok(ReplayedRepro { repro, result, same, another })
 }
@@ -127,14 +127,19 @@ fn campaign_of(file: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use hairpin::campaign::select::By;
     use serde_json::json;
 
     use super::*;
     use crate::Unwatched;
-    use crate::execute::{ExecuteSettings, execute};
+    use crate::execute::{ExecuteSettings, execute, run_with_motion};
     use crate::judge::judge;
+    use crate::judge_log::{Against, FrameSettings, LogSettings, judge_log};
+    use crate::missions::FENCE;
+    use crate::select::{SelectSettings, select};
     use crate::shrink::{ShrinkSettings, Shrinking};
     use crate::testing::{executed, generated, program, violating};
+    use crate::work::IfThere;
 
     #[test]
     fn a_violation_comes_again() {
@@ -171,7 +176,7 @@ mod tests {
         assert!(refused.to_string().contains("hairpin_repro = 2"), "{refused}");
     }
 
-    /// A mission's fences are its campaign's, not the scenario's that a repro file has.
+    /// A mission's fences are none of the scenario's.
     #[test]
     fn what_broke_a_fence_does_so_again() {
         let (place, folder) = executed();
@@ -186,12 +191,82 @@ mod tests {
         for again in [flown(&file), by_case] {
             assert!(again.reproduces() && again.result.violations[0].what == FENCE, "{again:?}");
         }
+        // What its mission asks goes along with the file; one of an earlier version does not know it.
         let alone = place.path().join("alone.json");
         std::fs::copy(&file, &alone).unwrap();
+        assert!(flown(&alone).reproduces());
+        let saved = Repro::read(&file).unwrap();
+        Repro { mission: None, ..saved }.write(&alone).unwrap();
         let untold = flown(&alone);
         assert!(untold.result.status == Status::Inconclusive && !untold.reproduces(), "{untold:?}");
         let refused = Shrinking::open(ShrinkSettings { folder, ..ShrinkSettings::default() }).map(|_| ());
         assert!(refused.unwrap_err().to_string().contains("its mission's fence"));
+    }
+
+    /// What a mission asks goes along wherever its cases go: into a copy, a choice, a log of them, and saved cases.
+    #[test]
+    fn a_fence_holds_wherever_its_case_goes() {
+        let (place, folder) = executed();
+        let opened = CampaignFolder::open(&folder).unwrap();
+        let way = opened.read_cases().unwrap()[0].waypoints[1];
+        let fence = json!({ "keeps_in": false, "circle_m": [way.x, way.y, 1.0] });
+        opened.write_missions(&json!({ "missions": [{ "fences": { "firmware": null, "fences": [fence] } }] })).unwrap();
+        let wide = ("spec.deviation.max_m".to_owned(), "500".to_owned());
+        judge(&folder, &[wide]).unwrap();
+        let violations = |folder: &Path| {
+            let results = CampaignFolder::open(folder).unwrap().read_results().unwrap();
+            results[0].violations.iter().map(|one| one.what.clone()).collect::<Vec<String>>()
+        };
+        assert_eq!(violations(&folder), [FENCE]);
+        let copied = place.path().join("copied");
+        let settings = ExecuteSettings { folder: folder.clone(), out: Some(copied.clone()), ..Default::default() };
+        execute(&settings, &Unwatched).unwrap();
+        judge(&copied, &[]).unwrap();
+        assert_eq!(violations(&copied), [FENCE]);
+        let chosen = place.path().join("chosen");
+        let settings = SelectSettings {
+            folder: folder.clone(),
+            cases: 1,
+            by: By::Stress,
+            out: chosen.clone(),
+            if_there: IfThere::Refuse,
+            consent: Consent::default(),
+        };
+        select(&settings, &Unwatched).unwrap();
+        assert_eq!(violations(&chosen), [FENCE]);
+        // What was saved of it is run again before a campaign's own cases.
+        let again = ExecuteSettings {
+            folder: copied,
+            out: Some(place.path().join("again")),
+            repro: Some(folder.join("repro")),
+            ..Default::default()
+        };
+        let replayed = execute(&again, &Unwatched).unwrap().replayed;
+        assert_eq!((replayed.len(), replayed[0].result.status), (1, Status::Fail));
+        // A log of the same flight.
+        let work = open_to_read(&folder).unwrap();
+        let case = &work.folder.read_cases().unwrap()[0];
+        let flight = run_with_motion(&work, case, 0).unwrap().unwrap().outcome.unwrap();
+        let log = place.path().join("log.csv");
+        let rows = flight.track.times().iter().zip(flight.track.poses()).map(|(t, pose)| {
+            let p = pose.translation;
+            format!("{t},{},{},{}\n", p.x, p.y, p.z)
+        });
+        std::fs::write(&log, ["t_s,x_m,y_m,z_m\n".to_owned()].into_iter().chain(rows).collect::<String>()).unwrap();
+        let settings = LogSettings {
+            path: log,
+            against: Against::Campaign(folder),
+            world: None,
+            sets: Vec::new(),
+            case: None,
+            frame: FrameSettings::default(),
+            source: None,
+            from_s: None,
+            to_s: None,
+            page: None,
+        };
+        let judged = judge_log(&settings, &Unwatched).unwrap().logs.remove(0);
+        assert!(judged.verdict.exit_code == 1 && judged.verdict.sentence.contains(" fence "), "{:?}", judged.verdict);
     }
 
     /// What another program makes of it says nothing of the one that violated.

@@ -12,6 +12,7 @@ use hairpin_formats::scenario;
 use rayon::prelude::*;
 
 use crate::execute::{fly_one, fly_together};
+use crate::missions;
 use crate::{Problem, Watch};
 
 /// One saved case and what it comes to now.
@@ -93,8 +94,8 @@ pub(crate) fn written_by(setup: &Setup, campaign: &Path) -> Vec<PathBuf> {
         let case = cases.iter().find(|case| case.number == result.case)?;
         let has_its_name = file.file_stem().is_some_and(|name| name.to_str() == Some(&saved.case));
         // What was seen, and who flew, is nothing that it is run with.
-        let (expected, flown_by) = (saved.expected.clone(), saved.flown_by.clone());
-        let written = Repro { expected, flown_by, ..Repro::of(setup, case, result) };
+        let (expected, flown_by, mission) = (saved.expected.clone(), saved.flown_by.clone(), saved.mission.clone());
+        let written = Repro { expected, flown_by, mission, ..Repro::of(setup, case, result) };
         let as_read: Repro = serde_json::from_value(serde_json::to_value(written).ok()?).ok()?;
         (has_its_name && as_read == saved).then_some(())
     };
@@ -143,7 +144,10 @@ impl Saved {
 
     fn judge(&self, flown: &Run) -> Result<Option<Replayed>, Problem> {
         let Some(setup) = &self.setup else { return Ok(None) };
-        let result = campaign::judge(setup, &self.case, std::slice::from_ref(flown))?;
+        let flown = std::slice::from_ref(flown);
+        let mut result = campaign::judge(setup, &self.case, flown)?;
+        missions::hold(self.repro.mission.as_ref(), (setup, &self.case), || Ok(flown.to_vec()), &mut result)?;
+        missions::doubt_lost_fence(&self.repro, &mut result);
         Ok(Some(Replayed { file: self.file.clone(), result, allowed: false }))
     }
 }

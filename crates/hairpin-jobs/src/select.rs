@@ -114,6 +114,12 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     let mut chosen: Vec<Case> = places.iter().map(|place| Case::clone(cases[*place])).collect();
     chosen.sort_by_key(|case| case.number);
     chosen.iter_mut().try_for_each(|case| work.folder.read_witness(case))?;
+    if work.setup.attachments.baseline.is_some() {
+        watch.warn(
+            "Warning: spec.regression compares all programs of a release, and is left out: the choice is judged without \
+             it",
+        );
+    }
     let folder = write(&work, settings, (&all, &results), &chosen)?;
     // What was read to choose by is not read again, and what two choices share is read once.
     let asked: BTreeSet<usize> =

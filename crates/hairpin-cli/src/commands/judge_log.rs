@@ -185,6 +185,7 @@ fn found_object(found: &Found) -> Value {
         "never_began": found.never_began,
         "cuts": found.cuts.iter().map(cut).collect::<Vec<_>>(),
         "measures": found.flown.as_ref().map(measures),
+        "open": found.asked,
         "simulated_max_deviation_m": found.simulated_m,
         "gap_m": found.flown.as_ref().zip(found.simulated_m).map(|(flown, m)| flown.measures.max_deviation - m),
         "notes": found.notes,

@@ -9,7 +9,7 @@ use hairpin::campaign::learn::NAME;
 
 use super::parts::{EXECUTIONS, RERUNS, TRAJECTORIES};
 use super::run_writer::Landed;
-use super::{ARCS, BEST_SO_FAR, CampaignFolder, FolderError, GRAPH, OPTIMUM, REASONS};
+use super::{ARCS, BEST_SO_FAR, CampaignFolder, FolderError, GRAPH, MISSIONS, OPTIMUM, REASONS};
 use crate::parquet::runs::RunFacts;
 use crate::parquet::track;
 
@@ -40,9 +40,10 @@ impl CampaignFolder {
             planned.push((case, piece));
         }
         there.write_planned(planned)?;
-        // What is proven of the first program is of no use without it.
+        // What is told of missions is told by their numbers, which cases keep. What is proven of the first program is of
+        // no use without it.
         let optimum = cases.contains(&CaseNumber(0)).then_some(OPTIMUM);
-        for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS].into_iter().chain(optimum) {
+        for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS, MISSIONS].into_iter().chain(optimum) {
             copy(&self.file(name), &there.file(name))?;
         }
         Ok(())

@@ -8,9 +8,11 @@ use rayon::prelude::*;
 
 use super::fly::{Landing, fly};
 use super::job::{Job, comes_again};
+use super::kept::runs_with_motion;
 use super::recorded::take_in;
 use super::to_judge::runs_to_judge;
 use super::worst::keep_worst;
+use crate::missions::{self, read_told};
 use crate::work::Work;
 use crate::{Problem, Watch};
 
@@ -89,11 +91,14 @@ fn fly_again(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<(), Probl
     if wanted == 0 {
         return Ok(());
     }
+    let told = read_told(&work.folder)?;
     // A case, its worst run, and how many of that are there.
     let violating: Result<Vec<_>, Problem> = cases
         .par_iter()
         .map(|case: &Case| {
-            let result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
+            let mut result = campaign::judge(&work.setup, case, &runs_to_judge(work, case)?.runs)?;
+            let asked = told.as_ref().and_then(|told| told.asked_of(case.number));
+            missions::hold(asked, (&work.setup, case), || runs_with_motion(work, case), &mut result)?;
             let is_violation = result.status == Status::Fail;
             let known = if is_violation { known_reruns(work, case)? } else { 0 };
             Ok(is_violation.then_some((case, result.run, known)))

@@ -35,7 +35,7 @@ pub use fly::fly_each;
 pub(crate) use fly::{command_of, fly_one, fly_together, fly_told};
 pub(crate) use in_loop::{Asked, in_the_loop};
 pub(crate) use job::comes_again;
-pub(crate) use kept::{run_with_motion, runs_with_motion, why_lost};
+pub(crate) use kept::{reruns_with_motion, run_with_motion, runs_with_motion, why_lost};
 pub use missing::Flown;
 use missing::{all_flown, count_reruns};
 pub(crate) use missing::{attitude_unknown, count_flown, fly_missing};

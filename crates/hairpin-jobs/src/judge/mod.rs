@@ -14,6 +14,7 @@ use hairpin::campaign::{
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
+use hairpin_formats::missions::Demands;
 use hairpin_formats::repro::Repro;
 use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
@@ -21,8 +22,10 @@ use rayon::prelude::*;
 use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
-use crate::execute::{ToJudge, WORST, attitude_unknown, reruns_to_judge, runs_to_judge, runs_with_motion};
-use crate::missions::{self, Compared, compare, read_told, with_compared};
+use crate::execute::{
+    ToJudge, WORST, attitude_unknown, reruns_to_judge, reruns_with_motion, runs_to_judge, runs_with_motion,
+};
+use crate::missions::{self, Compared, MissionsTold, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read, same_as_executed};
@@ -173,7 +176,10 @@ pub(crate) fn judge_cases(
     let cut = work.folder.read_results()?;
     let cut: BTreeSet<CaseNumber> =
         cut.iter().filter(|result| result.is_left_undone()).map(|result| result.case).collect();
-    let judged = cases.par_iter().map(|case| judge_case((work, &told), case, tally, (&grid, budget, &cut)));
+    let missions_told = read_told(&work.folder)?;
+    let asked = |case: &Case| missions_told.as_ref().and_then(|told| told.asked_of(case.number));
+    let judged =
+        cases.par_iter().map(|case| judge_case((work, &told), (case, asked(case)), tally, (&grid, budget, &cut)));
     let judged = judged.collect::<Result<Vec<JudgedCase>, Problem>>()?;
     let attitude_unknown = judged.iter().filter(|case| case.lacks_attitude).count();
     let otherwise = judged.iter().filter(|case| case.from_rows + case.flown_anew > 0).count();
@@ -181,10 +187,7 @@ pub(crate) fn judge_cases(
         judged.iter().fold((0, 0), |(rows, anew), case| (rows + case.from_rows, anew + case.flown_anew));
     let flown = judged.iter().map(|case| case.flown).sum();
     let (mut results, mut deviations, mut met) = (Vec::new(), Vec::new(), Vec::new());
-    let missions_told = read_told(&work.folder)?;
-    for (mut case, own) in judged.into_iter().zip(cases) {
-        let runs = || if case.flown > 0 { runs_with_motion(work, own) } else { Ok(Vec::new()) };
-        missions::hold(missions_told.as_ref(), (&told, own), runs, &mut case.result)?;
+    for case in judged {
         results.push(case.result);
         deviations.extend(case.deviations);
         met.push(case.met);
@@ -203,7 +206,7 @@ pub(crate) fn judge_cases(
     }
     let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));
     junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
-    write_repros(work, cases, &results)?;
+    write_repros(work, cases, &results, missions_told.as_ref())?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
     Ok(Judgement {
@@ -223,7 +226,7 @@ pub(crate) fn judge_cases(
 
 fn judge_case(
     (work, told): (&Work, &Setup),
-    case: &Case,
+    (case, asked): (&Case, Option<&Demands>),
     tally: &Tally,
     (grid, budget, cut): (&Grid, Option<&Budget>, &BTreeSet<CaseNumber>),
 ) -> Result<JudgedCase, Problem> {
@@ -254,21 +257,29 @@ fn judge_case(
         result.status = Status::Inconclusive;
         result.message = Some(format!("{missing} of {} runs not executed", missing + runs.len()));
     }
+    let flown = runs.iter().filter(|run| run.outcome.is_ok()).count();
+    let moved = || if flown > 0 { runs_with_motion(work, case) } else { Ok(Vec::new()) };
+    missions::hold(asked, (told, case), moved, &mut result)?;
     if result.status == Status::Fail {
-        result.reruns = reruns(work, case)?;
+        result.reruns = reruns(work, case, asked)?;
     }
     let met = runs.iter().flat_map(|run| grid.met(&work.setup, &case.waypoints, run)).collect();
-    let flown = runs.iter().filter(|run| run.outcome.is_ok()).count();
     let lacks_attitude = runs.iter().any(attitude_unknown);
     Ok(JudgedCase { result, deviations, met, lacks_attitude, from_rows, flown_anew, flown })
 }
 
 /// How often the violation of `case` came again; `None` where it was not run again.
-fn reruns(work: &Work, case: &Case) -> Result<Option<Reruns>, Problem> {
+fn reruns(work: &Work, case: &Case, asked: Option<&Demands>) -> Result<Option<Reruns>, Problem> {
     let mut counted = Reruns { violated: 0, of: 0 };
-    let again = reruns_to_judge(work, case)?;
+    let again = match asked {
+        Some(_) => reruns_with_motion(work, case)?,
+        None => reruns_to_judge(work, case)?,
+    };
     for run in &again {
-        match campaign::judge(&work.setup, case, std::slice::from_ref(run))?.status {
+        let run = std::slice::from_ref(run);
+        let mut result = campaign::judge(&work.setup, case, run)?;
+        missions::hold(asked, (&work.setup, case), || Ok(run.to_vec()), &mut result)?;
+        match result.status {
             Status::Fail => (counted.violated, counted.of) = (counted.violated + 1, counted.of + 1),
             Status::Pass | Status::Unjudged => counted.of += 1,
             // What was not flown, or cannot be judged, is no answer.
@@ -295,7 +306,12 @@ pub(crate) fn with_moves(
     Ok((arm.verdict_with(verdict, moves, regression.as_ref()), regression))
 }
 
-fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(), Problem> {
+fn write_repros(
+    work: &Work,
+    cases: &[Case],
+    results: &[CaseResult],
+    told: Option<&MissionsTold>,
+) -> Result<(), Problem> {
     let folder = work.folder.file("repro");
     // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are
     // there to be run again.
@@ -313,7 +329,8 @@ fn write_repros(work: &Work, cases: &[Case], results: &[CaseResult]) -> Result<(
     for result in violating.take(WORST) {
         atomic::make_folder(&folder)?;
         if let Some(case) = cases.iter().find(|case| case.number == result.case) {
-            let repro = Repro { flown_by: flown_by.clone(), ..Repro::of(&work.setup, case, result) };
+            let mission = told.and_then(|told| told.asked_of(case.number)).cloned();
+            let repro = Repro { flown_by: flown_by.clone(), mission, ..Repro::of(&work.setup, case, result) };
             repro.write(&folder.join(format!("{}.json", case.id())))?;
         }
     }

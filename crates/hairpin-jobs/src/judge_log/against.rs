@@ -12,6 +12,7 @@ use serde_json::{Map, Value};
 use super::heights::on_ground;
 use super::settings::{Against, LogSettings};
 use crate::Problem;
+use crate::missions::{MissionsTold, read_told};
 use crate::sets::Set;
 use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
 
@@ -32,6 +33,8 @@ pub(super) struct Ready {
     pub(super) swiftness: Swiftness,
     /// A waypoint counts as reached within this, m.
     pub(super) accept: f64,
+    /// What the cases' missions ask beside the spec, where they were made elsewhere.
+    pub(super) missions: Option<MissionsTold>,
     /// What its user has to know, in sentences.
     pub(super) notes: Vec<String>,
 }
@@ -70,6 +73,18 @@ impl Ready {
                 None => Ok(ready),
             },
         }
+        .map(Self::with_what_is_not_asked)
+    }
+
+    /// What of the spec is of campaigns alone is told.
+    fn with_what_is_not_asked(mut self) -> Self {
+        if let Some(share) = self.setup.scenario.head().violation_share.filter(|share| *share > 0.0) {
+            self.notes.push(format!(
+                "spec.violation_share = {share} is of a campaign's cases: of logs each is judged by itself, and one in \
+                 violation is one"
+            ));
+        }
+        self
     }
 
     fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
@@ -98,8 +113,10 @@ impl Ready {
             "--world has another origin than the campaign, whose own stays: its obstacles are taken to be in the campaign's frame"
                 .to_owned()
         });
-        let simulated = folder.read_results()?;
-        Self::with(setup, cases, simulated, Of::Campaign(Box::new(before)), (true, notes.into_iter().collect()))
+        let (simulated, missions) = (folder.read_results()?, read_told(folder)?);
+        let of = Of::Campaign(Box::new(before));
+        let ready = Self::with(setup, cases, simulated, of, (true, notes.into_iter().collect()))?;
+        Ok(Self { missions, ..ready })
     }
 
     fn of_mission(file: &Path, robot: Option<&str>, settings: &LogSettings) -> Result<Self, Problem> {
@@ -153,7 +170,7 @@ impl Ready {
         let placed = |scenario: &Scenario| Placement::of(scenario).map_err(Problem::input);
         let place = if in_world { placed(&setup.scenario)? } else { None };
         let (swiftness, accept) = (setup.swiftness(), setup.scenario.executor().accept);
-        Ok(Self { setup, cases, simulated, of, place, in_world, swiftness, accept, notes })
+        Ok(Self { setup, cases, simulated, of, place, in_world, swiftness, accept, missions: None, notes })
     }
 
     /// What a case is called in sentences.

@@ -104,6 +104,8 @@ pub struct Found {
     pub never_began: Option<String>,
     /// What it was measured to be; `None` where nothing is left to measure.
     pub flown: Option<Flown>,
+    /// What its mission asks that it says nothing of, in words.
+    pub asked: Option<String>,
     /// The largest deviation of the same case in simulation, m, where that was judged; of a log whose legs are assigned
     /// with its legs assigned as well, where its motion is to be had.
     pub simulated_m: Option<f64>,

@@ -13,6 +13,7 @@ mod again;
 mod against;
 mod arm;
 mod aside;
+mod asked;
 mod asks;
 mod begin;
 mod cut;

@@ -12,6 +12,7 @@ use nalgebra::Isometry3;
 use super::accuracy::accuracies;
 use super::again::{again, of_flight};
 use super::against::{Of, Ready};
+use super::asked;
 use super::asks::Asks;
 use super::begin::Before;
 use super::cut::{Left, cut};
@@ -131,6 +132,7 @@ pub(super) fn judge(
         again_s,
         never_began: span.never_began.clone(),
         flown: None,
+        asked: None,
         simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
         notes,
     };
@@ -144,6 +146,11 @@ pub(super) fn judge(
         let before = Before { motion, told: &told, from_s: settings.from_s, start };
         flown.doubts.extend(before.doubt(&flown, &own));
         flown.doubts.extend(before.end(&flown, &own, settings.to_s));
+        if let Some(asked) = against.missions.as_ref().and_then(|told| told.asked_of(case.number)) {
+            let asked = asked::hold(asked, log, &mut flown);
+            found.notes.extend(asked.notes);
+            found.asked = asked.open;
+        }
         found.flown = Some(flown);
     }
     if let (None, Some(simulated)) = (&course, simulated) {

@@ -95,6 +95,10 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         let rest: Vec<String> = rest.iter().map(|doubt| in_words(doubt, found)).collect();
         return (Outcome::Inconclusive, inconclusive(case, how, &with(in_words(first, found), &rest)));
     }
+    if let Some(why) = &found.asked {
+        let best = nearest(flown).into_iter().collect::<Vec<_>>();
+        return (Outcome::Inconclusive, inconclusive(case, how, &with(why.clone(), &best)));
+    }
     if asked != Asked::Limits {
         let m = &flown.measures;
         let worst = format!(

@@ -1,13 +1,12 @@
-//! What was executed against the mission's own fences, as a campaign's folder keeps them.
+//! What was executed, or logged, against the mission's own fences.
 
 use hairpin::campaign::judge::measures_of;
 use hairpin::campaign::{Case, CaseResult, Run, Setup, Status};
-use hairpin::judgement::Violation;
-use hairpin::trajectory::Flight;
+use hairpin::judgement::{Measures, Violation};
+use hairpin::trajectory::Track;
 use hairpin::world::terrain::KeepOutShape;
-use hairpin_formats::missions::{Fence, Mission};
+use hairpin_formats::missions::Fences;
 use nalgebra::Point3;
-use serde::{Deserialize, Serialize};
 
 use crate::check::{ARDUPILOT, PX4};
 
@@ -19,143 +18,171 @@ const ROUNDING_M: f64 = 1e-3;
 const STEP_M: f64 = 0.05;
 /// At most so many.
 const MOST_STEPS: f64 = 1e4;
+/// That fences are read in two ways.
+pub(crate) const READ_OTHERWISE: &str = "it was outside of a fence of the mission that keeps in: ArduPilot (firmwareType 3) demands to be in all of \
+                                         them, PX4 (12) in any, and the mission names neither";
 
-/// The fences of a mission.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct FencesTold {
-    /// `MAV_AUTOPILOT` of who flies it, where its file says so.
-    firmware: Option<u64>,
-    fences: Vec<FenceTold>,
+/// A motion, and how well it is known.
+pub(crate) struct Moved<'a> {
+    pub(crate) track: &'a Track,
+    /// How far it may have been from the line between a row and the next, m; `None` where nothing is said of that.
+    pub(crate) bulge: &'a dyn Fn(usize) -> Option<f64>,
+    /// Horizontal standard deviation of a row, m.
+    pub(crate) sigma: &'a dyn Fn(usize) -> f64,
 }
 
-/// One of them, in metres of the world: a circle's centre and radius, or corners.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct FenceTold {
-    keeps_in: bool,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    circle_m: Option<[f64; 3]>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    corners_m: Vec<[f64; 2]>,
+/// Where a motion was to fences.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Seen {
+    /// How far beyond one at most, for certain.
+    pub(crate) beyond: Option<Beyond>,
+    /// Where it may have been, of what is not certain.
+    pub(crate) may_be: Option<MayBe>,
+    /// Whether it was by another autopilot's reading.
+    pub(crate) otherwise: bool,
 }
 
-impl FenceTold {
-    fn of(fence: &Fence) -> Self {
-        let (circle_m, corners_m) = match fence.outline.shape() {
-            KeepOutShape::Circle { center_m: [x, y], radius_m } => (Some([x, y, radius_m]), Vec::new()),
-            KeepOutShape::Polygon { points_m } => (None, points_m),
-        };
-        Self { keeps_in: fence.keeps_in, circle_m, corners_m }
-    }
-
-    fn shape(&self) -> KeepOutShape {
-        match self.circle_m {
-            Some([x, y, radius_m]) => KeepOutShape::Circle { center_m: [x, y], radius_m },
-            None => KeepOutShape::Polygon { points_m: self.corners_m.clone() },
-        }
-    }
-}
-
-/// How far a motion was beyond fences at most, m, and when, s.
+/// How far, m, and when, s.
 #[derive(Debug, Clone, Copy)]
-struct Beyond {
-    by: f64,
-    at: f64,
+pub(crate) struct Beyond {
+    pub(crate) by: f64,
+    pub(crate) at: f64,
 }
 
-impl FencesTold {
-    pub(super) fn of(mission: &Mission) -> Self {
-        Self { firmware: mission.whose.firmware, fences: mission.fences.iter().map(FenceTold::of).collect() }
+/// Where it was seen, negative within, and how far beyond it may have been, m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MayBe {
+    pub(crate) seen: Beyond,
+    pub(crate) most: f64,
+    /// What of that its own accuracy makes, m.
+    pub(crate) sigma: f64,
+}
+
+impl Beyond {
+    /// As a violation of `case`, whose waypoints were `reached` when they were.
+    pub(crate) fn violation(&self, case: &Case, reached: &[Option<f64>]) -> Violation {
+        let passed = reached.iter().skip(1).flatten().filter(|time| **time <= self.at).count();
+        self.on_leg(passed.min(case.waypoints.len().saturating_sub(2)))
     }
 
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.fences.is_empty()
+    /// As a violation on a leg.
+    pub(crate) fn on_leg(&self, leg: usize) -> Violation {
+        Violation { what: FENCE.into(), value: self.by, limit: 0.0, unit: "m".into(), at: self.at, leg }
     }
+}
 
-    /// Holds what was executed of `case` against them: beyond one of them is a violation, and what is so by another
-    /// autopilot's reading alone decides nothing.
-    pub(super) fn hold(&self, setup: &Setup, case: &Case, runs: &[Run], result: &mut CaseResult) {
-        let flown = runs.iter().filter_map(|run| Some((run, run.outcome.as_ref().ok()?)));
-        let (mut worst, mut doubted): (Option<(&Run, &Flight, Beyond)>, bool) = (None, false);
-        for (run, flight) in flown {
-            let [sure, other] = self.beyond(flight);
-            doubted |= other.by > ROUNDING_M;
-            // Of a case that fails already its worst run is told.
-            let counts = result.status != Status::Fail || run.run == result.run;
-            if counts && sure.by > ROUNDING_M && worst.is_none_or(|(.., known)| sure.by > known.by) {
-                worst = Some((run, flight, sure));
-            }
+/// Holds what was executed of `case` against them: beyond one of them is a violation; what may have been between the
+/// poses of a program, and what is so by another autopilot's reading alone, decides nothing.
+pub(super) fn hold(fences: &Fences, setup: &Setup, case: &Case, runs: &[Run], result: &mut CaseResult) {
+    let flown = runs.iter().filter_map(|run| Some((run, run.outcome.as_ref().ok()?)));
+    let (mut worst, mut may_be, mut otherwise): (Option<(&Run, Beyond)>, Option<MayBe>, bool) = (None, None, false);
+    for (run, flight) in flown {
+        let bulge = bulge(setup, case, run);
+        let moved = Moved { track: &flight.track, bulge: &|_| Some(bulge), sigma: &|_| 0.0 };
+        let seen = look(fences, &moved);
+        otherwise |= seen.otherwise;
+        // Of a case that fails already its worst run is told.
+        let counts = result.status != Status::Fail || run.run == result.run;
+        if let Some(sure) = seen.beyond.filter(|sure| counts && worst.is_none_or(|(_, known)| sure.by > known.by)) {
+            worst = Some((run, sure));
         }
-        match worst {
-            Some((run, flight, Beyond { by, at })) => {
-                if result.status != Status::Fail {
-                    result.measures = measures_of(setup, case, run);
-                    (result.run, result.drawn, result.message) = (run.run, run.drawn.clone(), None);
-                    (result.ended, result.left_world) = (flight.ended.word().into(), flight.left_world);
-                }
-                result.status = Status::Fail;
-                let reached = flight.reached.iter().skip(1).flatten().filter(|time| **time <= at).count();
-                let leg = reached.min(case.waypoints.len().saturating_sub(2));
-                let (what, unit) = (FENCE.to_owned(), "m".to_owned());
-                result.violations.push(Violation { what, value: by, limit: 0.0, unit, at, leg });
-            }
-            None if doubted && matches!(result.status, Status::Pass | Status::Unjudged) => {
-                result.status = Status::Inconclusive;
-                result.message = Some(
-                    "it was outside of a fence of the mission that keeps in: ArduPilot (firmwareType 3) demands to be \
-                     in all of them, PX4 (12) in any, and the mission names neither"
-                        .into(),
-                );
-            }
-            None => {}
+        may_be = [may_be, seen.may_be].into_iter().flatten().reduce(|a, b| if b.most > a.most { b } else { a });
+    }
+    if let Some((run, sure)) = worst {
+        let Ok(flight) = &run.outcome else { return };
+        if result.status != Status::Fail {
+            result.measures = measures_of(setup, case, run);
+            (result.run, result.drawn, result.message) = (run.run, run.drawn.clone(), None);
+            (result.ended, result.left_world) = (flight.ended.word().into(), flight.left_world);
+        }
+        result.status = Status::Fail;
+        result.violations.push(sure.violation(case, &flight.reached));
+        return;
+    }
+    let open = match may_be {
+        _ if !matches!(result.status, Status::Pass | Status::Unjudged) => return,
+        Some(MayBe { seen, most, .. }) => {
+            let rate =
+                setup.swiftness().acceleration.map(|a| (a / (8.0 * seen.by.abs().max(ROUNDING_M))).sqrt().ceil());
+            let rate = rate.map_or("more".into(), |rate| rate.to_string());
+            format!(
+                "{FENCE} {:.3} m within at its poses, but {most:.3} m beyond may hide between two of them; {rate} poses a \
+                 second decide",
+                -seen.by
+            )
+        }
+        None if otherwise => READ_OTHERWISE.into(),
+        None => return,
+    };
+    (result.status, result.message) = (Status::Inconclusive, Some(open));
+}
+
+/// How far (m) what was flown may have been from the line between two poses: of our own simulators, which look as often
+/// as it takes, not at all.
+///
+/// a Δt²/8 over the longest time between two poses, which is less than that which accelerations are means over; and no
+/// more than what may hide of the deviation.
+fn bulge(setup: &Setup, case: &Case, run: &Run) -> f64 {
+    if setup.program().is_none() {
+        return 0.0;
+    }
+    let known = run.full_rate.as_ref().map(|known| known.measures.clone()).or_else(|| measures_of(setup, case, run));
+    let Some(Measures { acceleration_over, most_between, .. }) = known else { return f64::INFINITY };
+    let by_time = setup.swiftness().acceleration.zip(acceleration_over).map(|(a, span)| a * span * span / 8.0);
+    [by_time, most_between].into_iter().flatten().reduce(f64::min).unwrap_or(0.0)
+}
+
+/// Where a motion was to `fences`.
+///
+/// The line between two rows is looked along; it is as uncertain as the motion between them, and they themselves.
+pub(crate) fn look(fences: &Fences, moved: &Moved) -> Seen {
+    let shapes: Vec<(bool, KeepOutShape)> = fences.fences.iter().map(|fence| (fence.keeps_in, fence.shape())).collect();
+    let mut seen = Seen::default();
+    let mut note = |p: Point3<f64>, at: f64, [bulge, sigma]: [f64; 2]| {
+        let [by, other] = off(fences.firmware, &shapes, &p);
+        seen.otherwise |= other > ROUNDING_M;
+        let (least, most) = (by - bulge - sigma, by + bulge + sigma);
+        if least > ROUNDING_M && seen.beyond.is_none_or(|known| by > known.by) {
+            seen.beyond = Some(Beyond { by, at });
+        } else if most > ROUNDING_M && seen.may_be.is_none_or(|known| most > known.most) {
+            seen.may_be = Some(MayBe { seen: Beyond { by, at }, most, sigma });
+        }
+    };
+    let (track, times) = (moved.track, moved.track.times());
+    for i in 0..times.len() {
+        let sigma = (moved.sigma)(i);
+        note(track.position(i), times[i], [0.0, sigma]);
+        let (Some(next), Some(bulge)) = (times.get(i + 1), (moved.bulge)(i)) else { continue };
+        let way = track.position(i + 1) - track.position(i);
+        let steps = (way.norm() / STEP_M).ceil().min(MOST_STEPS).max(if bulge > 0.0 { 2.0 } else { 0.0 });
+        let sigma = sigma.max((moved.sigma)(i + 1));
+        for step in 1..steps as usize {
+            let share = step as f64 / steps;
+            note(track.position(i) + way * share, times[i] + (next - times[i]) * share, [bulge, sigma]);
         }
     }
+    seen
+}
 
-    /// How far a motion was beyond them, surely and by another autopilot's reading.
-    fn beyond(&self, flight: &Flight) -> [Beyond; 2] {
-        let shapes: Vec<(bool, KeepOutShape)> =
-            self.fences.iter().map(|fence| (fence.keeps_in, fence.shape())).collect();
-        let mut worst = [Beyond { by: 0.0, at: 0.0 }; 2];
-        let mut look = |p: Point3<f64>, at: f64| {
-            for (worst, by) in worst.iter_mut().zip(self.off(&shapes, &p)) {
-                if by > worst.by {
-                    *worst = Beyond { by, at };
-                }
-            }
-        };
-        let (track, times) = (&flight.track, flight.track.times());
-        for i in 0..times.len() {
-            look(track.position(i), times[i]);
-            let Some(next) = times.get(i + 1) else { break };
-            let way = track.position(i + 1) - track.position(i);
-            let steps = (way.norm() / STEP_M).ceil().min(MOST_STEPS);
-            for step in 1..steps as usize {
-                let share = step as f64 / steps;
-                look(track.position(i) + way * share, times[i] + (next - times[i]) * share);
-            }
-        }
-        worst
-    }
-
-    /// How far `p` is beyond them, surely and by another autopilot's reading.
-    fn off(&self, shapes: &[(bool, KeepOutShape)], p: &Point3<f64>) -> [f64; 2] {
-        let out = shapes.iter().filter(|(keeps_in, _)| !keeps_in).map(|(_, shape)| -shape.distance(p.x, p.y));
-        let out = out.fold(0.0, f64::max);
-        let within = || shapes.iter().filter(|(keeps_in, _)| *keeps_in).map(|(_, shape)| shape.distance(p.x, p.y));
-        let all = within().fold(0.0, f64::max);
-        let any = within().reduce(f64::min).unwrap_or(0.0);
-        match self.firmware {
-            Some(PX4) => [out.max(any), 0.0],
-            Some(ARDUPILOT) => [out.max(all), 0.0],
-            _ => [out.max(any), all],
-        }
+/// How far `p` is beyond them, and by another autopilot's reading, m; negative within.
+fn off(firmware: Option<u64>, shapes: &[(bool, KeepOutShape)], p: &Point3<f64>) -> [f64; 2] {
+    let out = shapes.iter().filter(|(keeps_in, _)| !keeps_in).map(|(_, shape)| -shape.distance(p.x, p.y));
+    let out = out.fold(f64::NEG_INFINITY, f64::max);
+    let within = || shapes.iter().filter(|(keeps_in, _)| *keeps_in).map(|(_, shape)| shape.distance(p.x, p.y));
+    let all = within().fold(f64::NEG_INFINITY, f64::max);
+    let any = within().reduce(f64::min).unwrap_or(f64::NEG_INFINITY);
+    match firmware {
+        Some(PX4) => [out.max(any), f64::NEG_INFINITY],
+        Some(ARDUPILOT) => [out.max(all), f64::NEG_INFINITY],
+        _ => [out.max(any), all],
     }
 }
 
 #[cfg(test)]
 mod tests {
     use hairpin::campaign::{CaseNumber, Undone};
-    use hairpin::trajectory::{Ended, Track};
+    use hairpin::trajectory::{Ended, Flight, Track};
+    use hairpin_formats::missions::FenceTold;
     use hairpin_formats::scenario::setup_for;
     use nalgebra::Isometry3;
 
@@ -177,7 +204,7 @@ mod tests {
         let bare = CaseResult::undone(CaseNumber(0), Undone::NotJudged);
         let mut result = CaseResult { status: Status::Pass, message: None, violations: vec![], ..bare };
         let case = Case::bare(CaseNumber(0), 1, ends);
-        FencesTold { firmware, fences }.hold(&setup, &case, &[run], &mut result);
+        hold(&Fences { firmware, fences }, &setup, &case, &[run], &mut result);
         result
     }
 
@@ -202,5 +229,32 @@ mod tests {
             [status(Some(PX4)), status(Some(ARDUPILOT)), status(None)],
             [Status::Pass, Status::Fail, Status::Inconclusive]
         );
+    }
+
+    /// Two rows beside a fence: what is certain of them, of the line between them, and what may be.
+    #[test]
+    fn what_is_known_little_of_decides_little() {
+        let poses = [0.0, 10.0].map(|x| Isometry3::translation(x, 2.5, 2.0)).to_vec();
+        let track = Track::new(vec![0.0, 10.0], poses, vec![]).unwrap();
+        // Its edge is 0.5 m beside the middle of the line.
+        let fences = Fences { firmware: None, fences: vec![disc(false, 5.0)] };
+        let seen = |bulge: Option<f64>, sigma: f64| {
+            look(&fences, &Moved { track: &track, bulge: &|_| bulge, sigma: &|_| sigma })
+        };
+        for (bulge, sigma) in [(None, 0.1), (Some(0.0), 0.0), (Some(0.3), 0.1)] {
+            let clear = seen(bulge, sigma);
+            assert!(clear.beyond.is_none() && clear.may_be.is_none(), "{clear:?}");
+        }
+        for (bulge, sigma) in [(0.6, 0.0), (0.3, 0.3), (0.0, 0.6)] {
+            let open = seen(Some(bulge), sigma);
+            let may_be = open.may_be.unwrap();
+            assert!(open.beyond.is_none() && (may_be.most - 0.1).abs() < 0.01, "{may_be:?}");
+            assert!((may_be.seen.by + 0.5).abs() < 0.01 && (may_be.seen.at - 5.0).abs() < 0.1, "{may_be:?}");
+        }
+        // Across its middle: the line is 2 m within.
+        let poses = [0.0, 10.0].map(|x| Isometry3::translation(x, 0.0, 2.0)).to_vec();
+        let across = Track::new(vec![0.0, 10.0], poses, vec![]).unwrap();
+        let seen = |bulge: f64| look(&fences, &Moved { track: &across, bulge: &|_| Some(bulge), sigma: &|_| 0.0 });
+        assert!(seen(1.9).beyond.is_some() && seen(2.1).beyond.is_none() && seen(2.1).may_be.is_some());
     }
 }

@@ -20,11 +20,10 @@ use crate::work::Work;
 use crate::{Problem, Watch};
 pub use compared::{Compared, Ranked};
 pub(crate) use compared::{compare, with_compared};
-pub(crate) use fenced::FENCE;
-pub use fenced::FencesTold;
+pub(crate) use fenced::{Beyond, FENCE, MayBe, Moved, READ_OTHERWISE, look};
 pub(crate) use leg::Leg;
 pub use told::{MissionTold, MissionsTold};
-pub(crate) use told::{hold, read_told};
+pub(crate) use told::{doubt_lost_fence, hold, read_told, takes_all_parts};
 
 /// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///

@@ -1,10 +1,12 @@
 //! What a campaign's folder keeps of its missions beside their cases: where they are from, and what their check said.
 
-use hairpin::campaign::{Case, CaseResult, Run, Setup, Status};
+use hairpin::campaign::{Case, CaseNumber, CaseResult, Run, Setup, Status};
 use hairpin_formats::folder::CampaignFolder;
+use hairpin_formats::missions::{Demands, Fences};
+use hairpin_formats::repro::Repro;
 use serde::{Deserialize, Serialize};
 
-use super::fenced::FencesTold;
+use super::fenced::{self, FENCE};
 use super::leg::Leg;
 use crate::Problem;
 use crate::check::{certainty_word, frame_in_words};
@@ -40,15 +42,9 @@ pub struct MissionTold {
     pub check: String,
     /// What of the file changes nothing that is judged.
     pub notes: Vec<String>,
-    /// Whether it is what lies between two stops, and not all of a mission.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub part: bool,
-    /// What the mission asks that is not what was executed: its case is inconclusive.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub unmet: Vec<String>,
-    /// Its own fences, which what is executed is held against.
-    #[serde(skip_serializing_if = "FencesTold::is_empty")]
-    pub fences: FencesTold,
+    /// What it asks of what is executed.
+    #[serde(flatten)]
+    pub demands: Demands,
 }
 
 impl MissionsTold {
@@ -72,12 +68,20 @@ impl MissionsTold {
                 evidence: evidence.into(),
                 check: checked.map_or("not checked".into(), |checked| checked.verdict.sentence.clone()),
                 notes: leg.mission.notes.clone(),
-                part: !leg.mission.stops.is_empty(),
-                unmet: leg.unmet.clone(),
-                fences: FencesTold::of(&leg.mission),
+                demands: Demands {
+                    part: !leg.mission.stops.is_empty(),
+                    unmet: leg.unmet.clone(),
+                    fences: Fences::of(&leg.mission),
+                },
             }
         };
         Self { missions: legs.iter().map(one).collect() }
+    }
+
+    /// What is asked of `case` beside the spec; `None` where that is nothing.
+    pub(crate) fn asked_of(&self, case: CaseNumber) -> Option<&Demands> {
+        let demands = &self.missions.get(case.0)?.demands;
+        (!demands.is_none()).then_some(demands)
     }
 
     /// The sentences of a report.
@@ -88,21 +92,21 @@ impl MissionsTold {
 }
 
 /// Holds what was executed of `case`, `runs` with their motion, against what its mission asks beside the spec: `result`
-/// is no more than that leaves of it. Missions that are none ask nothing, and their runs are not read.
+/// is no more than that leaves of it. Where nothing is asked runs are not read.
 ///
 /// # Errors
 /// Of reading the runs.
 pub(crate) fn hold(
-    told: Option<&MissionsTold>,
+    asked: Option<&Demands>,
     (setup, case): (&Setup, &Case),
     runs: impl FnOnce() -> Result<Vec<Run>, Problem>,
     result: &mut CaseResult,
 ) -> Result<(), Problem> {
-    let Some(one) = told.and_then(|told| told.missions.get(case.number.0)) else { return Ok(()) };
-    doubt(one, setup.scenario.head().terms.limits.total_time, result);
+    let Some(asked) = asked else { return Ok(()) };
+    doubt(asked, setup.scenario.head().terms.limits.total_time, result);
     // One that was executed otherwise than it asks is doubted for it, whatever its fences.
-    if one.unmet.is_empty() && !one.fences.is_empty() {
-        one.fences.hold(setup, case, &runs()?, result);
+    if asked.unmet.is_empty() && !asked.fences.is_empty() {
+        fenced::hold(&asked.fences, setup, case, &runs()?, result);
     }
     Ok(())
 }
@@ -110,7 +114,7 @@ pub(crate) fn hold(
 /// A case whose mission asks for something else than what was executed says nothing of it, neither way; one between two
 /// stops does not say that the mission keeps a limit of `total_time` s: it takes all of its parts, and stands between
 /// them.
-fn doubt(one: &MissionTold, total_time: Option<f64>, result: &mut CaseResult) {
+fn doubt(one: &Demands, total_time: Option<f64>, result: &mut CaseResult) {
     let open = |result: &mut CaseResult, why: String| {
         result.status = Status::Inconclusive;
         result.violations.clear();
@@ -119,10 +123,22 @@ fn doubt(one: &MissionTold, total_time: Option<f64>, result: &mut CaseResult) {
     if !one.unmet.is_empty() && matches!(result.status, Status::Pass | Status::Fail | Status::Unjudged) {
         open(result, one.unmet.join("; "));
     } else if let Some(most) = total_time.filter(|_| one.part && result.status == Status::Pass) {
-        open(
-            result,
-            format!("total-time: {most} s are for all of the mission, and this is what lies between two stops"),
-        );
+        open(result, takes_all_parts(most));
+    }
+}
+
+/// What lies between two stops keeps no limit of `total_time` s of the mission.
+pub(crate) fn takes_all_parts(total_time: f64) -> String {
+    format!("total-time: {total_time} s are for all of the mission, and this is what lies between two stops")
+}
+
+/// What broke a fence of its mission passes by nothing else where `repro` does not know that fence, as those of earlier
+/// versions do not.
+pub(crate) fn doubt_lost_fence(repro: &Repro, result: &mut CaseResult) {
+    let broke = || repro.expected.violations.iter().any(|one| one.starts_with(FENCE));
+    if repro.mission.is_none() && result.status == Status::Pass && broke() {
+        result.status = Status::Inconclusive;
+        result.message = Some("it broke a fence of its mission, which its campaign's folder keeps".into());
     }
 }
 
@@ -133,7 +149,7 @@ pub(crate) fn read_told(folder: &CampaignFolder) -> Result<Option<MissionsTold>,
 
 #[cfg(test)]
 mod tests {
-    use hairpin::campaign::{CaseNumber, Undone};
+    use hairpin::campaign::Undone;
 
     use super::*;
 
@@ -141,16 +157,16 @@ mod tests {
     fn what_was_not_executed_as_asked_says_nothing() {
         let of = |unmet: &[&str], part: bool| {
             let unmet = unmet.iter().map(|words| (*words).to_owned()).collect();
-            MissionTold { unmet, part, ..MissionTold::default() }
+            Demands { unmet, part, ..Demands::default() }
         };
         let told = |unmet: &[&str]| of(unmet, false);
-        let within = |total_time: Option<f64>, status: Status, told: &MissionTold| {
+        let within = |total_time: Option<f64>, status: Status, told: &Demands| {
             let mut result =
                 CaseResult { status, message: None, ..CaseResult::undone(CaseNumber(0), Undone::NotJudged) };
             doubt(told, total_time, &mut result);
             (result.status, result.message)
         };
-        let judged = |status: Status, told: &MissionTold| within(Some(15.0), status, told);
+        let judged = |status: Status, told: &Demands| within(Some(15.0), status, told);
         for status in [Status::Pass, Status::Fail, Status::Unjudged] {
             assert_eq!(judged(status, &told(&[])), (status, None));
             assert_eq!(judged(status, &told(&["a", "b"])), (Status::Inconclusive, Some("a; b".into())));
