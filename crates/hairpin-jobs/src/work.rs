@@ -110,44 +110,18 @@ pub fn plan(settings: &CampaignSettings, watch: &dyn Watch) -> Result<Planned, P
     settings.consent.ask_of_scenario((&settings.scenario, kept.as_deref()), &wishes, &settings.sets, watch)?;
     let search = setup.scenario.search();
     tell_share(&setup.scenario, (search.cases, Tally::default().chosen(&search)), watch);
-    // Of programs of arms these are none of their keys.
-    let passed_over = search.passed_over(setup.scenario.score());
-    for (key, value) in passed_over.into_iter().filter(|_| !setup.has_programs()) {
-        let method = search.method.word();
-        watch.warn(&format!("`generate.search.{key}` = {value} is passed over: `{method}` has no use for it here"));
-    }
     for PassedOver { key, value, why } in setup.passed_over() {
         watch.warn(&format!("`{key}` = {value} is passed over: {why}"));
     }
     let goes_on = may_make(&path, &setup, settings.if_there)?;
-    if !goes_on {
-        // What was begun before such scores were refused may be finished.
-        check_score(&setup, watch)?;
+    // What was begun before such scores were refused may be finished.
+    if let Some(given) = setup.attachments.own_score(setup.scenario.score()).filter(|_| !goes_on) {
+        let refused = |Mistake { key, value, bound }| Problem::input(format!("`{key}` = {value}: must be {bound}"));
+        setup.scenario.check_score(given).map_err(refused)?;
     }
     let code = setup.user_code().into_iter().chain(setup.steering_code());
     try_out(code, Deadline::after(settings.time_limit_s), watch)?;
     Ok(Planned { path, setup, if_there: settings.if_there, consent: settings.consent.clone() })
-}
-
-/// Whether the method of `setup` reads its score, which is told as it was given.
-///
-/// # Errors
-/// A file of the user's own that it does not: who brings one means it. A name may be left from another method, and is
-/// passed over with a word.
-fn check_score(setup: &Setup, watch: &dyn Watch) -> Result<(), Problem> {
-    let (score, files) = (setup.scenario.score(), &setup.attachments);
-    let of_model = files.model(score).map(|file| &file.given);
-    let of_file = of_model.or(files.user_score(score).map(|file| &file.given));
-    match (setup.scenario.check_score(of_file.map_or(score, |given| given)), of_file) {
-        (Err(Mistake { key, value, bound }), None) => {
-            watch.warn(&format!("`{key}` = {value} is passed over; it is to be {bound}"));
-            Ok(())
-        }
-        (Err(Mistake { key, value, bound }), Some(_)) => {
-            Err(Problem::input(format!("`{key}` = {value}: must be {bound}")))
-        }
-        (Ok(()), _) => Ok(()),
-    }
 }
 
 /// Whether the user's own code loads: before anything that it is to take the place of is removed.
