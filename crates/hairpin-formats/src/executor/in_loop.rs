@@ -30,7 +30,7 @@ pub struct InLoop<'a> {
     is_wanted: &'a (dyn Fn(&Greeting) -> bool + Sync),
     limits: Limits,
     kept: Mutex<Kept>,
-    told: Mutex<Told>,
+    unflown: Mutex<Unflown>,
 }
 
 /// Flights by what was asked for.
@@ -40,28 +40,22 @@ struct Kept {
     poses: usize,
 }
 
-/// What came of all that was asked for.
-#[derive(Debug, Clone, Default)]
-pub struct Told {
-    /// Missions that were flown.
-    pub flown: u64,
-    /// Missions that were not.
-    pub failed: u64,
-    /// Missions that had been flown before.
-    pub again: u64,
+/// What was not flown: whoever asks counts it.
+#[derive(Default)]
+struct Unflown {
     /// The last failure.
-    pub last: Option<Failed>,
+    last: Option<Failed>,
     /// Executions without an answer since the last one with.
     unanswered: usize,
     /// Why nothing more is asked for, in a sentence.
-    pub trouble: Option<String>,
+    trouble: Option<String>,
 }
 
 impl<'a> InLoop<'a> {
     /// At most `processes` of `command`, none of them started yet; `cancelled` is asked often.
     pub fn new(command: &Command, limits: Limits, processes: usize, cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
         let pool = Pool::new(command, limits, processes, true);
-        Self { pool, cancelled, is_wanted: &|_| true, limits, kept: Mutex::default(), told: Mutex::default() }
+        Self { pool, cancelled, is_wanted: &|_| true, limits, kept: Mutex::default(), unflown: Mutex::default() }
     }
 
     /// The same where the program `is_wanted` by what it says of itself; one that is not flies nothing.
@@ -77,12 +71,12 @@ impl<'a> InLoop<'a> {
 
     /// Why the search is to end, in a sentence: three executions in a row had no answer, or the program does not start.
     pub fn trouble(&self) -> Option<String> {
-        self.told().trouble.clone()
+        self.unflown().trouble.clone()
     }
 
-    /// What came of all that was asked for.
-    pub fn all(&self) -> Told {
-        self.told().clone()
+    /// The last execution that came to no flight, of those that were not stopped.
+    pub fn last(&self) -> Option<Failed> {
+        self.unflown().last.clone()
     }
 
     /// What the program says of itself, once it has.
@@ -98,8 +92,8 @@ impl<'a> InLoop<'a> {
         }
     }
 
-    fn told(&self) -> MutexGuard<'_, Told> {
-        self.told.lock().unwrap_or_else(PoisonError::into_inner)
+    fn unflown(&self) -> MutexGuard<'_, Unflown> {
+        self.unflown.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
@@ -108,27 +102,26 @@ impl<'a> InLoop<'a> {
 
     /// The flight of `mission` by a process that is free.
     fn ask(&self, mission: &Mission) -> Result<Flight, Failed> {
-        let stop = || (self.cancelled)() || self.told().trouble.is_some() || self.is_unwanted();
+        let stop = || (self.cancelled)() || self.unflown().trouble.is_some() || self.is_unwanted();
         let cancelled = || Failed { failure: Failure::Cancelled, stderr: String::new() };
         let mut pilot = self.pool.check_out(&stop).ok_or_else(cancelled)?;
         // What a process says after its answer is the judgement's business, which flies again.
         let result = pilot.fly(&self.pool.program, mission, &stop).result;
         let hopeless = pilot.is_hopeless();
         self.pool.give_back(pilot);
-        let mut told = self.told();
+        let mut unflown = self.unflown();
         match &result {
-            Ok(_) => (told.flown, told.unanswered) = (told.flown + 1, 0),
+            Ok(_) => unflown.unanswered = 0,
             Err(Failed { failure: Failure::Cancelled, .. }) => {}
             Err(failed) => {
-                told.failed += 1;
-                told.unanswered = if failed.failure.is_time_out() { told.unanswered + 1 } else { 0 };
-                told.last = Some(failed.clone());
+                unflown.unanswered = if failed.failure.is_time_out() { unflown.unanswered + 1 } else { 0 };
+                unflown.last = Some(failed.clone());
                 let seconds = self.limits.mission.as_secs_f64();
                 if hopeless {
-                    told.trouble.get_or_insert_with(|| self.by_name(failed.in_full()));
-                } else if told.unanswered >= MOST {
+                    unflown.trouble.get_or_insert_with(|| self.by_name(failed.in_full()));
+                } else if unflown.unanswered >= MOST {
                     let stderr = failed.last_line().map_or(String::new(), |line| format!("; {line}"));
-                    told.trouble.get_or_insert_with(|| {
+                    unflown.trouble.get_or_insert_with(|| {
                         self.by_name(format!(
                             "it left {MOST} executions in a row without an answer (execute.timeout_s = {seconds}){stderr}"
                         ))
@@ -144,7 +137,6 @@ impl Executor for InLoop<'_> {
     fn fly(&self, _nominal: &Setup, _case: &Case, mission: &Mission) -> Result<Flight, String> {
         let key = mission_key(mission);
         if let Some(flight) = self.kept().flights.get(&key) {
-            self.told().again += 1;
             return Ok(flight.clone());
         }
         // Cases have no numbers before the search is over, and an answer says which mission it is of.

@@ -69,7 +69,7 @@ pub use failure::{Failed, Failure, was_never_asked};
 pub use first_pose::{Elsewhere, Slip};
 pub use greeting::Greeting;
 pub use heard::{EndReason, FromExecutor, PoseMessage};
-pub use in_loop::{InLoop, Told};
+pub use in_loop::InLoop;
 pub(crate) use lines::{Line, Lines, Tail};
 pub use message::{ToExecutor, mission_message};
 pub use process::kill_all;

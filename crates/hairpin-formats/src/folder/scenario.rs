@@ -5,7 +5,7 @@ use hairpin::campaign::Setup;
 use super::list::List;
 use super::{CampaignFolder, FolderError};
 use crate::atomic;
-use crate::scenario::{MadeBy, changed_keys, key_digests, read_made_by, settings_hash, to_toml};
+use crate::scenario::{Digests, MadeBy, changed_keys, read_made_by, to_toml};
 
 impl CampaignFolder {
     /// Writes the resolved scenario, with what the results depend on beside it (this version, and the SIMD level of the
@@ -17,7 +17,9 @@ impl CampaignFolder {
     pub fn keep_scenario(&self, setup: &Setup, simd: &str, clear_within: Option<f64>) -> Result<(), FolderError> {
         let root_seed = setup.scenario.seed();
         let text = to_toml(&setup.scenario, None)?;
-        let (settings, keys) = (settings_hash(&text, controller_of(setup)), key_digests(&text));
+        let digests = Digests::of(&text, controller_of(setup));
+        let (settings, keys) = digests.map(|Digests { settings, keys }| (settings, keys)).unzip();
+        let keys = keys.unwrap_or_default();
         let version = env!("CARGO_PKG_VERSION").into();
         let made_by = MadeBy { version, root_seed, settings, keys, clear_within_mm: clear_within, simd: simd.into() };
         let text = to_toml(&setup.scenario, Some(&made_by))?;
@@ -39,13 +41,14 @@ impl CampaignFolder {
     pub fn edited(&self, setup: &Setup) -> Result<Vec<String>, FolderError> {
         let text = self.read_scenario()?;
         let Some(MadeBy { settings: Some(written), keys, .. }) = read_made_by(&text) else { return Ok(Vec::new()) };
-        if settings_hash(&text, controller_of(setup)).is_some_and(|now| now == written) {
+        let now = Digests::of(&text, controller_of(setup));
+        if now.as_ref().is_some_and(|now| now.settings == written) {
             return Ok(Vec::new());
         }
         if keys.is_empty() {
             return Ok(vec!["a key beside `spec`, or the controller's file".into()]);
         }
-        let changed = changed_keys(&keys, &text);
+        let changed = changed_keys(&keys, &now.map(|now| now.keys).unwrap_or_default());
         Ok(match changed.len() {
             0 => vec!["the controller's file".into()],
             _ => changed.into_iter().map(|key| format!("`{key}`")).collect(),

@@ -19,6 +19,7 @@ mod syntax;
 mod text;
 mod unmodelled;
 mod value;
+mod walk;
 mod write;
 
 #[cfg(test)]

@@ -11,8 +11,9 @@ use super::kinds::DataKind;
 use super::lex::Comment;
 use super::parse::{Mistake, parse};
 use super::run::{Known, Machine};
-use super::syntax::{Routine, RoutineKind, Source, What, each};
+use super::syntax::{Routine, RoutineKind, Source, What};
 use super::value;
+use super::walk::each;
 use crate::listing::{Declared, File, Found, Line, Module, Part, Procedure, decode};
 
 /// What the reader does not find in the file.

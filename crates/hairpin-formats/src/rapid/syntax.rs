@@ -169,25 +169,3 @@ pub(super) struct Source {
     pub(super) data: Vec<Declaration>,
     pub(super) routines: Vec<Routine>,
 }
-
-/// Blocks within a statement.
-pub(super) fn inner(statement: &Statement) -> Vec<&[Statement]> {
-    match &statement.what {
-        What::If { branches, otherwise } => {
-            branches.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
-        }
-        What::Test { cases, otherwise, .. } => {
-            cases.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
-        }
-        What::While { body, .. } | What::For { body, .. } => vec![body.as_slice()],
-        _ => Vec::new(),
-    }
-}
-
-/// Calls `seen` with every statement of the block and of the blocks within.
-pub(super) fn each(block: &[Statement], seen: &mut impl FnMut(&Statement)) {
-    for statement in block {
-        seen(statement);
-        inner(statement).into_iter().for_each(|block| each(block, seen));
-    }
-}

@@ -41,7 +41,7 @@ pub use report::{Complaint, Report};
 pub use rover::rover_for;
 pub use world_of::{NamedWorld, named_world};
 pub(crate) use write::MADE_BY;
-pub use write::{MadeBy, WriteError, changed_keys, key_digests, on_a_line, read_made_by, settings_hash, to_toml};
+pub use write::{Digests, MadeBy, WriteError, changed_keys, on_a_line, read_made_by, to_toml};
 
 use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::folder::SCENARIO;

@@ -16,10 +16,10 @@ pub struct MadeBy {
     pub version: String,
     /// Root seed.
     pub root_seed: u64,
-    /// [`settings_hash`] of the scenario as hairpin wrote it; `None` of earlier versions.
+    /// [`Digests::settings`] of the scenario as hairpin wrote it; `None` of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<String>,
-    /// [`key_digests`] of it, by which what was edited since has a name; empty of earlier versions.
+    /// [`Digests::keys`] of it, by which what was edited since has a name; empty of earlier versions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<String>,
     /// How far off their paths (mm) what was proven clear of the plans holds, whatever `spec` has become since; `None`
@@ -61,85 +61,74 @@ pub fn to_toml(scenario: &Scenario, made_by: Option<&MadeBy>) -> Result<String, 
     toml::to_string(&Resolved { scenario, made_by }).map_err(|error| WriteError(error.to_string()))
 }
 
-/// BLAKE3 over what runs are executed by: the keys and values of the scenario in `text` but those of `spec`, which may
-/// change once there are runs, and the bytes of the user's `controller`. Neither order nor layout of the text counts.
-///
-/// `None` where it is no TOML.
-pub fn settings_hash(text: &str, controller: Option<&[u8]>) -> Option<String> {
-    let mut hasher = blake3::Hasher::new();
-    update(&mut hasher, &toml::Value::Table(settings(text)?));
-    hasher.update(controller.unwrap_or_default());
-    Some(hasher.finalize().to_hex().to_string())
+/// Digests of what runs are executed by, one walk over its text.
+pub struct Digests {
+    /// BLAKE3 over the keys and values of the scenario but those of `spec`, which may change once there are runs, and
+    /// the bytes of the user's controller. Neither order nor layout of the text counts.
+    pub settings: String,
+    /// The dotted keys of it, each with the first 32 bits of its value's BLAKE3: `task.length 5f0c9a1b`. Enough to name
+    /// what was edited; whether anything was is the whole hash's to say.
+    pub keys: Vec<String>,
 }
 
-/// The scenario in `text` but for `spec` and what made it; `None` where it is no TOML.
-fn settings(text: &str) -> Option<toml::Table> {
-    let mut scenario: toml::Table = text.parse().ok()?;
-    scenario.remove(MADE_BY);
-    scenario.remove("spec");
-    Some(scenario)
-}
-
-/// The dotted keys that [`settings_hash`] counts, each with the first 32 bits of its value's BLAKE3: `task.length
-/// 5f0c9a1b`. Enough to name what was edited; whether anything was is the whole hash's to say.
-///
-/// Empty where `text` is no TOML.
-pub fn key_digests(text: &str) -> Vec<String> {
-    let mut digests = Vec::new();
-    if let Some(settings) = settings(text) {
-        digest("", &toml::Value::Table(settings), &mut digests);
-    }
-    digests
-}
-
-fn digest(key: &str, value: &toml::Value, digests: &mut Vec<String>) {
-    match value {
-        toml::Value::Table(table) if key.is_empty() || !table.is_empty() => {
-            for (name, value) in table.iter().collect::<BTreeMap<_, _>>() {
-                // As it is typed: names of the user's (`[vary]`) may have dots of their own.
-                let is_bare = name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
-                let name = if is_bare { name.clone() } else { format!("\"{name}\"") };
-                digest(&if key.is_empty() { name } else { format!("{key}.{name}") }, value, digests);
-            }
-        }
-        _ => {
-            let mut hasher = blake3::Hasher::new();
-            update(&mut hasher, value);
-            digests.push(format!("{key} {}", &hasher.finalize().to_hex()[..8]));
-        }
+impl Digests {
+    /// Of the scenario in `text` and the bytes of the user's `controller`; `None` where it is no TOML.
+    pub fn of(text: &str, controller: Option<&[u8]>) -> Option<Self> {
+        let mut scenario: toml::Table = text.parse().ok()?;
+        scenario.remove(MADE_BY);
+        scenario.remove("spec");
+        let (mut bytes, mut keys) = (Vec::new(), Vec::new());
+        digest(&toml::Value::Table(scenario), Some(""), &mut bytes, &mut keys);
+        bytes.extend_from_slice(controller.unwrap_or_default());
+        Some(Self { settings: blake3::hash(&bytes).to_hex().to_string(), keys })
     }
 }
 
-/// The keys of which `text` has other values than `kept` has digests of, those that are gone and those that came
-/// included.
-pub fn changed_keys(kept: &[String], text: &str) -> Vec<String> {
-    let kept: BTreeSet<&str> = kept.iter().map(String::as_str).collect();
-    let now = key_digests(text);
-    let now: BTreeSet<&str> = now.iter().map(String::as_str).collect();
-    let key = |digest: &&str| digest.rsplit_once(' ').map_or_else(String::new, |(key, _)| key.to_owned());
-    kept.symmetric_difference(&now).map(key).collect::<BTreeSet<_>>().into_iter().collect()
-}
-
-fn update(hasher: &mut blake3::Hasher, value: &toml::Value) {
+/// Adds `value` to `bytes`, and the digest of each value in it to `keys`, dotted behind its own `key`; what an array
+/// holds has none.
+fn digest(value: &toml::Value, key: Option<&str>, bytes: &mut Vec<u8>, keys: &mut Vec<String>) {
+    let from = bytes.len();
+    let part = |bytes: &mut Vec<u8>, text: &str| {
+        bytes.extend_from_slice(&(text.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(text.as_bytes());
+    };
+    // An empty table is a value.
+    let mut has_keys = false;
     match value {
         toml::Value::Table(table) => {
-            hasher.update(b"{");
-            for (key, value) in table.iter().collect::<BTreeMap<_, _>>() {
-                hasher.update(&(key.len() as u64).to_le_bytes()).update(key.as_bytes());
-                update(hasher, value);
+            has_keys = key.is_some_and(|key| key.is_empty() || !table.is_empty());
+            bytes.push(b'{');
+            for (name, value) in table.iter().collect::<BTreeMap<_, _>>() {
+                part(bytes, name);
+                let within = key.map(|key| dotted(key, name));
+                digest(value, within.as_deref(), bytes, keys);
             }
-            hasher.update(b"}");
+            bytes.push(b'}');
         }
         toml::Value::Array(values) => {
-            hasher.update(b"[");
-            values.iter().for_each(|value| update(hasher, value));
-            hasher.update(b"]");
+            bytes.push(b'[');
+            values.iter().for_each(|value| digest(value, None, bytes, keys));
+            bytes.push(b']');
         }
-        one => {
-            let text = one.to_string();
-            hasher.update(&(text.len() as u64).to_le_bytes()).update(text.as_bytes());
-        }
+        one => part(bytes, &one.to_string()),
     }
+    if let Some(key) = key.filter(|_| !has_keys) {
+        keys.push(format!("{key} {}", &blake3::hash(&bytes[from..]).to_hex()[..8]));
+    }
+}
+
+/// As it is typed: names of the user's (`[vary]`) may have dots of their own.
+fn dotted(key: &str, name: &str) -> String {
+    let is_bare = name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    let name = if is_bare { name.to_owned() } else { format!("\"{name}\"") };
+    if key.is_empty() { name } else { format!("{key}.{name}") }
+}
+
+/// The keys of which `now` has other digests than `kept`, those that are gone and those that came included.
+pub fn changed_keys(kept: &[String], now: &[String]) -> Vec<String> {
+    let [kept, now] = [kept, now].map(|digests| digests.iter().map(String::as_str).collect::<BTreeSet<_>>());
+    let key = |digest: &&str| digest.rsplit_once(' ').map_or_else(String::new, |(key, _)| key.to_owned());
+    kept.symmetric_difference(&now).map(key).collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 /// `key = value`, tables inline: what stands on one line of a scenario file.

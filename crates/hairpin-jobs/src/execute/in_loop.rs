@@ -1,10 +1,11 @@
 //! Who executes what a search asks for: our own simulator, with whoever steers there, or the user's program. What fails
-//! is counted and told alike, whoever it was.
+//! is told alike, whoever it was; its number is the search's own, which the verdict has.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use hairpin::campaign::answers::Answer;
-use hairpin::campaign::{Batch, Case, Executor, Mission, OwnSimulator, Setup};
+use hairpin::campaign::{Batch, Case, Executor, Mission, OwnSimulator, Setup, Tally};
 use hairpin::judgement::Measures;
 use hairpin::trajectory::Flight;
 use hairpin_formats::executor::{Greeting, InLoop};
@@ -28,18 +29,17 @@ struct Seeing<'a> {
     watch: &'a dyn Watch,
     rounds: Option<&'a Rounds>,
     stop: &'a (dyn Fn() -> bool + Sync),
-    told: &'a Mutex<Told>,
+    heard: &'a Heard,
 }
 
-/// What came of all executions that a search asked for.
-#[derive(Debug, Clone, Default)]
-struct Told {
-    /// Those that came to a flight.
-    flown: u64,
-    /// Those that did not.
-    failed: u64,
-    /// Why the last of these did not.
-    last: Option<String>,
+/// What came of the executions that a search asked for, as far as no tally has it: those of work that was stopped and
+/// is done anew are in none.
+#[derive(Default)]
+struct Heard {
+    /// Whether one came to a flight.
+    any_flown: AtomicBool,
+    /// Why the last that came to none did not.
+    last: Mutex<Option<String>>,
 }
 
 impl Executor for Seeing<'_> {
@@ -59,12 +59,11 @@ impl Executor for Seeing<'_> {
     }
 
     fn ended(&self, outcome: Result<(), &str>) {
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         match outcome {
-            Ok(()) => told.flown += 1,
+            Ok(()) => self.heard.any_flown.store(true, Ordering::Relaxed),
             // Who is not waited for has failed at nothing.
             Err(_) if (self.stop)() => {}
-            Err(why) => (told.failed, told.last) = (told.failed + 1, Some(why.into())),
+            Err(why) => *self.heard.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(why.into()),
         }
     }
 
@@ -82,16 +81,15 @@ impl Executor for Seeing<'_> {
 ///
 /// # Errors
 /// A command that is none; a program that is another than before; no threads.
-pub(crate) fn in_the_loop<T: Send>(
+pub(crate) fn in_the_loop(
     setup: &Setup,
     stopped: &(dyn Fn() -> bool + Sync),
     (rounds, executing): (Option<&Rounds>, &Executing),
     watch: &dyn Watch,
-    search: impl FnOnce(Asked) -> T + Send,
-) -> Result<(T, Option<Problem>), Problem> {
+    search: impl FnOnce(Asked) -> Tally + Send,
+) -> Result<(Tally, Option<Problem>), Problem> {
     let apart = || rounds.is_some_and(Rounds::is_in_trouble);
-    let told = &Mutex::new(Told::default());
-    let all = || told.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let heard = &Heard::default();
     // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says
     // nothing for who executed, and came to no flight in it.
     let goes_on = || watch.stopped() || rounds.is_some_and(Rounds::any_flown);
@@ -101,18 +99,18 @@ pub(crate) fn in_the_loop<T: Send>(
         let trouble = || steers.and_then(|(_, code)| code.trouble());
         let stop = || stopped() || trouble().is_some() || apart();
         // The limit of a search's time is none of who steers: what was found is executed after it.
-        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop, told };
+        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop, heard };
         let found = while_wanted(setup, watch, || search(Asked { executor, stop: &stop }));
-        let told = all();
-        tell(&told, "", watch);
-        let in_vain = || told.in_vain().filter(|_| !goes_on());
+        let last = heard.last();
+        tell(&found, last.as_deref(), "", watch);
+        let in_vain = || heard.in_vain(last.as_deref()).filter(|_| !goes_on());
         return Ok((found, trouble().or_else(in_vain).map(Problem::Executor).or_else(|| rounds?.trouble())));
     };
     let processes = processes(setup);
     let may = |now: &Greeting| executing.may(now) && rounds.is_none_or(|rounds| rounds.may(now));
     let program = InLoop::new(&command, limits, processes, stopped).only_if(&may);
     let stop = || stopped() || program.trouble().is_some() || program.is_unwanted() || apart();
-    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop, told };
+    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop, heard };
     let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
         let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;
@@ -124,33 +122,36 @@ pub(crate) fn in_the_loop<T: Send>(
         return Err(refused);
     }
     // The last of what it did not answer is what ended the search, and was told to nobody yet.
-    let of_program = program.all();
-    let last = of_program.last.as_ref();
-    let mut told = all();
-    told.failed = told.failed.max(of_program.failed);
-    told.last = last.map(|last| last.in_full()).or(told.last);
-    tell(&told, last.map_or("", |last| &last.stderr), watch);
-    let in_vain = || told.in_vain().filter(|_| !goes_on()).map(|why| program.by_name(why));
-    let trouble = of_program.trouble.clone().or_else(in_vain).map(Problem::Executor);
+    let (trouble, last) = (program.trouble(), program.last());
+    let stderr = last.as_ref().map_or("", |last| &last.stderr);
+    let last = last.as_ref().map(|last| last.in_full()).or_else(|| heard.last());
+    tell(&found, last.as_deref(), stderr, watch);
+    let in_vain = || heard.in_vain(last.as_deref()).filter(|_| !goes_on()).map(|why| program.by_name(why));
+    let trouble = trouble.or_else(in_vain).map(Problem::Executor);
     Ok((found, trouble.or_else(|| rounds?.trouble())))
 }
 
-/// What was not flown, with the end of what a program wrote to stderr the last time.
-fn tell(Told { flown, failed, last }: &Told, stderr: &str, watch: &dyn Watch) {
-    tracing::info!("{flown} executions in the loop, {failed} failed");
+/// That executions failed, why the last did, and the end of what a program wrote to stderr then. Their number is the
+/// tally's; where it has none, they are of work that was stopped.
+fn tell(tally: &Tally, last: Option<&str>, stderr: &str, watch: &dyn Watch) {
+    let (failed, all) = (tally.failures.failed, tally.executed());
+    tracing::info!("{all} executions in the loop, {failed} failed");
     let Some(last) = last else { return };
-    watch.warn(&format!("Warning: {failed} of {} executions in the loop failed; the last: {last}", flown + failed));
+    let many = if failed > 0 { format!("{failed} of {all} executions") } else { "executions".to_owned() };
+    watch.warn(&format!("Warning: {many} in the loop failed; the last: {last}"));
     if !stderr.trim().is_empty() {
         watch.warn(stderr.trim_end());
     }
 }
 
-impl Told {
-    /// Why the search was in vain: nothing that it asked for was flown.
-    fn in_vain(&self) -> Option<String> {
-        let Self { flown, failed, last } = self;
-        let last = last.as_ref().map_or(String::new(), |last| format!("; the last: {last}"));
-        let none = *flown == 0 && *failed > 0;
-        none.then(|| format!("none of {failed} executions in the loop came to a flight{last}"))
+impl Heard {
+    fn last(&self) -> Option<String> {
+        self.last.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Why the search was in vain, of which `last` failed as the last: nothing that it asked for was flown.
+    fn in_vain(&self, last: Option<&str>) -> Option<String> {
+        let last = last.filter(|_| !self.any_flown.load(Ordering::Relaxed))?;
+        Some(format!("none of the executions in the loop came to a flight; the last: {last}"))
     }
 }

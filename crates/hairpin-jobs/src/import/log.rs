@@ -8,7 +8,7 @@ use hairpin_formats::logs::{self, EventKind, LogFrame, Logged};
 use hairpin_formats::quote::shell_word;
 
 use crate::Problem;
-use crate::judge_log::{Cut, SourceTold, clock_words, cut, due_alone};
+use crate::judge_log::{Cut, SourceTold, Unsound, clock_words, cut, due_alone};
 
 /// A log that was read.
 #[derive(Debug)]
@@ -50,7 +50,13 @@ impl ReadLog {
         let motions = motions.into_iter().map(|motion| ReadMotion {
             source: SourceTold::of(&logged, motion),
             span_s: [motion.samples.first(), motion.samples.last()].map(|end| end.map_or(0.0, |sample| sample.t_s)),
-            cuts: cut(&motion.samples, (motion, due), &logged.dropouts, &anything).cuts,
+            cuts: cut(
+                &motion.samples,
+                Unsound { resets: &motion.resets, invalid: &motion.invalid, dropouts: &logged.dropouts },
+                due,
+                &anything,
+            )
+            .cuts,
         });
         let motions = motions.collect();
         let frame = match &logged.frame {

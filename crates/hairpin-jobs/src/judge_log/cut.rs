@@ -2,7 +2,7 @@
 //! out and told.
 
 use hairpin::judgement::Swiftness;
-use hairpin_formats::logs::{LoggedMotion, Sample, Span};
+use hairpin_formats::logs::{Reset, Sample, Span};
 
 /// Room for noise in what is taken for a jump, m.
 const ROOM_M: f64 = 0.1;
@@ -69,11 +69,22 @@ pub(crate) struct Left {
     pub(crate) cuts: Vec<Cut>,
 }
 
-/// Cuts `samples`, a part of `motion` in the world's frame that rises in time and is `due` from when to when.
+/// What a log says itself is no motion, or was not recorded.
+#[derive(Clone, Copy)]
+pub(crate) struct Unsound<'a> {
+    /// Jumps of the estimate.
+    pub(crate) resets: &'a [Reset],
+    /// Spans without a valid pose.
+    pub(crate) invalid: &'a [Span],
+    /// Spans in which the logger lost something.
+    pub(crate) dropouts: &'a [Span],
+}
+
+/// Cuts `samples`, a part of a motion in the world's frame that rises in time and is `due` from when to when.
 pub(crate) fn cut(
     samples: &[Sample],
-    (motion, due): (&LoggedMotion, Span),
-    dropouts: &[Span],
+    Unsound { resets, invalid, dropouts }: Unsound,
+    due: Span,
     swiftness: &Swiftness,
 ) -> Left {
     let mut cuts = Vec::new();
@@ -81,7 +92,7 @@ pub(crate) fn cut(
         (Some(first), Some(last)) => (first.t_s, last.t_s),
         _ => return Left { samples: Vec::new(), breaks: Vec::new(), cuts },
     };
-    let announced = motion.resets.iter().filter(|reset| reset.t_s > start && reset.t_s <= end);
+    let announced = resets.iter().filter(|reset| reset.t_s > start && reset.t_s <= end);
     let announced = announced.filter_map(|reset| match reset.by_m.map(|by| by.norm()) {
         Some(by) if by < LEAST_RESET_M => None,
         Some(by) => Some((reset.t_s, format!("position reset of {}", length(by)))),
@@ -90,7 +101,7 @@ pub(crate) fn cut(
     let jump = jumps(samples, swiftness).map(|(t, by)| (t, format!("position jump of {}", length(by))));
     let first = announced.chain(jump).min_by(|a, b| a.0.total_cmp(&b.0));
     let until = first.as_ref().map_or(f64::INFINITY, |(t, _)| *t);
-    let invalid = |t: f64| motion.invalid.iter().find(|span| (span.from_s..=span.to_s).contains(&t));
+    let is_invalid = |t: f64| invalid.iter().any(|span| (span.from_s..=span.to_s).contains(&t));
     let middle = middle_interval(samples);
     let mut left = Left { samples: Vec::new(), breaks: Vec::new(), cuts: Vec::new() };
     let gap = |from: f64, to: f64, which: &str| {
@@ -102,7 +113,7 @@ pub(crate) fn cut(
     }
     let mut broken: Option<(f64, &str)> = None;
     for sample in samples.iter().filter(|sample| sample.t_s < until) {
-        if invalid(sample.t_s).is_some() {
+        if is_invalid(sample.t_s) {
             broken
                 .get_or_insert((left.samples.last().map_or(start, |before: &Sample| before.t_s), "no valid position"));
             continue;

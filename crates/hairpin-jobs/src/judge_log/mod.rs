@@ -47,7 +47,7 @@ pub use arm::{FoundProgram, JointsTold};
 pub(crate) use arm::{arm_of, ran};
 pub(crate) use asks::Asks;
 pub use cut::Cut;
-pub(crate) use cut::cut;
+pub(crate) use cut::{Unsound, cut};
 pub(crate) use due::due_alone;
 pub use found::{Found, JudgedLog, JudgedLogs, Outcome};
 pub(crate) use frame::IntoWorld;

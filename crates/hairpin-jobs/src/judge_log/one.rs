@@ -6,7 +6,7 @@ use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
 use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
-use hairpin_formats::logs::{self, Logged, LoggedMotion, Progress, Sample};
+use hairpin_formats::logs::{self, Logged, Progress, Sample, Span};
 use nalgebra::Isometry3;
 
 use super::accuracy::accuracies;
@@ -15,7 +15,7 @@ use super::against::{Of, Ready};
 use super::asked;
 use super::asks::Asks;
 use super::begin::Before;
-use super::cut::{Left, cut};
+use super::cut::{Left, Unsound, cut};
 use super::due::due;
 use super::found::{Found, JudgedLog};
 use super::frame::{FrameTold, IntoWorld};
@@ -90,15 +90,9 @@ pub(super) fn judge(
         // On its way to the first waypoint it is at none of the legs.
         due.from_s = f64::NEG_INFINITY;
     }
-    let unsound = LoggedMotion {
-        name: motion.name.clone(),
-        source: motion.source,
-        samples: Vec::new(),
-        resets: motion.resets.clone(),
-        invalid: motion.invalid.iter().copied().chain(unstable).collect(),
-        unfit: None,
-    };
-    let left = cut(&own, (&unsound, due), &logged.dropouts, &against.swiftness);
+    let invalid: Vec<Span> = motion.invalid.iter().copied().chain(unstable).collect();
+    let unsound = Unsound { resets: &motion.resets, invalid: &invalid, dropouts: &logged.dropouts };
+    let left = cut(&own, unsound, due, &against.swiftness);
     let left_out = judged.told_course().and_then(|course| LeftOut::of(course, &own, motion, settings.from_s));
     let (missed, to_the_end) = judged.end(&own, &left, left_out.is_some());
     let finished = to_the_end && left_out.is_none();

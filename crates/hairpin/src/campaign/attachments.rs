@@ -144,6 +144,12 @@ impl Attachments {
         self.user_score.as_ref().filter(|user| score.strip_prefix(PYTHON) == Some(&user.name))
     }
 
+    /// The file, as it was given, that `score` names.
+    pub fn own_score(&self, score: &str) -> Option<&str> {
+        let of_model = self.model(score).map(|model| &model.given);
+        of_model.or(self.user_score(score).map(|user| &user.given)).map(String::as_str)
+    }
+
     /// The target of the user's own that `target` names.
     pub fn user_target(&self, target: Option<&Target>) -> Option<&Attached<dyn RunMeter>> {
         let Some(Target::Python(file)) = target else { return None };

@@ -332,9 +332,27 @@ impl Setup {
         why.first().copied()
     }
 
-    /// Keys under `execute` that are given, and that no run reads.
+    /// Keys that are given, and that nobody reads: of the search and, by its name, of its score, then under `execute`.
+    /// A score of the user's own is none of them: who brings one means it, and is refused.
     pub fn passed_over(&self) -> Vec<PassedOver> {
-        self.kind.passed_over()
+        let (search, score) = (self.scenario.search(), self.scenario.score());
+        // Of programs of arms these are none of their keys.
+        let idle = if self.has_programs() { Vec::new() } else { search.passed_over(score) };
+        let of_search = idle.into_iter().map(|(key, value)| PassedOver {
+            key: format!("generate.search.{key}"),
+            value,
+            why: format!("`{}` has no use for it here", search.method.word()),
+        });
+        let of_score = match self.attachments.own_score(score) {
+            None => self.scenario.check_score(score).err(),
+            Some(_) => None,
+        };
+        let of_score = of_score.map(|Mistake { key, value, bound }| PassedOver {
+            key,
+            value,
+            why: format!("it is to be {bound}"),
+        });
+        of_search.chain(of_score).chain(self.kind.passed_over()).collect()
     }
 
     /// Where its vehicle may be; `None` of what is none, as arms are.

@@ -6,7 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::rapid::instructions::{self, Effect};
-use crate::rapid::syntax::{Argument, Expression, Path, Source, Statement, Step, What, each};
+use crate::rapid::syntax::{Argument, Expression, Path, Source, Statement, What};
+use crate::rapid::walk::each;
 
 /// Names, in lower case, of what may decide anything.
 pub(super) fn deciding(source: &Source) -> BTreeSet<String> {
@@ -33,81 +34,58 @@ struct Read {
 
 impl Read {
     fn statement(&mut self, statement: &Statement, own: &dyn Fn(&str) -> bool) {
+        let mut into = None;
         match &statement.what {
-            What::Assign { to, value } => {
-                self.indices(to);
-                self.expression(value, Some(&to.name.to_ascii_lowercase()));
-            }
-            What::Call { name, arguments } => {
-                let name = name.to_ascii_lowercase();
-                match (instructions::effect(&name), arguments.as_slice()) {
-                    (Some(Effect::Harmless), _) if !own(&name) => {}
-                    // Counts on what it counts.
-                    (Some(Effect::Followed), [Argument::Placed(Expression::Path(to)), more @ ..])
-                        if !own(&name) && ["incr", "decr", "add", "clear"].contains(&name.as_str()) =>
-                    {
-                        self.indices(to);
-                        self.arguments(more, Some(&to.name.to_ascii_lowercase()));
-                    }
-                    _ => self.arguments(arguments, None),
-                }
-            }
-            What::LateCall { name, arguments } => {
-                self.expression(name, None);
-                self.arguments(arguments, None);
-            }
-            What::If { branches, .. } => branches.iter().for_each(|(condition, _)| self.expression(condition, None)),
-            What::While { condition, .. } => self.expression(condition, None),
-            What::For { bounds, step, .. } => bounds.iter().chain(step).for_each(|bound| self.expression(bound, None)),
-            What::Test { of, cases, .. } => {
-                let values = cases.iter().flat_map(|(values, _)| values);
-                std::iter::once(of).chain(values).for_each(|value| self.expression(value, None));
-            }
-            What::Return(value) => value.iter().for_each(|value| self.expression(value, None)),
-            What::Exit | What::Label | What::Goto(_) | What::Connect(_) | What::Harmless(_) | What::Broken(_) => {}
+            What::Assign { to, .. } => into = Some(self.written(to)),
+            What::Call { name, arguments } => self.call(&name.to_ascii_lowercase(), arguments, own),
+            What::LateCall { arguments, .. } => self.arguments(arguments, None),
+            _ => {}
+        }
+        for value in statement.values() {
+            self.expression(value, into.as_deref());
         }
     }
 
-    fn arguments(&mut self, arguments: &[Argument], into: Option<&str>) {
-        for argument in arguments {
-            match argument {
-                Argument::Placed(value)
-                | Argument::Named { value: Some(value), .. }
-                | Argument::IfGiven { parameter: value, .. } => self.expression(value, into),
-                Argument::Named { value: None, .. } => {}
+    fn call(&mut self, name: &str, arguments: &[Argument], own: &dyn Fn(&str) -> bool) {
+        match (instructions::effect(name), arguments) {
+            (Some(Effect::Harmless), _) if !own(name) => {}
+            // Counts on what it counts.
+            (Some(Effect::Followed), [Argument::Placed(Expression::Path(to)), more @ ..])
+                if !own(name) && ["incr", "decr", "add", "clear"].contains(&name) =>
+            {
+                let to = self.written(to);
+                self.arguments(more, Some(&to));
             }
+            _ => self.arguments(arguments, None),
         }
+    }
+
+    /// The name of what is written into, of which the indices decide.
+    fn written(&mut self, to: &Path) -> String {
+        to.indices().for_each(|index| self.expression(index, None));
+        to.name.to_ascii_lowercase()
+    }
+
+    fn arguments(&mut self, arguments: &[Argument], into: Option<&str>) {
+        arguments.iter().filter_map(Argument::value).for_each(|value| self.expression(value, into));
     }
 
     /// What goes `into` a name decides if that does; else it does.
     fn expression(&mut self, expression: &Expression, into: Option<&str>) {
-        match expression {
-            Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => {}
-            Expression::Aggregate(parts) => parts.iter().for_each(|part| self.expression(part, into)),
+        let parts_into = match expression {
             Expression::Path(path) => {
                 let name = path.name.to_ascii_lowercase();
                 match into {
                     Some(into) => self.made_of.entry(into.to_owned()).or_default().insert(name),
                     None => self.decide.insert(name),
                 };
-                self.indices(path);
+                None
             }
             // What a function of the file does with them is not followed here.
-            Expression::Call { arguments, .. } => self.arguments(arguments, None),
-            Expression::Unary { of, .. } => self.expression(of, into),
-            Expression::Chain { first, rest } => {
-                self.expression(first, into);
-                rest.iter().for_each(|(_, part)| self.expression(part, into));
-            }
-        }
-    }
-
-    fn indices(&mut self, path: &Path) {
-        for step in &path.steps {
-            if let Step::Element(indices) = step {
-                indices.iter().for_each(|index| self.expression(index, None));
-            }
-        }
+            Expression::Call { .. } => None,
+            _ => into,
+        };
+        expression.parts().into_iter().for_each(|part| self.expression(part, parts_into));
     }
 
     /// With all that those are made of that decide.

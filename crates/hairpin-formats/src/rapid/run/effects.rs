@@ -6,7 +6,8 @@ use super::{DEEPEST, Machine};
 use crate::listing::At;
 use crate::rapid::instructions::{self, Effect};
 use crate::rapid::outputs;
-use crate::rapid::syntax::{Argument, Expression, Path, Routine, Statement, Step, What, inner};
+use crate::rapid::syntax::{Argument, Expression, Path, Routine, Statement, What};
+use crate::rapid::walk::inner;
 
 /// What a block might do.
 #[derive(Debug, Default)]
@@ -29,10 +30,8 @@ pub(super) fn paths(arguments: &[Argument]) -> impl Iterator<Item = &Path> {
 }
 
 fn path(argument: &Argument) -> Option<&Path> {
-    match argument {
-        Argument::Placed(Expression::Path(path))
-        | Argument::Named { value: Some(Expression::Path(path)), .. }
-        | Argument::IfGiven { parameter: Expression::Path(path), .. } => Some(path),
+    match argument.value()? {
+        Expression::Path(path) => Some(path),
         _ => None,
     }
 }
@@ -77,30 +76,17 @@ impl Machine<'_> {
         self.steps = self.steps.saturating_add(block.len());
         for statement in block {
             match &statement.what {
-                What::Assign { to, value } => {
+                What::Assign { to, .. } => {
                     effects.assigned.insert((self.module, to.name.clone()));
-                    self.in_path(to, effects);
-                    self.in_expression(value, effects);
+                    to.indices().for_each(|index| self.in_expression(index, effects));
                 }
                 What::Call { name, arguments } => self.in_call(name, arguments, effects),
                 What::LateCall { .. } | What::Broken(_) => effects.moves = true,
-                What::Return(value) => {
-                    value.iter().for_each(|value| self.in_expression(value, effects));
-                    effects.leaves = true;
-                }
-                What::Exit | What::Goto(_) => effects.leaves = true,
-                What::If { branches, .. } => {
-                    branches.iter().for_each(|(condition, _)| self.in_expression(condition, effects));
-                }
-                What::While { condition, .. } => self.in_expression(condition, effects),
-                What::For { bounds, step, .. } => {
-                    bounds.iter().chain(step).for_each(|bound| self.in_expression(bound, effects));
-                }
-                What::Test { of, cases, .. } => {
-                    let values = cases.iter().flat_map(|(values, _)| values);
-                    std::iter::once(of).chain(values).for_each(|value| self.in_expression(value, effects));
-                }
-                What::Label | What::Harmless(_) | What::Connect(_) => {}
+                What::Return(_) | What::Exit | What::Goto(_) => effects.leaves = true,
+                _ => {}
+            }
+            for value in statement.values() {
+                self.in_expression(value, effects);
             }
             for block in inner(statement) {
                 self.collect(block, effects);
@@ -109,11 +95,7 @@ impl Machine<'_> {
     }
 
     fn in_call(&mut self, name: &str, arguments: &[Argument], effects: &mut Effects) {
-        for argument in arguments {
-            if let Argument::Placed(value) | Argument::Named { value: Some(value), .. } = argument {
-                self.in_expression(value, effects);
-            }
-        }
+        arguments.iter().filter_map(Argument::value).for_each(|value| self.in_expression(value, effects));
         let lower = name.to_ascii_lowercase();
         let module = self.module;
         let given = || paths(arguments).map(|path| (module, path.name.clone()));
@@ -157,41 +139,17 @@ impl Machine<'_> {
         data.is_some_and(|variable| variable.fixed.is_some())
     }
 
-    fn in_path(&mut self, path: &Path, effects: &mut Effects) {
-        for step in &path.steps {
-            if let Step::Element(indices) = step {
-                indices.iter().for_each(|index| self.in_expression(index, effects));
-            }
-        }
-    }
-
     /// Functions of the file may do what procedures do.
     fn in_expression(&mut self, expression: &Expression, effects: &mut Effects) {
-        match expression {
-            Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => {}
-            Expression::Aggregate(parts) => parts.iter().for_each(|part| self.in_expression(part, effects)),
-            Expression::Path(path) => self.in_path(path, effects),
-            Expression::Unary { of, .. } => self.in_expression(of, effects),
-            Expression::Chain { first, rest } => {
-                self.in_expression(first, effects);
-                rest.iter().for_each(|(_, part)| self.in_expression(part, effects));
+        if let Expression::Call { name, arguments } = expression {
+            let lower = name.to_ascii_lowercase();
+            if self.routine(&lower).is_some() {
+                return self.in_call(name, arguments, effects);
             }
-            Expression::Call { name, arguments } if self.routine(&name.to_ascii_lowercase()).is_some() => {
-                self.in_call(name, arguments, effects);
-            }
-            Expression::Call { name, arguments } => {
-                let written = written(&name.to_ascii_lowercase(), arguments).into_iter();
-                let module = self.module;
-                effects
-                    .assigned
-                    .extend(written.filter(|path| !self.is_fixed(&path.name)).map(|path| (module, path.name.clone())));
-                for argument in arguments {
-                    if let Argument::Placed(value) | Argument::Named { value: Some(value), .. } = argument {
-                        self.in_expression(value, effects);
-                    }
-                }
-            }
+            let written = written(&lower, arguments).into_iter().filter(|path| !self.is_fixed(&path.name));
+            effects.assigned.extend(written.map(|path| (self.module, path.name.clone())));
         }
+        expression.parts().into_iter().for_each(|part| self.in_expression(part, effects));
     }
 }
 

@@ -14,14 +14,16 @@ mod scope;
 mod statements;
 mod variables;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::trajectory::program::{Move, Tool, WorkObject};
 
 use self::scope::Scope;
 use super::kinds::DataKind;
-use super::syntax::{Declaration, Home, Routine, RoutineKind, Source, each};
+use super::syntax::{Declaration, Home, Routine, RoutineKind, Source};
 use super::value::{Value, Variable};
+use super::walk::each;
 use crate::listing::{At, Class, Line, Unmodelled};
 
 /// Statements and values at most; a program that takes more is told to be endless.
@@ -50,8 +52,9 @@ pub(super) struct Machine<'a> {
     soft: bool,
     /// Names, in lower case, of the tools that moves have used.
     carried: BTreeSet<String>,
-    /// Names, in lower case, of what may decide anything.
-    deciding: BTreeSet<String>,
+    source: &'a Source,
+    /// Names, in lower case, of what may decide anything, once a loop asks.
+    deciding: OnceCell<BTreeSet<String>>,
     steps: usize,
     /// Values that were held beside others, to see whether a loop comes to an end.
     held: usize,
@@ -117,7 +120,8 @@ impl<'a> Machine<'a> {
             gripped: false,
             soft: false,
             carried: BTreeSet::new(),
-            deciding: decides::deciding(source),
+            source,
+            deciding: OnceCell::new(),
             steps: 0,
             held: 0,
             depth: 0,

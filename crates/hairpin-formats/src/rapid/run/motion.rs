@@ -292,17 +292,11 @@ fn moved_beside(motion: &Motion) -> Option<Doubt> {
 /// The variables of a value, from left to right.
 fn variables<'e>(expression: &'e Expression, found: &mut Vec<&'e Expression>) {
     match expression {
-        Expression::Number(_) | Expression::Bool(_) | Expression::Text(_) => {}
         Expression::Path(_) => found.push(expression),
-        Expression::Aggregate(parts) => parts.iter().for_each(|part| variables(part, found)),
-        Expression::Unary { of, .. } => variables(of, found),
-        Expression::Chain { first, rest } => {
-            variables(first, found);
-            rest.iter().for_each(|(_, part)| variables(part, found));
-        }
         Expression::Call { arguments, .. } => {
             arguments.iter().filter_map(handed).for_each(|part| variables(part, found));
         }
+        _ => expression.parts().into_iter().for_each(|part| variables(part, found)),
     }
 }
 

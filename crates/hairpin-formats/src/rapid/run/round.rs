@@ -44,7 +44,8 @@ impl Machine<'_> {
     /// may have gone on ([`super::decides`]).
     pub(super) fn comes_again(&mut self, begun: Option<&State>) -> bool {
         let Some(begun) = begun.filter(|_| self.may_look()) else { return false };
-        let counts = |name: &str| !self.deciding.contains(name);
+        let deciding = self.deciding.get_or_init(|| super::decides::deciding(self.source));
+        let counts = |name: &str| !deciding.contains(name);
         let frames = begun.variables.iter().zip(&self.frames);
         (begun.demanded, begun.gripped, begun.soft) == (self.demanded, self.gripped, self.soft)
             && begun.carried == self.carried

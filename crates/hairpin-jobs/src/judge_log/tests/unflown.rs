@@ -178,8 +178,8 @@ fn positions_that_the_mission_outlasts_are_a_gap() {
         assert_eq!(found.cuts.len(), 1, "{sentence}");
         // Without a mission beside it, too.
         let anything = hairpin::judgement::Swiftness { speed: None, acceleration: None };
-        let motion = &log.motions[0];
-        assert_eq!(cut(&motion.samples, (motion, due_alone(&log)), &[], &anything).cuts.len(), 1);
+        let sound = Unsound { resets: &[], invalid: &[], dropouts: &[] };
+        assert_eq!(cut(&log.motions[0].samples, sound, due_alone(&log), &anything).cuts.len(), 1);
     }
     // Samples are not where words are, and a first word may be from before the log began.
     let (sentence, _, found) = over(&with(2.5, 18.0, Some(18.03)), &SQUARE);

@@ -2,7 +2,7 @@
 //! a clock that is wrong, or angles that went on turning.
 
 use super::ArmSetup;
-use crate::robot::arm::AXES;
+use crate::robot::arm::{AXES, JointLimit};
 use crate::trajectory::Track;
 
 /// So much beyond its bounds a joint may be told to stand, rad: encoders have noise, gears play, and tables rounded
@@ -101,12 +101,11 @@ impl ArmSetup {
     /// sample to the next or for a tenth of a second, the first of equals; `None` where none is.
     pub fn too_fast(&self, motion: &Track) -> Option<TooFast> {
         let times = motion.times();
-        let axes = (0..AXES).filter_map(|axis| Some((axis, motion.channel(&format!("q{}_rad", axis + 1))?)));
-        let all = axes.flat_map(|(axis, angles)| {
-            let limit = self.station.arm.limits[axis].speed;
+        let all = self.joints(motion).flat_map(|(axis, limit, angles)| {
             let from = move |i: usize, j: usize| {
                 let over = times[j] - times[i];
-                TooFast { axis: axis + 1, speed: (angles[j] - angles[i]).abs() / over, limit, at: times[i], over }
+                let speed = (angles[j] - angles[i]).abs() / over;
+                TooFast { axis, speed, limit: limit.speed, at: times[i], over }
             };
             let mut far = 0;
             (0..times.len().saturating_sub(1)).flat_map(move |i| {
@@ -123,18 +122,19 @@ impl ArmSetup {
     /// The joint that stands farthest beyond its bounds in a motion with the channels `q1_rad` … `q6_rad`, the first of
     /// equals; `None` where all keep them, but for half a degree.
     pub fn beyond_bounds(&self, motion: &Track) -> Option<Beyond> {
-        let axes = (0..AXES).filter_map(|axis| Some((axis, motion.channel(&format!("q{}_rad", axis + 1))?)));
-        let all = axes.flat_map(|(axis, angles)| {
-            let limit = &self.station.arm.limits[axis];
+        let all = self.joints(motion).flat_map(|(axis, limit, angles)| {
             let bounds = [limit.lower, limit.upper];
-            angles.iter().zip(motion.times()).map(move |(angle, at)| Beyond {
-                axis: axis + 1,
-                angle: *angle,
-                bounds,
-                at: *at,
-            })
+            angles.iter().zip(motion.times()).map(move |(angle, at)| Beyond { axis, angle: *angle, bounds, at: *at })
         });
         let farthest = all.reduce(|most, one| if one.by() > most.by() { one } else { most });
         farthest.filter(|one| one.by() > ALLOWED)
+    }
+
+    /// The joints of which `motion` has channels: number from 1, limits, and angle at each sample, rad.
+    pub(super) fn joints<'a>(&'a self, motion: &'a Track) -> impl Iterator<Item = (usize, &'a JointLimit, &'a [f64])> {
+        let of = move |axis: usize| {
+            Some((axis, &self.station.arm.limits[axis - 1], motion.channel(&format!("q{axis}_rad"))?))
+        };
+        (1..=AXES).filter_map(of)
     }
 }

@@ -13,7 +13,7 @@ use crate::campaign::kind::{
 use crate::campaign::scenario::{ArmMode, Keys, ProgramMethod, Target};
 use crate::campaign::{Case, Tally};
 use crate::judgement::Clearance;
-use crate::robot::arm::{AXES, Arm};
+use crate::robot::arm::Arm;
 use crate::simulation::Controlled;
 use crate::trajectory::Track;
 use crate::world::cell::Region;
@@ -181,9 +181,7 @@ impl Say for ArmSetup {
 /// end no stroke. Joints without a channel are left out.
 fn joints_met(setup: &ArmSetup, track: &Track, meet: &mut dyn FnMut(&[f64])) {
     let times = track.times();
-    for joint in 0..AXES {
-        let Some(angles) = track.channel(&format!("q{}_rad", joint + 1)) else { continue };
-        let limit = &setup.station.arm.limits[joint];
+    for (axis, limit, angles) in setup.joints(track) {
         let place = |angle: f64| 100.0 * (angle - limit.lower) / (limit.upper - limit.lower);
         // The direction of the stroke, +1 or −1, and the largest share of the joint's fastest in it.
         let (mut direction, mut fastest) = (0.0, 0.0_f64);
@@ -193,7 +191,7 @@ fn joints_met(setup: &ArmSetup, track: &Track, meet: &mut dyn FnMut(&[f64])) {
             if speed < STANDS {
                 continue;
             }
-            let (at, joint) = (place(angles[i]), joint as f64 + 0.5);
+            let (at, joint) = (place(angles[i]), axis as f64 - 0.5);
             if direction * rate < 0.0 {
                 meet(&[joint, at, 100.0 * fastest, 2.5]);
                 fastest = 0.0;

@@ -24,7 +24,7 @@ impl Claim for DriveSetup {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
         let solver = DriveSolver::new(self)?;
         // Before any ground is sampled.
-        solver.may_begin()?;
+        solver.may_go()?;
         Ok(Box::new(solver))
     }
 

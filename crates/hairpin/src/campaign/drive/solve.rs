@@ -73,16 +73,39 @@ impl<'a> DriveSolver<'a> {
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
     }
 
-    /// Whether drives may begin at the task's start: no leg leaves where the vehicle cannot stand, of no graph.
+    /// Whether drives may begin at the task's start and end at its end: no leg leaves or comes to where the vehicle
+    /// cannot stand, of no graph. Headings at the end are free, so that of it only keep-outs decide.
     ///
     /// # Errors
-    /// Why it cannot, in a sentence's part.
-    pub(super) fn may_begin(&self) -> Result<(), String> {
+    /// Why they may not, in a sentence's part.
+    pub(super) fn may_go(&self) -> Result<(), String> {
+        let (start, end) = (self.setup.start(), self.setup.scenario.task.end_m);
         let refused = |why: LegRefusal| format!("already at `task.start` drives {}", why.says());
-        match &self.stepwise {
-            Some(_) => Ok(()),
-            None => stands(&self.site(), &self.settings, &self.setup.start()).map_err(refused),
-        }
+        let precision = match &self.stepwise {
+            None => {
+                stands(&self.site(), &self.settings, &start).map_err(refused)?;
+                self.settings.solver.precision.position
+            }
+            Some(_) => {
+                self.keeps_out("task.start", [start.x, start.y], 0.0)?;
+                0.0
+            }
+        };
+        end.map_or(Ok(()), |end| self.keeps_out("task.end_m", end, precision))
+    }
+
+    /// Whether legs may come to `place` or leave it, of which they end within `precision` (m): all of them keep the
+    /// vehicle's radius from every keep-out.
+    fn keeps_out(&self, key: &str, place: [f64; 2], precision: f64) -> Result<(), String> {
+        let DriveSite { keep_outs, radius, .. } = self.site();
+        let near = keep_outs.nearest(place[0], place[1]).filter(|near| near.distance < radius - precision);
+        near.map_or(Ok(()), |near| {
+            let (name, by) = (&near.keep_out.name, near.distance);
+            let is = if by < 0.0 { format!("{:.3} m inside", -by) } else { format!("{by:.3} m from") };
+            Err(format!(
+                "`{key}` is {is} `{name}`, and no drive comes nearer to it than {radius:.3} m, the vehicle's radius"
+            ))
+        })
     }
 
     /// `plan` over `points`, as many as its own, by the same reach set; heights are the ground's, and only legs with a

@@ -626,9 +626,31 @@ fn where_drives_cannot_begin_nothing_is_searched() {
     assert_eq!(beside.kind().solver().err().unwrap(), "already at `task.start` drives enter a keep-out");
     let end = mistakes(&[("task.end_m", json!([24.0, 21.0]))]).unwrap();
     assert!(end.contains("task.end_m") && end.contains("m inside"), "{end}");
-    // Straight legs do not look at them.
-    assert_eq!(mistakes(&[at(24.0, 21.1), ("generate.reach", json!("none"))]), None);
+    // Where legs are straight it is a place that none leaves.
+    let straight = setup(car(), &[at(24.0, 21.1), ("generate.reach", json!("none"))]);
+    let why = straight.kind().solver().err().unwrap();
+    assert!(why.starts_with("`task.start` is 0.300 m inside `pillar`, and no drive comes nearer"), "{why}");
     let steep = setup(rover(), &[("generate.limits.tilt_deg", json!(1e-3))]);
     let why = steep.kind().solver().err().unwrap();
     assert_eq!(why, "already at `task.start` drives tilt more than allowed");
+}
+
+/// Of an end beside a keep-out every leg was solved, and refused, in graph after graph. What the vehicle's radius
+/// leaves, but for how exactly legs end, is searched.
+#[test]
+fn where_drives_cannot_end_nothing_is_searched() {
+    let ends = |y: f64, changes: &[(&str, Value)]| {
+        let end = ("task.end_m", json!([24.0, y]));
+        setup(car(), &[std::slice::from_ref(&end), changes].concat()).kind().solver().err()
+    };
+    let radius = setup(car(), &[]).own::<DriveSetup>().unwrap().radius();
+    let why = ends(21.41, &[]).unwrap();
+    let words = format!("`task.end_m` is 0.010 m from `pillar`, and no drive comes nearer to it than {radius:.3} m");
+    assert!(why.starts_with(&words), "{why}");
+    let precision = ("generate.solver.position_m", json!(0.01));
+    let solved = |off: f64| ends(21.4 + radius + off, std::slice::from_ref(&precision));
+    assert!(solved(-0.011).is_some() && solved(-0.009).is_none() && solved(0.0).is_none());
+    let straight = |off: f64| ends(21.4 + radius + off, &[precision.clone(), ("generate.reach", json!("none"))]);
+    assert!(straight(-1e-3).is_some() && straight(1e-9).is_none());
+    assert!(ends(21.41, &[("world.keep_out", json!([]))]).is_none());
 }

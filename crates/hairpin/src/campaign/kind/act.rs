@@ -31,7 +31,7 @@ pub(in crate::campaign) struct Order<'a> {
     pub(in crate::campaign) obstacles: bool,
 }
 
-/// A key under `execute` that is given, and that no run reads.
+/// A key that is given, and that nobody reads.
 ///
 /// Told before anything runs: who gave it believes that it acts.
 #[derive(Debug, Clone, PartialEq, Eq)]
