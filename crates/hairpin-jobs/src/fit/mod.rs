@@ -185,11 +185,15 @@ fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) ->
     let (unit, of) = found.unit;
     let head = [
         format!(
+    let untried = found.untried.filter(|_| found.estimates.iter().any(Estimate::is_told));
+    let untried = untried.map_or(String::new(), |who| {
+        format!(" Whether such intervals hold was tried on {}, and never with `{who}`, which steered.", found.tried)
+    });
             "{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements",
             setup.robot_name()
         ),
         format!(
-            "of the robot. Residual {:.3} {unit} over {from}; what was not told is as it was.",
+            "of the robot. Residual {:.3} {unit} over {from}; what was not told is as it was.{untried}",
             of * found.residual_m
         ),
     ];
