@@ -237,6 +237,14 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfo
     match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
+            let is_handler = module.lines.get(&line).is_some_and(|line| line.unmodelled == Some(Unmodelled::Handlers));
+            if is_handler {
+                // The way without what it handles is certain to its end.
+                let handler = module.told(line);
+                return format!(
+                    "{verdict}: {what} in {moves} moves, but {handler} is in a handler, and none is followed{not_found_out}{estimated}"
+                );
+            }
             let before = module.told(line);
             let certain = module.certain;
             format!("{verdict}: {what} in the {certain} of {moves} moves before {before}{not_found_out}{estimated}")

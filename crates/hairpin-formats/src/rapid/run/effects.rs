@@ -54,6 +54,7 @@ pub(super) fn written<'b>(function: &str, arguments: &'b [Argument]) -> Vec<&'b 
 impl Machine<'_> {
     /// What the routine might do, whenever it is executed.
     pub(super) fn effects_of(&mut self, routine: &Routine) -> Effects {
+        self.looked_at.insert(routine.at);
         let here = std::mem::replace(&mut self.module, routine.home.module);
         let effects = self.effects(&[&routine.body], &[]);
         self.module = here;
@@ -69,42 +70,54 @@ impl Machine<'_> {
         for block in blocks {
             self.collect(block, &mut effects);
         }
+        self.looked_at.extend(&effects.seen);
         effects
+    }
+
+    /// Whether a statement by itself, without the blocks within, may move the arm or change how it moves.
+    pub(super) fn may_move(&mut self, statement: &Statement) -> bool {
+        let mut effects = Effects::default();
+        self.in_statement(statement, &mut effects);
+        effects.moves
     }
 
     fn collect(&mut self, block: &[Statement], effects: &mut Effects) {
         // Looking is work as well, or loops around unknown conditions would not end.
         self.steps = self.steps.saturating_add(block.len());
         for statement in block {
-            match &statement.what {
-                What::Assign { to, value } => {
-                    effects.assigned.insert((self.module, to.name.clone()));
-                    self.in_path(to, effects);
-                    self.in_expression(value, effects);
-                }
-                What::Call { name, arguments } => self.in_call(name, arguments, effects),
-                What::LateCall { .. } | What::Broken(_) => effects.moves = true,
-                What::Return(value) => {
-                    value.iter().for_each(|value| self.in_expression(value, effects));
-                    effects.leaves = true;
-                }
-                What::Exit | What::Goto(_) => effects.leaves = true,
-                What::If { branches, .. } => {
-                    branches.iter().for_each(|(condition, _)| self.in_expression(condition, effects));
-                }
-                What::While { condition, .. } => self.in_expression(condition, effects),
-                What::For { bounds, step, .. } => {
-                    bounds.iter().chain(step).for_each(|bound| self.in_expression(bound, effects));
-                }
-                What::Test { of, cases, .. } => {
-                    let values = cases.iter().flat_map(|(values, _)| values);
-                    std::iter::once(of).chain(values).for_each(|value| self.in_expression(value, effects));
-                }
-                What::Label | What::Harmless(_) | What::Connect(_) => {}
-            }
+            self.in_statement(statement, effects);
             for block in inner(statement) {
                 self.collect(block, effects);
             }
+        }
+    }
+
+    fn in_statement(&mut self, statement: &Statement, effects: &mut Effects) {
+        match &statement.what {
+            What::Assign { to, value } => {
+                effects.assigned.insert((self.module, to.name.clone()));
+                self.in_path(to, effects);
+                self.in_expression(value, effects);
+            }
+            What::Call { name, arguments } => self.in_call(name, arguments, effects),
+            What::LateCall { .. } | What::Broken(_) => effects.moves = true,
+            What::Return(value) => {
+                value.iter().for_each(|value| self.in_expression(value, effects));
+                effects.leaves = true;
+            }
+            What::Exit | What::Goto(_) => effects.leaves = true,
+            What::If { branches, .. } => {
+                branches.iter().for_each(|(condition, _)| self.in_expression(condition, effects));
+            }
+            What::While { condition, .. } => self.in_expression(condition, effects),
+            What::For { bounds, step, .. } => {
+                bounds.iter().chain(step).for_each(|bound| self.in_expression(bound, effects));
+            }
+            What::Test { of, cases, .. } => {
+                let values = cases.iter().flat_map(|(values, _)| values);
+                std::iter::once(of).chain(values).for_each(|value| self.in_expression(value, effects));
+            }
+            What::Label | What::Harmless(_) | What::Connect(_) => {}
         }
     }
 
