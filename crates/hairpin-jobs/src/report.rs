@@ -111,7 +111,7 @@ fn assumptions(
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
-    assumptions.extend(count_flown(work, cases)?.unsaid());
+    assumptions.extend(count_flown(work, cases)?.left_out());
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }

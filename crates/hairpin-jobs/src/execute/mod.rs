@@ -250,7 +250,7 @@ mod tests {
         let (_place, folder) = generated();
         let settings = ExecuteSettings { folder, ..ExecuteSettings::default() };
         let executed = execute(&settings, &Unwatched).map(|executed| (executed.cases, executed.flown)).unwrap();
-        assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }));
+        assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }));
         let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
         let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
         assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
@@ -380,7 +380,7 @@ mod tests {
         named("name=\"sim 1\", version=1");
         assert_eq!(
             execute(&resumed, &Unwatched).unwrap().flown,
-            Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }
+            Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }
         );
         named("name=\"sim 2\"");
         execute(&settings, &Unwatched).unwrap();
