@@ -64,7 +64,7 @@ pub struct Fitted {
 /// its mission, or has the samples of one before it; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
-    let (setup, missions) = missions(settings)?;
+    let (setup, missions) = missions(settings, watch)?;
     let setup = setup.with_simd(settings.simd);
     let logs: Vec<Flown> =
         settings.logs.iter().map(|log| flown(log, &missions, &setup, watch)).collect::<Result<_, _>>()?;
@@ -131,7 +131,7 @@ fn in_numbers(setup: &Setup) -> Result<Setup, Problem> {
 }
 
 /// The scenario that says who steers, with the robot that is fitted, and the missions that logs are flights of.
-fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
+fn missions(settings: &FitSettings, watch: &dyn Watch) -> Result<(Setup, Missions), Problem> {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     match (&settings.campaign, &settings.mission) {
         (Some(campaign), None) => {
@@ -151,7 +151,7 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
                     "an arm's logs are of programs, not of waypoints: --campaign OUT names the campaign that wrote them",
                 ));
             }
-            let missions = Missions::of_file(mission, &setup)?;
+            let missions = Missions::of_file(mission, &setup, watch)?;
             Ok((setup, missions))
         }
         _ => Err(Problem::input(

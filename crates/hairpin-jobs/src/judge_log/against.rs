@@ -4,14 +4,16 @@ use std::path::Path;
 
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness, vary};
 use hairpin::judgement::Swiftness;
+use hairpin_formats::missions::{self, Frame, Mission};
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for_missions};
-use hairpin_formats::waypoints;
 use serde_json::{Map, Value};
 
 use super::heights::on_ground;
 use super::settings::{Against, LogSettings};
 use crate::Problem;
+use crate::check::{frame_in_words, read_about_home};
+use crate::missions::{FencesTold, followed, read_told};
 use crate::sets::Set;
 use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
 
@@ -22,6 +24,8 @@ const LOG_CLOCK: &str = "execute.log_clock";
 pub(super) struct Ready {
     pub(super) setup: Setup,
     pub(super) cases: Vec<Case>,
+    /// The own fences of those that are missions with some.
+    fences: Vec<(CaseNumber, FencesTold)>,
     /// Results of the same cases in simulation.
     pub(super) simulated: Vec<CaseResult>,
     /// Where the cases' plans are.
@@ -57,18 +61,13 @@ impl Ready {
             Against::Campaign(folder) => Self::of_campaign(folder, settings)?,
             Against::Mission { file, robot } => Self::of_mission(file, robot.as_deref(), settings)?,
         };
-        match (&settings.against, ready.setup.has_programs()) {
-            (Against::Mission { .. }, true) => {
-                Err(Problem::input("an arm runs programs, not missions: --campaign OUT"))
-            }
-            (_, true) => {
-                ready.setup = recorded(&ready.setup, clock.last())?;
-                Ok(ready)
-            }
-            (_, false) => match clock.first() {
-                Some((key, _)) => Err(Problem::input(format!("--set {key}: it is of arms; here only spec can be set"))),
-                None => Ok(ready),
-            },
+        if ready.setup.has_programs() {
+            ready.setup = recorded(&ready.setup, clock.last())?;
+            return Ok(ready);
+        }
+        match clock.first() {
+            Some((key, _)) => Err(Problem::input(format!("--set {key}: it is of arms; here only spec can be set"))),
+            None => Ok(ready),
         }
     }
 
@@ -99,7 +98,12 @@ impl Ready {
                 .to_owned()
         });
         let simulated = folder.read_results()?;
-        Self::with(setup, cases, simulated, Of::Campaign(Box::new(before)), (true, notes.into_iter().collect()))
+        let told = read_told(folder)?.map_or_else(Vec::new, |told| told.missions);
+        let fences = told.into_iter().enumerate().map(|(number, one)| (CaseNumber(number), one.fences)).collect();
+        let fences = unambiguous(folder.path(), fences)?;
+        let notes = notes.into_iter().collect();
+        let ready = Self::with(setup, cases, simulated, Of::Campaign(Box::new(before)), (true, notes))?;
+        Ok(Self { fences, ..ready })
     }
 
     fn of_mission(file: &Path, robot: Option<&str>, settings: &LogSettings) -> Result<Self, Problem> {
@@ -125,21 +129,30 @@ impl Ready {
         };
         sets.extend(settings.sets.iter().cloned());
         let setup = setup_for_missions(base, &sets)?;
-        check_asked(&setup.scenario, file)?;
-        let farthest = setup.handed().farthest;
-        let (mut waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
-        if named.is_some() {
-            on_ground(&setup, &mut waypoints);
+        if setup.has_programs() {
+            return Err(Problem::input("an arm runs programs, not missions: --campaign OUT"));
         }
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let case = Case::bare(CaseNumber(0), setup.scenario.seed(), waypoints);
+        check_asked(&setup.scenario, file)?;
         let in_world = named.is_some();
-        let notes = if in_world {
-            Vec::new()
-        } else {
-            vec!["no --world: neither obstacles nor the world's bounds are judged".to_owned()]
+        let mut mission = mission(file, &setup, in_world)?;
+        let fences = unambiguous(file, vec![(CaseNumber(0), FencesTold::of(&mission))])?;
+        if in_world {
+            on_ground(&setup, &mut mission.waypoints);
+        }
+        let mut notes = mission.notes.clone();
+        if mission.frame != Frame::World {
+            notes.push(format!("the mission's places: {}", frame_in_words(&mission)));
+        }
+        if !in_world {
+            notes.push("no --world: neither obstacles nor the world's bounds are judged".to_owned());
+        }
+        let about_home = match mission.frame {
+            Frame::Home(home) => Some(Placement::about(&home)),
+            Frame::World | Frame::Placed => None,
         };
-        Self::with(setup, vec![case], Vec::new(), Of::Mission(name), (in_world, notes))
+        let case = Case::bare(CaseNumber(0), setup.scenario.seed(), mission.waypoints);
+        let ready = Self::with(setup, vec![case], Vec::new(), Of::Mission(mission.name), (in_world, notes))?;
+        Ok(Self { place: about_home.or(ready.place), fences, ..ready })
     }
 
     fn with(
@@ -153,7 +166,8 @@ impl Ready {
         let placed = |scenario: &Scenario| Placement::of(scenario).map_err(Problem::input);
         let place = if in_world { placed(&setup.scenario)? } else { None };
         let (swiftness, accept) = (setup.swiftness(), setup.scenario.executor().accept);
-        Ok(Self { setup, cases, simulated, of, place, in_world, swiftness, accept, notes })
+        let fences = Vec::new();
+        Ok(Self { setup, cases, fences, simulated, of, place, in_world, swiftness, accept, notes })
     }
 
     /// What a case is called in sentences.
@@ -165,6 +179,11 @@ impl Ready {
     }
 
     /// A case with its plan, which deviations may be measured from.
+    /// The own fences of the mission that `case` is, where it has some.
+    pub(super) fn fences(&self, case: &Case) -> Option<&FencesTold> {
+        self.fences.iter().find(|(number, _)| *number == case.number).map(|(_, fences)| fences)
+    }
+
     ///
     /// # Errors
     /// The folder's files are broken.
@@ -185,6 +204,38 @@ impl Ready {
 }
 
 /// `setup` of an arm whose runs are logs: nothing was drawn for them, no controller of ours ran them, and what they do
+/// The mission in `file`, for the robot of `setup`: in its world where that is known, else about its own home.
+///
+/// # Errors
+/// It cannot be read, is another class of vehicle's, or has something that changes the motion and is not followed.
+fn mission(file: &Path, setup: &Setup, in_world: bool) -> Result<Mission, Problem> {
+    let mission = match in_world {
+        true => missions::read(file, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?,
+        false => read_about_home(setup, file)?,
+    };
+    followed(setup, &mission)?;
+    Ok(mission)
+}
+
+/// Fences of missions, which logs are held against; what has none is left out.
+///
+/// # Errors
+/// Autopilots take some otherwise, and the mission in `file` does not say whose it is.
+fn unambiguous(
+    file: &Path,
+    mut fences: Vec<(CaseNumber, FencesTold)>,
+) -> Result<Vec<(CaseNumber, FencesTold)>, Problem> {
+    fences.retain(|(_, fences)| !fences.is_empty());
+    match fences.iter().any(|(_, fences)| fences.is_ambiguous()) {
+        false => Ok(fences),
+        true => Err(Problem::of_file(
+            file,
+            "mission.firmwareType: must be 3 (ArduPilot, which demands to be in all of the fences that keep in) or 12 \
+             (PX4, in any of them), as there are several",
+        )),
+    }
+}
+
 /// not show between two samples is open.
 fn recorded(setup: &Setup, clock: Option<&Set>) -> Result<Setup, Problem> {
     let given = |key: &str, value: Value| (key.to_owned(), value);

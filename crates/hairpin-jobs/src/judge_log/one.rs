@@ -139,6 +139,9 @@ pub(super) fn judge(
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
+        if let Some(fences) = against.fences(case) {
+            fences.hold_log(&mut flown, log);
+        }
         let told = mission(logged, [span.since_s, None]);
         let start = (case.waypoints[0], against.accept);
         let before = Before { motion, told: &told, from_s: settings.from_s, start };

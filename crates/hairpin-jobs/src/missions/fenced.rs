@@ -1,7 +1,7 @@
 //! What was executed against the mission's own fences, as a campaign's folder keeps them.
 
 use hairpin::campaign::judge::measures_of;
-use hairpin::campaign::{Case, CaseResult, Run, Setup, Status};
+use hairpin::campaign::{Case, CaseResult, Doubt, Flown, Log, Run, Setup, Status, Why};
 use hairpin::judgement::Violation;
 use hairpin::trajectory::Flight;
 use hairpin::world::terrain::KeepOutShape;
@@ -63,7 +63,7 @@ struct Beyond {
 }
 
 impl FencesTold {
-    pub(super) fn of(mission: &Mission) -> Self {
+    pub(crate) fn of(mission: &Mission) -> Self {
         Self { firmware: mission.whose.firmware, fences: mission.fences.iter().map(FenceTold::of).collect() }
     }
 
@@ -111,10 +111,66 @@ impl FencesTold {
         }
     }
 
+    /// Whether autopilots take them otherwise, and nobody says which flies them.
+    pub(crate) fn is_ambiguous(&self) -> bool {
+        let within = self.fences.iter().filter(|fence| fence.keeps_in).count();
+        within > 1 && !matches!(self.firmware, Some(PX4 | ARDUPILOT))
+    }
+
+    /// Holds a log against them, and says so in `flown`: a sample that is beyond one by more than its own accuracy is a
+    /// violation; what may be, by that or between two samples, is open. An interval is that much wider than the line
+    /// between its samples as the motion may bulge out of it
+    /// ([`Swiftness::bulge`](hairpin::judgement::Swiftness::bulge)).
+    pub(crate) fn hold_log(&self, flown: &mut Flown, log: &Log) {
+        let shapes = self.shapes();
+        let (track, times) = (&log.flight.track, log.flight.track.times());
+        let legs = track.channel("leg");
+        let off = |p: &Point3<f64>| self.off(&shapes, p)[0];
+        let across = |i: usize| log.accuracy.get(i).copied().flatten().map_or(0.0, |[across, _]| across);
+        let of = |i: usize, value: f64| Violation {
+            what: FENCE.to_owned(),
+            value: value.max(0.0),
+            limit: 0.0,
+            unit: "m".to_owned(),
+            at: times[i],
+            leg: legs.map_or(0, |legs| legs[i] as usize),
+        };
+        let most = |a: &(usize, f64, f64), b: &(usize, f64, f64)| (a.1 + a.2).total_cmp(&(b.1 + b.2));
+        let samples = || (0..times.len()).map(|i| (i, off(&track.position(i)), across(i)));
+        let sure = samples().filter(|(_, by, sigma)| by - sigma > ROUNDING_M).max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((i, by, _)) = sure {
+            flown.violations.push(of(i, by));
+            return;
+        }
+        let near = samples().filter(|(_, by, sigma)| by + sigma > ROUNDING_M).max_by(most);
+        if let Some((i, by, sigma)) = near {
+            let why = Why::Accuracy { which: "eph", sigma };
+            flown.doubts.push(Doubt { value: of(i, by), why });
+            return;
+        }
+        let between = (0..times.len().saturating_sub(1)).filter(|i| log.breaks.binary_search(&(i + 1)).is_err());
+        let reach = between.filter_map(|i| {
+            let ends = [track.position(i), track.position(i + 1)];
+            let way = ends[1] - ends[0];
+            let bulge = flown.swiftness.bulge(times[i + 1] - times[i], way.norm()) + across(i).max(across(i + 1));
+            let steps = (way.norm() / STEP_M).ceil().clamp(1.0, MOST_STEPS);
+            let along = (0..=steps as usize).map(|step| off(&(ends[0] + way * (step as f64 / steps))));
+            let by = along.fold(f64::NEG_INFINITY, f64::max);
+            (by + bulge > ROUNDING_M).then_some((i, by, bulge))
+        });
+        if let Some((i, by, bulge)) = reach.max_by(most) {
+            let most = by + bulge;
+            flown.doubts.push(Doubt { value: of(i, by), why: Why::Between { most, rate_hz: None } });
+        }
+    }
+
+    fn shapes(&self) -> Vec<(bool, KeepOutShape)> {
+        self.fences.iter().map(|fence| (fence.keeps_in, fence.shape())).collect()
+    }
+
     /// How far a motion was beyond them, surely and by another autopilot's reading.
     fn beyond(&self, flight: &Flight) -> [Beyond; 2] {
-        let shapes: Vec<(bool, KeepOutShape)> =
-            self.fences.iter().map(|fence| (fence.keeps_in, fence.shape())).collect();
+        let shapes = self.shapes();
         let mut worst = [Beyond { by: 0.0, at: 0.0 }; 2];
         let mut look = |p: Point3<f64>, at: f64| {
             for (worst, by) in worst.iter_mut().zip(self.off(&shapes, &p)) {
@@ -137,16 +193,17 @@ impl FencesTold {
         worst
     }
 
-    /// How far `p` is beyond them, surely and by another autopilot's reading.
+    /// How far `p` is beyond them, surely and by another autopilot's reading, m; below 0 by how far it is not, −∞ where
+    /// there is none.
     fn off(&self, shapes: &[(bool, KeepOutShape)], p: &Point3<f64>) -> [f64; 2] {
         let out = shapes.iter().filter(|(keeps_in, _)| !keeps_in).map(|(_, shape)| -shape.distance(p.x, p.y));
-        let out = out.fold(0.0, f64::max);
+        let out = out.fold(f64::NEG_INFINITY, f64::max);
         let within = || shapes.iter().filter(|(keeps_in, _)| *keeps_in).map(|(_, shape)| shape.distance(p.x, p.y));
-        let all = within().fold(0.0, f64::max);
-        let any = within().reduce(f64::min).unwrap_or(0.0);
+        let all = within().fold(f64::NEG_INFINITY, f64::max);
+        let any = within().reduce(f64::min).unwrap_or(f64::NEG_INFINITY);
         match self.firmware {
-            Some(PX4) => [out.max(any), 0.0],
-            Some(ARDUPILOT) => [out.max(all), 0.0],
+            Some(PX4) => [out.max(any), f64::NEG_INFINITY],
+            Some(ARDUPILOT) => [out.max(all), f64::NEG_INFINITY],
             _ => [out.max(any), all],
         }
     }
