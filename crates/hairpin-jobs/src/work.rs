@@ -253,7 +253,9 @@ fn may_make(path: &Path, setup: &Setup, if_there: IfThere) -> Result<bool, Probl
 /// Whether the campaign in `old` was begun as `setup` would begin it.
 fn may_resume(old: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
     let before = resolve(old, &[])?;
-    same_as_executed(old, &before)?;
+    if old.has_cases() || old.has_runs() {
+        same_as_made(old, &before, &[])?;
+    }
     if let Some(key) = first_difference(&before, setup) {
         return Err(Problem::input(format!(
             "--resume: `{key}` is not what it was when {} was begun: give the same arguments, or another --out",
@@ -356,13 +358,13 @@ pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
     open_with(path, &[])
 }
 
-/// The same, for what is said of its runs.
+/// The same, for what is said of its cases and runs.
 ///
 /// # Errors
-/// As of [`same_as_executed`].
-pub(crate) fn open_executed(path: &Path) -> Result<Work, Problem> {
+/// As of [`same_as_made`].
+pub(crate) fn open_as_made(path: &Path) -> Result<Work, Problem> {
     let work = open_to_read(path)?;
-    same_as_executed(&work.folder, &work.setup)?;
+    same_as_made(&work.folder, &work.setup, &[])?;
     Ok(work)
 }
 
@@ -373,6 +375,9 @@ pub(crate) fn open_executed(path: &Path) -> Result<Work, Problem> {
 pub(crate) fn same_as_executed(folder: &CampaignFolder, setup: &Setup) -> Result<(), Problem> {
     if folder.has_runs() { same_as_made(folder, setup, &[]) } else { Ok(()) }
 }
+
+/// Where on Earth a world is may be written afterwards, for exports and logs that ask for it.
+pub(crate) const PLACE: [&str; 2] = ["world.origin", "world.terrain.epsg"];
 
 /// Whether the cases in `folder`, and its runs where it has some, are of the scenario that it has. Keys that are, or
 /// lie under, one of `beside` may change.

@@ -96,6 +96,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let ExecuteSettings { folder, sets, .. } = settings;
     let path = settings.out.as_ref().unwrap_or(folder);
     // Who resumes goes on where the cases are already.
+    // What the cases of another folder are flown by is told as of this one's.
+    let mut edited_there = Vec::new();
     if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
         let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
         check_tables(sets, CHANGED)?;
@@ -110,7 +112,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
                 try_out(setup.steering_code(), Deadline::after(None), watch)?;
             }
         }
-        beside((folder, sets), path, if_there, &settings.consent)?;
+        edited_there = beside((folder, sets), path, if_there, &settings.consent)?;
     }
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
@@ -139,7 +141,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     check_recordings(&work, kept.as_deref().unwrap_or_default())?;
     // What the user wrote into the scenario is what is flown from here on.
     let edited = work.folder.edited(&work.setup)?;
-    tell_edited(&edited, missions.is_none(), watch);
+    edited_there.extend(edited.iter().cloned());
+    tell_edited(&edited_there, missions.is_none(), watch);
     if !sets.is_empty() || !edited.is_empty() {
         keep_changes(&work)?;
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
@@ -243,7 +246,8 @@ mod tests {
     use super::*;
     use crate::Unwatched;
     use crate::export::{Export, ExportSettings, Format};
-    use crate::testing::{generated, program};
+    use crate::judge_log::{Against, FrameSettings, LogSettings, judge_log};
+    use crate::testing::{Told, generated, program};
 
     #[test]
     fn runs_are_flown_once_and_resumed() {
@@ -321,7 +325,22 @@ mod tests {
             crate::replay::replay_case((&folder, hairpin::campaign::CaseNumber(0)), Simd::Widest, &consent, &Unwatched);
         let exporting = crate::export::ExportSettings { folder: folder.clone(), ..Default::default() };
         let exported = || crate::export::Export::open(&exporting).map(drop);
-        let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string()];
+        let shrinking = crate::shrink::ShrinkSettings { folder: folder.clone(), ..Default::default() };
+        let shrunk = crate::shrink::Shrinking::open(shrinking).map(drop).unwrap_err().to_string();
+        let log = LogSettings {
+            path: folder.join("0000-0.csv"),
+            against: Against::Campaign(folder.clone()),
+            world: None,
+            sets: Vec::new(),
+            case: None,
+            frame: FrameSettings::default(),
+            source: None,
+            from_s: None,
+            to_s: None,
+            page: None,
+        };
+        let log = judge_log(&log, &Unwatched).map(drop).unwrap_err().to_string();
+        let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string(), shrunk, log];
         for told in told.iter().chain(&others) {
             assert!(
                 told.contains("scenario.toml: was changed beside `spec`") && told.contains("hairpin execute"),
@@ -378,6 +397,39 @@ mod tests {
         assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
         assert_eq!(kept.read_results().unwrap().len(), 2, "what was judged stays");
         named("name=\"sim 1\", version=1");
+    /// Nor are cases of an edited scenario made into another campaign's, or gone on with, as if they were of what
+    /// stands there now.
+    #[test]
+    fn a_scenario_that_was_edited_has_no_cases() {
+        let (place, folder) = generated();
+        let file = folder.join("scenario.toml");
+        let as_written = std::fs::read_to_string(&file).unwrap();
+        std::fs::write(&file, as_written.replace("alt_amsl_m = 180.0", "alt_amsl_m = 181.0")).unwrap();
+        let key = "`world.origin.alt_amsl_m`";
+        let out = place.path().join("beside");
+        let choice = crate::select::SelectSettings {
+            folder: folder.clone(),
+            out: out.clone(),
+            cases: 1,
+            by: hairpin::campaign::select::By::Diverse,
+            if_there: IfThere::Refuse,
+            consent: crate::consent::Consent::default(),
+        };
+        let chosen = crate::select::select(&choice, &Unwatched).map(drop).unwrap_err().to_string();
+        let mut again = crate::testing::small(&place);
+        again.if_there = IfThere::Resume;
+        again.sets.push(("world.origin.alt_amsl_m".into(), "181.0".into()));
+        let resumed = crate::generate::generate(&again, &Unwatched).map(drop).unwrap_err().to_string();
+        for refused in [&chosen, &resumed] {
+            assert!(refused.contains("since its cases were made") && refused.contains(key), "{refused}");
+        }
+        let told = Told::default();
+        let beside = ExecuteSettings { folder, out: Some(out), ..ExecuteSettings::default() };
+        execute(&beside, &told).unwrap();
+        let told = told.0.into_inner().unwrap().join("\n");
+        assert!(told.contains(&format!("{key} of the folder's scenario.toml was changed by hand")), "{told}");
+    }
+
         assert_eq!(
             execute(&resumed, &Unwatched).unwrap().flown,
             Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }

@@ -16,7 +16,7 @@ use serde_json::Value;
 
 use crate::judge_log::arm_of;
 use crate::sets::Set;
-use crate::work::open_with;
+use crate::work::{PLACE, open_with, same_as_made};
 use crate::{Problem, Watch};
 use flown::{Missions, flown};
 
@@ -141,6 +141,8 @@ fn missions(settings: &FitSettings, watch: &dyn Watch) -> Result<(Setup, Mission
             let robot = ("robot".to_owned(), Value::from(robot).to_string());
             let sets: Vec<Set> = std::iter::once(robot).chain(settings.sets.iter().cloned()).collect();
             let work = open_with(campaign, &sets)?;
+            // Who steered is a matter of the logs, and what robot it was is named.
+            same_as_made(&work.folder, &work.setup, &[&["execute", "vary", "robot"], &PLACE[..]].concat())?;
             let cases = work.folder.read_cases()?;
             Ok((work.setup, Missions::Cases(campaign.clone(), cases)))
         }
@@ -183,12 +185,12 @@ fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) ->
     }
     let name = settings.out.file_stem().map_or_else(|| "fitted".into(), |stem| stem.to_string_lossy().into_owned());
     let (unit, of) = found.unit;
-    let head = [
-        format!(
     let untried = found.untried.filter(|_| found.estimates.iter().any(Estimate::is_told));
     let untried = untried.map_or(String::new(), |who| {
         format!(" Whether such intervals hold was tried on {}, and never with `{who}`, which steered.", found.tried)
     });
+    let head = [
+        format!(
             "{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements",
             setup.robot_name()
         ),

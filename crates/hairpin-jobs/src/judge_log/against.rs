@@ -15,7 +15,7 @@ use crate::Problem;
 use crate::check::{frame_in_words, read_about_home};
 use crate::missions::{FencesTold, followed, read_told};
 use crate::sets::Set;
-use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
+use crate::work::{PLACE, Work, check_tables, open_to_read, open_to_read_as, same_as_made};
 
 /// Whose clock an arm's logs are on, which is a matter of the logs and not of the campaign.
 const LOG_CLOCK: &str = "execute.log_clock";
@@ -73,6 +73,7 @@ impl Ready {
 
     fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
         let before = open_to_read(folder)?;
+        same_as_made(&before.folder, &before.setup, &PLACE)?;
         if before.setup.has_programs() {
             // Before a world's keys are put into an arm's scenario, which has none of them.
             settings.of_an_arm()?;
@@ -178,12 +179,12 @@ impl Ready {
         }
     }
 
-    /// A case with its plan, which deviations may be measured from.
     /// The own fences of the mission that `case` is, where it has some.
     pub(super) fn fences(&self, case: &Case) -> Option<&FencesTold> {
         self.fences.iter().find(|(number, _)| *number == case.number).map(|(_, fences)| fences)
     }
 
+    /// A case with its plan, which deviations may be measured from.
     ///
     /// # Errors
     /// The folder's files are broken.
@@ -203,7 +204,6 @@ impl Ready {
     }
 }
 
-/// `setup` of an arm whose runs are logs: nothing was drawn for them, no controller of ours ran them, and what they do
 /// The mission in `file`, for the robot of `setup`: in its world where that is known, else about its own home.
 ///
 /// # Errors
@@ -236,6 +236,7 @@ fn unambiguous(
     }
 }
 
+/// `setup` of an arm whose runs are logs: nothing was drawn for them, no controller of ours ran them, and what they do
 /// not show between two samples is open.
 fn recorded(setup: &Setup, clock: Option<&Set>) -> Result<Setup, Problem> {
     let given = |key: &str, value: Value| (key.to_owned(), value);
