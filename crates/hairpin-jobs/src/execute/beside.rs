@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hairpin::campaign::Tally;
+use hairpin::campaign::{Failures, Tally};
 
 use crate::Problem;
 use crate::consent::{Consent, Wish};
@@ -49,7 +49,10 @@ pub(super) fn beside(
     new.folder.write_new_cases(&cases, 0)?;
     if work.folder.has_tally() {
         // What the search executed it executed with another's controller: it is none of what is flown here.
-        new.folder.write_tally(&Tally { curves: Vec::new(), ..work.folder.read_tally()? })?;
+        let tally = work.folder.read_tally()?;
+        let of = (!tally.failures.is_none()).then(|| tally.executed());
+        let failures = Failures { of, ..tally.failures.clone() };
+        new.folder.write_tally(&Tally { curves: Vec::new(), failures, ..tally })?;
     }
     Ok(edited)
 }

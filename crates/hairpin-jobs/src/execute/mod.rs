@@ -13,7 +13,7 @@ mod worst;
 
 use std::path::{Path, PathBuf};
 
-use hairpin::campaign::{Case, CaseResult, Status, Tally};
+use hairpin::campaign::{Case, CaseResult, Failures, Status, Tally};
 use hairpin::judgement::Chosen;
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
@@ -21,6 +21,7 @@ use hairpin_formats::folder::CampaignFolder;
 use crate::baseline::fly_baseline;
 use crate::consent::{Consent, Wish};
 use crate::missions::{self, adopt};
+use crate::program::fingerprint;
 use crate::saved::{Replayed, replay_saved};
 use crate::sets::Set;
 use crate::work::{
@@ -95,9 +96,9 @@ pub struct Executed {
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder, sets, .. } = settings;
     let path = settings.out.as_ref().unwrap_or(folder);
-    // Who resumes goes on where the cases are already.
     // What the cases of another folder are flown by is told as of this one's.
     let mut edited_there = Vec::new();
+    // Who resumes goes on where the cases are already.
     if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
         let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
         check_tables(sets, CHANGED)?;
@@ -131,7 +132,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    let tally =
+    let mut tally =
         if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
     let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
@@ -178,6 +179,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
             drop(work.folder.write_results(&cases, &judged));
         }
     })?;
+    if !settings.resume && missions.is_none() {
+        tally = failed_before(&work, tally)?;
+    }
+    tell_failed(&tally, flown, watch);
     if all_there && !judged.is_empty() && reruns == count_reruns(&work, &cases)? {
         // Nothing was executed: what was judged is what it was.
         work.folder.write_results(&cases, &judged)?;
@@ -187,6 +192,28 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     let missions = missions.into_iter().flatten().map(|mission| mission.name).collect();
     let trouble = if flown.failed > 0 { first_trouble(&work, &cases)? } else { None };
     Ok(Executed { folder: work.folder.path().to_owned(), cases: cases.len(), flown, trouble, missions, replayed })
+}
+
+/// `tally` of cases that were all executed anew: where another has executed the search, what failed then is past.
+fn failed_before(work: &Work, tally: Tally) -> Result<Tally, Problem> {
+    if tally.failures.is_none() {
+        return Ok(tally);
+    }
+    let now = fingerprint(&work.setup, work.folder.read_executor()?.as_ref());
+    let is_past = tally.failures.by.as_ref().is_some_and(|by| *by != now);
+    let tally = Tally { failures: Failures { is_past, ..tally.failures.clone() }, ..tally };
+    work.folder.write_tally(&tally)?;
+    Ok(tally)
+}
+
+/// Tells that what failed in the search stays a failure, though all cases were flown, and how it would not.
+fn tell_failed(tally: &Tally, flown: Flown, watch: &dyn Watch) {
+    if let Some(failed) = tally.failures_in_words().filter(|_| flown.failed == 0 && !tally.failures.is_past) {
+        watch.warn(&format!(
+            "{failed}, and who executes is the same since, by its command, its files and what it says of itself: the verdict stays EXECUTOR FAILED. \
+             One that was repaired elsewhere says another `version` in its `ready`; hairpin stress … --force searches anew"
+        ));
+    }
 }
 
 /// Tells that cases are flown by what they were not made with: once it is flown so, nothing in the folder tells it.
@@ -370,33 +397,6 @@ mod tests {
         execute(&resumed, &Unwatched).unwrap();
     }
 
-    /// Another version of a program goes on with nothing that the one before has executed, and nothing is lost.
-    #[test]
-    fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
-        let (place, folder) = generated();
-        let file = place.path().join("sim.py");
-        let named = |says: &str| program(&file, says);
-        let sets = vec![named("name=\"sim 1\", version=1")];
-        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
-        execute(&settings, &Unwatched).unwrap();
-        crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
-        let resumed = ExecuteSettings { resume: true, ..settings.clone() };
-        named("name=\"sim 2\", version=\"2\"");
-        let results = || format!("{:?}", CampaignFolder::open(&folder).unwrap().read_results().unwrap());
-        let judged = results();
-        assert_eq!(execute(&resumed, &Unwatched).unwrap().flown.runs, 2, "none is missing, and it is not asked");
-        assert!(judged.len() > 2 && results() == judged, "and what was judged stays: {judged}");
-        // As where it was stopped before they landed.
-        for part in ["runs", "executions"] {
-            std::fs::remove_dir_all(folder.join(part)).unwrap();
-        }
-        let refused = refusal(&resumed);
-        let told = "the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, version `1`";
-        assert!(refused.starts_with(told), "{refused}");
-        let kept = CampaignFolder::open(&folder).unwrap();
-        assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
-        assert_eq!(kept.read_results().unwrap().len(), 2, "what was judged stays");
-        named("name=\"sim 1\", version=1");
     /// Nor are cases of an edited scenario made into another campaign's, or gone on with, as if they were of what
     /// stands there now.
     #[test]
@@ -430,6 +430,33 @@ mod tests {
         assert!(told.contains(&format!("{key} of the folder's scenario.toml was changed by hand")), "{told}");
     }
 
+    /// Another version of a program goes on with nothing that the one before has executed, and nothing is lost.
+    #[test]
+    fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
+        let (place, folder) = generated();
+        let file = place.path().join("sim.py");
+        let named = |says: &str| program(&file, says);
+        let sets = vec![named("name=\"sim 1\", version=1")];
+        let settings = ExecuteSettings { folder: folder.clone(), sets, ..ExecuteSettings::default() };
+        execute(&settings, &Unwatched).unwrap();
+        crate::judge::judge(&folder, &[("spec.deviation.max_m".to_owned(), "50.0".to_owned())]).unwrap();
+        let resumed = ExecuteSettings { resume: true, ..settings.clone() };
+        named("name=\"sim 2\", version=\"2\"");
+        let results = || format!("{:?}", CampaignFolder::open(&folder).unwrap().read_results().unwrap());
+        let judged = results();
+        assert_eq!(execute(&resumed, &Unwatched).unwrap().flown.runs, 2, "none is missing, and it is not asked");
+        assert!(judged.len() > 2 && results() == judged, "and what was judged stays: {judged}");
+        // As where it was stopped before they landed.
+        for part in ["runs", "executions"] {
+            std::fs::remove_dir_all(folder.join(part)).unwrap();
+        }
+        let refused = refusal(&resumed);
+        let told = "the program says of itself `sim 2`, version `2`; what is kept was executed by `sim 1`, version `1`";
+        assert!(refused.starts_with(told), "{refused}");
+        let kept = CampaignFolder::open(&folder).unwrap();
+        assert_eq!(kept.read_executor().unwrap().unwrap().name, "sim 1");
+        assert_eq!(kept.read_results().unwrap().len(), 2, "what was judged stays");
+        named("name=\"sim 1\", version=1");
         assert_eq!(
             execute(&resumed, &Unwatched).unwrap().flown,
             Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }
