@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::Problem;
 use crate::execute::runs_to_judge;
-use crate::work::{Work, open_executed};
+use crate::work::{Work, open_as_made};
 
 /// A score that was learned and written.
 #[derive(Debug)]
@@ -59,7 +59,7 @@ pub fn learn(folders: &[PathBuf], out: &Path, stress: Stress) -> Result<Learned,
 
 /// The campaigns in `folders`, which are of one robot and were executed by one controller or program.
 fn open_alike(folders: &[PathBuf]) -> Result<Vec<Work>, Problem> {
-    let works = folders.iter().map(|folder| open_executed(folder)).collect::<Result<Vec<_>, Problem>>()?;
+    let works = folders.iter().map(|folder| open_as_made(folder)).collect::<Result<Vec<_>, Problem>>()?;
     let real = |folder: &Path| folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     for (place, work) in works.iter().enumerate().skip(1) {
         if folders[..place].iter().any(|before| real(before) == real(&folders[place])) {
@@ -190,7 +190,7 @@ mod tests {
     fn several_campaigns_are_learned_from_as_one() {
         let place = tempfile::tempdir().unwrap();
         let folders = [flown(&place, "a", (1, 7), PLAIN), flown(&place, "b", (2, 8), PLAIN)];
-        let works: Vec<Work> = folders.iter().map(|folder| open_executed(folder).unwrap()).collect();
+        let works: Vec<Work> = folders.iter().map(|folder| open_as_made(folder).unwrap()).collect();
         // The union: the cases of one, then those of the other as number 7 and so on.
         let mut union = Vec::new();
         for (work, before) in works.iter().zip([0, 7]) {

@@ -1,9 +1,12 @@
 //! Which program executed: all that is executed of a campaign is one program's, or what is told of it would be told of
 //! another.
 
+use std::path::Path;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use hairpin_formats::executor::Greeting;
+use hairpin::campaign::Setup;
+use hairpin_formats::bounds;
+use hairpin_formats::executor::{Command, Greeting};
 use hairpin_formats::folder::{CampaignFolder, FolderError};
 
 use crate::Problem;
@@ -14,6 +17,33 @@ pub(crate) fn words(greeting: &Greeting) -> String {
         Some(told) => format!("`{}`, version `{told}`", greeting.name),
         None => format!("`{}` without a version", greeting.name),
     }
+}
+
+/// Files of a program are no larger, bytes: what is larger counts by its name alone.
+const MOST: u64 = 1 << 28;
+
+/// A hash of who executes for `setup`, by what can be seen of it: the command, or our simulator's controller, the files
+/// that it names, and what a program `said` of itself. What these load beside them is not looked at: a version in a
+/// program's `ready` tells.
+pub(crate) fn fingerprint(setup: &Setup, said: Option<&Greeting>) -> String {
+    let mut hash = blake3::Hasher::new();
+    let mut take = |bytes: &[u8]| {
+        hash.update(&(bytes.len() as u64).to_le_bytes());
+        hash.update(bytes);
+    };
+    let own = setup.user_controller();
+    let given = setup.scenario.executor().command.or_else(|| Some(own?.word.as_str())).or(setup.scenario.controller());
+    let given = given.unwrap_or_default();
+    take(given.as_bytes());
+    let said = said.map(|said| [said.name.as_str(), said.version.as_deref().unwrap_or_default()]);
+    said.iter().flatten().for_each(|word| take(word.as_bytes()));
+    if let Some((_, bytes)) = own.and_then(|own| own.file.as_ref()) {
+        take(bytes);
+    }
+    let command: Option<Command> = given.trim_start_matches("command:").parse().ok();
+    let files = command.iter().flat_map(Command::words).map(Path::new).filter(|file| file.is_file());
+    files.filter_map(|file| bounds::read(file, MOST).ok()).for_each(|bytes| take(&bytes));
+    hash.finalize().to_hex().to_string()
 }
 
 /// What is to be known of what the program that says `now` of itself flew again, where it is another than flew it

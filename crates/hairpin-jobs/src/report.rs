@@ -19,7 +19,7 @@ use crate::baseline::{missing, read_baseline};
 use crate::execute::{count_flown, run_with_motion, why_lost};
 use crate::judge::with_moves;
 use crate::missions::{compare, read_told, with_compared};
-use crate::work::{Work, open_executed};
+use crate::work::{Work, open_as_made};
 
 /// A report that was written.
 #[derive(Debug)]
@@ -41,7 +41,7 @@ pub struct Reported {
 /// A campaign that is not judged, that has not such a case, or of whose worst case the run is not to be had any more; a
 /// file that cannot be read or written.
 pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<Reported, Problem> {
-    let work = open_executed(folder)?;
+    let work = open_as_made(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let tally = work.folder.read_tally()?;
     let results = work.folder.read_results()?;
@@ -111,7 +111,7 @@ fn assumptions(
     if let Some(arm) = work.setup.own::<ArmSetup>() {
         assumptions.extend(arm.said_of_moves(moves, regression));
     }
-    assumptions.extend(count_flown(work, cases)?.unsaid());
+    assumptions.extend(count_flown(work, cases)?.left_out());
     if let Some(baseline) = read_baseline(work)? {
         assumptions.push(baseline.said(&work.setup));
     }

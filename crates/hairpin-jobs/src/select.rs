@@ -12,7 +12,7 @@ use crate::execute::measured_runs;
 use crate::judge::judge_cases;
 use crate::names::listed;
 use crate::report::write_report;
-use crate::work::{IfThere, Work, make, open_executed, same_place, saying_what_is_asked};
+use crate::work::{IfThere, Work, make, open_as_made, same_place, saying_what_is_asked};
 use crate::{Problem, Watch};
 
 /// What is chosen, and where it goes.
@@ -68,7 +68,7 @@ pub struct StressUnit {
 /// # Errors
 /// Too few cases, or none that were executed where that is asked for; a file that cannot be read or written.
 pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, Problem> {
-    let work = open_executed(&settings.folder)?;
+    let work = open_as_made(&settings.folder)?;
     let by = settings.by;
     if same_place(&settings.folder, &settings.out) {
         return Err(Problem::input("--out: must be another folder than OUT"));
@@ -276,7 +276,7 @@ mod tests {
         let selected = select(&settings, &Unwatched).unwrap();
         assert_eq!((selected.names.len(), selected.of, selected.stress.unit), (1, 2, "m"));
         assert_eq!(selected.selected, selected.most_stressful);
-        assert_eq!(open_executed(&out).unwrap().folder.read_results().unwrap().len(), 1);
+        assert_eq!(open_as_made(&out).unwrap().folder.read_results().unwrap().len(), 1);
         let refused = select(&SelectSettings { cases: 3, ..settings }, &Unwatched).unwrap_err().to_string();
         assert!(refused.contains("has 2 cases"), "{refused}");
     }

@@ -25,7 +25,7 @@ pub(crate) struct Fit {
     /// Robot file to write
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Waypoints that all logs are flights of: x_m,y_m,z_m
+    /// The mission that all logs are flights of: QGC .plan, QGC WPL 110 (.waypoints), CSV (x_m,y_m,z_m)
     #[arg(long, value_name = "FILE")]
     pub(crate) mission: Option<PathBuf>,
     /// Campaign folder whose cases the logs are flights of; its scenario says who steers

@@ -16,7 +16,7 @@ pub(crate) struct Judge {
     /// Judge logs against the cases of this campaign
     #[arg(long, value_name = "OUT", conflicts_with_all = ["mission", "robot"])]
     pub(crate) campaign: Option<PathBuf>,
-    /// Judge logs against these waypoints (CSV: x_m,y_m,z_m)
+    /// Judge logs against this mission: QGC .plan, QGC WPL 110 (.waypoints), CSV (x_m,y_m,z_m)
     #[arg(long, value_name = "M")]
     pub(crate) mission: Option<PathBuf>,
     /// With --mission: who flew it, a robot's name or file

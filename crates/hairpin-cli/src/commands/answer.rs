@@ -137,7 +137,10 @@ fn search(tally: &Tally) -> Value {
     if executed == 0 {
         return Value::Null;
     }
-    json!({ "executions": executed, "failed": failures.failed, "why": failures.why })
+    json!({
+        "executions": executed, "failed": failures.failed, "why": failures.why,
+        "flown_by_another_since": failures.is_past,
+    })
 }
 
 /// How stressful missions made elsewhere are, beside what a search finds.

@@ -64,6 +64,7 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
             "value": estimate.value, "best": estimate.best, "interval": estimate.interval,
             "identifiable": estimate.is_told(), "reason": why(estimate),
             "evidence": if estimate.is_told() { "estimated" } else { "as given" },
+            "interval_tried": fit.untried.is_none(),
         })
     };
     let deviation = |it: Deviation| json!({ "rmse_m": it.rmse_m, "max_m": it.max_m });
@@ -81,7 +82,7 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
     json!({
         "robot": asked.out, "logs": found.logs, "logged_s": found.logged_s,
         "parameters": fit.estimates.iter().map(parameter).collect::<Vec<_>>(),
-        "intervals_tried_on": fit.tried, "confounded": confounded, "execute": found.execute,
+        "intervals_tried_on": fit.tried, "intervals_never_tried_with": fit.untried, "confounded": confounded, "execute": found.execute,
         "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
         "gap": fit.gaps.iter().map(gap).collect::<Vec<_>>(),
         "unseen": fit.unseen.map(|[before, after]| json!({ "before_rmse_m": before, "after_rmse_m": after, "improves": after < before })),
@@ -118,13 +119,18 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
     for estimate in &fit.estimates {
         let interval = estimate.interval.map_or("–".into(), |ends| ends.map(signed_digits).join(" to "));
         let fitted = if estimate.is_told() { signed_digits(estimate.value) } else { "–".into() };
-        let said = why(estimate).map_or(String::new(), |why| format!("not identifiable: {why}; kept"));
+        let said = match (why(estimate), fit.untried) {
+            (Some(why), _) => format!("not identifiable: {why}; kept"),
+            (None, Some(who)) => format!("such intervals were never tried with `{who}`"),
+            (None, None) => String::new(),
+        };
         let number = &estimate.number;
         rows.push(vec![number.name.into(), number.unit.into(), signed_digits(number.value), fitted, interval, said]);
     }
     console::say_lines(&console::table(&rows));
     if told(found) > 0 {
-        console::say(&format!("Such intervals held on {}; of others it is not shown", fit.tried));
+        let others = fit.untried.map_or("of others it".into(), |who| format!("of `{who}`, which steers here, that"));
+        console::say(&format!("Such intervals held on {}; {others} is not shown", fit.tried));
     }
     if let Some(Confounded { direction, deviation }) = &fit.confounded {
         let parts: Vec<String> = direction.iter().map(|(field, share)| format!("{share:+.2} {field}")).collect();

@@ -105,6 +105,7 @@ fn object(import: &Import, read: &Read, code: u8) -> Value {
         json!({
             "file": finding.file, "line": finding.line, "kind": finding.kind, "from": finding.from, "to": finding.to,
             "reason": shortened(&finding.reason), "estimated": finding.estimated, "open": finding.open,
+            "count": finding.count, "moves": finding.moves, "last": finding.last.as_deref().map(shortened),
         })
     });
     let unclear = module.unclear().map(|(line, why)| {
@@ -189,7 +190,7 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
         }
     }
     for finding in findings {
-        console::say(&shortened(&finding.sentence));
+        console::say(&shortened(&finding.in_words()));
     }
     for (line, why) in module.unclear() {
         let line = module.told(line);
@@ -211,8 +212,13 @@ fn in_words(import: &Import, Read { module, followed, findings }: &Read) {
 fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfollowed: Option<String>) -> String {
     let moves = module.program.moves.len();
     let (open, findings): (Vec<&MoveFinding>, Vec<&MoveFinding>) = all.iter().partition(|finding| finding.open);
-    let word = if findings.len() == 1 { "finding" } else { "findings" };
-    let what = if followed.is_some() { format!("{} {word}", findings.len()) } else { "read".to_owned() };
+    let count = |of: &[&MoveFinding]| of.iter().map(|finding| finding.count).sum::<usize>();
+    let found = match (count(&findings), findings.len()) {
+        (1, _) => "1 finding".to_owned(),
+        (all, different) if all == different => format!("{all} findings"),
+        (all, different) => format!("{all} findings, {different} of them different,"),
+    };
+    let what = if followed.is_some() { found.clone() } else { "read".to_owned() };
     let rests = match followed {
         // What is found is worth as much as what it rests on, and so is that there is nothing else.
         Some(_) if !findings.is_empty() => findings.iter().any(|finding| finding.estimated),
@@ -220,7 +226,7 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfo
         None => false,
     };
     let estimated = if rests { ", estimated: not all links' shapes are known" } else { "" };
-    let not_found_out = match (open.len(), open.iter().all(|finding| finding.estimated)) {
+    let not_found_out = match (count(&open), open.iter().all(|finding| finding.estimated)) {
         (0, _) => String::new(),
         (1, true) => ", 1 meeting of estimated shapes alone not found out".into(),
         (count, true) => format!(", {count} meetings of estimated shapes alone not found out"),
@@ -231,12 +237,20 @@ fn verdict(module: &Module, followed: Option<&Follow>, all: &[MoveFinding], unfo
     match module.unclear_line {
         Some(line) => {
             let verdict = if findings.is_empty() { "INCONCLUSIVE" } else { "FAIL" };
+            let is_handler = module.lines.get(&line).is_some_and(|line| line.unmodelled == Some(Unmodelled::Handlers));
+            if is_handler {
+                // The way without what it handles is certain to its end.
+                let handler = module.told(line);
+                return format!(
+                    "{verdict}: {what} in {moves} moves, but {handler} is in a handler, and none is followed{not_found_out}{estimated}"
+                );
+            }
             let before = module.told(line);
             let certain = module.certain;
             format!("{verdict}: {what} in the {certain} of {moves} moves before {before}{not_found_out}{estimated}")
         }
         None if findings.is_empty() && !is_open => format!("PASS: {what} in {moves} moves{estimated}"),
         None if findings.is_empty() => format!("INCONCLUSIVE: {what} in {moves} moves{not_found_out}{estimated}"),
-        None => format!("FAIL: {} {word} in {moves} moves{not_found_out}{estimated}", findings.len()),
+        None => format!("FAIL: {found} in {moves} moves{not_found_out}{estimated}"),
     }
 }

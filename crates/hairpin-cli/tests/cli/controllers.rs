@@ -452,6 +452,50 @@ fn a_search_in_which_a_controller_fails_passes_of_nothing_and_says_so() {
     }
 }
 
+/// Whoever repaired it executes again: what was found decides, and what was never executed is told.
+#[test]
+fn a_repaired_controller_decides_anew_and_what_failed_before_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.py"), GIVES_UP).unwrap();
+    fs::write(here.join("q.toml"), searched(SEARCHES[0], "python:part.py")).unwrap();
+    let wide = ["--set", "spec.deviation.max_m=1000", "--set", "execute.baseline=0", "--json"];
+    let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a"], &wide[..]].concat());
+    assert_eq!(code, 4, "{said}{error}");
+    let judged = |out: &str| {
+        let (code, said, _) = run(here, &["judge", out, "--json"]);
+        let told: Value = serde_json::from_str(&said).unwrap();
+        (code, told["verdict"].as_str().unwrap().to_owned(), told["search"]["flown_by_another_since"] == true)
+    };
+    // The same again has repaired nothing.
+    let (code, said, error) = run(here, &["execute", "a"]);
+    assert!(code == 0 && error.contains("the verdict stays EXECUTOR FAILED"), "{said}{error}");
+    let (code, verdict, is_past) = judged("a");
+    assert!(code == 4 && verdict.starts_with("EXECUTOR FAILED ") && !is_past, "{verdict}");
+    fs::write(here.join("part.py"), GIVES_UP.replace("% 3 == 0", "% 3 == 5")).unwrap();
+    // A name alone is that of the campaign's own copy.
+    let repaired = format!("execute.controller=\"python:{}\"", here.join("part.py").display());
+    let repaired = ["--set", &repaired];
+    let past = " executions of the search failed (controller `python:part.py` at t = 0 s: ";
+    let never = ") before another executor flew the cases, and what they were of was never executed";
+    let aside = run(here, &[&["execute", "a", "--out", "b"], &repaired[..]].concat());
+    let there = run(here, &[&["execute", "a"], &repaired[..]].concat());
+    for ((code, said, error), out) in [(aside, "b"), (there, "a")] {
+        assert!(code == 0 && !error.contains("stays EXECUTOR FAILED"), "{said}{error}");
+        let (code, verdict, is_past) = judged(out);
+        assert!(code == 0 && verdict.starts_with("PASS 2/2 ") && is_past, "{verdict}");
+        assert!(verdict.contains(past) && verdict.contains(never), "{verdict}");
+    }
+    let counted = |out: &str| judged(out).1.split(past).next().unwrap().rsplit("; ").next().unwrap().to_owned();
+    assert_eq!(counted("a"), counted("b"), "31 of 80, and not of those that failed");
+    // It fails what it fails.
+    fs::write(here.join("part.py"), GIVES_UP.replace("% 3 == 0", "% 3 != 5")).unwrap();
+    let (code, said, _) = run(here, &[&["execute", "a"], &repaired[..]].concat());
+    assert_eq!(code, 4, "{said}");
+    let (code, verdict, _) = judged("a");
+    assert!(code == 4 && verdict.starts_with("EXECUTOR FAILED 2/2 ("), "{verdict}");
+}
+
 #[test]
 fn a_controller_that_always_fails_ends_a_search_with_its_cause() {
     let folder = tempfile::tempdir().unwrap();

@@ -84,6 +84,46 @@ fn exact_kinematics_go_through_the_campaign_and_are_told_from_the_sources() {
     refused(at, &small("generate", &["--set", "generate.kinematics=\"exakt\""]), &["exakt", "source", "exact"]);
 }
 
+/// A simulator that drives every plan exactly, with or without heights; in eight poses a second.
+const EXACT: &str = "import json, sys\n\
+say = lambda **words: print(json.dumps(words), flush=True)\n\
+for line in sys.stdin:\n    \
+    heard = json.loads(line)\n    \
+    if heard['type'] == 'hello':\n        \
+        say(type='ready', protocol=1, name='exact')\n    \
+    elif heard['type'] == 'mission':\n        \
+        rows = [[one['t_s'], *one['p_m']] for one in heard['timed']]\n        \
+        steps = [[a + (b - a) * k / 4 for a, b in zip(*two)] for two in zip(rows, rows[1:]) for k in range(4)]\n        \
+        for t, x, y, z in steps + rows[-1:]:\n            \
+            say(type='pose', t_s=t, p_m=[x, y, HEIGHT])\n        \
+        say(type='end', reason='done')\n";
+
+/// A planar simulator knows no heights, and none of the map's is a deviation from the plan.
+#[test]
+fn programs_of_drives_that_tell_no_heights_are_on_the_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let told = "sent no heights of 2 of 2 runs (0 in all of their poses): they are those of the vehicle on the map's ground, with the \
+                headings of its way";
+    let mut worst = Vec::new();
+    for (name, height, by_map) in [("solid", "z", 0), ("planar", "0.0", 2)] {
+        fs::write(at.join(format!("{name}.py")), EXACT.replace("HEIGHT", height)).unwrap();
+        let program = format!("python3 {name}.py");
+        let more = ["--executor", &program, "--out", name, "--set", "execute.repeat=1"];
+        let limits = ["--set", "spec.limits={ path_deviation_m = 0.1 }", "--set", "execute.baseline=0"];
+        let drive: Vec<&str> = small("stress", &more).into_iter().chain(limits).collect();
+        let pursued = drive.iter().position(|word| word.starts_with("execute.controller")).unwrap();
+        let drive = [&drive[..pursued - 1], &drive[pursued + 1..]].concat();
+        let object = json(at, &drive);
+        assert_eq!(object["exit_code"], 0, "{object}");
+        worst.push(object["worst"]["max_deviation_m"].as_f64().unwrap());
+        let page = fs::read_to_string(at.join(name).join("report.html")).unwrap();
+        assert_eq!(page.contains(told), by_map > 0, "{name}");
+        assert_eq!(json(at, &["execute", name])["counts"]["heights_by_map"], by_map);
+    }
+    assert!((worst[0] - worst[1]).abs() < 0.01, "{worst:?}");
+}
+
 #[test]
 fn results_depend_on_no_threads_and_parts_make_the_whole() {
     let folder = tempfile::tempdir().unwrap();

@@ -158,7 +158,9 @@ fn what_fails_is_no_trial_and_counts() {
 fn a_search_in_which_a_program_fails_passes_of_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    fs::write(here.join("q.toml"), scenario(ADAPTIVE, "high-velocity-90", "--sick error")).unwrap();
+    fs::copy(SLUGGISH, here.join("sluggish.py")).unwrap();
+    let own = scenario(ADAPTIVE, "high-velocity-90", "--sick error").replace(SLUGGISH, "sluggish.py");
+    fs::write(here.join("q.toml"), own).unwrap();
     let wide = ["--set", "spec.deviation.max_m=1000", "--set", "execute.baseline=0", "--json"];
     let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a"], &wide[..]].concat());
     assert_eq!(code, 4, "{said}{error}");
@@ -166,6 +168,18 @@ fn a_search_in_which_a_program_fails_passes_of_nothing() {
     let failed = told["search"]["failed"].as_u64().unwrap();
     let verdict = told["verdict"].as_str().unwrap();
     assert!(verdict.starts_with(&format!("EXECUTOR FAILED {failed}/42 executions of the search (")), "{verdict}");
+    // The same again stays so; a program whose file was changed decides anew, whatever command starts it.
+    let judged = || {
+        let (code, said, _) = run(here, &["judge", "a"]);
+        (code, said.lines().last().unwrap_or_default().to_owned())
+    };
+    assert_eq!(run(here, &["execute", "a"]).0, 0);
+    assert_eq!(judged().0, 4);
+    fs::write(here.join("sluggish.py"), fs::read_to_string(SLUGGISH).unwrap() + "# repaired\n").unwrap();
+    let (code, said, error) = run(here, &["execute", "a"]);
+    assert!(code == 0 && !error.contains("stays EXECUTOR FAILED"), "{said}{error}");
+    let (code, verdict) = judged();
+    assert!(code == 0 && verdict.contains("before another executor flew the cases"), "{verdict}");
 }
 
 #[test]

@@ -66,6 +66,10 @@ fn a_fit_helps_on_logs_that_it_has_not_seen() {
     let numbers = found["parameters"].as_array().unwrap();
     let of = |name: &str| numbers.iter().find(|number| number["name"] == name).unwrap();
     assert_eq!(of("bandwidth")["identifiable"], true, "{found}");
+    assert_eq!(
+        (&of("bandwidth")["interval_tried"], &found["intervals_never_tried_with"]),
+        (&true.into(), &Value::Null)
+    );
     // How often intervals hold is asked of many draws, in the library; one set of logs tells how near the values are.
     for (name, truth, within) in
         [("bandwidth", 0.8, 0.05), ("latency_s", 0.08, 0.1), ("drag_quadratic_n_s2_m2", 0.1, 0.15)]

@@ -143,11 +143,63 @@ fn a_finding_before_what_is_not_modelled_is_a_finding() {
 fn predefined_data_and_the_state_of_the_program_are_followed() {
     let (code, out, error) = run(&cases(), &["import", "alias_speed.mod", "--check"]);
     // Followed to its end: the tool is turned by −30° about its axis, and axis 6 with it, which is no cf6 of 0.
-    assert!(code == 1 && !out.contains("not known") && !out.contains("NOT "), "{out}{error}");
-    assert!(out.ends_with("FAIL: 3 findings in 7 moves\n") && out.matches("[0,0,0,0]").count() == 3, "{out}");
+    assert!(code == 1 && !out.contains("not known") && !out.contains("NOT UNDERSTOOD"), "{out}{error}");
+    let handler = "line 27: NOT MODELLED handlers that move the arm: it may move the arm in the ERROR handler of `";
+    assert!(out.contains(handler) && out.matches("NOT MODELLED").count() == 1, "{out}");
+    let verdict = "FAIL: 3 findings in 7 moves, but line 27 is in a handler, and none is followed\n";
+    assert!(out.ends_with(verdict) && out.matches("[0,0,0,0]").count() == 3, "{out}");
     let (code, out, error) = run(&cases(), &["import", "conf_off_after.mod", "--check"]);
     assert_eq!(code, 1, "{out}{error}");
     assert!(out.contains("line 10: UNREACHABLE pA→pFar") && out.ends_with("FAIL: 1 finding in 4 moves\n"), "{out}");
+}
+
+/// What may come in between is no PASS, and takes nothing from what is certain without it.
+#[test]
+fn handlers_that_move_the_arm_are_named_and_pass_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let go = "MoveAbsJ home,v200,fine,tool0;";
+    for kind in ["ERROR", "UNDO", "BACKWARD"] {
+        let file = module(folder.path(), &format!("{go}\n{kind}\nMoveAbsJ far,v200,fine,tool0;\nRETRY;"));
+        let (code, out, error) = run(folder.path(), &["import", &file, "--check"]);
+        let named = format!(
+            "line 10: NOT MODELLED handlers that move the arm: it may move the arm in the {kind} handler of `main`"
+        );
+        assert!(code == 5 && out.contains(&named), "{out}{error}");
+        assert!(out.contains("\nINCONCLUSIVE: 0 findings in 2 moves, but line 10 is in a handler"), "{out}");
+        let object = json(folder.path(), &["import", &file, "--check"]);
+        assert_eq!((&object["certain_moves"], &object["not_understood"][0]["kind"]), (&2.into(), &"handlers".into()));
+    }
+    let file = module(folder.path(), &format!("{go}\nERROR\nTPWrite \"again\";\nRETRY;"));
+    assert_eq!(run(folder.path(), &["import", &file, "--check"]).0, 0);
+    // Of a trap that moves nothing itself.
+    let trap = "ENDPROC\nTRAP tStop\nTPWrite \"stop\";\nERROR\nMoveAbsJ far,v200,fine,tool0;\nENDTRAP\nPROC more()";
+    let file = module(folder.path(), &format!("CONNECT iStop WITH tStop;\n{go}\n{trap}"));
+    let (code, out, _) = run(folder.path(), &["import", &file, "--check"]);
+    assert!(code == 5 && out.contains("in the ERROR handler of `tStop`"), "{out}");
+}
+
+/// A loop that counts finds the same on each of its rounds.
+#[test]
+fn what_a_loop_finds_again_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = module(
+        folder.path(),
+        "FOR i FROM 1 TO 40 DO\nMoveAbsJ [[100+i,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;\nMoveAbsJ [[200+i,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;\nENDFOR",
+    );
+    let (code, out, error) = run(folder.path(), &["import", &file, "--check"]);
+    assert_eq!(code, 1, "{out}{error}");
+    assert!(
+        out.matches("line 10: ").count() == 1 && out.contains("; 40 times, from move 3 to move 81, the last: "),
+        "{out}"
+    );
+    let object = json(folder.path(), &["import", &file, "--check"]);
+    let found = object["findings"].as_array().unwrap();
+    let of_line = |line: i64| found.iter().filter(|one| one["line"] == line).collect::<Vec<_>>();
+    assert_eq!(
+        (of_line(10).len(), &of_line(10)[0]["count"], &of_line(10)[0]["moves"]),
+        (1, &40.into(), &serde_json::json!([3, 81]))
+    );
+    assert_ne!(of_line(10)[0]["last"], of_line(10)[0]["reason"]);
 }
 
 #[test]

@@ -29,6 +29,11 @@
 //! ended says what it takes it for with `"assumed":true` ([`hairpin::trajectory::END_UNSAID`]); without a `reason` an
 //! `end` is a mistake.
 //!
+//! Of what drives on a map, z = 0 in all poses of a mission is no height, as planar simulators have none: heights are
+//! then those of the vehicle on the map's ground (channel [`hairpin::trajectory::HEIGHTS_BY_MAP`],
+//! [`OnGround`](hairpin::campaign::OnGround)), and the velocities that were sent are not taken. Where it cannot stand,
+//! its height must be told.
+//!
 //! `"timed":false` in the first `ready` asks for missions without the planned motion, which is nearly all of their
 //! length.
 //!

@@ -1,7 +1,7 @@
 //! From the stream of poses to a flight: every promise of the protocol is checked, none is repaired silently. What is
 //! broken here would be a violation that nobody flew; how it was flown is the judge's business.
 
-use hairpin::campaign::Mission;
+use hairpin::campaign::{Mission, OnGround};
 // Beyond it a simulation has diverged.
 use hairpin::campaign::bounds::{FARTHEST_ON_EARTH_M, SHORTEST_STEP_S};
 use hairpin::math::segment::point_distance;
@@ -14,7 +14,8 @@ use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
 use super::velocities::{Disagreement, disagreement};
 
-use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID};
+use hairpin::math::rotation::euler_from_quaternion;
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID, HEIGHTS_BY_MAP};
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;
@@ -68,6 +69,12 @@ pub enum PoseError {
     /// More poses than anybody needs.
     #[error("more than {MOST_POSES} poses in one mission: send 100 a second")]
     Many,
+    /// Heights that nobody knows.
+    #[error(
+        "pose {index} (t_s = {time}): p_m[2] is 0 in all poses, and on the map's ground the vehicle cannot stand at ({x:.2}, {y:.2}) m: \
+             must be told its height"
+    )]
+    NoFooting { index: usize, time: f64, x: f64, y: f64 },
     /// An end without a beginning.
     #[error("\"end\" before the first pose")]
     Empty,
@@ -87,6 +94,8 @@ pub struct Recording<'a> {
     velocities: Option<Vec<[f64; 3]>>,
     legs: Option<Vec<u64>>,
     attitude_known: bool,
+    /// Whether it has told no height yet: a planar simulation of what drives on a map sends 0 for all of them.
+    flat: bool,
     /// Whether the reason for its end is assumed.
     pub(super) end_unsaid: bool,
 }
@@ -102,6 +111,7 @@ impl<'a> Recording<'a> {
             velocities: Some(Vec::new()),
             legs: Some(Vec::new()),
             attitude_known: true,
+            flat: mission.setup.footing().is_some(),
             end_unsaid: false,
         }
     }
@@ -136,9 +146,14 @@ impl<'a> Recording<'a> {
         if let Some(axis) = (0..3).find(|&axis| velocity[axis].is_nan() || velocity[axis].abs() > FASTEST_M_S) {
             return Err(PoseError::Fast { index, time, axis, value: velocity[axis] });
         }
+        if self.flat && pose.p_m[2] != 0.0 {
+            self.flat = false;
+            // The heights before were told as well.
+            self.poses.first().map_or(Ok(()), |first| self.begins_at(first.translation.vector.into()))?;
+        }
         if let (0, Some(start)) = (index, self.mission.waypoints.first()) {
-            let is_at = self.is_at(&Point3::from(pose.p_m), start);
-            elsewhere(pose.p_m, start, (self.mission.accept, is_at)).map_or(Ok(()), Err)?;
+            let [x, y, z] = pose.p_m;
+            self.begins_at([x, y, if self.flat { start.z } else { z }])?;
         }
         let rotation = attitude(index, pose)?;
         self.take_leg(index, time, pose.leg)?;
@@ -148,6 +163,38 @@ impl<'a> Recording<'a> {
         let place = Translation3::from(Point3::from(pose.p_m));
         self.poses.push(Isometry3::from_parts(place, rotation.unwrap_or_default()));
         Ok(())
+    }
+
+    /// That the first pose is at the start.
+    fn begins_at(&self, place: [f64; 3]) -> Result<(), PoseError> {
+        let Some(start) = self.mission.waypoints.first() else { return Ok(()) };
+        let is_at = self.is_at(&Point3::from(place), start);
+        Ok(elsewhere(place, start, (self.mission.accept, is_at)).map_or(Ok(()), Err)?)
+    }
+
+    /// Puts what told no height on the map's ground, where that is not at 0 itself; whether it did.
+    fn take_heights(&mut self) -> Result<bool, PoseError> {
+        let Some(footing) = self.mission.setup.footing().filter(|_| self.flat) else { return Ok(false) };
+        let places: Vec<[f64; 2]> = self.poses.iter().map(|pose| pose.translation.vector.xy().into()).collect();
+        let yaw = |pose: &Isometry3<f64>| {
+            let q = pose.rotation;
+            self.attitude_known.then(|| euler_from_quaternion(&[q.w, q.i, q.j, q.k])[2])
+        };
+        let told: Vec<Option<f64>> = self.poses.iter().map(yaw).collect();
+        let OnGround { heights, lost } = OnGround::of(footing, &places, &told);
+        if let Some(&index) = lost.first() {
+            let [x, y] = places[index];
+            return Err(PoseError::NoFooting { index, time: self.times[index], x, y });
+        }
+        if heights.iter().all(|height| *height == 0.0) {
+            return Ok(false);
+        }
+        for (pose, height) in self.poses.iter_mut().zip(heights) {
+            pose.translation.vector.z = height;
+        }
+        // What was sent knows of no way up or down.
+        self.velocities = None;
+        Ok(true)
     }
 
     /// One more than the last leg means "all reached", and counts as the last.
@@ -198,7 +245,7 @@ impl<'a> Recording<'a> {
     /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
     ///
     /// # Errors
-    /// No pose; velocities that are not those of the places.
+    /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand.
     pub fn finish(mut self, reason: EndReason) -> Result<Flight, PoseError> {
         if self.times.is_empty() {
             return Err(PoseError::Empty);
@@ -206,6 +253,7 @@ impl<'a> Recording<'a> {
         if let Some(velocities) = &self.velocities {
             disagreement(&self.times, &self.poses, velocities).map_or(Ok(()), Err)?;
         }
+        let by_map = self.take_heights()?;
         let ended = match reason {
             EndReason::Done => Ended::Done,
             EndReason::Time => Ended::Time,
@@ -228,6 +276,9 @@ impl<'a> Recording<'a> {
         }
         if self.end_unsaid {
             channels.push(channel(END_UNSAID, self.times.iter().map(|_| 1.0)));
+        }
+        if by_map {
+            channels.push(channel(HEIGHTS_BY_MAP, self.times.iter().map(|_| 1.0)));
         }
         Ok(Flight { track: Track::new(self.times, self.poses, channels)?, ended, left_world, reached })
     }

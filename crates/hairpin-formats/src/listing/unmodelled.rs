@@ -37,13 +37,15 @@ pub enum Unmodelled {
     Processes,
     /// Interrupts whose traps move the arm.
     Interrupts,
+    /// Handlers of errors, UNDO and BACKWARD that move the arm.
+    Handlers,
     /// Tools that stand in the cell, work objects that are held.
     StandingTools,
 }
 
 impl Unmodelled {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::ExternalAxes,
         Self::Conveyors,
         Self::MultiMove,
@@ -61,6 +63,7 @@ impl Unmodelled {
         Self::Restarts,
         Self::Processes,
         Self::Interrupts,
+        Self::Handlers,
         Self::StandingTools,
     ];
 
@@ -84,6 +87,7 @@ impl Unmodelled {
             Self::Restarts => "restarts",
             Self::Processes => "processes",
             Self::Interrupts => "interrupts",
+            Self::Handlers => "handlers",
             Self::StandingTools => "standing-tools",
         }
     }
@@ -108,6 +112,7 @@ impl Unmodelled {
             Self::Restarts => "paths stopped, stored and gone back",
             Self::Processes => "moves of a process",
             Self::Interrupts => "interrupts that move the arm",
+            Self::Handlers => "handlers that move the arm",
             Self::StandingTools => "tools that stand in the cell",
         }
     }

@@ -11,7 +11,7 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray}
 use hairpin::campaign::scenario::DeviationFrom;
 use hairpin::campaign::{CaseNumber, FullRate, Run};
 use hairpin::judgement::still_since;
-use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, Ended, Flight, Track};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, Ended, Flight, HEIGHTS_BY_MAP, Track};
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::Value;
@@ -57,6 +57,8 @@ pub struct RunFacts {
     pub attitude_unknown: bool,
     /// Whether it did not say how the run ended.
     pub end_unsaid: bool,
+    /// Whether it sent no heights, which are the map's.
+    pub heights_by_map: bool,
     /// Whether its motion is kept.
     pub recorded: bool,
     /// What was measured of all of its samples.
@@ -115,6 +117,7 @@ impl RunFacts {
             left_leg: left.and_then(leg_at),
             attitude_unknown: track.is_some_and(|track| track.channel(ATTITUDE_UNKNOWN).is_some()),
             end_unsaid: track.is_some_and(|track| track.channel(END_UNSAID).is_some()),
+            heights_by_map: track.is_some_and(|track| track.channel(HEIGHTS_BY_MAP).is_some()),
             recorded: true,
             full_rate: run.full_rate.clone(),
         }
@@ -149,11 +152,13 @@ impl RunFacts {
         let legs = self.end_leg.map(|_| channel("leg", stamps.iter().map(|(_, told)| leg(*told)).collect()));
         let mark = |is: bool, name: &str| is.then(|| channel(name, vec![1.0; stamps.len()]));
         let (level, unsaid) = (mark(self.attitude_unknown, ATTITUDE_UNKNOWN), mark(self.end_unsaid, END_UNSAID));
+        let by_map = mark(self.heights_by_map, HEIGHTS_BY_MAP);
         let times: Vec<f64> = stamps.iter().map(|(time, _)| *time).collect();
         // Where it was is not known, only since when it was there no longer: a kilometre away serves.
         let place = |time: &f64| Isometry3::translation(if *time < still { 1000.0 } else { 0.0 }, 0.0, 0.0);
         let poses = times.iter().map(place).collect();
-        let track = Track::new(times, poses, legs.into_iter().chain(level).chain(unsaid).collect()).ok()?;
+        let track =
+            Track::new(times, poses, legs.into_iter().chain(level).chain(unsaid).chain(by_map).collect()).ok()?;
         self.with_track(track)
     }
 }
@@ -211,6 +216,7 @@ pub fn read_run(path: &Path) -> Result<(Track, Option<RunFacts>), TableError> {
         left_leg: None,
         attitude_unknown: table.has(ATTITUDE_UNKNOWN),
         end_unsaid: table.has(END_UNSAID),
+        heights_by_map: table.has(HEIGHTS_BY_MAP),
         recorded: true,
         full_rate: None,
     });
@@ -247,6 +253,9 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
     columns.push("recorded", flags(|run| run.recorded));
     if runs.iter().any(|run| run.end_unsaid) {
         columns.push(END_UNSAID, flags(|run| run.end_unsaid));
+    }
+    if runs.iter().any(|run| run.heights_by_map) {
+        columns.push(HEIGHTS_BY_MAP, flags(|run| run.heights_by_map));
     }
     let measured: Vec<Option<&FullRate>> = runs.iter().map(|run| run.full_rate.as_deref()).collect();
     if measured.iter().any(Option::is_some) {
@@ -290,7 +299,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
     let (end, end_leg, left_leg) = (table.numbers_or_none("end_s")?, counts("end_leg")?, counts("left_leg")?);
     let still = table.numbers_or_none("still_s")?;
     let (unknown, recorded) = (flags("attitude_unknown", false)?, flags("recorded", true)?);
-    let unsaid = flags(END_UNSAID, false)?;
+    let (unsaid, by_map) = (flags(END_UNSAID, false)?, flags(HEIGHTS_BY_MAP, false)?);
     let full_rate = read_full_rate(&table)?;
     let mut seen = BTreeSet::new();
     let rows = ended.into_iter().zip(messages).zip(reached).zip(drawn).zip(full_rate).enumerate();
@@ -318,6 +327,7 @@ pub fn read_facts(path: &Path) -> Result<BTreeMap<(CaseNumber, usize), RunFacts>
             left_leg: left_leg[row],
             attitude_unknown: unknown[row],
             end_unsaid: unsaid[row],
+            heights_by_map: by_map[row],
             recorded: recorded[row],
             full_rate: full_rate.map(Box::new),
         };

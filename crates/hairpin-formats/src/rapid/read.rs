@@ -158,6 +158,7 @@ fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize
     let targets = targets(&source, &machine);
     if let Some(entry) = entry {
         machine.run(entry);
+        machine.name_handlers(&source);
     }
     // Statements are told where they are executed. Anything else, a module that is cut short above all, leaves open
     // what the program would have been: no controller loads it.

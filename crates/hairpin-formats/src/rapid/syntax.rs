@@ -150,8 +150,16 @@ pub(super) struct Routine {
     pub(super) parameters: Vec<Parameter>,
     pub(super) data: Vec<Declaration>,
     pub(super) body: Vec<Statement>,
-    /// Statements of its ERROR, UNDO and BACKWARD parts.
-    pub(super) handlers: Vec<Statement>,
+    /// Its ERROR, UNDO and BACKWARD parts.
+    pub(super) handlers: Vec<Handler>,
+}
+
+/// What of a routine is executed where something comes in between.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Handler {
+    /// ERROR, UNDO or BACKWARD.
+    pub(super) kind: &'static str,
+    pub(super) body: Vec<Statement>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

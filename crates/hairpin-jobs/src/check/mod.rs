@@ -16,7 +16,7 @@ pub(crate) use fences::{ARDUPILOT, PX4};
 pub use settings::CheckSettings;
 pub(crate) use vehicle::same_vehicle;
 pub(crate) use world::open_around;
-pub(crate) use world::read_anywhere;
+pub(crate) use world::{read_about_home, read_anywhere};
 
 /// What came of it.
 #[derive(Debug)]

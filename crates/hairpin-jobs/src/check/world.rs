@@ -76,6 +76,17 @@ pub(crate) fn read_anywhere(file: &Path) -> Result<Mission, Problem> {
     missions::read(file, &somewhere.scenario, somewhere.handed().farthest).map_err(Problem::input)
 }
 
+/// The mission in `file` for the robot of `setup`, wherever it is: places on Earth are about the mission's own home. A
+/// table in degrees has none, and is placed by the scenario's world.
+///
+/// # Errors
+/// As of [`missions::read`].
+pub(crate) fn read_about_home(setup: &Setup, file: &Path) -> Result<Mission, Problem> {
+    let (somewhere, _) = open_around(setup, &[Point3::origin()]).map_err(|why| not_open(setup, file, why))?;
+    let read = |there: &Setup| missions::read(file, &there.scenario, there.handed().farthest);
+    read(&somewhere).or_else(|_| read(setup)).map_err(Problem::input)
+}
+
 /// Why `mission` cannot be read for the robot of `setup` in the open.
 fn not_open(setup: &Setup, mission: &Path, mistake: Option<Mistake>) -> Problem {
     match mistake {

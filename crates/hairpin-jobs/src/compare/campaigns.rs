@@ -9,7 +9,7 @@ use hairpin::campaign::{self, Case, CaseResult, Comparison};
 use crate::Problem;
 use crate::differences::differences;
 use crate::names::listed;
-use crate::work::{Work, open_executed};
+use crate::work::{Work, open_as_made};
 
 /// Two campaigns beside each other.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub struct Compared {
 /// Folders that are no judged campaigns, of different kinds of robots, whose deviations are from different references,
 /// or without a case in common.
 pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem> {
-    let (before, after) = (open_executed(a)?, open_executed(b)?);
+    let (before, after) = (open_as_made(a)?, open_as_made(b)?);
     let scenarios = [&before.setup.scenario, &after.setup.scenario];
     let differences = differences(scenarios[0], scenarios[1]);
     if std::mem::discriminant(scenarios[0]) != std::mem::discriminant(scenarios[1]) {

@@ -9,7 +9,7 @@ use hairpin_formats::junit::{Outcome, OutcomeKind, outcomes_text};
 use super::campaigns::{Compared, pairs};
 use crate::Problem;
 use crate::next::replay_command;
-use crate::work::open_executed;
+use crate::work::open_as_made;
 
 /// A test for each pair of two campaigns that were [`super::compare`]d: newly failing is a failure, with both runs and
 /// the command that flies B's again; what failed before is skipped, for nothing about it is new. Where nothing could be
@@ -18,7 +18,7 @@ use crate::work::open_executed;
 /// # Errors
 /// Folders that cannot be read.
 pub fn junit_text(a: &Path, b: &Path, compared: &Compared, regression: bool) -> Result<String, Problem> {
-    let (before, after) = (open_executed(a)?, open_executed(b)?);
+    let (before, after) = (open_as_made(a)?, open_as_made(b)?);
     let (comparison, length) = (&compared.comparison, length(&after.setup));
     let mut outcomes: Vec<Outcome> = pairs((&before, a), (&after, b))?
         .iter()

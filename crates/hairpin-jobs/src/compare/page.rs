@@ -9,7 +9,7 @@ use hairpin::judgement::Verdict;
 use super::campaigns::pairs;
 use crate::Problem;
 use crate::execute::{run_with_motion, why_lost};
-use crate::work::{Work, open_executed};
+use crate::work::{Work, open_as_made};
 
 /// Cases of a comparison that are drawn at most.
 const DRAWN: usize = 200;
@@ -20,7 +20,7 @@ const DRAWN: usize = 200;
 /// # Errors
 /// Runs that are not to be had any more; a file that cannot be read or written.
 pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Result<(), Problem> {
-    let (before, after) = (open_executed(a)?, open_executed(b)?);
+    let (before, after) = (open_as_made(a)?, open_as_made(b)?);
     let mut pairs = pairs((&before, a), (&after, b))?;
     let failing = |case: CaseNumber| compared.newly_failing.contains(&case.to_string());
     let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);

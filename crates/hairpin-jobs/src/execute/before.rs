@@ -2,15 +2,39 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Case, CaseResult, Status};
+use hairpin::campaign::{Case, CaseResult, Failures, Status, Tally};
 use hairpin_formats::folder::CampaignFolder;
 
+use super::missing::Flown;
+use crate::program::fingerprint;
 use crate::sets::Set;
 use crate::work::{Work, changed_by};
 use crate::{Problem, Watch};
 
 /// Tables of a scenario that may change once there are trajectories.
 pub(super) const CHANGED: &[&str] = &["execute", "vary", "spec"];
+
+/// `tally` of cases that were all executed anew: where another has executed the search, what failed then is past.
+pub(super) fn failed_before(work: &Work, tally: Tally) -> Result<Tally, Problem> {
+    if tally.failures.is_none() {
+        return Ok(tally);
+    }
+    let now = fingerprint(&work.setup, work.folder.read_executor()?.as_ref());
+    let is_past = tally.failures.by.as_ref().is_some_and(|by| *by != now);
+    let tally = Tally { failures: Failures { is_past, ..tally.failures.clone() }, ..tally };
+    work.folder.write_tally(&tally)?;
+    Ok(tally)
+}
+
+/// Tells that what failed in the search stays a failure, though all cases were flown, and how it would not.
+pub(super) fn tell_failed(tally: &Tally, flown: Flown, watch: &dyn Watch) {
+    if let Some(failed) = tally.failures_in_words().filter(|_| flown.failed == 0 && !tally.failures.is_past) {
+        watch.warn(&format!(
+            "{failed}, and who executes is the same since, by its command, its files and what it says of itself: the verdict stays EXECUTOR FAILED. \
+             One that was repaired elsewhere says another `version` in its `ready`; hairpin stress … --force searches anew"
+        ));
+    }
+}
 
 /// Tells that cases are flown by what they were not made with: once it is flown so, nothing in the folder tells it.
 pub(super) fn tell_edited(edited: &[String], are_of_the_folder: bool, watch: &dyn Watch) {

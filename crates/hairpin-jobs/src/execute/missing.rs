@@ -2,7 +2,7 @@
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::scenario::Record;
-use hairpin::campaign::{self, Case, Run, Status};
+use hairpin::campaign::{self, Case, OnGround, Run, Status};
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 use rayon::prelude::*;
 
@@ -27,11 +27,31 @@ pub struct Flown {
     pub attitude_unknown: usize,
     /// Of these, runs of which the executor did not say how they ended.
     pub end_unsaid: usize,
+    /// Of these, runs of which the executor sent no heights: what drives is on the map's ground.
+    pub heights_by_map: usize,
 }
 
 impl Flown {
+    /// What the executor left out, in sentences, if it did.
+    pub(crate) fn left_out(&self) -> impl Iterator<Item = String> {
+        self.unsaid().into_iter().chain(self.without_heights())
+    }
+
+    /// That heights are the map's.
+    fn without_heights(&self) -> Option<String> {
+        let whose = (self.attitude_unknown == 0).then_some("executor");
+        (self.heights_by_map > 0).then(|| {
+            format!(
+                "The executor sent no heights of {} of {} runs (0 in all of their poses): they are {}.",
+                self.heights_by_map,
+                self.runs,
+                OnGround::in_words(whose)
+            )
+        })
+    }
+
     /// That the executor left out how runs ended, if it did.
-    pub(crate) fn unsaid(&self) -> Option<String> {
+    fn unsaid(&self) -> Option<String> {
         (self.end_unsaid > 0).then(|| {
             format!(
                 "The executor did not say how {} of {} runs ended: they are taken for `done`, which holds where they came to their \
@@ -74,9 +94,7 @@ pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Res
             flown.attitude_unknown
         ));
     }
-    if let Some(told) = flown.unsaid() {
-        watch.warn(&format!("Warning: {told}"));
-    }
+    flown.left_out().for_each(|told| watch.warn(&format!("Warning: {told}")));
     Ok(flown)
 }
 
@@ -143,13 +161,14 @@ pub(crate) fn count_flown(work: &Work, cases: &[Case]) -> Result<Flown, Problem>
 }
 
 fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
-    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0, end_unsaid: 0 };
+    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 };
     for case in cases {
         for facts in work.folder.facts_of(case.number)?.iter().filter(|facts| facts.run < repeat) {
             flown.runs += 1;
             flown.failed += usize::from(facts.message.is_some());
             flown.attitude_unknown += usize::from(facts.attitude_unknown);
             flown.end_unsaid += usize::from(facts.end_unsaid);
+            flown.heights_by_map += usize::from(facts.heights_by_map);
         }
     }
     Ok(flown)

@@ -29,7 +29,7 @@ use crate::work::{
     IfThere, changed, check_tables, keep_changes, open_to_change, open_to_read, same_as_executed, tell_share, try_out,
 };
 use crate::{Deadline, Problem, Watch};
-use before::{CHANGED, searched_before, tell_edited, unchanged};
+use before::{CHANGED, failed_before, searched_before, tell_edited, tell_failed, unchanged};
 use beside::beside;
 pub(crate) use by_case::fly_by_case;
 use fly::first_trouble;
@@ -54,6 +54,8 @@ pub(crate) use worst::WORST;
 pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed, Problem> {
     let ExecuteSettings { folder, sets, .. } = settings;
     let path = settings.out.as_ref().unwrap_or(folder);
+    // What the cases of another folder are flown by is told as of this one's.
+    let mut edited_there = Vec::new();
     // Who resumes goes on where the cases are already.
     if settings.out.is_some() && !(settings.resume && CampaignFolder::open(path).is_ok()) {
         let if_there = if settings.replaces { IfThere::Replace } else { IfThere::Refuse };
@@ -69,7 +71,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
                 try_out(setup.steering_code(), Deadline::after(None), watch)?;
             }
         }
-        beside((folder, sets), path, if_there, &settings.consent)?;
+        edited_there = beside((folder, sets), path, if_there, &settings.consent)?;
     }
     if settings.resume && !sets.is_empty() {
         unchanged(path, sets)?;
@@ -88,7 +90,7 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     }
     let kept = missions.is_none().then(|| work.folder.read_cases()).transpose()?;
     let cases = missions.as_ref().map_or(kept.as_ref().map_or(0, Vec::len), Vec::len);
-    let tally =
+    let mut tally =
         if missions.is_none() && work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
     let chosen = if missions.is_some() { Chosen::Given } else { tally.chosen(&work.setup.scenario.search()) };
     tell_share(&work.setup.scenario, (cases as u64, chosen), watch);
@@ -98,7 +100,8 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
     check_recordings(&work, kept.as_deref().unwrap_or_default())?;
     // What the user wrote into the scenario is what is flown from here on.
     let edited = work.folder.edited(&work.setup)?;
-    tell_edited(&edited, missions.is_none(), watch);
+    edited_there.extend(edited.iter().cloned());
+    tell_edited(&edited_there, missions.is_none(), watch);
     if !sets.is_empty() || !edited.is_empty() {
         keep_changes(&work)?;
         let typed: Vec<Wish> = wishes.into_iter().filter(|wish| wish.is_typed(sets)).collect();
@@ -134,6 +137,10 @@ pub fn execute(settings: &ExecuteSettings, watch: &dyn Watch) -> Result<Executed
             drop(work.folder.write_results(&cases, &judged));
         }
     })?;
+    if !settings.resume && missions.is_none() {
+        tally = failed_before(&work, tally)?;
+    }
+    tell_failed(&tally, flown, watch);
     if all_there && !judged.is_empty() && reruns == count_reruns(&work, &cases)? {
         // Nothing was executed: what was judged is what it was.
         work.folder.write_results(&cases, &judged)?;

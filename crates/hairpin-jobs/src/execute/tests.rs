@@ -5,15 +5,16 @@ use hairpin::math::simd::Simd;
 use super::*;
 use crate::Unwatched;
 use crate::export::{Export, ExportSettings, Format};
+use crate::judge_log::{Against, FrameSettings, LogSettings, judge_log};
 use crate::sets::Set;
-use crate::testing::{generated, program};
+use crate::testing::{Told, generated, program};
 
 #[test]
 fn runs_are_flown_once_and_resumed() {
     let (_place, folder) = generated();
     let settings = ExecuteSettings { folder, ..ExecuteSettings::default() };
     let executed = execute(&settings, &Unwatched).map(|executed| (executed.cases, executed.flown)).unwrap();
-    assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }));
+    assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }));
     let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
     let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
     assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
@@ -84,7 +85,22 @@ fn a_scenario_that_was_edited_has_no_runs() {
         crate::replay::replay_case((&folder, hairpin::campaign::CaseNumber(0)), Simd::Widest, &consent, &Unwatched);
     let exporting = crate::export::ExportSettings { folder: folder.clone(), ..Default::default() };
     let exported = || crate::export::Export::open(&exporting).map(drop);
-    let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string()];
+    let shrinking = crate::shrink::ShrinkSettings { folder: folder.clone(), ..Default::default() };
+    let shrunk = crate::shrink::Shrinking::open(shrinking).map(drop).unwrap_err().to_string();
+    let log = LogSettings {
+        path: folder.join("0000-0.csv"),
+        against: Against::Campaign(folder.clone()),
+        world: None,
+        sets: Vec::new(),
+        case: None,
+        frame: FrameSettings::default(),
+        source: None,
+        from_s: None,
+        to_s: None,
+        page: None,
+    };
+    let log = judge_log(&log, &Unwatched).map(drop).unwrap_err().to_string();
+    let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string(), shrunk, log];
     for told in told.iter().chain(&others) {
         assert!(
             told.contains("scenario.toml: was changed beside `spec`") && told.contains("hairpin execute"),
@@ -112,6 +128,39 @@ fn a_scenario_that_was_edited_has_no_runs() {
     execute(&ExecuteSettings { resume: false, ..resumed.clone() }, &Unwatched).unwrap();
     judged().unwrap();
     execute(&resumed, &Unwatched).unwrap();
+}
+
+/// Nor are cases of an edited scenario made into another campaign's, or gone on with, as if they were of what
+/// stands there now.
+#[test]
+fn a_scenario_that_was_edited_has_no_cases() {
+    let (place, folder) = generated();
+    let file = folder.join("scenario.toml");
+    let as_written = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, as_written.replace("alt_amsl_m = 180.0", "alt_amsl_m = 181.0")).unwrap();
+    let key = "`world.origin.alt_amsl_m`";
+    let out = place.path().join("beside");
+    let choice = crate::select::SelectSettings {
+        folder: folder.clone(),
+        out: out.clone(),
+        cases: 1,
+        by: hairpin::campaign::select::By::Diverse,
+        if_there: IfThere::Refuse,
+        consent: crate::consent::Consent::default(),
+    };
+    let chosen = crate::select::select(&choice, &Unwatched).map(drop).unwrap_err().to_string();
+    let mut again = crate::testing::small(&place);
+    again.if_there = IfThere::Resume;
+    again.sets.push(("world.origin.alt_amsl_m".into(), "181.0".into()));
+    let resumed = crate::generate::generate(&again, &Unwatched).map(drop).unwrap_err().to_string();
+    for refused in [&chosen, &resumed] {
+        assert!(refused.contains("since its cases were made") && refused.contains(key), "{refused}");
+    }
+    let told = Told::default();
+    let beside = ExecuteSettings { folder, out: Some(out), ..ExecuteSettings::default() };
+    execute(&beside, &told).unwrap();
+    let told = told.0.into_inner().unwrap().join("\n");
+    assert!(told.contains(&format!("{key} of the folder's scenario.toml was changed by hand")), "{told}");
 }
 
 /// Another version of a program goes on with nothing that the one before has executed, and nothing is lost.
@@ -143,7 +192,7 @@ fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
     named("name=\"sim 1\", version=1");
     assert_eq!(
         execute(&resumed, &Unwatched).unwrap().flown,
-        Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0 }
+        Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }
     );
     named("name=\"sim 2\"");
     execute(&settings, &Unwatched).unwrap();

@@ -24,12 +24,9 @@ use hairpin::campaign::Case;
 use hairpin_formats::qgc::mission::Autopilot;
 
 use crate::Problem;
-use crate::work::{Work, open_to_read, same_as_made};
+use crate::work::{PLACE, Work, open_to_read, same_as_made};
 
 use hardware::Hardware;
-
-/// What only says where on Earth the world is: files ask for it that nobody thought of when the campaign was made.
-const PLACE: &[&str] = &["world.origin", "world.terrain.epsg"];
 
 pub use chosen::Which;
 pub use missions::MissionFile;
@@ -93,7 +90,7 @@ impl Export {
     pub fn open(settings: &ExportSettings) -> Result<Self, Problem> {
         let ExportSettings { folder, which, autopilot, accept_excursion } = settings;
         let work = open_to_read(folder)?;
-        same_as_made(&work.folder, &work.setup, PLACE)?;
+        same_as_made(&work.folder, &work.setup, &PLACE)?;
         let cases = which.of(&work, work.folder.read_cases_without_profiles()?)?;
         if cases.is_empty() {
             return Err(Problem::input(format!("{} has no case: there is nothing to export", folder.display())));

@@ -5,39 +5,54 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::fit::Flown;
 use hairpin::campaign::{Case, CaseNumber, Setup};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Track};
+use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Progress, Sample};
+use hairpin_formats::missions::Frame;
 use hairpin_formats::placement::Placement;
-use hairpin_formats::waypoints;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::check::read_about_home;
 use crate::judge_log::{Asks, FrameSettings, Heights, IntoWorld, LegsBy, arm_of, best, course, matched, ran};
+use crate::missions::followed;
 use crate::{Problem, Watch};
 
 /// What logs are flights of.
 pub(super) enum Missions {
-    /// All of this one, of this name.
-    One(String, Box<Case>),
+    /// All of this one, of this name, about this place on Earth where that is its own home.
+    One(String, Box<Case>, Option<Geodetic>),
     /// Each of a case of a campaign's folder.
     Cases(PathBuf, Vec<Case>),
 }
 
 impl Missions {
-    /// The waypoints of a file.
-    pub(super) fn of_file(file: &Path, setup: &Setup) -> Result<Self, Problem> {
-        let (points, _) = waypoints::read(file, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
-        if points.len() < 2 {
-            return Err(Problem::of_file(
-                file,
-                format!("a mission needs at least 2 waypoints, this has {}", points.len()),
-            ));
+    /// The mission of a file.
+    pub(super) fn of_file(file: &Path, setup: &Setup, watch: &dyn Watch) -> Result<Self, Problem> {
+        let mission = read_about_home(setup, file)?;
+        followed(setup, &mission)?;
+        mission.notes.iter().for_each(|note| watch.warn(&format!("{}: {note}", file.display())));
+        let home = match mission.frame {
+            Frame::Home(home) => Some(home),
+            Frame::World | Frame::Placed => None,
+        };
+        let case = Case::bare(CaseNumber(0), 0, mission.waypoints);
+        Ok(Self::One(file.display().to_string(), Box::new(case), home))
+    }
+
+    /// Where on Earth the frame is that they are in.
+    ///
+    /// # Errors
+    /// Not at a place of the Earth.
+    fn place(&self, setup: &Setup) -> Result<Option<Placement>, Problem> {
+        match self {
+            Self::One(_, _, Some(home)) => Ok(Some(Placement::about(home))),
+            Self::One(..) | Self::Cases(..) => Placement::of(&setup.scenario).map_err(Problem::input),
         }
-        Ok(Self::One(file.display().to_string(), Box::new(Case::bare(CaseNumber(0), 0, points))))
     }
 
     /// The only case, or the campaign's that the log in `file` is called after; `None` of one that is called otherwise.
     fn named(&self, file: &Path) -> Result<Option<&Case>, Problem> {
         let (folder, cases) = match self {
-            Self::One(_, case) => return Ok(Some(case)),
+            Self::One(_, case, _) => return Ok(Some(case)),
             Self::Cases(folder, cases) => (folder, cases),
         };
         let name = file.file_name().unwrap_or_default().to_string_lossy();
@@ -59,7 +74,7 @@ impl Missions {
     /// All that there are.
     fn cases(&self) -> &[Case] {
         match self {
-            Self::One(_, case) => std::slice::from_ref(case.as_ref()),
+            Self::One(_, case, _) => std::slice::from_ref(case.as_ref()),
             Self::Cases(_, cases) => cases,
         }
     }
@@ -67,7 +82,7 @@ impl Missions {
     /// What the mission of `case` is called.
     fn name(&self, case: &Case) -> String {
         match self {
-            Self::One(name, _) => name.clone(),
+            Self::One(name, ..) => name.clone(),
             Self::Cases(folder, _) => format!("case {} of {}", case.id(), folder.display()),
         }
     }
@@ -106,7 +121,7 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
         return Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track });
     }
     let logged = logs::read(file).map_err(Problem::input)?;
-    let place = Placement::of(&setup.scenario).map_err(Problem::input)?;
+    let place = missions.place(setup)?;
     match (&logged.frame, &place) {
         (LogFrame::Named(frame), _) => {
             watch.warn(&format!("{}: positions in the frame `{frame}` are taken for the world's", file.display()));

@@ -16,7 +16,7 @@ use serde_json::Value;
 
 use crate::judge_log::arm_of;
 use crate::sets::Set;
-use crate::work::open_with;
+use crate::work::{PLACE, open_with, same_as_made};
 use crate::{Problem, Watch};
 use flown::{Missions, flown};
 
@@ -64,7 +64,7 @@ pub struct Fitted {
 /// its mission, or has the samples of one before it; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
-    let (setup, missions) = missions(settings)?;
+    let (setup, missions) = missions(settings, watch)?;
     let setup = setup.with_simd(settings.simd);
     let logs: Vec<Flown> =
         settings.logs.iter().map(|log| flown(log, &missions, &setup, watch)).collect::<Result<_, _>>()?;
@@ -131,7 +131,7 @@ fn in_numbers(setup: &Setup) -> Result<Setup, Problem> {
 }
 
 /// The scenario that says who steers, with the robot that is fitted, and the missions that logs are flights of.
-fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
+fn missions(settings: &FitSettings, watch: &dyn Watch) -> Result<(Setup, Missions), Problem> {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     match (&settings.campaign, &settings.mission) {
         (Some(campaign), None) => {
@@ -141,6 +141,8 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
             let robot = ("robot".to_owned(), Value::from(robot).to_string());
             let sets: Vec<Set> = std::iter::once(robot).chain(settings.sets.iter().cloned()).collect();
             let work = open_with(campaign, &sets)?;
+            // Who steered is a matter of the logs, and what robot it was is named.
+            same_as_made(&work.folder, &work.setup, &[&["execute", "vary", "robot"], &PLACE[..]].concat())?;
             let cases = work.folder.read_cases()?;
             Ok((work.setup, Missions::Cases(campaign.clone(), cases)))
         }
@@ -151,7 +153,7 @@ fn missions(settings: &FitSettings) -> Result<(Setup, Missions), Problem> {
                     "an arm's logs are of programs, not of waypoints: --campaign OUT names the campaign that wrote them",
                 ));
             }
-            let missions = Missions::of_file(mission, &setup)?;
+            let missions = Missions::of_file(mission, &setup, watch)?;
             Ok((setup, missions))
         }
         _ => Err(Problem::input(
@@ -183,13 +185,17 @@ fn robot_file(setup: &Setup, found: &Fit, settings: &FitSettings, from: &str) ->
     }
     let name = settings.out.file_stem().map_or_else(|| "fitted".into(), |stem| stem.to_string_lossy().into_owned());
     let (unit, of) = found.unit;
+    let untried = found.untried.filter(|_| found.estimates.iter().any(Estimate::is_told));
+    let untried = untried.map_or(String::new(), |who| {
+        format!(" Whether such intervals hold was tried on {}, and never with `{who}`, which steered.", found.tried)
+    });
     let head = [
         format!(
             "{} with what logs told of it, by `hairpin fit`: numbers marked `estimated` are the tool's, not measurements",
             setup.robot_name()
         ),
         format!(
-            "of the robot. Residual {:.3} {unit} over {from}; what was not told is as it was.",
+            "of the robot. Residual {:.3} {unit} over {from}; what was not told is as it was.{untried}",
             of * found.residual_m
         ),
     ];

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::budget::UNPROVEN;
 use crate::execute::{Asked, in_the_loop};
-use crate::program::Executing;
+use crate::program::{Executing, fingerprint};
 use crate::rounds::Rounds;
 use crate::watch::not_waiting_for;
 use crate::work::{CampaignSettings, Work, plan};
@@ -73,19 +73,21 @@ pub(crate) fn find_cases_together(
     let mut cases = known.cases.clone();
     let (mut saved, mut at) = (cases.len(), Instant::now());
     let mut trouble = None;
+    let before = known.tally.failures.failed;
     let how = (&Scope::From(&known), rounds, &executing);
     let found = searched(&work.setup, how, (deadline, watch), &mut |new, tally| {
         cases.extend_from_slice(new);
         if at.elapsed() > CHECKPOINT && trouble.is_none() {
             let kept = executing.keep().map_err(Problem::from);
-            trouble = kept.and_then(|()| keep_cases(work, &cases, saved, &unfinished(tally))).err();
+            let tally = kept.and_then(|()| by_who_failed(work, before, unfinished(tally)));
+            trouble = tally.and_then(|tally| keep_cases(work, &cases, saved, &tally)).err();
             (saved, at) = (cases.len(), Instant::now());
         }
     });
     if let Some(problem) = trouble {
         return Err(problem);
     }
-    let (mut tally, executor_trouble) = found?;
+    let (tally, executor_trouble) = found?;
     executing.keep()?;
     if !executing.is_known()
         && let Some(program) = rounds.map(Rounds::program).transpose()?.flatten()
@@ -93,6 +95,7 @@ pub(crate) fn find_cases_together(
         // Others have executed all of it.
         work.folder.take_executor(&program)?;
     }
+    let mut tally = by_who_failed(work, before, tally)?;
     work.folder.write_executed(tally.answers.as_deref())?;
     keep_cases(work, &cases, saved, &unfinished(&tally))?;
     if let Some(problem) = executor_trouble {
@@ -198,8 +201,16 @@ fn found_in(work: &Work, scope: &Scope, deadline: Deadline, watch: &dyn Watch) -
     match trouble {
         Some(problem) => Err(problem),
         None if watch.stopped() => Err(Problem::Interrupted("stopped; --resume goes on".into())),
-        None => Ok(Known { cases, tally }),
+        None => Ok(Known { cases, tally: by_who_failed(work, 0, tally)? }),
     }
+}
+
+/// `tally` with who executes now as the one that failed, where more failed than `before`.
+fn by_who_failed(work: &Work, before: u64, mut tally: Tally) -> Result<Tally, Problem> {
+    if tally.failures.failed > before {
+        tally.failures.by = Some(fingerprint(&work.setup, work.folder.read_executor()?.as_ref()));
+    }
+    Ok(tally)
 }
 
 /// The tally of a generation that goes on: cases may come, and what is made of all of them is not there.

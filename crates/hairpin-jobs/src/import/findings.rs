@@ -1,5 +1,8 @@
-//! What is said of moves that cannot be executed.
+//! What is said of moves that cannot be executed, once where a loop comes back to it.
 
+use std::collections::HashMap;
+
+use hairpin::campaign::digits::grouped;
 use hairpin::feasibility::program::Finding;
 use hairpin_formats::listing::Module;
 
@@ -26,9 +29,59 @@ pub struct MoveFinding {
     pub estimated: bool,
     /// Whether on nothing else, so that it is no finding but was not found out.
     pub open: bool,
+    /// How often it was found: a loop comes back to its line with the same targets, and other numbers.
+    pub count: usize,
+    /// The first and the last move of which it was, counted from 1.
+    pub moves: [usize; 2],
+    /// Why the last of several could not be executed.
+    pub last: Option<String>,
 }
 
-/// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order.
+/// File, line, targets and kind of a finding, and what it rests on.
+type What = (Option<String>, Option<usize>, [Option<String>; 2], &'static str, [bool; 2]);
+
+impl MoveFinding {
+    /// What is the same when it comes again.
+    fn what(&self) -> What {
+        let ends = [self.from.clone(), self.to.clone()];
+        (self.file.clone(), self.line, ends, self.kind, [self.estimated, self.open])
+    }
+
+    /// It in words, with how often it was found.
+    pub fn in_words(&self) -> String {
+        let Some(last) = &self.last else { return self.sentence.clone() };
+        let [from, to] = self.moves;
+        format!(
+            "{}; {} times, from move {from} to move {to}, the last: {last}",
+            self.sentence,
+            grouped(self.count as u64)
+        )
+    }
+}
+
+/// `found`, in its order: what comes again is told with the first of it.
+fn once(found: impl Iterator<Item = MoveFinding>) -> Vec<MoveFinding> {
+    let (mut told, mut places): (Vec<MoveFinding>, HashMap<_, usize>) = (Vec::new(), HashMap::new());
+    for one in found {
+        match places.get(&one.what()) {
+            // What has no line is of the whole program.
+            Some(&place) if one.line.is_some() => {
+                let first = &mut told[place];
+                first.count += one.count;
+                first.moves[1] = one.moves[1];
+                first.last = Some(one.reason);
+            }
+            _ => {
+                places.insert(one.what(), told.len());
+                told.push(one);
+            }
+        }
+    }
+    told
+}
+
+/// What a controller would stop at, and what the arm cannot do, of the moves that are certain, in their order, each
+/// once.
 pub(super) fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFinding> {
     let mut certain = module.program.clone();
     certain.moves.truncate(module.certain);
@@ -60,6 +113,9 @@ pub(super) fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFi
             sentence: format!("NOT EXECUTABLE {told}{problem}"),
             estimated: false,
             open: false,
+            count: 1,
+            moves: [index + 1; 2],
+            last: None,
         };
         found.push((index, finding));
     }
@@ -83,9 +139,12 @@ pub(super) fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFi
             sentence: told + &finding.in_words(parts),
             estimated: finding.estimated.is_some(),
             open: finding.open,
+            count: 1,
+            moves: [finding.index + 1; 2],
+            last: None,
         };
         found.push((finding.index, new));
     }
     found.sort_by_key(|(index, _)| *index);
-    found.into_iter().map(|(_, finding)| finding).collect()
+    once(found.into_iter().map(|(_, finding)| finding))
 }

@@ -4,17 +4,18 @@ use std::path::Path;
 
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Scenario, Setup, Witness, vary};
 use hairpin::judgement::Swiftness;
+use hairpin_formats::missions::{self, Demands, Frame, Mission};
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for_missions};
-use hairpin_formats::waypoints;
 use serde_json::{Map, Value};
 
 use super::heights::on_ground;
 use super::settings::{Against, LogSettings};
 use crate::Problem;
-use crate::missions::{MissionsTold, read_told};
+use crate::check::{frame_in_words, read_about_home};
+use crate::missions::{MissionsTold, followed, read_told};
 use crate::sets::Set;
-use crate::work::{Work, check_tables, open_to_read, open_to_read_as};
+use crate::work::{PLACE, Work, check_tables, open_to_read, open_to_read_as, same_as_made};
 
 /// Whose clock an arm's logs are on, which is a matter of the logs and not of the campaign.
 const LOG_CLOCK: &str = "execute.log_clock";
@@ -34,7 +35,7 @@ pub(super) struct Ready {
     /// A waypoint counts as reached within this, m.
     pub(super) accept: f64,
     /// What the cases' missions ask beside the spec, where they were made elsewhere.
-    pub(super) missions: Option<MissionsTold>,
+    missions: Option<MissionsTold>,
     /// What its user has to know, in sentences.
     pub(super) notes: Vec<String>,
 }
@@ -60,20 +61,14 @@ impl Ready {
             Against::Campaign(folder) => Self::of_campaign(folder, settings)?,
             Against::Mission { file, robot } => Self::of_mission(file, robot.as_deref(), settings)?,
         };
-        match (&settings.against, ready.setup.has_programs()) {
-            (Against::Mission { .. }, true) => {
-                Err(Problem::input("an arm runs programs, not missions: --campaign OUT"))
-            }
-            (_, true) => {
-                ready.setup = recorded(&ready.setup, clock.last())?;
-                Ok(ready)
-            }
-            (_, false) => match clock.first() {
-                Some((key, _)) => Err(Problem::input(format!("--set {key}: it is of arms; here only spec can be set"))),
-                None => Ok(ready),
-            },
+        if ready.setup.has_programs() {
+            ready.setup = recorded(&ready.setup, clock.last())?;
+            return Ok(ready);
         }
-        .map(Self::with_what_is_not_asked)
+        match clock.first() {
+            Some((key, _)) => Err(Problem::input(format!("--set {key}: it is of arms; here only spec can be set"))),
+            None => Ok(ready.with_what_is_not_asked()),
+        }
     }
 
     /// What of the spec is of campaigns alone is told.
@@ -89,6 +84,7 @@ impl Ready {
 
     fn of_campaign(folder: &Path, settings: &LogSettings) -> Result<Self, Problem> {
         let before = open_to_read(folder)?;
+        same_as_made(&before.folder, &before.setup, &PLACE)?;
         if before.setup.has_programs() {
             // Before a world's keys are put into an arm's scenario, which has none of them.
             settings.of_an_arm()?;
@@ -113,9 +109,10 @@ impl Ready {
             "--world has another origin than the campaign, whose own stays: its obstacles are taken to be in the campaign's frame"
                 .to_owned()
         });
-        let (simulated, missions) = (folder.read_results()?, read_told(folder)?);
-        let of = Of::Campaign(Box::new(before));
-        let ready = Self::with(setup, cases, simulated, of, (true, notes.into_iter().collect()))?;
+        let simulated = folder.read_results()?;
+        let missions = read_told(folder)?;
+        let notes = notes.into_iter().collect();
+        let ready = Self::with(setup, cases, simulated, Of::Campaign(Box::new(before)), (true, notes))?;
         Ok(Self { missions, ..ready })
     }
 
@@ -142,21 +139,30 @@ impl Ready {
         };
         sets.extend(settings.sets.iter().cloned());
         let setup = setup_for_missions(base, &sets)?;
-        check_asked(&setup.scenario, file)?;
-        let farthest = setup.handed().farthest;
-        let (mut waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
-        if named.is_some() {
-            on_ground(&setup, &mut waypoints);
+        if setup.has_programs() {
+            return Err(Problem::input("an arm runs programs, not missions: --campaign OUT"));
         }
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let case = Case::bare(CaseNumber(0), setup.scenario.seed(), waypoints);
+        check_asked(&setup.scenario, file)?;
         let in_world = named.is_some();
-        let notes = if in_world {
-            Vec::new()
-        } else {
-            vec!["no --world: neither obstacles nor the world's bounds are judged".to_owned()]
+        let mut mission = mission(file, &setup, in_world)?;
+        let missions = Some(MissionsTold::of_log(&mission));
+        if in_world {
+            on_ground(&setup, &mut mission.waypoints);
+        }
+        let mut notes = mission.notes.clone();
+        if mission.frame != Frame::World {
+            notes.push(format!("the mission's places: {}", frame_in_words(&mission)));
+        }
+        if !in_world {
+            notes.push("no --world: neither obstacles nor the world's bounds are judged".to_owned());
+        }
+        let about_home = match mission.frame {
+            Frame::Home(home) => Some(Placement::about(&home)),
+            Frame::World | Frame::Placed => None,
         };
-        Self::with(setup, vec![case], Vec::new(), Of::Mission(name), (in_world, notes))
+        let case = Case::bare(CaseNumber(0), setup.scenario.seed(), mission.waypoints);
+        let ready = Self::with(setup, vec![case], Vec::new(), Of::Mission(mission.name), (in_world, notes))?;
+        Ok(Self { place: about_home.or(ready.place), missions, ..ready })
     }
 
     fn with(
@@ -181,6 +187,11 @@ impl Ready {
         }
     }
 
+    /// What the mission that `case` is asks beside the spec.
+    pub(super) fn asked_of(&self, case: &Case) -> Option<&Demands> {
+        self.missions.as_ref()?.asked_of(case.number)
+    }
+
     /// A case with its plan, which deviations may be measured from.
     ///
     /// # Errors
@@ -199,6 +210,19 @@ impl Ready {
         }
         Ok(whole)
     }
+}
+
+/// The mission in `file`, for the robot of `setup`: in its world where that is known, else about its own home.
+///
+/// # Errors
+/// It cannot be read, is another class of vehicle's, or has something that changes the motion and is not followed.
+fn mission(file: &Path, setup: &Setup, in_world: bool) -> Result<Mission, Problem> {
+    let mission = match in_world {
+        true => missions::read(file, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?,
+        false => read_about_home(setup, file)?,
+    };
+    followed(setup, &mission)?;
+    Ok(mission)
 }
 
 /// `setup` of an arm whose runs are logs: nothing was drawn for them, no controller of ours ran them, and what they do

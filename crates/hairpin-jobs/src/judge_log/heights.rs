@@ -1,13 +1,10 @@
 //! Heights of logs that have none: a planar odometry tells where on a map a vehicle was, and what drives is as high as
 //! the ground there. Taken as 0 m they would be deviations from a plan that goes up and down with the map.
 
-use hairpin::campaign::{Footing, Setup};
+use hairpin::campaign::{Footing, OnGround, Setup};
 use hairpin::math::rotation::euler_from_quaternion;
 use hairpin_formats::logs::{LogFrame, LoggedMotion, Sample, Span};
 use nalgebra::{Point3, UnitQuaternion};
-
-/// A way as long as this tells the heading of a log without attitudes, m.
-const WAY_M: f64 = 0.05;
 
 /// The ground that the heights of a log are taken from.
 pub(crate) struct Heights<'a> {
@@ -28,37 +25,23 @@ impl<'a> Heights<'a> {
     /// whose heights nobody knows. Off the map they are as high above it as they were last: that they are off it is
     /// told by their places.
     pub(crate) fn put(&self, samples: &mut [Sample]) -> Vec<Span> {
-        let headings = headings(samples);
-        let way: Vec<[f64; 3]> =
-            samples.iter().zip(headings).map(|(sample, yaw)| [sample.p_m.x, sample.p_m.y, yaw]).collect();
-        let (mut lost, mut above, mut last) = (Vec::new(), 0.0, 0.0);
-        for (sample, rest) in samples.iter_mut().zip(self.footing.resting(&way)) {
-            let ground = self.footing.ground(sample.p_m.x, sample.p_m.y);
-            match (rest, ground) {
-                (Some(rest), _) => (last, above) = (rest, ground.map_or(above, |ground| rest - ground)),
-                (None, Some(ground)) => {
-                    last = ground + above;
-                    lost.push(Span { from_s: sample.t_s, to_s: sample.t_s });
-                }
-                (None, None) => {}
-            }
-            sample.p_m.z = last;
+        let places: Vec<[f64; 2]> = samples.iter().map(|sample| [sample.p_m.x, sample.p_m.y]).collect();
+        let told: Vec<Option<f64>> = samples.iter().map(|sample| sample.attitude.map(yaw)).collect();
+        let OnGround { heights, lost } = OnGround::of(self.footing, &places, &told);
+        for (sample, height) in samples.iter_mut().zip(heights) {
+            sample.p_m.z = height;
         }
-        lost
+        lost.into_iter().map(|i| Span { from_s: samples[i].t_s, to_s: samples[i].t_s }).collect()
     }
 
     /// What is told of it.
     pub(crate) fn in_words(&self, samples: &[Sample], lost: usize) -> String {
-        let by = if samples.iter().all(|sample| sample.attitude.is_some()) {
-            "the log's headings"
-        } else {
-            "the headings of its way"
-        };
+        let whose = samples.iter().all(|sample| sample.attitude.is_some()).then_some("log");
         let lost = match lost {
             0 => String::new(),
             lost => format!("; at {lost} of {} samples it cannot stand on it, and they are not judged", samples.len()),
         };
-        format!("the log has no heights: they are those of the vehicle on the map's ground, with {by}{lost}")
+        format!("the log has no heights: they are {}{lost}", OnGround::in_words(whose))
     }
 }
 
@@ -70,24 +53,6 @@ pub(super) fn on_ground(setup: &Setup, waypoints: &mut [Point3<f64>]) {
     }
 }
 
-/// ψ of each sample: the attitude's, or of its way where that is not told, rad.
-fn headings(samples: &[Sample]) -> Vec<f64> {
-    let mut headings = Vec::with_capacity(samples.len());
-    let Some(first) = samples.first() else { return headings };
-    let (mut from, mut heading) = (first.p_m, None);
-    for sample in samples {
-        let way = sample.p_m.xy() - from.xy();
-        if way.norm() >= WAY_M {
-            let turned = libm::atan2(way.y, way.x);
-            if heading.is_none() {
-                // Before it has moved it stands as it sets off.
-                headings.fill(turned);
-            }
-            (from, heading) = (sample.p_m, Some(turned));
-        }
-        headings.push(heading.unwrap_or(0.0));
-    }
-    let yaw_of = |turn: UnitQuaternion<f64>| euler_from_quaternion(&[turn.w, turn.i, turn.j, turn.k])[2];
-    let told = |(sample, way): (&Sample, f64)| sample.attitude.map_or(way, yaw_of);
-    samples.iter().zip(headings).map(told).collect()
+fn yaw(turn: UnitQuaternion<f64>) -> f64 {
+    euler_from_quaternion(&[turn.w, turn.i, turn.j, turn.k])[2]
 }

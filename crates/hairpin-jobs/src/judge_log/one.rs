@@ -140,7 +140,7 @@ pub(super) fn judge(
         let before = Before { motion, told: &told, from_s: settings.from_s, start };
         flown.doubts.extend(before.doubt(&flown, &own));
         flown.doubts.extend(before.end(&flown, &own, settings.to_s));
-        if let Some(asked) = against.missions.as_ref().and_then(|told| told.asked_of(case.number)) {
+        if let Some(asked) = against.asked_of(case) {
             let asked = asked::hold(asked, log, &mut flown);
             found.notes.extend(asked.notes);
             found.asked = asked.open;

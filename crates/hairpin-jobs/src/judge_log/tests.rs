@@ -17,6 +17,7 @@ use super::against::Ready;
 use super::*;
 
 mod heights;
+mod missions;
 mod open;
 mod unflown;
 

@@ -17,6 +17,7 @@ use super::found::{Found, JudgedLog, Outcome};
 use super::left_out::LeftOut;
 use super::remedy::log_at;
 use crate::Problem;
+use crate::missions::FENCE;
 
 /// A log that was judged.
 pub(super) fn judged(file: &Path, found: Found, setup: &Setup) -> JudgedLog {
@@ -210,6 +211,8 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             match doubt.value.what.as_str() {
                 "edge" if kept => format!("{own}, so that it may have left the world; {other}"),
                 "edge" => format!("{own}; {other}"),
+                FENCE if kept => format!("{own}, so that it may have been beyond one of the mission's; {other}"),
+                FENCE => format!("{own}; {other}"),
                 _ if met => format!("{own}; {other}"),
                 _ => format!("{own}{may}; {other} or {limit} the limit"),
             }

@@ -39,19 +39,26 @@ pub(crate) fn of_files(setup: &Setup, path: &Path) -> Result<Vec<Mission>, Probl
         ));
     }
     let all = read_all(path, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
-    for mission in &all {
-        same_vehicle(setup, mission)?;
-        if let Some(one) = mission.uncertain.first() {
-            return Err(Problem::of_file(
-                &mission.path,
-                format!(
-                    "{}: what would be judged is not the mission; take it out, or cut the mission before it",
-                    one.words
-                ),
-            ));
-        }
-    }
+    all.iter().try_for_each(|mission| followed(setup, mission))?;
     Ok(all)
+}
+
+/// Whether `mission` is one of the robot's class of vehicles, and all of it that changes the motion is followed.
+///
+/// # Errors
+/// It is another's; the first thing that is not followed.
+pub(crate) fn followed(setup: &Setup, mission: &Mission) -> Result<(), Problem> {
+    same_vehicle(setup, mission)?;
+    match mission.uncertain.first() {
+        None => Ok(()),
+        Some(one) => Err(Problem::of_file(
+            &mission.path,
+            format!(
+                "{}: what would be judged is not the mission; take it out, or cut the mission before it",
+                one.words
+            ),
+        )),
+    }
 }
 
 /// Reads the missions of a folder or file for `setup`, and checks each.

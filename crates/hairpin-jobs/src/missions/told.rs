@@ -2,7 +2,7 @@
 
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Run, Setup, Status};
 use hairpin_formats::folder::CampaignFolder;
-use hairpin_formats::missions::{Demands, Fences};
+use hairpin_formats::missions::{Demands, Fences, Mission};
 use hairpin_formats::repro::Repro;
 use serde::{Deserialize, Serialize};
 
@@ -76,6 +76,12 @@ impl MissionsTold {
             }
         };
         Self { missions: legs.iter().map(one).collect() }
+    }
+
+    /// What a log of `mission`, the only case, is held against: however it is divided by its stops, it is all of it.
+    pub(crate) fn of_log(mission: &Mission) -> Self {
+        let demands = Demands { fences: Fences::of(mission), ..Demands::default() };
+        Self { missions: vec![MissionTold { name: mission.name.clone(), demands, ..MissionTold::default() }] }
     }
 
     /// What is asked of `case` beside the spec; `None` where that is nothing.

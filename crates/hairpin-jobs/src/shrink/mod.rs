@@ -14,7 +14,7 @@ use hairpin_formats::repro::{Repro, ShrunkFrom};
 use crate::consent::Wish;
 use crate::missions::FENCE;
 use crate::names::named;
-use crate::work::{Work, open_to_change};
+use crate::work::{Work, open_to_change, same_as_made};
 use crate::{Problem, Watch};
 use answers::Answers;
 
@@ -50,11 +50,12 @@ impl Shrinking {
     /// The case that is asked for.
     ///
     /// # Errors
-    /// No such case, or one that does not violate or is not judged; a folder that is no campaign's, or that asks to run
-    /// what its user has not allowed.
+    /// No such case, or one that does not violate or is not judged; a folder that is no campaign's, whose scenario was
+    /// edited, or that asks to run what its user has not allowed.
     pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
         let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
         let work = work.answered_by(&settings.consent.code)?;
+        same_as_made(&work.folder, &work.setup, &[])?;
         settings.consent.ask(&settings.folder, &Wish::of_campaign(&work.setup))?;
         let (case, result) = violating(&work, &settings)?;
         Ok(Self { work, settings, began: Instant::now(), case, result })

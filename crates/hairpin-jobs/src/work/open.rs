@@ -8,7 +8,7 @@ use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::scenario::{check_asked, read_kept};
 
 use super::campaign::Work;
-use super::unchanged::same_as_executed;
+use super::unchanged::same_as_made;
 use crate::Problem;
 use crate::sets::Set;
 
@@ -20,13 +20,13 @@ pub fn open_to_read(path: &Path) -> Result<Work, Problem> {
     open_with(path, &[])
 }
 
-/// The same, for what is said of its runs.
+/// The same, for what is said of its cases and runs.
 ///
 /// # Errors
-/// As of [`same_as_executed`].
-pub(crate) fn open_executed(path: &Path) -> Result<Work, Problem> {
+/// As of [`same_as_made`].
+pub(crate) fn open_as_made(path: &Path) -> Result<Work, Problem> {
     let work = open_to_read(path)?;
-    same_as_executed(&work.folder, &work.setup)?;
+    same_as_made(&work.folder, &work.setup, &[])?;
     Ok(work)
 }
 

@@ -15,6 +15,9 @@ pub(crate) fn same_as_executed(folder: &CampaignFolder, setup: &Setup) -> Result
     if folder.has_runs() { same_as_made(folder, setup, &[]) } else { Ok(()) }
 }
 
+/// Where on Earth a world is may be written afterwards, for exports and logs that ask for it.
+pub(crate) const PLACE: [&str; 2] = ["world.origin", "world.terrain.epsg"];
+
 /// Whether the cases in `folder`, and its runs where it has some, are of the scenario that it has. Keys that are, or
 /// lie under, one of `beside` may change.
 ///

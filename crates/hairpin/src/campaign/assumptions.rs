@@ -85,7 +85,8 @@ fn search(setup: &Setup, cases: &[Case], tally: &Tally, beside: Option<String>, 
     }
     said.extend(beside);
     said.extend(tally.failures_in_words().map(|failed| {
-        format!("{failed}: no trajectory of these is among the cases, and what stress they have is not known.")
+        let since = if tally.failures.is_past { " Another executor has flown the cases since." } else { "" };
+        format!("{failed}: no trajectory of these is among the cases, and what stress they have is not known.{since}")
     }));
     let made: u64 = tally.rounds.iter().map(|round| round.executions).sum();
     if search.method == SearchMethod::Adaptive && made < search.executions && search.time_s.is_none() && !tally.stopped

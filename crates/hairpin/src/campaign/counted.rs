@@ -28,7 +28,7 @@ impl<'a> Counted<'a> {
     }
 
     fn count(&self, why: Option<&str>) {
-        let one = Failures { failed: 1, why: why.map(Into::into) };
+        let one = Failures { failed: 1, why: why.map(Into::into), ..Failures::default() };
         self.failures.lock().unwrap_or_else(PoisonError::into_inner).add(one);
     }
 
@@ -89,7 +89,7 @@ mod tests {
         for outcome in [Ok(()), Err("b"), Err("a"), Err("c")] {
             counted.ended(outcome);
         }
-        assert_eq!(counted.take(), Failures { failed: 3, why: Some("a".into()) });
+        assert_eq!(counted.take(), Failures { failed: 3, why: Some("a".into()), ..Failures::default() });
         stopped.store(true, Ordering::Relaxed);
         counted.ended(Err("stopped"));
         assert!(counted.take().is_none());
@@ -118,6 +118,6 @@ mod tests {
         let counted = Counted::new(&Elsewhere, &|| false);
         let batch = Batch { names: &[[0; 16], [1; 16], [2; 16]], execute: &|_| Some(None) };
         assert_eq!(counted.carry_out_but(&batch, &|name| *name == [2; 16]).len(), 3);
-        assert_eq!(counted.take(), Failures { failed: 1, why: None });
+        assert_eq!(counted.take(), Failures { failed: 1, ..Failures::default() });
     }
 }

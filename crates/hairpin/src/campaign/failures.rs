@@ -16,6 +16,17 @@ pub struct Failures {
     /// `None` where others executed, who tell that they failed and not why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
+    /// A fingerprint of who executed, by which another is told from it; `None` where nothing failed, and of folders of
+    /// earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// Of how many executions they are, where nothing else tells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub of: Option<u64>,
+    /// Whether another executed all of the cases since: what failed is no failure of that one, and what it was of was
+    /// never executed.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_past: bool,
 }
 
 impl Failures {
@@ -26,8 +37,10 @@ impl Failures {
 
     /// Takes in others.
     pub(super) fn add(&mut self, other: Self) {
+        self.is_past &= other.is_none();
         self.failed += other.failed;
         self.why = self.why.take().into_iter().chain(other.why).min();
+        self.by = self.by.take().or(other.by);
     }
 
     /// ` (why)`, or nothing.

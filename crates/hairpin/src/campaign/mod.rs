@@ -107,7 +107,7 @@ pub use generate::{Known, Optimum, generate, optima};
 pub use graph::{Losses, Lost, Stage};
 pub use influence::{Influence, RunDeviation, influences};
 pub use judge::{judge, judge_runs};
-pub use kind::{Footing, PassedOver, PlanError, PlannedRows, Verified};
+pub use kind::{Footing, OnGround, PassedOver, PlanError, PlannedRows, Verified};
 pub use landed::at_full_rate;
 pub use mission::{Mission, mission, mission_again, planned, planned_rows};
 pub use own_controller::AnyController;

@@ -104,15 +104,21 @@ impl Tally {
     /// Executions of the search, those that failed among them.
     pub fn executed(&self) -> u64 {
         let curves = self.curves.iter().map(|curve| curve.executions).sum::<u64>();
-        curves.max(self.failures.failed)
+        curves.max(self.failures.of.unwrap_or_default()).max(self.failures.failed)
     }
 
     /// `31 of 80 executions of the search failed (why)`; `None` where none did.
     pub fn failures_in_words(&self) -> Option<String> {
-        let Failures { failed, .. } = self.failures;
+        let failed = self.failures.failed;
         let why = self.failures.why_in_words();
         let of = grouped(self.executed());
         (failed > 0).then(|| format!("{} of {of} executions of the search failed{why}", grouped(failed)))
+    }
+
+    /// The same where another has executed the cases since.
+    pub fn past_failures_in_words(&self) -> Option<String> {
+        let failed = self.failures_in_words().filter(|_| self.failures.is_past)?;
+        Some(format!("{failed} before another executor flew the cases, and what they were of was never executed"))
     }
 
     /// How the cases were come by, that `search` was to find.

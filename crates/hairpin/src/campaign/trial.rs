@@ -86,7 +86,10 @@ impl Trials<'_> {
         if confirm == 0 || !first.reaches(least) {
             return Some(first);
         }
-        let again = |number: u64| Some(stressed(setup, &self.again(&executed.case, 0, number)?)?.stress);
+        let again = |number: u64| {
+            let Trial { stress, .. } = stressed(setup, &self.again(&executed.case, 0, number)?)?;
+            (first.fails || stress.is_finite()).then_some(stress)
+        };
         let sum = (0..confirm).try_fold(first.stress, |sum, number| Some(sum + again(number)?));
         let stress = sum.map_or(f64::NAN, |sum| sum / (1 + confirm) as f64);
         Some(Trial { stress, executions: 1 + confirm, ..first })
@@ -101,7 +104,7 @@ impl Trials<'_> {
     pub(super) fn execute_for(&self, (plan, run): (&Plan, usize), sought: &[Sought], least: &[f64]) -> Option<Ran> {
         let executed = self.executed_as(plan, run)?;
         let trial = |sought: &Sought| Trial {
-            stress: self.measured(*sought, &executed),
+            stress: Rank::of(executed.fails, self.measured(*sought, &executed)).stress,
             fails: executed.fails,
             worst_leg: worst_leg(*sought, &executed.measures),
             executions: 1,
@@ -112,7 +115,10 @@ impl Trials<'_> {
             for number in 0..confirm {
                 let again = self.again(&executed.case, 1 + number as usize, number);
                 for (trial, sought) in trials.iter_mut().zip(sought) {
-                    trial.stress += again.as_ref().map_or(f64::NAN, |again| self.measured(*sought, again));
+                    let again = again.as_ref().map(|again| (again.fails, self.measured(*sought, again)));
+                    let stress =
+                        again.map_or(f64::NAN, |(fails, stress)| Rank::of(fails && trial.fails, stress).stress);
+                    trial.stress += stress;
                 }
             }
             for trial in &mut trials {
@@ -122,10 +128,10 @@ impl Trials<'_> {
         Some(Ran { trials, behaviour: executed.measures.behaviour() })
     }
 
-    fn measured(&self, sought: Sought, executed: &Executed) -> f64 {
+    fn measured(&self, sought: Sought, executed: &Executed) -> Option<f64> {
         match sought {
-            Sought::Measured(stress) => stress.of(&executed.measures).unwrap_or(f64::NAN),
-            Sought::Users => self.asked(executed).unwrap_or(f64::NAN),
+            Sought::Measured(stress) => stress.of(&executed.measures),
+            Sought::Users => self.asked(executed),
         }
     }
 
@@ -219,7 +225,8 @@ impl Trials<'_> {
         let weighed = measured(setup, &case, &run);
         let fails = in_time && weighed.as_ref().is_some_and(|weighed| weighed.fails);
         let stress = weighed.and_then(|weighed| setup.scenario.search().stress.of(&weighed.measures));
-        Ok(in_loop::Ran { stress: stress.unwrap_or(f64::NAN), fails, state: Some(airborne), legs: flown })
+        let Rank { stress, .. } = Rank::of(fails, stress);
+        Ok(in_loop::Ran { stress, fails, state: Some(airborne), legs: flown })
     }
 
     /// How long the execution of `plan` takes, s.
@@ -303,5 +310,6 @@ fn placement(setup: &Setup, executed: &Executed) -> Option<Placement> {
 fn trial(setup: &Setup, Executed { measures, fails, .. }: &Executed) -> Option<Trial> {
     let stress = setup.scenario.search().stress;
     let worst_leg = stress.worst_leg(measures).unwrap_or(0);
-    Some(Trial { stress: stress.of(measures)?, fails: *fails, worst_leg, executions: 1 })
+    let Rank { fails, stress } = Rank::of(*fails, stress.of(measures));
+    (!stress.is_nan()).then_some(Trial { stress, fails, worst_leg, executions: 1 })
 }

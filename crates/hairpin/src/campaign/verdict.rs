@@ -74,9 +74,10 @@ pub fn verdict_on(
     let alone = worst.as_ref().is_none_or(|named| named.value.what == "deviation");
     let beside = baseline.map(|baseline| (flown, baseline.in_words(setup, alone)));
     let unfelt = setup.unfelt_draws().map(|why| format!("what `[vary]` draws is no draw of any run: {why}"));
+    let past = tally.past_failures_in_words();
     let stopped = (tally.stopped && cut.is_none()).then(|| stopped_words(searched));
     let passed_over: Vec<String> =
-        passed_over(setup, cases, results).into_iter().chain(unfelt).chain(stopped).collect();
+        passed_over(setup, cases, results).into_iter().chain(unfelt).chain(stopped).chain(past).collect();
     let repeat = setup.scenario.executor().repeat as usize;
     let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
@@ -91,7 +92,8 @@ pub fn verdict_on(
         inconclusive: results.iter().filter(is_doubt).count(),
         undone: undone.iter().sum(),
         cut: cut.as_deref(),
-        search_failed: search_failed(tally),
+        // Whoever executes anew decides for itself.
+        search_failed: if tally.failures.is_past { [0, 0] } else { search_failed(tally) },
         search_trouble: search_trouble(tally),
         trouble: &trouble,
         doubt: doubt.as_deref().unwrap_or_default(),

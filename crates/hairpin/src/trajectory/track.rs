@@ -12,6 +12,9 @@ use crate::math::cubic::{Cubic, nearest_along};
 pub const ATTITUDE_UNKNOWN: &str = "attitude_unknown";
 /// Channel, 1 throughout, of tracks of which nobody told how they ended: they are taken for done.
 pub const END_UNSAID: &str = "end_unsaid";
+/// Name of the channel, 1 at every sample, that marks a track whose executor sent no heights: they are those of the
+/// robot on the map's ground.
+pub const HEIGHTS_BY_MAP: &str = "heights_by_map";
 
 /// A named column beside the poses, one value per stamp.
 ///

@@ -5,7 +5,7 @@ mod expressions;
 mod statements;
 
 use super::lex::{Comment, MOST_WORDS, Token, Word, lex};
-use super::syntax::{Home, Routine, RoutineKind, Source};
+use super::syntax::{Handler, Home, Routine, RoutineKind, Source};
 use crate::listing::At;
 
 /// Blocks and brackets may be nested this deep.
@@ -279,10 +279,10 @@ impl Parser {
         let ends = [end, "ERROR", "UNDO", "BACKWARD"];
         let body = self.block(&ends);
         let mut handlers = Vec::new();
-        while self.keyword_of(&ends[1..]).is_some() {
+        while let Some(kind) = self.keyword_of(&ends[1..]) {
             self.advance();
             self.attributes();
-            handlers.extend(self.block(&ends));
+            handlers.push(Handler { kind, body: self.block(&ends) });
         }
         // A routine that is cut short keeps what it has.
         if !self.take_keyword(end) {

@@ -20,7 +20,9 @@ pub(super) fn deciding(source: &Source) -> BTreeSet<String> {
     let own = |name: &str| source.routines.iter().any(|routine| routine.name.eq_ignore_ascii_case(name));
     for routine in &source.routines {
         each(&routine.body, &mut |statement| read.statement(statement, &own));
-        each(&routine.handlers, &mut |statement| read.statement(statement, &own));
+        for handler in &routine.handlers {
+            each(&handler.body, &mut |statement| read.statement(statement, &own));
+        }
     }
     read.closed()
 }

@@ -53,6 +53,7 @@ pub(super) fn written<'b>(function: &str, arguments: &'b [Argument]) -> Vec<&'b 
 impl Machine<'_> {
     /// What the routine might do, whenever it is executed.
     pub(super) fn effects_of(&mut self, routine: &Routine) -> Effects {
+        self.looked_at.insert(routine.at);
         let here = std::mem::replace(&mut self.module, routine.home.module);
         let effects = self.effects(&[&routine.body], &[]);
         self.module = here;
@@ -68,29 +69,41 @@ impl Machine<'_> {
         for block in blocks {
             self.collect(block, &mut effects);
         }
+        self.looked_at.extend(&effects.seen);
         effects
+    }
+
+    /// Whether a statement by itself, without the blocks within, may move the arm or change how it moves.
+    pub(super) fn may_move(&mut self, statement: &Statement) -> bool {
+        let mut effects = Effects::default();
+        self.in_statement(statement, &mut effects);
+        effects.moves
     }
 
     fn collect(&mut self, block: &[Statement], effects: &mut Effects) {
         // Looking is work as well, or loops around unknown conditions would not end.
         self.steps = self.steps.saturating_add(block.len());
         for statement in block {
-            match &statement.what {
-                What::Assign { to, .. } => {
-                    effects.assigned.insert((self.module, to.name.clone()));
-                    to.indices().for_each(|index| self.in_expression(index, effects));
-                }
-                What::Call { name, arguments } => self.in_call(name, arguments, effects),
-                What::LateCall { .. } | What::Broken(_) => effects.moves = true,
-                What::Return(_) | What::Exit | What::Goto(_) => effects.leaves = true,
-                _ => {}
-            }
-            for value in statement.values() {
-                self.in_expression(value, effects);
-            }
+            self.in_statement(statement, effects);
             for block in inner(statement) {
                 self.collect(block, effects);
             }
+        }
+    }
+
+    fn in_statement(&mut self, statement: &Statement, effects: &mut Effects) {
+        match &statement.what {
+            What::Assign { to, .. } => {
+                effects.assigned.insert((self.module, to.name.clone()));
+                to.indices().for_each(|index| self.in_expression(index, effects));
+            }
+            What::Call { name, arguments } => self.in_call(name, arguments, effects),
+            What::LateCall { .. } | What::Broken(_) => effects.moves = true,
+            What::Return(_) | What::Exit | What::Goto(_) => effects.leaves = true,
+            _ => {}
+        }
+        for value in statement.values() {
+            self.in_expression(value, effects);
         }
     }
 

@@ -7,6 +7,7 @@ mod effects;
 mod expressions;
 mod follow;
 mod frames;
+mod handlers;
 mod load;
 mod motion;
 mod round;
@@ -71,6 +72,8 @@ pub(super) struct Machine<'a> {
     pub(super) unclear: Option<(usize, usize)>,
     /// Where the routines stand that were executed.
     pub(super) ran: BTreeSet<At>,
+    /// Where those stand that were looked at, as they may be executed.
+    looked_at: BTreeSet<At>,
 }
 
 /// What the controller has beside the file.
@@ -133,6 +136,7 @@ impl<'a> Machine<'a> {
             lines: BTreeMap::new(),
             unclear: None,
             ran: BTreeSet::new(),
+            looked_at: BTreeSet::new(),
         };
         for routine in &source.routines {
             let trap = routine.kind == RoutineKind::Trap;
@@ -160,7 +164,7 @@ impl<'a> Machine<'a> {
     fn register(&mut self, source: &Source) {
         for routine in &source.routines {
             self.lines.entry(routine.at.line).or_insert_with(Line::unreached);
-            for block in [&routine.body, &routine.handlers] {
+            for block in routine.handlers.iter().map(|handler| &handler.body).chain([&routine.body]) {
                 each(block, &mut |statement| {
                     self.lines.entry(statement.at.line).or_insert_with(Line::unreached);
                 });

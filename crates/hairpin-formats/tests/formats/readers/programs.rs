@@ -97,6 +97,7 @@ pub(crate) fn samples() -> Vec<Sample> {
         rapid_row("rapid.conditions", "IF di1=1 THEN\nSetDO do1,1;\nENDIF"),
         rapid_row("rapid.conditional-moves", "IF di1=1 THEN\nMoveL p,v5,fine,t;\nENDIF"),
         rapid_row("rapid.handlers", "ErrRaise \"E\",1,\"a\",\"b\",\"c\",\"d\",\"e\";"),
+        rapid_row("rapid.moving-handlers", "ERROR\nMoveL p,v5,fine,t;\nRETRY;"),
         rapid_row("rapid.unknown", "Weld 3;"),
         rapid_row("rapid.external-axes", "MoveL [[400,0,300],[0,0,1,0],[0,0,0,0],[0,9E9,9E9,9E9,9E9,9E9]],v5,fine,t;"),
         rapid_row("rapid.conveyors", "WaitWObj wcnv1;"),

@@ -81,6 +81,8 @@ pub(super) fn fittable(setup: &ArmSetup) -> Result<Fittable, String> {
         },
         acceptance: Acceptance::Sphere,
         tried: "12 drawn arms, an IRB 120 with lags of 10 to 60 ms",
+        // Programs have one, the virtual controller.
+        untried: None,
         timed: true,
     })
 }

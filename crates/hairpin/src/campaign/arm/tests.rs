@@ -9,16 +9,19 @@ use super::ArmSetup;
 use super::program::Met;
 use super::solver::ArmSolver;
 use super::ways::Ways;
+use crate::campaign::generate::{Known, generate};
 use crate::campaign::graph::{Executions, Plan, Wanted};
 use crate::campaign::kind::Solver;
 use crate::campaign::scenario::{KeyPath, SearchMethod, Target};
 use crate::campaign::trial::{Sought, Trials};
 use crate::campaign::{
-    self, CaseResult, Evidence, OwnSimulator, Run, Scenario, Setup, Status, Stop, Tally, execute_run, judge, verify,
+    self, Case, CaseResult, Evidence, Executor, Mission, OwnSimulator, Run, Scenario, Setup, Status, Stop, Tally,
+    execute_run, judge, verify,
 };
 use crate::judgement::{LegSource, Stress};
 use crate::math::random::stream;
 use crate::robot::arm::Joints;
+use crate::search::in_loop::Rank;
 use crate::trajectory::program::Program;
 use crate::trajectory::{Channel, Ended, Flight, Tolerances, Track, bends};
 
@@ -334,6 +337,41 @@ fn programs_execute_for_the_stresses_of_arms() {
     }
     let again = run();
     assert!(trials.iter().zip(&again).all(|(a, b)| a.stress == b.stress), "an execution repeats");
+}
+
+/// Stands where it begins: at nothing it arrives, so that nothing is late.
+struct Standing;
+
+impl Executor for Standing {
+    fn fly(&self, nominal: &Setup, case: &Case, mission: &Mission) -> Result<Flight, String> {
+        let flight = OwnSimulator.fly(nominal, case, mission)?;
+        let track = &flight.track;
+        let still = |one: &Channel| match one.name.as_str() {
+            "leg" => one.clone(),
+            _ => Channel { name: one.name.clone(), values: vec![one.values[0]; track.len()] },
+        };
+        let (poses, channels) = (vec![track.poses()[0]; track.len()], track.channels().iter().map(still).collect());
+        let track = Track::new(track.times().to_vec(), poses, channels).map_err(|error| error.to_string())?;
+        Ok(Flight { track, ..flight })
+    }
+}
+
+#[test]
+fn what_fails_without_the_stress_that_is_sought_is_worse_than_all_that_has_it() {
+    let limit = ("spec", json!({ "arrival": { "max_late_ms": 100_000.0 } }));
+    let sought = ("generate.search.target", json!("lateness"));
+    let setup = setup(&[limit, sought, ("generate.search.executions", json!(4))]);
+    let plan = ArmSolver::new(own(&setup)).draw(0, &Stop::never()).unwrap();
+    let trials = Trials { setup: &setup, executor: &Standing, graph: 0, seed: None };
+    let lateness = [Sought::Measured(Stress::Lateness)];
+    let trial = trials.execute_for((&plan, 0), &lateness, &[f64::INFINITY]).unwrap().trials[0];
+    assert!(trial.fails && trial.stress == f64::NEG_INFINITY, "{trial:?}");
+    assert!(trial.reaches(Rank::of(false, Some(1e9))), "{trial:?}");
+    let (known, mut cases) = (Known::default(), Vec::new());
+    let tally =
+        generate(&setup, &known, &Standing, &Stop::never(), &mut |new: &[Case], _| cases.extend_from_slice(new));
+    assert_eq!((cases.len(), &tally.nothing), (3, &None));
+    assert!(cases.iter().all(|case| case.score.is_finite()), "{:?}", tally.curves);
 }
 
 /// The schedule goes on whatever the arm does, and home is where a program ends as well as where it begins.

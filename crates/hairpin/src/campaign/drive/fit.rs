@@ -9,6 +9,7 @@ use super::DriveSetup;
 use crate::campaign::kind::{Adjustable, Fittable, Output, Sampling};
 use crate::campaign::scenario::GroundDescription;
 use crate::simulation::Acceptance;
+use crate::simulation::ground::GroundControllerKind;
 
 /// Place, and heading where it is known. Odometry's speeds are the wheels', not the vehicle's.
 const OUTPUTS: [(Output, usize); 4] =
@@ -16,6 +17,8 @@ const OUTPUTS: [(Output, usize); 4] =
 
 /// What intervals were found to hold on (docs/fit.md).
 const TRIED: &str = "20 drawn differential drives of 0.5 m/s on a plain, steered by `pure-pursuit`";
+/// Who steered these.
+const TRIED_WITH: GroundControllerKind = GroundControllerKind::PurePursuit;
 /// Of cars and rovers.
 const DOUBT: &str = "intervals are shown to hold on differential drives alone";
 
@@ -28,9 +31,9 @@ const DOUBT: &str = "intervals are shown to hold on differential drives alone";
 /// of it below 0.95 as well. `step` is half the width of differences.
 pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
     let execute = &setup.scenario.execute;
-    if setup.controller.is_some() || execute.controller_in_force().is_none() {
+    let Some(steers) = execute.controller_in_force().filter(|_| setup.controller.is_none()) else {
         return Err("a controller of ours must drive (`execute.controller`): of others hairpin has no model".into());
-    }
+    };
     let (response, slip) = (&setup.rover.response, &setup.rover.slip);
     let described = setup.scenario.robot.resolved().map_err(|mistake| mistake.to_string())?;
     let doubt = (!matches!(described, GroundDescription::DifferentialDrive(_))).then_some(DOUBT);
@@ -87,6 +90,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         unit: ("m", 1.0),
         sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
         tried: TRIED,
+        untried: Some(steers).filter(|steers| *steers != TRIED_WITH).map(GroundControllerKind::word),
         acceptance: Acceptance::Cylinder { height: f64::INFINITY },
         timed: false,
     })

@@ -83,6 +83,9 @@ pub struct Fit {
     pub derives: bool,
     /// Drawn robots, and who steered them, on which intervals were found to hold: of others it is not shown.
     pub tried: &'static str,
+    /// Who steered these logs, where that is a controller that intervals were never tried with: whether they hold is
+    /// not known then.
+    pub untried: Option<&'static str>,
     /// Unit that gaps are told in, and so many of it in a metre.
     pub unit: (&'static str, f64),
 }

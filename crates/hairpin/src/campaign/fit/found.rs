@@ -77,6 +77,7 @@ impl Found {
             derives: loops.derives,
             unit: loops.unit,
             tried: loops.tried,
+            untried: loops.untried,
             residual_m,
             inflation: self.inflation,
             stretches: self.stretches,

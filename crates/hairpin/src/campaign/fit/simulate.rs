@@ -29,12 +29,15 @@ pub(super) struct Loops<'a> {
     pub(super) unit: (&'static str, f64),
     /// On whom intervals were found to hold.
     pub(super) tried: &'static str,
+    /// Who steers, of whom it was never tried whether they hold.
+    pub(super) untried: Option<&'static str>,
 }
 
 impl<'a> Loops<'a> {
     pub(super) fn new(setup: &Setup, flown: &'a [Flown]) -> Result<Self, FitError> {
-        let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, tried, timed } =
-            setup.kind().fittable().map_err(FitError::NotFittable)?;
+        let fittable = setup.kind().fittable().map_err(FitError::NotFittable)?;
+        let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, .. } = fittable;
+        let Fittable { tried, untried, timed, .. } = fittable;
         if flown.is_empty() {
             return Err(FitError::NoLogs);
         }
@@ -43,7 +46,8 @@ impl<'a> Loops<'a> {
         let radius = setup.scenario.executor().accept;
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
         let compared = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
-        Ok(Self { setup, numbers, flown: flown.iter().collect(), compared, rule, spelt, derives, unit, tried })
+        let flown = flown.iter().collect();
+        Ok(Self { setup, numbers, flown, compared, rule, spelt, derives, unit, tried, untried })
     }
 
     /// Bounds and steps of the numbers.

@@ -73,6 +73,15 @@ fn numbers_lie(setup: &Setup, draw: &dyn Fn(u64) -> (Truth, Vec<Flown>)) {
 }
 
 #[test]
+fn who_steered_and_was_never_tried_is_named() {
+    let untried = |setup: Setup| setup.kind().fittable().unwrap().untried;
+    assert_eq!(untried(draws::scenario("flightgoggles", "stable-waypoint")), None);
+    assert_eq!(untried(draws::scenario("flightgoggles", "px4-mission")), Some("px4-mission"));
+    assert_eq!(untried(drives::scenario("differential-drive", "pure-pursuit")), None);
+    assert_eq!(untried(drives::scenario("differential-drive", "stanley")), Some("stanley"));
+}
+
+#[test]
 #[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_lie_within_their_intervals"]
 fn numbers_lie_within_their_intervals() {
     let setup = draws::scenario(

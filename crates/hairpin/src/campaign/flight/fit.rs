@@ -141,6 +141,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         unit: ("m", 1.0),
         sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 3.0, whole_legs: true, start_m: None },
         tried: "20 drawn quadrotors, FlightGoggles' file ± 30 %, flown by `stable-waypoint`",
+        untried: Some(controller.kind).filter(|kind| *kind != ControllerKind::StableWaypoint).map(ControllerKind::word),
         acceptance: controller.kind.acceptance(),
         timed: matches!(controller.kind, ControllerKind::MinimumSnap | ControllerKind::Geometric),
     })

@@ -62,7 +62,7 @@ impl<'a> Margins<'a> {
     /// The spread is the standard deviation, or 1 in the stress's own unit where that is 0.
     pub(super) fn of(targets: &'a [Target], first: &[Option<Vec<f64>>]) -> Self {
         let spread = |target: usize| {
-            let values = first.iter().flatten().map(|stresses| stresses[target]).filter(|stress| !stress.is_nan());
+            let values = first.iter().flatten().map(|stresses| stresses[target]).filter(|stress| stress.is_finite());
             let spread = Statistics::of(&values.collect::<Vec<_>>()).map(|statistics| statistics.std);
             spread.filter(|spread| *spread > 0.0).unwrap_or(1.0)
         };
@@ -80,7 +80,7 @@ impl<'a> Margins<'a> {
     /// The largest of what is told of an execution.
     pub(super) fn most(&self, stresses: &[f64]) -> Option<f64> {
         let told = stresses.iter().enumerate().map(|(target, stress)| self.told(target, *stress));
-        told.filter(|told| !told.is_nan()).reduce(f64::max)
+        told.filter(|told| told.is_finite()).reduce(f64::max)
     }
 }
 

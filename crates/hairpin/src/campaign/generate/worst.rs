@@ -187,7 +187,7 @@ impl Plans<'_> {
         let stresses: Vec<(usize, f64)> = pairs.iter().zip(ran).map(|((run, _), ran)| (*run, stress(ran))).collect();
         let mean = |run: usize| {
             let of_run =
-                || stresses.iter().filter(|(of, stress)| *of == run && !stress.is_nan()).map(|(_, stress)| stress);
+                || stresses.iter().filter(|(of, stress)| *of == run && stress.is_finite()).map(|(_, stress)| stress);
             of_run().sum::<f64>() / of_run().count().max(1) as f64
         };
         if !drawn.is_empty() {
@@ -263,7 +263,7 @@ pub(super) fn pool(graphs: &Graphs, cases: usize, [executions, first]: [u64; 2],
     let answers = plans.all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let plans = found.into_iter().map(|found| {
         let Drawn { graph, plan } = found.plan;
-        let score = margins.told(found.target, found.trial.stress);
+        let score = margins.told(found.target, found.trial.rank().told());
         let plan = graphs.solver.finished(Plan { score, bound: None, ..plan });
         Drawn { graph, plan }
     });

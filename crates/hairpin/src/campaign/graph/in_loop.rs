@@ -70,7 +70,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
     let mut best_so_far = evolved.best_so_far;
     let climber = |Tested { found, trial }| {
         let mut plan = question.planned(found)?;
-        plan.score = trial.stress;
+        plan.score = trial.rank().told();
         let step = STEP * mean_leg(&plan);
         Some(Climber { plan, trial, step })
     };
@@ -103,7 +103,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
             go_on(&mut best_so_far, &climbed.best_so_far);
             *trial = climbed.trial;
             if let Some(place) = climbed.place {
-                *plan = Plan { score: trial.stress, ..(disturbance.put)(plan, &place, time) };
+                *plan = Plan { score: trial.rank().told(), ..(disturbance.put)(plan, &place, time) };
             }
         }
         hardest_first(&mut climbers);
@@ -114,7 +114,7 @@ pub(super) fn by_trials<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Quest
     let no_room = "no obstacle of those asked for (`generate.environment.obstacles`) finds room where executions leave their plan";
     let mut reason = plans.is_empty().then(|| if furnished { no_room } else { UNMEASURED }.to_owned());
     if furnished && !plans.is_empty() {
-        let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.stress, ..plan });
+        let among = |plan: &Plan| furnish(plan).map(|(plan, trial)| Plan { score: trial.rank().told(), ..plan });
         let most = best_so_far.last().copied().unwrap_or(f64::NEG_INFINITY);
         best_so_far.extend(std::iter::repeat_n(most, 2 * plans.len()));
         plans = plans.iter().filter_map(among).collect();
@@ -143,7 +143,7 @@ impl Climber {
         let shifted = shift(&self.plan.waypoints, self.trial, seed, &settings, feasible, execute);
         (self.trial, self.step) = (shifted.trial, shifted.step);
         if let Some(better) = shifted.plan {
-            self.plan = Plan { score: self.trial.stress, ..better };
+            self.plan = Plan { score: self.trial.rank().told(), ..better };
         }
         shifted.best_so_far
     }

@@ -61,7 +61,7 @@ pub(super) fn by_partials<N: Copy + Eq + Ord + Hash, O: Additive>(
     settings.frontier = settings.frontier.min(FRONTIER);
     let mut outcome = beam_grown(&task, &mut executed, may_arrive, &settings);
     // What leads by its failure is told by its stress.
-    outcome.found.iter_mut().for_each(|found| found.score = Rank::of_score(found.score).stress);
+    outcome.found.iter_mut().for_each(|found| found.score = Rank::of_score(found.score).told());
     let capped = || {
         format!(
             "neither {} iterations nor {} executions per graph led to a whole trajectory with a measure",

@@ -94,6 +94,8 @@ pub(in crate::campaign) struct Fittable {
     pub(in crate::campaign) acceptance: Acceptance,
     /// Drawn robots, and who steered them, on which intervals were found to hold.
     pub(in crate::campaign) tried: &'static str,
+    /// Who steers, where intervals were never tried on anything that it steers: its name.
+    pub(in crate::campaign) untried: Option<&'static str>,
     /// Whether motions are compared by the clock from their begin, not from waypoint to waypoint.
     pub(in crate::campaign) timed: bool,
 }

@@ -58,7 +58,7 @@ pub use figure::{FigureLink, Look, RobotFigure, Turned};
 pub(super) use figure::{block, capsule, prism, rod, wheel};
 pub use fittable::Adjustable;
 pub(super) use fittable::{Fittable, Output, Sampling};
-pub use footing::Footing;
+pub use footing::{Footing, OnGround};
 pub(super) use ground_log::GroundLog;
 pub(super) use keep_out::flat_places;
 pub(super) use knob::{Condition, Knob, Knobs, Standing, Turn};

@@ -31,12 +31,13 @@ pub use shift::{ShiftSettings, Shifted, shift};
 
 /// What an execution came to.
 ///
-/// A failed execution is no trial: closures then answer `None`.
+/// An execution that came to no run is no trial: closures then answer `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
     /// The stress that is searched for; larger is worse for the robot.
     pub stress: f64,
-    /// Whether it came to an end that is worse than any stress; its stress is that of the way until then.
+    /// Whether it came to an end that is worse than any stress; its stress is that of the way until then, −∞ where
+    /// nothing of that was measured ([`Rank::of`]).
     pub fails: bool,
     /// The leg that it is owed to.
     pub worst_leg: usize,

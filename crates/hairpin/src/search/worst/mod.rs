@@ -47,7 +47,8 @@ const PARENTS: usize = 12;
 
 /// A trajectory that was found.
 ///
-/// One of [`Worst::found`]. `trial.stress` is finite: what is not is held as not measured before any archive sees it.
+/// One of [`Worst::found`]. `trial.stress` is finite, or −∞ of what fails without a measured one: what else is not is
+/// held as not measured before any archive sees it.
 #[derive(Debug, Clone)]
 pub struct Found<P> {
     /// The plan.

@@ -15,7 +15,7 @@ use super::portfolio::Portfolio;
 use super::scale::Trace;
 use super::settings::WorstSettings;
 use crate::math::random::{named_seed, stream};
-use crate::search::in_loop::Trial;
+use crate::search::in_loop::{Rank, Trial};
 use crate::trajectory::Route;
 
 /// Share of the executions that is drawn at random before anything is changed.
@@ -239,11 +239,9 @@ impl<'a, F: Field> Search<'a, F> {
                 executed.push(None);
                 continue;
             };
-            // An infinite stress could not be told from a mistake.
             let ran = ran.map(|ran| {
-                let finite =
-                    |trial: Trial| if trial.stress.is_finite() { trial } else { Trial { stress: f64::NAN, ..trial } };
-                Ran { trials: ran.trials.into_iter().map(finite).collect(), ..ran }
+                let ranked = |trial: Trial| Trial { stress: Rank::of(trial.fails, Some(trial.stress)).stress, ..trial };
+                Ran { trials: ran.trials.into_iter().map(ranked).collect(), ..ran }
             });
             let stresses = ran.as_ref().map(|ran| ran.trials.iter().map(|trial| trial.stress).collect());
             let number = self.executions();

@@ -37,11 +37,13 @@ impl Campaign<'_> {
                 told.failed += 1;
                 continue;
             };
-            let (sum, count) = &mut sums[origin as usize];
-            (*sum, *count) = (*sum + rank.stress, *count + 1);
+            if rank.stress.is_finite() {
+                let (sum, count) = &mut sums[origin as usize];
+                (*sum, *count) = (*sum + rank.stress, *count + 1);
+            }
             self.samples.extend(samples);
             let place = graph.kept.partition_point(|(kept, _)| *kept >= rank);
-            graph.kept.insert(place, (rank, Plan { score: rank.stress, bound: None, ..plan }));
+            graph.kept.insert(place, (rank, Plan { score: rank.told(), bound: None, ..plan }));
             graph.kept.truncate(self.search.per_graph as usize);
         }
     }
@@ -49,8 +51,8 @@ impl Campaign<'_> {
     /// What each of `todo` came to: its stress, and those of its legs to learn from. What is not begun in time does not
     /// count.
     ///
-    /// One entry for each of `todo`: `None` not begun, `Some(None)` failed or of no finite stress. Names are
-    /// fingerprints of the waypoints, by which an executor may know an earlier answer.
+    /// One entry for each of `todo`: `None` not begun, `Some(None)` came to no run or, where nothing fails, to no
+    /// finite stress. Names are fingerprints of the waypoints, by which an executor may know an earlier answer.
     fn carried_out(&self, (number, part): (u64, u64), todo: &[Todo]) -> Vec<Option<Option<Learned>>> {
         let names: Vec<[u8; 16]> = todo.iter().map(|todo| fingerprint(todo.plan.waypoints.iter().copied())).collect();
         let trials =
@@ -67,10 +69,13 @@ impl Campaign<'_> {
         let answers = self.executor.carry_out(&Batch { names: &names, execute: &execute });
         let learned = |place: usize, answer: Answer| {
             let Executed { trials: stresses, behaviour, fails } = answer?;
-            // An infinite stress could not be told from a mistake.
-            let (stress, ..) = stresses.first().copied().filter(|(stress, ..)| stress.is_finite())?;
+            let (stress, ..) = stresses.first().copied()?;
+            let rank = Rank::of(fails, Some(stress));
+            if rank.stress.is_nan() {
+                return None;
+            }
             let trajectory = self.executed as usize + place;
-            Some((Rank { fails, stress }, trials(&todo[place]).learned(&todo[place].plan, &behaviour, trajectory)))
+            Some((rank, trials(&todo[place]).learned(&todo[place].plan, &behaviour, trajectory)))
         };
         answers.into_iter().enumerate().map(|(place, answer)| answer.map(|answer| learned(place, answer))).collect()
     }
