@@ -12,8 +12,8 @@ use thiserror::Error;
 use super::acceptance;
 use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
-use super::velocities::{Disagreement, disagreement};
 
+use crate::velocities::{Disagreement, disagreement};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID};
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.

@@ -7,6 +7,7 @@ use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
 use hairpin::judgement::{Reference, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, LoggedMotion, Progress, Sample};
+use hairpin_formats::velocities::disagreement;
 use nalgebra::Isometry3;
 
 use super::accuracy::accuracies;
@@ -59,6 +60,7 @@ pub(super) fn judge(
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
     let mut samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
+    let unlike = believe_velocities(&mut samples);
     let lift_m = settings.frame.offset_m[2];
     let heights = Heights::of(&against.setup, (&logged.frame, motion), lift_m).filter(|_| against.in_world);
     let unstable = heights.as_ref().map_or_else(Vec::new, |heights| heights.put(&mut samples));
@@ -111,6 +113,7 @@ pub(super) fn judge(
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
     notes.extend(heights_told);
+    notes.extend(unlike);
     notes.extend(again_s.map(told::again));
     notes.extend(left_out.as_ref().map(LeftOut::in_words));
     let (accuracy, untold) = accuracies(&left.samples);
@@ -157,6 +160,18 @@ pub(super) fn judge(
         Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),
     }
+}
+
+/// Leaves out velocities that are not those of the positions beside them, and tells so: who believes them judges
+/// accelerations that nobody had, and what may hide between samples by a motion that there was not.
+fn believe_velocities(samples: &mut [Sample]) -> Option<String> {
+    let velocities: Vec<[f64; 3]> = samples.iter().map(|sample| sample.v_m_s.map(Into::into)).collect::<Option<_>>()?;
+    let times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
+    let pose = |sample: &Sample| Isometry3::from_parts(sample.p_m.into(), sample.attitude.unwrap_or_default());
+    let poses: Vec<_> = samples.iter().map(pose).collect();
+    let found = disagreement(&times, &poses, &velocities)?;
+    samples.iter_mut().for_each(|sample| sample.v_m_s = None);
+    Some(format!("{}: its velocities are not believed, it is judged by positions alone", found.in_words()))
 }
 
 /// Refuses a log of which no sample lies within `farthest` m of the world's origin: as of missions, it is of another
