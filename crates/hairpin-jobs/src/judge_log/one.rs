@@ -4,13 +4,13 @@ use std::path::Path;
 
 use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
-use hairpin::judgement::{Reference, Settings, legs_of_samples};
+use hairpin::judgement::{Reference, Resolution, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, LoggedMotion, Progress, Sample};
 use hairpin_formats::velocities::disagreement;
 use nalgebra::Isometry3;
 
-use super::accuracy::accuracies;
+use super::accuracy::{accuracies, resolution};
 use super::again::{again, of_flight};
 use super::against::{Of, Ready};
 use super::asks::Asks;
@@ -138,7 +138,11 @@ pub(super) fn judge(
         notes,
     };
     let whole = against.whole(case)?;
-    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, accuracy, &whole)?) } else { None };
+    let log = if left.samples.len() >= 2 {
+        Some(judged.to_judge(&left, (accuracy, resolution(motion)), &whole)?)
+    } else {
+        None
+    };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
@@ -319,12 +323,18 @@ impl Judging<'_> {
         channels.retain(|channel| channel.name != "leg");
         channels.push(self.assigned(&with(channels.clone())?, whole, &[]).ok()?);
         let flight = Flight { track: with(channels)?, ..flight };
-        let log = Log { flight, breaks: Vec::new(), accuracy: Vec::new(), in_world: false };
+        let resolution = Resolution::default();
+        let log = Log { flight, breaks: Vec::new(), accuracy: Vec::new(), resolution, in_world: false };
         Some(judge_flown(&self.against.setup, whole, &log).ok()?.measures.max_deviation)
     }
 
     /// What is left as a log to be judged, of the case with its plan.
-    fn to_judge(&self, left: &Left, accuracy: Vec<Option<[f64; 2]>>, whole: &Case) -> Result<Log, Problem> {
+    fn to_judge(
+        &self,
+        left: &Left,
+        (accuracy, resolution): (Vec<Option<[f64; 2]>>, Resolution),
+        whole: &Case,
+    ) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),
@@ -353,7 +363,7 @@ impl Judging<'_> {
         }
         let reached = vec![Some(0.0); self.case.waypoints.len()];
         let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
-        Ok(Log { flight, breaks: left.breaks.clone(), accuracy, in_world: self.against.in_world })
+        Ok(Log { flight, breaks: left.breaks.clone(), accuracy, resolution, in_world: self.against.in_world })
     }
 }
 

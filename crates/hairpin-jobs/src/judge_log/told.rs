@@ -211,6 +211,9 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             }
         }
         Why::Impossible(found) => found.in_words(),
+        Why::Resolution(unresolved, source) => {
+            format!("{value}, but its {}; log more digits, or velocities", unresolved.in_words(source))
+        }
         Why::Mean(span) => {
             let rate = found.source.rate_hz;
             format!(

@@ -9,8 +9,8 @@ use nalgebra::Point3;
 use super::Setup;
 use super::missed::radii;
 use crate::judgement::{
-    JudgementError, Limits, Measures, Reference, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen, longest_mean,
-    look_closely, measure, most_anywhere, told,
+    JudgementError, Limits, Measures, Reference, Resolution, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen,
+    longest_mean, look_closely, measure, most_anywhere, told,
 };
 use crate::trajectory::Track;
 
@@ -26,11 +26,12 @@ pub(super) fn sampled(
     waypoints: &[Point3<f64>],
     settings: &Settings,
 ) -> Result<Measures, JudgementError> {
-    let mut measures = measure(track, waypoints, settings)?;
     // Programs of arms are looked at move by move.
     if setup.program().is_none() || setup.has_programs() {
-        return Ok(measures);
+        return measure(track, waypoints, settings);
     }
+    let settings = &Settings { resolution: Resolution::of(track), ..*settings };
+    let mut measures = measure(track, waypoints, settings)?;
     measures.waypoints_within = radii(track, waypoints);
     let acceleration = setup.swiftness().acceleration;
     let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
@@ -135,12 +136,21 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
              a second decide"
         ))
     };
+    let rounded = || {
+        let (value, limit) = (measures.acceleration()?, limits.acceleration?);
+        let unresolved = measures.acceleration_unresolved.filter(|unresolved| unresolved.decides(value, limit))?;
+        let side = if value > limit { ">" } else { "≤" };
+        let (seen, limit) = (told(value, Some(limit), "m/s²"), told(limit, Some(value), "m/s²"));
+        let why = unresolved.in_words(measures.acceleration_source);
+        Some(format!("acceleration {seen} {side} {limit} m/s², but its {why}; more digits decide"))
+    };
     let all = [
         above("", limits.deviation, measures.max_deviation, measures.most_between),
         above("overshoot ", limits.overshoot, measures.max_overshoot(), measures.overshoot_between),
         below(limits.clearance).or_else(contact),
         edge(),
         unseen(),
+        rounded(),
         mean(),
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();
@@ -319,6 +329,14 @@ mod tests {
             why.contains(" m/s² is a mean over as much as 2.00 s") && why.ends_with("; 4 poses a second decide"),
             "{why}"
         );
+        // Told in steps of 0.1 m, 0.25 s apart: up to 5.5 m/s².
+        let why = judged_by(&program, 0.25, &limits).1.unwrap();
+        assert!(
+            why == "acceleration 0.00 ≤ 5.00 m/s², but its positions are told in steps of 0.1 m: 0.25 s apart that can \
+                    make 5.5 m/s²; more digits decide",
+            "{why}"
+        );
+        let limits = Limits { acceleration: Some(6.0), ..Limits::default() };
         assert_eq!(judged_by(&program, 0.25, &limits).1, None);
     }
 }

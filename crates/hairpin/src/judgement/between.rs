@@ -178,14 +178,6 @@ pub fn beyond(waypoints: &[Point3<f64>], p: &Point3<f64>, leg: usize) -> f64 {
     before.map_or(own, |before| own.max(before))
 }
 
-/// An acceleration is seen that lasts as long, s: a mean over more hides what a robot does in one turn.
-pub const SEEN_WITHIN_S: f64 = 0.5;
-
-/// Whether a mean over `span` s shows an acceleration; stamps are rounded.
-pub fn is_seen(span: f64) -> bool {
-    span <= SEEN_WITHIN_S + 1e-6
-}
-
 /// The longest time that an acceleration of `track` is a mean over, s; 0 where there is none.
 ///
 /// Both intervals around a sample, at a track's ends and before breaks one.

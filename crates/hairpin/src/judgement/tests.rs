@@ -110,6 +110,59 @@ fn going_straight_on_is_no_overshoot_but_reversing_late_is() {
     assert_eq!(measure(&flown, &back, &Settings::default()).unwrap().overshoots, vec![3.0, 1.0]);
 }
 
+/// 0.9 m/s² in the numbers of a file with three decimals, 250 rows a second: differences of neighbours are 88 m/s².
+#[test]
+fn rounding_is_no_acceleration() {
+    let flown = |rate: f64, decimals: i32, sway: f64, velocities: bool| {
+        let round = |x: f64| (x * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals);
+        let (omega, count) = (4.0 * std::f64::consts::PI, (8.0 * rate) as usize);
+        let times: Vec<f64> = (0..=count).map(|i| i as f64 / rate).collect();
+        let place = |t: &f64| {
+            let [x, y, z] = [10.0 - 10.0 * (0.3 * t).cos(), 0.1 * t, sway * (omega * t).sin()];
+            if velocities { [x, y, z] } else { [x, y, z].map(round) }
+        };
+        let positions: Vec<_> = times.iter().map(place).collect();
+        let speed = |axis: usize| -> Vec<f64> {
+            let of = |t: &f64| [3.0 * (0.3 * t).sin(), 0.1, sway * omega * (omega * t).cos()][axis];
+            times.iter().map(of).map(round).collect()
+        };
+        let channels: Vec<(&str, Vec<f64>)> =
+            if velocities { vec![("vx_m_s", speed(0)), ("vy_m_s", speed(1)), ("vz_m_s", speed(2))] } else { vec![] };
+        let track = track(times, &positions, &channels);
+        let settings = Settings { resolution: Resolution::of(&track), ..Settings::default() };
+        let way = [[0.0; 3], [20.0, 0.8, 0.0]].map(Point3::from);
+        let blind = measure(&track, &way, &Settings::default()).unwrap();
+        let found = measure(&track, &way, &settings).unwrap();
+        let broken = |limit: f64| {
+            let flight =
+                Flight { track: track.clone(), ended: Ended::Done, left_world: None, reached: vec![Some(0.0); 2] };
+            let limits = Limits { acceleration: Some(limit), ..Limits::default() };
+            !violations(&found, &flight, &limits).is_empty()
+        };
+        let [low, high] = [2.0, 0.85].map(broken);
+        (found.acceleration_unresolved.unwrap(), found.max_acceleration, blind.max_acceleration, low, high)
+    };
+    for (rate, decimals, velocities) in
+        [(50.0, 3, false), (100.0, 3, false), (250.0, 3, false), (250.0, 4, false), (250.0, 2, true)]
+    {
+        let (unresolved, most, blind, low, high) = flown(rate, decimals, 0.0, velocities);
+        assert!(blind > 2.0 || velocities, "{rate} {decimals}: {blind}");
+        assert!((most - 0.9).abs() < 0.1 && unresolved.by < 0.12, "{rate} {decimals}: {most} {unresolved:?}");
+        assert!(!low && !unresolved.decides(most, 2.0) && (high || unresolved.decides(most, 0.85)));
+    }
+    // A sway of 7.9 m/s² is seen in the same numbers.
+    for velocities in [false, true] {
+        let (unresolved, most, _, low, _) = flown(250.0, 3, 0.05, velocities);
+        assert!(low && most - unresolved.by > 5.0 && most + unresolved.by > 7.0, "{most} {unresolved:?}");
+    }
+    // A centimetre 0.25 s apart can make half a metre a second squared: a limit within that is open.
+    let (unresolved, most, ..) = flown(50.0, 2, 0.0, false);
+    assert!(unresolved.decides(most, 0.95) && unresolved.by > 0.4, "{most} {unresolved:?}");
+    assert!(
+        unresolved.in_words(AccelerationSource::Position).starts_with("positions are told in steps of 0.01 m: 0.2")
+    );
+}
+
 #[test]
 fn without_leg_channel_the_assignment_is_monotone_along_the_path() {
     // There and back twice over the same segment, 0.3 m beside it, then a crossing of the first leg.

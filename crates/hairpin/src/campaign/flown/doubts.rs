@@ -6,8 +6,8 @@ use super::log::Log;
 use crate::campaign::Setup;
 use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
-    self, Clearance, Close, Limits, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between,
-    where_least,
+    self, AccelerationSource, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
+    beyond, is_seen, most_between, where_least,
 };
 
 /// Why a limit that the samples keep, or break, is open.
@@ -22,6 +22,8 @@ pub enum Why {
         /// Samples a second that would decide, 1/s; `None` where none do.
         rate_hz: Option<f64>,
     },
+    /// The log tells its numbers in steps that may make as much of it.
+    Resolution(Unresolved, AccelerationSource),
     /// It is a mean over as long a time, s, and what is shorter was not seen.
     Mean(f64),
     /// The log itself does not know its place any better.
@@ -225,6 +227,17 @@ pub(super) fn mean(measures: &Measures, limit: Option<f64>, span: f64) -> Option
     let value =
         Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
     (value.value <= limit && !is_seen(span)).then_some(Doubt { value, why: Why::Mean(span) })
+}
+
+/// Why an acceleration is open that the step decides in which the log tells its numbers.
+pub(super) fn rounded(measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
+    let (limit, value) = (limit?, measures.acceleration()?);
+    let unresolved = measures.acceleration_unresolved.filter(|unresolved| unresolved.decides(value, limit))?;
+    let legs = measures.legs.iter().enumerate();
+    let leg = legs.max_by(|a, b| a.1.max_acceleration.total_cmp(&b.1.max_acceleration)).map_or(0, |(leg, _)| leg);
+    let value =
+        Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
+    Some(Doubt { value, why: Why::Resolution(unresolved, measures.acceleration_source) })
 }
 
 pub(super) fn violation(what: &str, value: f64, limit: f64, at: f64, leg: usize) -> Violation {
