@@ -44,11 +44,12 @@ pub(super) fn sampled(
             let steps = track.times().windows(2).map(|pair| swiftness.bulge(pair[1] - pair[0], 0.0));
             measures.max_overshoot() + steps.fold(0.0, f64::max)
         }
-        _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg| beyond(waypoints, p, leg)).max(0.0),
+        _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg, around| beyond(waypoints, p, leg, around))
+            .max(0.0),
     };
     measures.overshoot_between = Some(overshoot).filter(|most| most.is_finite());
     let nearest = |clearance: &dyn Fn(&Point3<f64>) -> f64| {
-        -most_anywhere(track, &close, settings, &swiftness, &|p, _| -clearance(p))
+        -most_anywhere(track, &close, settings, &swiftness, &|p, _, _| -clearance(p))
     };
     measures.clearance_between =
         settings.clearance.map(|clearance| nearest(clearance)).filter(|least| least.is_finite());

@@ -4,6 +4,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::carried_on::counts_beyond;
 use super::deviation::{Off, deviations, legs_along, legs_flown};
 use super::resolution::{AccelerationSource, SEEN_WITHIN_S, Unresolved};
 use super::settings::{JudgementError, Reference, Settings};
@@ -20,7 +21,9 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 ///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown; against a path
 ///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the
 ///   direction in
-///   which it came, beyond where it should be. Going straight on is no overshoot;
+///   which it came, beyond where it should be. Samples count while ‖q_i − w_k‖ ≤ 5 (p_i − q_i)·u_k−1, while the robot,
+///   seen from the waypoint, is still carried on: who rests there, turns and strays farther along the next leg, strays.
+///   Going straight on is no overshoot;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
 ///   the same time. Of what is told in steps rows farther apart are looked at too ([`Settings::resolution`]);
@@ -211,7 +214,7 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
 
 /// How far the track got beyond its place, in a leg's direction, (p − p₀)·d (m): for the sample's own leg and, in its
 /// direction, for the one before. p₀ is the sample's place on the path, else the leg's end (for the leg before: its
-/// nearest point).
+/// nearest point). Where that is farther from the leg's end than it is carried on nearby, it is off, not carried on.
 fn measure_overshoot(
     measures: &mut Measures,
     times: &[f64],
@@ -225,6 +228,9 @@ fn measure_overshoot(
     for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
         let mut note = |incoming: usize, from: &Point3<f64>| {
             let beyond = beyond_numbers((p - from).dot(&direction(incoming)));
+            if !counts_beyond(beyond, (from - waypoints[incoming + 1]).norm(), 0.0) {
+                return;
+            }
             let found = &mut measures.legs[incoming].overshoot;
             *found = found.max(beyond);
             if beyond > worst {

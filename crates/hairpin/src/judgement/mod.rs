@@ -21,6 +21,7 @@
 mod apart;
 mod assign;
 pub mod between;
+mod carried_on;
 mod chosen;
 mod deviation;
 pub mod measure;
@@ -42,7 +43,7 @@ mod tests;
 
 pub use apart::{decimals_of, told};
 pub(crate) use between::where_least;
-pub use between::{Close, Swiftness, beyond, longest_mean, look_closely, most_anywhere, most_between};
+pub use between::{Around, Close, Swiftness, beyond, longest_mean, look_closely, most_anywhere, most_between};
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};
 pub use measures::{Late, LegMeasures, LegSource, Measures, Missing};

@@ -103,11 +103,44 @@ fn going_straight_on_is_no_overshoot_but_reversing_late_is() {
     let straight = [[0.0; 3], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]].map(Point3::from);
     let positions = [[0.0; 3], [11.0, 0.0, 0.0], [20.5, 0.0, 0.0]];
     let flown = track(seconds(3), &positions, &[("leg", vec![0.0, 1.0, 1.0])]);
-    assert_eq!(measure(&flown, &straight, &Settings::default()).unwrap().overshoots, vec![0.5, 0.5]);
+    assert_eq!(measure(&flown, &straight, &Settings::default()).unwrap().overshoots, vec![0.0, 0.5]);
     let back = [[0.0; 3], [10.0, 0.0, 0.0], [0.0, 0.0, 0.0]].map(Point3::from);
     let positions = [[0.0; 3], [13.0, 0.0, 0.0], [5.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
     let flown = track(seconds(4), &positions, &[("leg", vec![0.0, 1.0, 1.0, 1.0])]);
     assert_eq!(measure(&flown, &back, &Settings::default()).unwrap().overshoots, vec![3.0, 1.0]);
+}
+
+/// Rests at waypoint 1, turns back, and is 0.4 m to the side 5 m along the next leg: that is deviation. Who comes at
+/// speed and swings out is carried on.
+#[test]
+fn who_rests_at_a_waypoint_and_strays_later_is_not_carried_on() {
+    let waypoints = [[0.0; 3], [10.0, 0.0, 0.0], [1.0, -4.0, 0.0]].map(Point3::from);
+    let smooth = |s: f64| s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+    let flown = |aside: f64, carried: f64| {
+        let (mut positions, mut legs) = (Vec::new(), Vec::new());
+        for k in 0..800_u32 {
+            let (leg, s) = (k / 400, f64::from(k % 400) / 400.0);
+            let [a, b] = [leg, leg + 1].map(|at| waypoints[at as usize]);
+            let bump = 64.0 * (s * (1.0 - s)).powi(3);
+            let across =
+                if leg == 1 { aside * bump * Vector3::new(-4.0, 9.0, 0.0).normalize() } else { Vector3::zeros() };
+            // Soon after the corner, while the next leg has hardly begun.
+            let on = if leg == 1 { carried * libm::exp(-((s - 0.1) / 0.03).powi(2)) } else { 0.0 };
+            let place = a + (b - a) * smooth(s) + across + Vector3::new(on, 0.0, 0.0);
+            positions.push([place.x, place.y, place.z]);
+            legs.push(f64::from(leg));
+        }
+        let times = (0..800).map(|i| 0.02 * f64::from(i)).collect();
+        measure(&track(times, &positions, &[("leg", legs)]), &waypoints, &Settings::default()).unwrap()
+    };
+    let strays = flown(-0.4, 0.0);
+    assert!(strays.max_overshoot() < 0.01 && (strays.max_deviation - 0.4).abs() < 1e-3, "{:?}", strays.overshoots);
+    let carried = flown(0.0, 0.8);
+    assert!((0.6..0.85).contains(&carried.overshoots[0]), "{:?}", carried.overshoots);
+    // What is between two samples is held to the same.
+    let far = Point3::new(5.8, -2.27, 0.0);
+    let around = |within: f64| between::Around { places: std::slice::from_ref(&far), within };
+    assert!(beyond(&waypoints, &far, 1, around(0.05)) < 0.0 && beyond(&waypoints, &far, 1, around(2.0)) > 0.1);
 }
 
 /// 0.9 m/s² in the numbers of a file with three decimals, 250 rows a second: differences of neighbours are 88 m/s².

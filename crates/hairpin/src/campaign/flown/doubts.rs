@@ -6,7 +6,7 @@ use super::log::Log;
 use crate::campaign::Setup;
 use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
-    self, AccelerationSource, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
+    self, AccelerationSource, Around, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
     beyond, is_seen, most_between, where_least,
 };
 
@@ -140,7 +140,9 @@ impl Looked<'_> {
         let value = violation("overshoot", measures.max_overshoot(), limit, measures.t_overshoot, leg);
         // Against a path overshoot is measured from the samples' places on it, which between samples nobody knows.
         let by_leg = !matches!(settings.reference, judgement::Reference::Path(_));
-        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { beyond(self.waypoints, p, leg) } else { 0.0 };
+        let beyond = |p: &Point3<f64>, leg: usize, around: Around<'_>| {
+            if by_leg { beyond(self.waypoints, p, leg, around) } else { 0.0 }
+        };
         self.of_distance(value, false, &beyond)
     }
 
@@ -155,7 +157,7 @@ impl Looked<'_> {
         let of = |leg: &judgement::LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
         let leg = legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg);
         let value = violation("clearance", least, limit, measures.t_clearance, leg);
-        self.of_distance(value, true, &|p, _| clearance(p))
+        self.of_distance(value, true, &|p, _, _| clearance(p))
     }
 
     /// Whether a sample is in an obstacle with all that lies within its accuracy.
@@ -164,13 +166,22 @@ impl Looked<'_> {
         (0..track.len()).any(|i| clearance(&track.position(i)) + self.sigma(i, None).along < 0.0)
     }
 
-    /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one
-    /// that must not fall short. Where the leg changes between two samples it changes where that is least.
-    fn of_distance(&self, value: Violation, lower: bool, of: &dyn Fn(&Point3<f64>, usize) -> f64) -> Option<Doubt> {
+    /// Whether a limit on a function of places, legs and what is around a place that changes by no more than the way is
+    /// open; `lower` of one that must not fall short. Where the leg changes between two samples it changes where that
+    /// is least.
+    fn of_distance(
+        &self,
+        value: Violation,
+        lower: bool,
+        of: &dyn Fn(&Point3<f64>, usize, Around<'_>) -> f64,
+    ) -> Option<Doubt> {
         // Falling short is exceeding, the other way round.
         let turn = |x: f64| if lower { -x } else { x };
         let (track, limit) = (&self.log.flight.track, turn(value.limit));
-        let at = |i: usize, leg: usize| turn(of(&track.position(i), leg));
+        let at = |i: usize, leg: usize| {
+            let p = track.position(i);
+            turn(of(&p, leg, Around { places: &[p], within: 0.0 }))
+        };
         let values: Vec<f64> = (0..track.len()).map(|i| at(i, self.close[i].leg)).collect();
         let sigma = |i: usize| self.sigma(i, None);
         let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
@@ -185,9 +196,11 @@ impl Looked<'_> {
         for i in 0..values.len() {
             let Some((_, bulge)) = self.after(i) else { continue };
             let enough = limit - sigma(i).along;
+            let places = [i, i + 1].map(|k| track.position(k));
+            let around = Around { places: &places, within: 0.5 * (places[1] - places[0]).norm() + bulge };
             let on = |leg: usize| {
-                let ends = [i, i + 1].map(|k| (track.position(k), at(k, leg)));
-                most_between(&|p| turn(of(p, leg)), ends, bulge, enough)
+                let ends = places.map(|p| (p, turn(of(&p, leg, around))));
+                most_between(&|p| turn(of(p, leg, around)), ends, bulge, enough)
             };
             let bound = where_least([self.close[i].leg, self.close[i + 1].leg], on);
             if bound > enough {
