@@ -56,6 +56,11 @@ pub enum PoseError {
     /// A leg that the mission has not.
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
     Leg { index: usize, time: f64, leg: u64, last: u64 },
+    /// Legs that are counted from 1: the first is never told, and one more than the last is.
+    #[error(
+        "pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}, and {leg} once all waypoints are reached: it seems to number legs from 1"
+    )]
+    FromOne { index: usize, time: f64, leg: u64, last: u64 },
     /// A leg that was over.
     #[error("pose {index} (t_s = {time}): leg = {leg} after {before}: must never fall")]
     Falls { index: usize, time: f64, leg: u64, before: u64 },
@@ -86,6 +91,8 @@ pub struct Recording<'a> {
     poses: Vec<Isometry3<f64>>,
     velocities: Option<Vec<[f64; 3]>>,
     legs: Option<Vec<u64>>,
+    /// The first pose that says that all waypoints are reached.
+    all_reached: Option<usize>,
     attitude_known: bool,
     /// Whether the reason for its end is assumed.
     pub(super) end_unsaid: bool,
@@ -101,6 +108,7 @@ impl<'a> Recording<'a> {
             poses: Vec::new(),
             velocities: Some(Vec::new()),
             legs: Some(Vec::new()),
+            all_reached: None,
             attitude_known: true,
             end_unsaid: false,
         }
@@ -161,7 +169,12 @@ impl<'a> Recording<'a> {
             (_, Some(leg)) if leg > last + 1 => return Err(PoseError::Leg { index, time, leg, last }),
             (Some(legs), Some(leg)) => match legs.last() {
                 Some(&before) if leg < before => return Err(PoseError::Falls { index, time, leg, before }),
-                _ => legs.push(leg.min(last)),
+                _ => {
+                    if leg > last {
+                        self.all_reached = self.all_reached.or(Some(index));
+                    }
+                    legs.push(leg.min(last));
+                }
             },
             (None, None) => {}
             _ => return Err(PoseError::Mixed { index, time, has }),
@@ -198,10 +211,15 @@ impl<'a> Recording<'a> {
     /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
     ///
     /// # Errors
-    /// No pose; velocities that are not those of the places.
+    /// No pose; velocities that are not those of the places; legs counted from 1.
     pub fn finish(mut self, reason: EndReason) -> Result<Flight, PoseError> {
         if self.times.is_empty() {
             return Err(PoseError::Empty);
+        }
+        let never_first = self.legs.as_ref().and_then(|legs| legs.first()).is_some_and(|leg| *leg > 0);
+        if let (Some(index), true) = (self.all_reached, never_first) {
+            let last = self.last_leg();
+            return Err(PoseError::FromOne { index, time: self.times[index], leg: last + 1, last });
         }
         if let Some(velocities) = &self.velocities {
             disagreement(&self.times, &self.poses, velocities).map_or(Ok(()), Err)?;

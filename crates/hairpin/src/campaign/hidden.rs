@@ -10,7 +10,7 @@ use super::Setup;
 use super::missed::radii;
 use crate::judgement::{
     JudgementError, Limits, Measures, Reference, Resolution, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen,
-    longest_mean, look_closely, measure, most_anywhere, told,
+    longest_mean, look_closely, measure, most_anywhere, told, told_outward,
 };
 use crate::trajectory::Track;
 
@@ -87,7 +87,7 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     };
     let open = |name: &str, value: f64, limit: f64, most: f64| {
         let (seen, rate) = (told(value, Some(limit), "m"), rate((limit - value).abs()));
-        let most = told(most, Some(limit), "m");
+        let most = told_outward(most, limit, "m", most < value);
         format!("{name}{seen} m at its poses, but {most} m may hide between two of them{rate}")
     };
     let above = |name: &str, limit: Option<f64>, value: f64, most: Option<f64>| {
@@ -105,7 +105,7 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     };
     let edge = || {
         let least = measures.edge_between.filter(|least| *least < 0.0 && limits.are_given())?;
-        let beyond = told(-least, Some(0.0), "m");
+        let beyond = told_outward(-least, 0.0, "m", false);
         Some(format!(
             "it may have left the world: between two of its poses it may be {beyond} m beyond the edge; more poses a \
              second decide"

@@ -41,7 +41,7 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use apart::{decimals_of, told};
+pub use apart::{decimals_of, told, told_outward};
 pub(crate) use between::where_least;
 pub use between::{Around, Close, Swiftness, beyond, longest_mean, look_closely, most_anywhere, most_between};
 pub use chosen::Chosen;
