@@ -56,4 +56,5 @@ pub mod terrain;
 pub mod tum;
 pub mod urdf;
 pub mod urscript;
+pub mod velocities;
 pub mod waypoints;

@@ -2,7 +2,7 @@
 
 use hairpin::campaign::report::violation;
 use hairpin::campaign::{Doubt, Flown, Why};
-use hairpin::judgement::finding;
+use hairpin::judgement::{AccelerationSource, finding};
 use hairpin_formats::junit::{Outcome, OutcomeKind, outcomes_text};
 use hairpin_jobs::judge_log::{
     Against, Altitude, Cut, Found, FoundProgram, FrameSettings, JudgedLog, JudgedLogs, LogSettings, Matched,
@@ -211,6 +211,7 @@ fn measures(flown: &Flown) -> Value {
         })),
         "max_overshoot_m": m.max_overshoot(),
         "max_acceleration_m_s2": m.acceleration(),
+        "acceleration_unresolved_m_s2": m.acceleration_unresolved.map(|unresolved| unresolved.by),
         "min_clearance_m": m.min_clearance,
         "total_time_s": m.total_time,
         "statistics": flown.statistics.map(|s| json!({
@@ -228,6 +229,10 @@ fn doubt(doubt: &Doubt) -> Value {
         Why::Begin { before } => json!({ "begin_not_seen": true, "left_out_s": before }),
         Why::End(after) => json!({ "end_not_seen": true, "left_out_s": after }),
         Why::Impossible(found) => json!({ "impossible": true, "way_m": found.way_m, "over_s": found.over_s }),
+        Why::Resolution(unresolved, source) => json!({
+            "told_in_steps_of": unresolved.step, "of_velocities": source == AccelerationSource::Velocity,
+            "over_s": unresolved.over, "unresolved_m_s2": unresolved.by,
+        }),
         Why::Mean(span) => json!({ "mean_over_s": span }),
         Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
     };

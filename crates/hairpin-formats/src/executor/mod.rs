@@ -21,8 +21,9 @@
 //! `limits` and `accept`; a program that answers `hello` with 1, with an error, or by ending is started again and
 //! spoken to in protocol 1. There, what comes after an `end` is a mistake of the mission that ended.
 //!
-//! The first pose lies at the first waypoint, `leg` is in all poses, never falling, or in none: what is otherwise would
-//! be judged as a violation that nobody flew, so it is refused ([`PoseError`]). `leg`, `v_m_s` and `q_wxyz` may be left
+//! The first pose lies at the first waypoint, `leg` counts from 0 and is in all poses, never falling, or in none, and
+//! `v_m_s` are the velocities of these places ([`crate::velocities`]): what is otherwise would be judged as a violation
+//! that nobody flew, or pass for none, so it is refused ([`PoseError`]). `leg`, `v_m_s` and `q_wxyz` may be left
 //! out: legs are then assigned along the path, velocities differentiated, and the attitude counts as unknown (channel
 //! [`hairpin::trajectory::ATTITUDE_UNKNOWN`]). `done` may be claimed anywhere: the judge sees what was flown, and a
 //! `done` without the last waypoint is an unfinished mission. Who passes on flights of others and was not told how one
@@ -62,7 +63,6 @@ mod queue;
 mod recording;
 #[cfg(test)]
 mod tests;
-mod velocities;
 mod watchdog;
 mod wire;
 mod worker;
@@ -81,6 +81,5 @@ pub use process::kill_all;
 pub(crate) use process::{end, start};
 pub use queue::{fly_all, fly_all_if};
 pub use recording::{PoseError, Recording};
-pub use velocities::{Disagreement, Misread};
 pub use wire::{Said, Speaker, Transcript, Wire};
 pub use worker::{Limits, QUIET, Worker};

@@ -12,8 +12,8 @@ use thiserror::Error;
 use super::acceptance;
 use super::first_pose::{Elsewhere, elsewhere};
 use super::heard::{EndReason, PoseMessage};
-use super::velocities::{Disagreement, disagreement};
 
+use crate::velocities::{Disagreement, disagreement};
 use hairpin::math::rotation::euler_from_quaternion;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID, HEIGHTS_BY_MAP};
 
@@ -57,6 +57,11 @@ pub enum PoseError {
     /// A leg that the mission has not.
     #[error("pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}")]
     Leg { index: usize, time: f64, leg: u64, last: u64 },
+    /// Legs that are counted from 1: the first is never told, and one more than the last is.
+    #[error(
+        "pose {index} (t_s = {time}): leg = {leg}: must be 0 … {last}, and {leg} once all waypoints are reached: it seems to number legs from 1"
+    )]
+    FromOne { index: usize, time: f64, leg: u64, last: u64 },
     /// A leg that was over.
     #[error("pose {index} (t_s = {time}): leg = {leg} after {before}: must never fall")]
     Falls { index: usize, time: f64, leg: u64, before: u64 },
@@ -93,6 +98,8 @@ pub struct Recording<'a> {
     poses: Vec<Isometry3<f64>>,
     velocities: Option<Vec<[f64; 3]>>,
     legs: Option<Vec<u64>>,
+    /// The first pose that says that all waypoints are reached.
+    all_reached: Option<usize>,
     attitude_known: bool,
     /// Whether it has told no height yet: a planar simulation of what drives on a map sends 0 for all of them.
     flat: bool,
@@ -110,6 +117,7 @@ impl<'a> Recording<'a> {
             poses: Vec::new(),
             velocities: Some(Vec::new()),
             legs: Some(Vec::new()),
+            all_reached: None,
             attitude_known: true,
             flat: mission.setup.footing().is_some(),
             end_unsaid: false,
@@ -208,7 +216,12 @@ impl<'a> Recording<'a> {
             (_, Some(leg)) if leg > last + 1 => return Err(PoseError::Leg { index, time, leg, last }),
             (Some(legs), Some(leg)) => match legs.last() {
                 Some(&before) if leg < before => return Err(PoseError::Falls { index, time, leg, before }),
-                _ => legs.push(leg.min(last)),
+                _ => {
+                    if leg > last {
+                        self.all_reached = self.all_reached.or(Some(index));
+                    }
+                    legs.push(leg.min(last));
+                }
             },
             (None, None) => {}
             _ => return Err(PoseError::Mixed { index, time, has }),
@@ -245,10 +258,16 @@ impl<'a> Recording<'a> {
     /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
     ///
     /// # Errors
-    /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand.
+    /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand; legs
+    /// counted from 1.
     pub fn finish(mut self, reason: EndReason) -> Result<Flight, PoseError> {
         if self.times.is_empty() {
             return Err(PoseError::Empty);
+        }
+        let never_first = self.legs.as_ref().and_then(|legs| legs.first()).is_some_and(|leg| *leg > 0);
+        if let (Some(index), true) = (self.all_reached, never_first) {
+            let last = self.last_leg();
+            return Err(PoseError::FromOne { index, time: self.times[index], leg: last + 1, last });
         }
         if let Some(velocities) = &self.velocities {
             disagreement(&self.times, &self.poses, velocities).map_or(Ok(()), Err)?;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray};
-use hairpin::judgement::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};
+use hairpin::judgement::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing, Unresolved};
 
 use super::possible;
 use super::table::{Table, TableError};
@@ -97,12 +97,16 @@ const WITHIN: &str = "waypoints_within_m";
 
 type Figure = fn(&Measures) -> Option<f64>;
 
-/// The same of other limits, and the longest time that an acceleration is a mean over.
-pub(super) const BETWEEN_TOO: [(&str, Figure); 4] = [
+/// The same of other limits, the longest time that an acceleration is a mean over, and what the step in which rows are
+/// told (m, or m/s where velocities are) leaves open of the largest.
+pub(super) const BETWEEN_TOO: [(&str, Figure); 7] = [
     ("max_overshoot_between_m", |m| m.overshoot_between),
     ("min_clearance_between_m", |m| m.clearance_between),
     ("acceleration_over_s", |m| m.acceleration_over),
     ("min_edge_between_m", |m| m.edge_between),
+    ("acceleration_unresolved_m_s2", |m| Some(m.acceleration_unresolved?.by)),
+    ("acceleration_step", |m| Some(m.acceleration_unresolved?.step)),
+    ("acceleration_step_over_s", |m| Some(m.acceleration_unresolved?.over)),
 ];
 
 fn leg_source_word(source: LegSource) -> &'static str {
@@ -138,10 +142,11 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let between = optional_column(table, BETWEEN)?;
-    let [over_between, clear_between, mean_over, edge_between] =
+    let [over_between, clear_between, mean_over, edge_between, unresolved, step, step_over] =
         BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
     let (over_between, clear_between) = (over_between?, clear_between?);
     let (mean_over, edge_between) = (mean_over?, edge_between?);
+    let (unresolved, step, step_over) = (unresolved?, step?, step_over?);
     let no_deviation = flags(table, NO_DEVIATION)?;
     let no_acceleration = flags(table, NO_ACCELERATION)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
@@ -180,6 +185,10 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 mean_deviation,
                 max_acceleration,
                 t_acceleration,
+                acceleration_unresolved: unresolved[row]
+                    .zip(step[row])
+                    .zip(step_over[row])
+                    .map(|((by, step), over)| Unresolved { by, step, over }),
                 max_speed_rate,
                 total_time,
                 overshoots: overshoots[row].clone(),

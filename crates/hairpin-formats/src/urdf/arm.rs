@@ -193,6 +193,7 @@ impl Built {
             self.say(format!("link {link} ({}) is a stand-in: no <collision>", named.join(", ")));
             self.stand_in(link);
         }
+        std::mem::take(&mut self.masses.said).into_iter().for_each(|sentence| self.say(sentence));
         if let Some(link) = self.masses.of_all_or_none() {
             let named: Vec<String> = names[link].iter().take(3).map(|name| format!("`{}`", told(name))).collect();
             self.say(format!(

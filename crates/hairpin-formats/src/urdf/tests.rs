@@ -322,6 +322,48 @@ fn masses_of_joined_links_are_joined() {
     assert!((last.inertia_kg_m2[2] - 0.2 - 4.0 * 0.036 * 0.036).abs() < 1e-12);
 }
 
+/// Principal moments keep the triangle inequality, within what the last digits leave open.
+#[test]
+fn tensors_that_no_body_has_are_refused() {
+    let told_of = |inertia: &str| {
+        let mut text = irb120();
+        for k in 1..=6 {
+            let inertia = if k == 3 { inertia } else { "ixx='0.1' iyy='0.1' izz='0.1'" };
+            let link = format!("<link name='link_{k}'/>");
+            let inertial = format!("<inertial><mass value='2'/><inertia {inertia}/></inertial>");
+            text = text.replace(&link, &format!("<link name='link_{k}'>{inertial}</link>"));
+        }
+        match read(&text) {
+            Ok(read) => read.description.estimates.into_iter().find(|said| said.contains("no body has them")),
+            Err(error) => Some(format!("refused: {error}")),
+        }
+    };
+    for possible in [
+        "ixx='0.1' iyy='0.2' izz='0.3'",
+        "ixx='0.1' iyy='0.2' izz='0.3' ixy='0' ixz='0' iyz='0'",
+        // A rod, and small parts to three decimals or in powers of ten.
+        "ixx='0.02' iyy='0.02' izz='0'",
+        "ixx='0.000' iyy='0.000' izz='0.001'",
+        "ixx='1.0E-05' iyy='1.1E-05' izz='2.2E-05' ixy='0.1e-5'",
+        "ixx='0' iyy='0' izz='0' ixy='1e-20'",
+    ] {
+        assert_eq!(told_of(possible), None, "{possible}");
+    }
+    let rod = told_of("ixx='0.001' iyy='0.001' izz='5'").unwrap();
+    let words = "link `link_3`: principal moments of inertia 1.0000e-3, 1.0000e-3, 5.0000e0 kg m²: no body has them";
+    assert!(rod.starts_with("refused: line ") && rod.contains(words), "{rod}");
+    // Neither is one with a negative principal moment, however harmless its diagonal.
+    let product = told_of("ixx='0.01' iyy='0.01' izz='0.01' ixy='0.5'").unwrap();
+    assert!(product.starts_with("refused: line ") && product.contains("-4.9000e-1, "), "{product}");
+    // Published arms and hands are a little beyond, and are told.
+    for nearly in
+        ["ixx='0.1001' iyy='0.2002' izz='0.3106'", "ixx='0.00730620018' iyy='0.00429974291' izz='0.00202306691'"]
+    {
+        let said = told_of(nearly).unwrap();
+        assert!(said.starts_with("link `link_3`: principal moments"), "{said}");
+    }
+}
+
 /// What is joined to a link hides nothing: each link's mass and moments are held to their bounds.
 #[test]
 fn negative_masses_are_refused_where_they_stand() {

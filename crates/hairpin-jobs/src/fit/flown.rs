@@ -9,6 +9,7 @@ use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Progress, Sample};
 use hairpin_formats::missions::Frame;
 use hairpin_formats::placement::Placement;
+use hairpin_formats::velocities::disagreement;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::check::read_about_home;
@@ -181,6 +182,11 @@ fn track(log: &InWorld, case: &Case) -> Result<Track, String> {
         let attitude = sample.attitude.unwrap_or_else(UnitQuaternion::identity);
         Isometry3::from_parts(sample.p_m.into(), attitude)
     };
-    let times = samples.iter().map(|sample| sample.t_s - first).collect();
-    Track::new(times, samples.iter().map(pose).collect(), channels).map_err(|error| error.to_string())
+    let times: Vec<f64> = samples.iter().map(|sample| sample.t_s - first).collect();
+    let poses: Vec<_> = samples.iter().map(pose).collect();
+    let told: Option<Vec<[f64; 3]>> = samples.iter().map(|sample| sample.v_m_s.map(Into::into)).collect();
+    if let Some(unlike) = told.and_then(|told| disagreement(&times, &poses, &told)) {
+        return Err(format!("{}: leave velocities out where they are not known", unlike.in_words()));
+    }
+    Track::new(times, poses, channels).map_err(|error| error.to_string())
 }

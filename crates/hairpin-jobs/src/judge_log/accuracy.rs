@@ -1,6 +1,7 @@
-//! How well each sample of a log knows its place.
+//! How well each sample of a log knows its place, and in which steps it tells that.
 
-use hairpin_formats::logs::Sample;
+use hairpin::judgement::{Resolution, Step};
+use hairpin_formats::logs::{LoggedMotion, Sample};
 
 /// Horizontal and vertical standard deviation of each sample, m, and what is to be told of it; none of a log that tells
 /// nothing of any.
@@ -19,4 +20,17 @@ pub(super) fn accuracies(samples: &[Sample]) -> (Vec<Option<[f64; 2]>>, Option<S
     );
     let all = samples.iter().map(|sample| sample.accuracy_m.or(Some(least))).collect();
     (all, (untold > 0).then_some(note))
+}
+
+/// The steps in which the log tells its numbers, in its own frame: turned into the world's they are as long and no
+/// longer to be seen.
+pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
+    let of = |value: &dyn Fn(&Sample, usize) -> f64| {
+        Step::of(&[0, 1, 2].map(|axis| motion.samples.iter().map(|sample| value(sample, axis)).collect()))
+    };
+    let velocities = motion.samples.iter().all(|sample| sample.v_m_s.is_some());
+    Resolution {
+        place: of(&|sample, axis| sample.p_m[axis]),
+        velocity: if velocities { of(&|sample, axis| sample.v_m_s.map_or(0.0, |v| v[axis])) } else { Step::default() },
+    }
 }

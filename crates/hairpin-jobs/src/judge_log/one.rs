@@ -4,12 +4,13 @@ use std::path::Path;
 
 use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
-use hairpin::judgement::{Reference, Settings, legs_of_samples};
+use hairpin::judgement::{Reference, Resolution, Settings, legs_of_samples};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample, Span};
+use hairpin_formats::velocities::disagreement;
 use nalgebra::Isometry3;
 
-use super::accuracy::accuracies;
+use super::accuracy::{accuracies, resolution};
 use super::again::{again, of_flight};
 use super::against::{Of, Ready};
 use super::asked;
@@ -60,6 +61,7 @@ pub(super) fn judge(
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
     let mut samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
+    let unlike = believe_velocities(&mut samples);
     let lift_m = settings.frame.offset_m[2];
     let heights = Heights::of(&against.setup, (&logged.frame, motion), lift_m).filter(|_| against.in_world);
     let unstable = heights.as_ref().map_or_else(Vec::new, |heights| heights.put(&mut samples));
@@ -106,6 +108,7 @@ pub(super) fn judge(
         notes.push("the items of the log's mission are not the waypoints: legs are assigned".into());
     }
     notes.extend(heights_told);
+    notes.extend(unlike);
     notes.extend(again_s.map(told::again));
     notes.extend(left_out.as_ref().map(LeftOut::in_words));
     let (accuracy, untold) = accuracies(&left.samples);
@@ -131,7 +134,11 @@ pub(super) fn judge(
         notes,
     };
     let whole = against.whole(case)?;
-    let log = if left.samples.len() >= 2 { Some(judged.to_judge(&left, accuracy, &whole)?) } else { None };
+    let log = if left.samples.len() >= 2 {
+        Some(judged.to_judge(&left, (accuracy, resolution(motion)), &whole)?)
+    } else {
+        None
+    };
     if let Some(log) = &log {
         found.notes.extend(against.setup.backwards(&whole, &log.flight.track));
         let mut flown = judge_flown(&against.setup, &whole, log).map_err(Problem::input)?;
@@ -158,6 +165,18 @@ pub(super) fn judge(
         Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),
     }
+}
+
+/// Leaves out velocities that are not those of the positions beside them, and tells so: who believes them judges
+/// accelerations that nobody had, and what may hide between samples by a motion that there was not.
+fn believe_velocities(samples: &mut [Sample]) -> Option<String> {
+    let velocities: Vec<[f64; 3]> = samples.iter().map(|sample| sample.v_m_s.map(Into::into)).collect::<Option<_>>()?;
+    let times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
+    let pose = |sample: &Sample| Isometry3::from_parts(sample.p_m.into(), sample.attitude.unwrap_or_default());
+    let poses: Vec<_> = samples.iter().map(pose).collect();
+    let found = disagreement(&times, &poses, &velocities)?;
+    samples.iter_mut().for_each(|sample| sample.v_m_s = None);
+    Some(format!("{}: its velocities are not believed, it is judged by positions alone", found.in_words()))
 }
 
 /// Refuses a log of which no sample lies within `farthest` m of the world's origin: as of missions, it is of another
@@ -305,12 +324,18 @@ impl Judging<'_> {
         channels.retain(|channel| channel.name != "leg");
         channels.push(self.assigned(&with(channels.clone())?, whole, &[]).ok()?);
         let flight = Flight { track: with(channels)?, ..flight };
-        let log = Log { flight, breaks: Vec::new(), accuracy: Vec::new(), in_world: false };
+        let resolution = Resolution::default();
+        let log = Log { flight, breaks: Vec::new(), accuracy: Vec::new(), resolution, in_world: false };
         Some(judge_flown(&self.against.setup, whole, &log).ok()?.measures.max_deviation)
     }
 
     /// What is left as a log to be judged, of the case with its plan.
-    fn to_judge(&self, left: &Left, accuracy: Vec<Option<[f64; 2]>>, whole: &Case) -> Result<Log, Problem> {
+    fn to_judge(
+        &self,
+        left: &Left,
+        (accuracy, resolution): (Vec<Option<[f64; 2]>>, Resolution),
+        whole: &Case,
+    ) -> Result<Log, Problem> {
         let samples = &left.samples;
         let column = |name: &str, of: &dyn Fn(&Sample) -> f64| Channel {
             name: name.into(),
@@ -339,7 +364,7 @@ impl Judging<'_> {
         }
         let reached = vec![Some(0.0); self.case.waypoints.len()];
         let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
-        Ok(Log { flight, breaks: left.breaks.clone(), accuracy, in_world: self.against.in_world })
+        Ok(Log { flight, breaks: left.breaks.clone(), accuracy, resolution, in_world: self.against.in_world })
     }
 }
 

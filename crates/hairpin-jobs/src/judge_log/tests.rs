@@ -123,6 +123,41 @@ fn what_keeps_its_limit_passes_and_what_does_not_fails() {
     assert!(found.finished && found.legs_by == LegsBy::Assigned);
 }
 
+/// Velocities that contradict the positions beside them judge nothing, whether they are 0 throughout or lack a sway.
+#[test]
+fn velocities_are_believed_where_they_are_those_of_the_positions() {
+    let limit = &[("spec.acceleration.max_m_s2", "5")];
+    let judged = |sway: f64, velocity: &dyn Fn(f64) -> Vector3<f64>| {
+        let rate = 50.0;
+        let omega = 4.0 * std::f64::consts::PI;
+        let at = |t: f64| corners()[0] + Vector3::new(10.0 - 10.0 * (0.3 * t).cos(), 0.0, sway * (omega * t).sin());
+        let of = |i: usize| {
+            let t_s = i as f64 / rate;
+            Sample { t_s, p_m: at(t_s), attitude: None, v_m_s: Some(velocity(t_s)), accuracy_m: None }
+        };
+        let samples: Vec<Sample> = (0..=500).map(of).collect();
+        let mut logged = log(rate, 0.0);
+        logged.motions = vec![motion("vehicle_local_position", Source::Estimate, samples)];
+        let found = judged_as(&logged, |settings, here| *settings = super::tests::settings(here, limit)).unwrap();
+        let found = found.found.unwrap();
+        let flown = found.flown.unwrap();
+        let broken: Vec<String> = flown.violations.iter().map(|violation| violation.what.clone()).collect();
+        (broken, found.notes.iter().any(|note| note.contains("its velocities are not believed")), flown.measures)
+    };
+    let smooth = |t: f64| Vector3::new(3.0 * (0.3 * t).sin(), 0.0, 0.0);
+    let (broken, told, measures) = judged(0.05, &smooth);
+    assert!(broken == ["acceleration"] && told && (measures.max_acceleration - 7.9).abs() < 0.2, "{broken:?}");
+    let (broken, told, measures) = judged(0.0, &|_| Vector3::zeros());
+    assert!(broken.is_empty() && told && (measures.max_acceleration - 0.9).abs() < 0.05, "{broken:?}");
+    let swaying = |t: f64| {
+        let omega = 4.0 * std::f64::consts::PI;
+        smooth(t) + Vector3::new(0.0, 0.0, 0.05 * omega * (omega * t).cos())
+    };
+    let (broken, told, _) = judged(0.05, &swaying);
+    assert!(broken == ["acceleration"] && !told);
+    assert!(!judged(0.0, &smooth).1);
+}
+
 /// Ten samples a second: at a bound of a m/s² up to a/800 m hide between two.
 #[test]
 fn what_may_hide_between_samples_is_open_and_the_rate_that_decides_is_named() {

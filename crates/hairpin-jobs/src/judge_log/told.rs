@@ -6,8 +6,8 @@ use hairpin::campaign::missed::Missed;
 use hairpin::campaign::scenario::Asked;
 use hairpin::campaign::{Doubt, Exceeded, Flown, Setup, Why};
 use hairpin::judgement::{
-    AccelerationSource, SEEN_WITHIN_S, Verdict, Violation, finding, inconclusive, invalid, unjudged, violated,
-    within_spec,
+    AccelerationSource, SEEN_WITHIN_S, Verdict, Violation, finding, inconclusive, invalid, told_outward, unjudged,
+    violated, within_spec,
 };
 use hairpin::math::decimals::that_differ;
 use hairpin_formats::quote::shortened;
@@ -120,7 +120,10 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
         let best = nearest(flown).into_iter().collect::<Vec<_>>();
         return (Outcome::Inconclusive, inconclusive(case, how, &with(why, &best)));
     }
-    let between = flown.limits.deviation.map(|_| format!("at most {:.2} m between samples", flown.most_between));
+    let between = flown
+        .limits
+        .deviation
+        .map(|limit| format!("at most {} m between samples", told_outward(flown.most_between, limit, "m", false)));
     let best = nearest(flown).unwrap_or_else(|| "within all limits".into());
     (Outcome::Pass, within_spec(case, how, &with(best, &between.into_iter().collect::<Vec<_>>())))
 }
@@ -218,6 +221,9 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             }
         }
         Why::Impossible(found) => found.in_words(),
+        Why::Resolution(unresolved, source) => {
+            format!("{value}, but its {}; log more digits, or velocities", unresolved.in_words(source))
+        }
         Why::Mean(span) => {
             let rate = found.source.rate_hz;
             format!(
@@ -229,7 +235,7 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         }
         Why::Between { most, rate_hz } if most.is_finite() => {
             let bounds = found.flown.as_ref().map_or(String::new(), bounds);
-            let most = apart(most, doubt.value.limit);
+            let most = told_outward(most, doubt.value.limit, "m", doubt.value.is_lower_limit());
             format!(
                 "{value} in samples at {}, but {most} m may hide between two of them{bounds}; {}",
                 hertz(found.source.rate_hz),
@@ -280,12 +286,6 @@ fn bounds(flown: &Flown) -> String {
     let exceeded = flown.exceeded.as_ref().map(in_numbers);
     let parts: Vec<String> = speed.into_iter().chain(acceleration).chain(exceeded).collect();
     if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
-}
-
-/// A number with as many decimals as it takes to tell it from its limit.
-fn apart(value: f64, limit: f64) -> String {
-    let decimals = that_differ(value, limit, 2..=6);
-    format!("{value:.decimals$}")
 }
 
 fn digits(sigma: f64) -> String {

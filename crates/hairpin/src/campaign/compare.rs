@@ -69,7 +69,8 @@ pub struct MetricChange {
     /// The interval that covers it at [`CONFIDENCE`], whatever the distribution; fewer than six pairs have none.
     pub interval: Option<[f64; 2]>,
     /// Matched-pairs rank biserial correlation of B − A, −1 … 1.
-    /// (R⁺ − R⁻)/(R⁺ + R⁻) over the ranks of |B − A|, zeros left out: 1 where every pair rose.
+    /// (R⁺ − R⁻)/(R⁺ + R⁻) over the ranks of |B − A|, ties of [`compare`]'s tolerance left out: 1 where every pair
+    /// rose.
     pub rank_biserial: f64,
     /// Wilcoxon's signed-rank test, two-sided.
     pub p: f64,
@@ -127,7 +128,8 @@ impl Comparison {
 
 /// Compares judged cases of two campaigns. Pairs have the same number, the same seed, the same waypoints to the bit and
 /// the same environment. Two runs that both pass or both fail are told apart by whether they crashed, then by their
-/// largest deviation, of which `tolerance` (m) is no difference.
+/// largest deviation, of which `tolerance` (m) is no difference; it is none of any metric in metres either, nor is what
+/// differs from the tenth digit on of any metric: such pairs are ties of its test.
 pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f64) -> Comparison {
     let by_number = |side: &[(Case, CaseResult)]| -> BTreeMap<CaseNumber, usize> {
         side.iter().enumerate().map(|(index, (case, _))| (case.number, index)).collect()
@@ -154,7 +156,7 @@ pub fn compare(a: &[(Case, CaseResult)], b: &[(Case, CaseResult)], tolerance: f6
     }
     found.pairs = pairs.len();
     pairs.retain(|(a, b)| found.take(a, b, tolerance));
-    found.metrics = metrics(&pairs);
+    found.metrics = metrics(&pairs, tolerance);
     found
 }
 
@@ -216,8 +218,8 @@ const METRICS: [Metric; 10] = [
     ("max_late_s", |m| m.latest.map(|late| late.by), true),
 ];
 
-fn metrics(pairs: &[(&CaseResult, &CaseResult)]) -> Vec<MetricChange> {
-    let mut found: Vec<MetricChange> = METRICS.iter().filter_map(|metric| change(metric, pairs)).collect();
+fn metrics(pairs: &[(&CaseResult, &CaseResult)], tolerance: f64) -> Vec<MetricChange> {
+    let mut found: Vec<MetricChange> = METRICS.iter().filter_map(|metric| change(metric, pairs, tolerance)).collect();
     let corrected = holm(&found.iter().map(|metric| metric.p).collect::<Vec<_>>());
     for (metric, p) in found.iter_mut().zip(corrected) {
         let more_is_worse = METRICS.iter().any(|(name, _, worse)| name == &metric.metric && *worse);
@@ -231,12 +233,18 @@ fn metrics(pairs: &[(&CaseResult, &CaseResult)]) -> Vec<MetricChange> {
     found
 }
 
-fn change(&(metric, value, _): &Metric, pairs: &[(&CaseResult, &CaseResult)]) -> Option<MetricChange> {
+/// What two equal runs may differ by as they are computed and written, of the larger of both values.
+const WRITTEN: f64 = 1e-9;
+
+fn change(&(metric, value, _): &Metric, pairs: &[(&CaseResult, &CaseResult)], tolerance: f64) -> Option<MetricChange> {
     let of = |result: &CaseResult| result.measures.as_ref().and_then(value).filter(|value| value.is_finite());
     let values: Vec<(f64, f64)> = pairs.iter().filter_map(|(a, b)| Some((of(a)?, of(b)?))).collect();
     let (a, b): (Vec<f64>, Vec<f64>) = values.iter().copied().unzip();
     let differences: Vec<f64> = values.iter().map(|(a, b)| b - a).collect();
-    let (difference, tested) = (median(&differences, CONFIDENCE)?, signed_rank(&differences)?);
+    let least = if metric.ends_with("_m") { tolerance } else { 0.0 };
+    let is_tie = |(a, b): &(f64, f64)| (b - a).abs() <= least.max(WRITTEN * a.abs().max(b.abs()));
+    let ranked: Vec<f64> = values.iter().map(|pair| if is_tie(pair) { 0.0 } else { pair.1 - pair.0 }).collect();
+    let (difference, tested) = (median(&differences, CONFIDENCE)?, signed_rank(&ranked)?);
     Some(MetricChange {
         metric,
         pairs: values.len(),
@@ -359,5 +367,25 @@ mod tests {
         assert!(!compare(&a, &side(&mixed, 9.0), 0.0).regresses());
         let interval = worse.metrics[0].interval.unwrap();
         assert!(interval[0] <= 0.0155 && 0.0155 <= interval[1], "{interval:?}");
+    }
+
+    /// Pairs within the tolerance are ties of the test, however many lean to one side.
+    #[test]
+    fn what_is_within_the_tolerance_is_no_regression() {
+        let before: Vec<f64> = (0..12).map(|i| 0.1 + 0.01 * f64::from(i)).collect();
+        let by = |more: f64| side(&before.iter().map(|d| d + more).collect::<Vec<_>>(), 9.0);
+        let a = side(&before, 9.0);
+        assert!(compare(&a, &by(0.001), 0.0).regresses() && compare(&a, &by(0.001), 0.0009).regresses());
+        let none = compare(&a, &by(0.001), 0.01);
+        assert!(!none.regresses() && none.metrics[0].p == 1.0 && none.metrics[0].rank_biserial == 0.0, "{none:?}");
+        assert!((none.metrics[0].median_difference - 0.001).abs() < 1e-9 && none.unchanged == 12);
+        // What rounds in the last digits is none without any.
+        assert!(!compare(&a, &by(1e-11), 0.0).regresses());
+        // The tolerance is of metres.
+        let mut slower = by(0.0);
+        for (_, result) in &mut slower {
+            result.measures.as_mut().unwrap().total_time = 0.005;
+        }
+        assert!(compare(&a, &slower, 0.01).regresses());
     }
 }

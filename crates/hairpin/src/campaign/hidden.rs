@@ -9,8 +9,8 @@ use nalgebra::Point3;
 use super::Setup;
 use super::missed::radii;
 use crate::judgement::{
-    JudgementError, Limits, Measures, Reference, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen, longest_mean,
-    look_closely, measure, most_anywhere, told,
+    JudgementError, Limits, Measures, Reference, Resolution, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen,
+    longest_mean, look_closely, measure, most_anywhere, told, told_outward,
 };
 use crate::trajectory::Track;
 
@@ -26,11 +26,12 @@ pub(super) fn sampled(
     waypoints: &[Point3<f64>],
     settings: &Settings,
 ) -> Result<Measures, JudgementError> {
-    let mut measures = measure(track, waypoints, settings)?;
     // Programs of arms are looked at move by move.
     if setup.program().is_none() || setup.has_programs() {
-        return Ok(measures);
+        return measure(track, waypoints, settings);
     }
+    let settings = &Settings { resolution: Resolution::of(track), ..*settings };
+    let mut measures = measure(track, waypoints, settings)?;
     measures.waypoints_within = radii(track, waypoints);
     let acceleration = setup.swiftness().acceleration;
     let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
@@ -43,11 +44,12 @@ pub(super) fn sampled(
             let steps = track.times().windows(2).map(|pair| swiftness.bulge(pair[1] - pair[0], 0.0));
             measures.max_overshoot() + steps.fold(0.0, f64::max)
         }
-        _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg| beyond(waypoints, p, leg)).max(0.0),
+        _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg, around| beyond(waypoints, p, leg, around))
+            .max(0.0),
     };
     measures.overshoot_between = Some(overshoot).filter(|most| most.is_finite());
     let nearest = |clearance: &dyn Fn(&Point3<f64>) -> f64| {
-        -most_anywhere(track, &close, settings, &swiftness, &|p, _| -clearance(p))
+        -most_anywhere(track, &close, settings, &swiftness, &|p, _, _| -clearance(p))
     };
     measures.clearance_between =
         settings.clearance.map(|clearance| nearest(clearance)).filter(|least| least.is_finite());
@@ -85,7 +87,7 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     };
     let open = |name: &str, value: f64, limit: f64, most: f64| {
         let (seen, rate) = (told(value, Some(limit), "m"), rate((limit - value).abs()));
-        let most = told(most, Some(limit), "m");
+        let most = told_outward(most, limit, "m", most < value);
         format!("{name}{seen} m at its poses, but {most} m may hide between two of them{rate}")
     };
     let above = |name: &str, limit: Option<f64>, value: f64, most: Option<f64>| {
@@ -103,7 +105,7 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     };
     let edge = || {
         let least = measures.edge_between.filter(|least| *least < 0.0 && limits.are_given())?;
-        let beyond = told(-least, Some(0.0), "m");
+        let beyond = told_outward(-least, 0.0, "m", false);
         Some(format!(
             "it may have left the world: between two of its poses it may be {beyond} m beyond the edge; more poses a \
              second decide"
@@ -135,12 +137,21 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
              a second decide"
         ))
     };
+    let rounded = || {
+        let (value, limit) = (measures.acceleration()?, limits.acceleration?);
+        let unresolved = measures.acceleration_unresolved.filter(|unresolved| unresolved.decides(value, limit))?;
+        let side = if value > limit { ">" } else { "≤" };
+        let (seen, limit) = (told(value, Some(limit), "m/s²"), told(limit, Some(value), "m/s²"));
+        let why = unresolved.in_words(measures.acceleration_source);
+        Some(format!("acceleration {seen} {side} {limit} m/s², but its {why}; more digits decide"))
+    };
     let all = [
         above("", limits.deviation, measures.max_deviation, measures.most_between),
         above("overshoot ", limits.overshoot, measures.max_overshoot(), measures.overshoot_between),
         below(limits.clearance).or_else(contact),
         edge(),
         unseen(),
+        rounded(),
         mean(),
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();
@@ -319,6 +330,14 @@ mod tests {
             why.contains(" m/s² is a mean over as much as 2.00 s") && why.ends_with("; 4 poses a second decide"),
             "{why}"
         );
+        // Told in steps of 0.1 m, 0.25 s apart: up to 5.5 m/s².
+        let why = judged_by(&program, 0.25, &limits).1.unwrap();
+        assert!(
+            why == "acceleration 0.00 ≤ 5.00 m/s², but its positions are told in steps of 0.1 m: 0.25 s apart that can \
+                    make 5.5 m/s²; more digits decide",
+            "{why}"
+        );
+        let limits = Limits { acceleration: Some(6.0), ..Limits::default() };
         assert_eq!(judged_by(&program, 0.25, &limits).1, None);
     }
 }

@@ -15,6 +15,20 @@ pub fn told(value: f64, limit: Option<f64>, unit: &str) -> String {
     apart(value, limit.unwrap_or(f64::NAN), limit.map_or(least(unit), |limit| decimals_of(limit, least(unit)))).0
 }
 
+/// A bound of `unit` as [`told`] beside `limit`, and none of whose digits makes it tighter than it is: rounded up, and
+/// down of a lower bound, `below`.
+///
+/// What a double rounds is no digit.
+pub fn told_outward(bound: f64, limit: f64, unit: &str, below: bool) -> String {
+    let near = told(bound, Some(limit), unit);
+    let decimals = near.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let (one, sign) = (libm::exp10(-(decimals as f64)), if below { -1.0 } else { 1.0 });
+    match near.parse::<f64>() {
+        Ok(number) if sign * (bound - number) > 1e-6 * one => format!("{:.decimals$}", number + sign * one + 0.0),
+        _ => near,
+    }
+}
+
 /// Decimals that every number of `unit` has.
 pub(super) fn least(unit: &str) -> usize {
     if unit == "°" { 1 } else { 2 }
@@ -64,6 +78,14 @@ mod tests {
     fn limits_keep_the_digits_that_they_were_given_with() {
         assert_eq!([0.5, 0.025, 10.0, 1e3 * 0.0101, 0.0004].map(|limit| decimals_of(limit, 2)), [2, 3, 2, 2, 4]);
         assert_eq!((decimals_of(0.483_726_15, 2), decimals_of(10.0, 1)), (2, 1));
+    }
+
+    #[test]
+    fn bounds_are_rounded_outward() {
+        let above = [0.403_94, 0.41, 0.400_1, 0.5, f64::INFINITY].map(|bound| told_outward(bound, 0.5, "m", false));
+        assert_eq!(above, ["0.41", "0.41", "0.41", "0.50", "inf"]);
+        assert_eq!(told_outward(0.500_94, 0.5, "m", false), "0.501");
+        assert_eq!([-0.231, 0.239].map(|bound| told_outward(bound, 0.3, "m", true)), ["-0.24", "0.23"]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::carried_on::counts_beyond;
 use super::deviation::{Off, deviations, legs_flown};
 use super::measure::{check, time_weights};
 use super::settings::{JudgementError, Reference, Settings};
@@ -124,8 +125,9 @@ pub fn most_between(
     halved(value, ends, 10, &decided) + bulge
 }
 
-/// The largest value, at and between all samples, of a function of places and legs that changes by no more than the
-/// way; −∞ of no sample. Where the leg changes between two samples it changes where that is least.
+/// The largest value, at and between all samples, of a function of places, legs and what is around the place that
+/// changes by no more than the way; −∞ of no sample. Where the leg changes between two samples it changes where that is
+/// least.
 ///
 /// An upper bound, within a millimetre of what the samples and [`Swiftness::bulge`] allow. Only intervals that may have
 /// the largest value are halved.
@@ -134,9 +136,13 @@ pub fn most_anywhere(
     close: &[Close],
     settings: &Settings,
     swiftness: &Swiftness,
-    of: &dyn Fn(&Point3<f64>, usize) -> f64,
+    of: &dyn Fn(&Point3<f64>, usize, Around<'_>) -> f64,
 ) -> f64 {
-    let values: Vec<f64> = (0..track.len()).map(|i| of(&track.position(i), close[i].leg)).collect();
+    let at = |i: usize| {
+        let p = track.position(i);
+        of(&p, close[i].leg, Around { places: &[p], within: 0.0 })
+    };
+    let values: Vec<f64> = (0..track.len()).map(at).collect();
     let pairs = (0..track.len()).filter_map(|i| {
         let (_, next) = settings.neighbours(i, track.len());
         let chord = (track.position(next) - track.position(i)).norm();
@@ -151,9 +157,10 @@ pub fn most_anywhere(
     let mut most = least;
     for (i, next, bulge) in pairs {
         let ends = [i, next].map(|k| track.position(k));
+        let around = Around { places: &ends, within: 0.5 * (ends[1] - ends[0]).norm() + bulge };
         let on = |leg: usize| {
             let near = |bound: f64, at_ends: f64| bound <= at_ends.max(least - bulge) + 1e-3;
-            halved(&|p| of(p, leg), ends.map(|p| (p, of(&p, leg))), 10, &near) + bulge
+            halved(&|p| of(p, leg, around), ends.map(|p| (p, of(&p, leg, around))), 10, &near) + bulge
         };
         most = most.max(where_least([close[i].leg, close[next].leg], on));
     }
@@ -166,24 +173,32 @@ pub(crate) fn where_least([from, to]: [usize; 2], bound: impl Fn(usize) -> f64) 
     if from == to { bound(from) } else { bound(from).min(bound(to)) }
 }
 
-/// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and the one before; it changes by
-/// no more than the way.
-pub fn beyond(waypoints: &[Point3<f64>], p: &Point3<f64>, leg: usize) -> f64 {
-    let way = |leg: usize| waypoints[leg + 1] - waypoints[leg];
-    let from = |leg: usize, place: &Point3<f64>| {
-        way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - place).dot(&direction))
-    };
-    let own = from(leg, &waypoints[leg + 1]);
-    let before = (leg > 0).then(|| from(leg - 1, &nearest_point(p, &waypoints[leg], &waypoints[leg + 1])));
-    before.map_or(own, |before| own.max(before))
+/// Places that a motion is never farther from than `within`, m: those of a sample, or of both ends of an interval.
+#[derive(Debug, Clone, Copy)]
+pub struct Around<'a> {
+    /// The places.
+    pub places: &'a [Point3<f64>],
+    /// m.
+    pub within: f64,
 }
 
-/// An acceleration is seen that lasts as long, s: a mean over more hides what a robot does in one turn.
-pub const SEEN_WITHIN_S: f64 = 0.5;
-
-/// Whether a mean over `span` s shows an acceleration; stamps are rounded.
-pub fn is_seen(span: f64) -> bool {
-    span <= SEEN_WITHIN_S + 1e-6
+/// How far (m) `p`, on leg `leg`, is beyond its place in the directions of that leg and, where anything `around` it is
+/// still carried on, the one before ([`super::measure()`]); it changes by no more than the way.
+///
+/// The same `around` of all places that are compared.
+pub fn beyond(waypoints: &[Point3<f64>], p: &Point3<f64>, leg: usize, around: Around<'_>) -> f64 {
+    let way = |leg: usize| waypoints[leg + 1] - waypoints[leg];
+    let from = |leg: usize, p: &Point3<f64>, place: &Point3<f64>| {
+        way(leg).try_normalize(0.0).map_or(0.0, |direction| (p - place).dot(&direction))
+    };
+    let own = from(leg, p, &waypoints[leg + 1]);
+    let Some(last) = leg.checked_sub(1) else { return own };
+    let on = |p: &Point3<f64>| nearest_point(p, &waypoints[leg], &waypoints[leg + 1]);
+    let carried = |p: &Point3<f64>| {
+        let place = on(p);
+        counts_beyond(from(last, p, &place), (place - waypoints[leg]).norm(), around.within)
+    };
+    if around.places.iter().any(carried) { own.max(from(last, p, &on(p))) } else { own }
 }
 
 /// The longest time that an acceleration of `track` is a mean over, s; 0 where there is none.

@@ -130,10 +130,15 @@ pub(super) fn draws_sentence(failed: usize, of: usize, confidence: f64) -> Optio
     Some(if failed == 0 { words } else { format!("{failed} of {of} draws of `[vary]` violate: {words}") })
 }
 
-/// No failure at all is told by the rule of three at 95 %, whatever the confidence: 3/N.
+/// No failure at all is told by the rule of three at 95 %, 3/N, and by −ln(1 − c)/N at any other confidence c.
 fn share_words(share: Share, (failed, of): (usize, usize), confidence: f64, what: &str) -> String {
     if failed == 0 {
-        return format!("no violation in {of} {what}: share at most {} % (3/N, 95 %)", percent(rule_of_three(of)));
+        let no = format!("no violation in {of} {what}: share at most");
+        if confidence == 0.95 {
+            return format!("{no} {} % (3/N, 95 %)", percent(rule_of_three(of)));
+        }
+        let (three, at) = (-libm::log1p(-confidence), trimmed(100.0 * confidence));
+        return format!("{no} {} % ({three:.1}/N, {at} %)", percent((three / of as f64).min(1.0)));
     }
     let confidence = if confidence == 0.95 { String::new() } else { format!(" at {} %", trimmed(100.0 * confidence)) };
     let (value, low, high) = (percent(share.value), percent(share.low), percent(share.high));
@@ -176,6 +181,15 @@ mod tests {
         assert_eq!(words(Chosen::Given, 200), "200 of 200 given violate");
         assert_eq!(words(Chosen::Selected, 1), "1 of 200 selected violate");
         assert_eq!(count(Chosen::Searched, 0, 0).sentence(Some(0.1)), None);
+    }
+
+    #[test]
+    fn no_failure_is_told_at_the_confidence_that_was_asked_for() {
+        let words = |confidence| Count { confidence, ..count(Chosen::AtRandom, 0, 200) }.sentence(None).unwrap();
+        assert_eq!(words(0.99), "no violation in 200 cases: share at most 2.3 % (4.6/N, 99 %)");
+        assert_eq!(words(0.5), "no violation in 200 cases: share at most 0.3 % (0.7/N, 50 %)");
+        let draws = "no violation in 2 draws of `[vary]`: share at most 100.0 % (4.6/N, 99 %)";
+        assert_eq!(draws_sentence(0, 2, 0.99).as_deref(), Some(draws));
     }
 
     #[test]

@@ -4,9 +4,11 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::carried_on::counts_beyond;
 use super::deviation::{Off, deviations, legs_along, legs_flown};
+use super::resolution::{AccelerationSource, SEEN_WITHIN_S, Unresolved};
 use super::settings::{JudgementError, Reference, Settings};
-use super::{AccelerationSource, LegMeasures, Measures};
+use super::{LegMeasures, Measures};
 use crate::math::segment::nearest_point;
 use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 
@@ -19,10 +21,12 @@ use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 ///   flown, and q_i = the point of leg k's segment nearest to p_i while leg k is flown; against a path
 ///   ([`super::Reference::Path`]) q_i = its place for p_i in both cases: how far the robot is carried on in the
 ///   direction in
-///   which it came, beyond where it should be. Going straight on is no overshoot;
+///   which it came, beyond where it should be. Samples count while ‖q_i − w_k‖ ≤ 5 (p_i − q_i)·u_k−1, while the robot,
+///   seen from the waypoint, is still carried on: who rests there, turns and strays farther along the next leg, strays.
+///   Going straight on is no overshoot;
 /// - acceleration ‖v_i+1 − v_i−1‖/(t_i+1 − t_i−1) with the channels `vx_m_s`, `vy_m_s`, `vz_m_s` (one-sided at the
 ///   ends), or the second divided difference of positions where they are missing; speed rate: |‖v_i+1‖ − ‖v_i−1‖| over
-///   the same time;
+///   the same time. Of what is told in steps rows farther apart are looked at too ([`Settings::resolution`]);
 /// - tip-over margin: least value of the channel `tip_over_margin_deg`;
 /// - tilt: 2 asin √(q_x² + q_y²), the angle between the body's upward axis and the world's; not of tracks with joints,
 ///   whose pose is a tool's;
@@ -210,7 +214,7 @@ fn measure_deviation(measures: &mut Measures, times: &[f64], weights: &[f64], le
 
 /// How far the track got beyond its place, in a leg's direction, (p − p₀)·d (m): for the sample's own leg and, in its
 /// direction, for the one before. p₀ is the sample's place on the path, else the leg's end (for the leg before: its
-/// nearest point).
+/// nearest point). Where that is farther from the leg's end than it is carried on nearby, it is off, not carried on.
 fn measure_overshoot(
     measures: &mut Measures,
     times: &[f64],
@@ -224,6 +228,9 @@ fn measure_overshoot(
     for (i, (p, &leg)) in positions.iter().zip(legs).enumerate() {
         let mut note = |incoming: usize, from: &Point3<f64>| {
             let beyond = beyond_numbers((p - from).dot(&direction(incoming)));
+            if !counts_beyond(beyond, (from - waypoints[incoming + 1]).norm(), 0.0) {
+                return;
+            }
             let found = &mut measures.legs[incoming].overshoot;
             *found = found.max(beyond);
             if beyond > worst {
@@ -242,6 +249,10 @@ fn measure_overshoot(
 
 /// Accelerations |Δv|/Δt (m/s²): over two intervals where the track tells velocities, at its two ends over one; else of
 /// the velocities between three positions. Beside it the rate of the speed alone, |Δ|v||/Δt, which bends leave out.
+///
+/// Of what is told in steps ([`Resolution`](super::Resolution)) rows that are farther apart are looked at as well, up
+/// to [`SEEN_WITHIN_S`] from the first to the last: each is a mean of the acceleration between them, so that none
+/// exceeds the largest. What counts is the one that exceeds most for certain.
 fn measure_acceleration(
     measures: &mut Measures,
     track: &Track,
@@ -251,37 +262,97 @@ fn measure_acceleration(
 ) {
     let times = track.times();
     let columns = ["vx_m_s", "vy_m_s", "vz_m_s"].map(|name| track.channel(name));
-    let told = match columns {
+    let velocities: Option<Vec<Vector3<f64>>> = match columns {
         [Some(x), Some(y), Some(z)] => Some((0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i])).collect()),
         _ => None,
     };
-    let has_velocity = told.is_some();
-    // Without velocities: those between samples, each at the middle of its interval.
-    let between = || (1..times.len()).map(|i| (positions[i] - positions[i - 1]) / (times[i] - times[i - 1])).collect();
-    let velocities: Vec<Vector3<f64>> = told.unwrap_or_else(between);
     measures.acceleration_source =
-        if has_velocity { AccelerationSource::Velocity } else { AccelerationSource::Position };
+        if velocities.is_some() { AccelerationSource::Velocity } else { AccelerationSource::Position };
     measures.missing.acceleration = true;
+    let step = settings.resolution.of_source(measures.acceleration_source);
+    let differing = Differing { times, positions, velocities: velocities.as_deref(), step: step.all };
+    // What is exceeded for certain; of what is told exactly that is the measure itself.
+    let begin = if step.all > 0.0 { f64::NEG_INFINITY } else { 0.0 };
+    let (mut certain, mut rate_certain) = (begin, begin);
+    let mut of_legs = vec![begin; measures.legs.len()];
     for (i, &leg) in legs.iter().enumerate() {
-        let (before, after) = settings.neighbours(i, times.len());
-        let (a, b, span) = if has_velocity {
-            (before, after, times[after] - times[before])
-        } else if before < i && i < after {
-            (i - 1, i, 0.5 * (times[i + 1] - times[i - 1]))
-        } else {
-            continue;
+        let mut reach = 1;
+        while let Some(Differs { acceleration, rate, by, over, whole }) = differing.at(i, reach, settings) {
+            if reach > 1 && whole > SEEN_WITHIN_S {
+                break;
+            }
+            measures.missing.acceleration = false;
+            if acceleration - by > of_legs[leg] {
+                (of_legs[leg], measures.legs[leg].max_acceleration) = (acceleration - by, acceleration);
+            }
+            if rate - by > rate_certain {
+                (rate_certain, measures.max_speed_rate) = (rate - by, rate);
+            }
+            if acceleration - by > certain {
+                (certain, measures.max_acceleration, measures.t_acceleration) =
+                    (acceleration - by, acceleration, times[i]);
+                measures.acceleration_unresolved = (by > 0.0).then_some(Unresolved { by, step: step.each, over });
+            }
+            if step.all == 0.0 {
+                break;
+            }
+            reach += reach.div_ceil(3);
+        }
+    }
+    for leg in &mut measures.legs {
+        leg.max_acceleration = leg.max_acceleration.min(measures.max_acceleration);
+    }
+}
+
+/// Rows that accelerations are differences of.
+struct Differing<'a> {
+    times: &'a [f64],
+    positions: &'a [Point3<f64>],
+    velocities: Option<&'a [Vector3<f64>]>,
+    /// In which the numbers are told, the length of its vector.
+    step: f64,
+}
+
+/// A difference, m/s².
+struct Differs {
+    acceleration: f64,
+    rate: f64,
+    /// What rounding may make of it.
+    by: f64,
+    /// The time between its rows, and from its first to its last, s.
+    over: f64,
+    whole: f64,
+}
+
+impl Differing<'_> {
+    /// Of sample `i` and those that are `reach` before and after it; `None` where they are not all in one piece.
+    fn at(&self, i: usize, reach: usize, settings: &Settings) -> Option<Differs> {
+        let later = settings.breaks.partition_point(|first| *first <= i);
+        let begins = later.checked_sub(1).map_or(0, |before| settings.breaks[before]);
+        let ends = settings.breaks.get(later).map_or(self.times.len(), |first| self.times.len().min(*first));
+        let (before, after) = (i.saturating_sub(reach).max(begins), (i + reach).min(ends - 1));
+        let whole = self.times[after] - self.times[before];
+        let is_whole = before + reach == i && after == i + reach;
+        let (change, rate, span, by, over) = match self.velocities {
+            Some(v) if after > before && (is_whole || reach == 1) => {
+                let rate = (v[after].norm() - v[before].norm()).abs();
+                (v[after] - v[before], rate, whole, self.made_of(1.0 / whole), whole)
+            }
+            None if is_whole => {
+                let (first, second) = (self.times[i] - self.times[before], self.times[after] - self.times[i]);
+                let came = (self.positions[i] - self.positions[before]) / first;
+                let goes = (self.positions[after] - self.positions[i]) / second;
+                let by = self.made_of(2.0 / (first * second));
+                (goes - came, (goes.norm() - came.norm()).abs(), 0.5 * whole, by, 0.5 * whole)
+            }
+            _ => return None,
         };
-        if a == b {
-            continue;
-        }
-        let acceleration = beyond_numbers((velocities[b] - velocities[a]).norm() / span);
-        let rate = beyond_numbers((velocities[b].norm() - velocities[a].norm()).abs() / span);
-        measures.missing.acceleration = false;
-        measures.legs[leg].max_acceleration = measures.legs[leg].max_acceleration.max(acceleration);
-        measures.max_speed_rate = measures.max_speed_rate.max(rate);
-        if acceleration > measures.max_acceleration {
-            (measures.max_acceleration, measures.t_acceleration) = (acceleration, times[i]);
-        }
+        let acceleration = beyond_numbers(change.norm() / span);
+        Some(Differs { acceleration, rate: beyond_numbers(rate / span), by, over, whole })
+    }
+
+    fn made_of(&self, factor: f64) -> f64 {
+        if self.step > 0.0 { self.step * factor } else { 0.0 }
     }
 }
 

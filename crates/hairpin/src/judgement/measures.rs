@@ -1,6 +1,8 @@
 //! What is measured on one executed track against its reference; larger is worse, but for the
 //! clearance and the tip-over margin.
 
+use super::resolution::{AccelerationSource, Unresolved};
+
 /// Where the leg being flown is known from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LegSource {
@@ -9,18 +11,6 @@ pub enum LegSource {
     Executor,
     /// Monotone assignment of the samples along the path.
     Assigned,
-}
-
-/// What accelerations are differences of.
-///
-/// Differences of positions at stamps Δ apart carry noise of σ as √6 σ/Δ²: 1 mm at 100 Hz is 24 m/s².
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AccelerationSource {
-    /// The velocity channels.
-    #[default]
-    Velocity,
-    /// Positions: no velocity was recorded, so noise weighs more.
-    Position,
 }
 
 /// Metrics of one leg.
@@ -110,6 +100,8 @@ pub struct Measures {
     pub max_acceleration: f64,
     /// When it was reached, s.
     pub t_acceleration: f64,
+    /// What the step in which it was recorded leaves open of it; `None` where it was told exactly.
+    pub acceleration_unresolved: Option<Unresolved>,
     /// Largest |d‖v‖/dt|, m/s²: the paper's authors' formula Δ|v|/Δt.
     pub max_speed_rate: f64,
     /// Duration of the run, s.

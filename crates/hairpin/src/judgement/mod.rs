@@ -21,6 +21,7 @@
 mod apart;
 mod assign;
 pub mod between;
+mod carried_on;
 mod chosen;
 mod deviation;
 pub mod measure;
@@ -29,6 +30,7 @@ pub mod moves;
 mod narrow;
 pub mod paired;
 mod quantile;
+mod resolution;
 pub mod settings;
 pub mod spec;
 pub mod statistics;
@@ -39,16 +41,15 @@ pub mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use apart::{decimals_of, told};
+pub use apart::{decimals_of, told, told_outward};
 pub(crate) use between::where_least;
-pub use between::{
-    Close, SEEN_WITHIN_S, Swiftness, beyond, is_seen, longest_mean, look_closely, most_anywhere, most_between,
-};
+pub use between::{Around, Close, Swiftness, beyond, longest_mean, look_closely, most_anywhere, most_between};
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};
-pub use measures::{AccelerationSource, Late, LegMeasures, LegSource, Measures, Missing};
+pub use measures::{Late, LegMeasures, LegSource, Measures, Missing};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use quantile::{Quantile, exceeded_by};
+pub use resolution::{AccelerationSource, Resolution, SEEN_WITHIN_S, Step, Unresolved, is_seen};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, nearest, still_since, violations};
 pub use statistics::{

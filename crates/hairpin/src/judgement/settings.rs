@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use thiserror::Error;
 
+use super::resolution::Resolution;
 use crate::trajectory::Track;
 
 /// What the deviation is the distance from.
@@ -37,6 +38,8 @@ pub struct Settings<'a> {
     pub corner: f64,
     /// Distance to obstacles; without it clearance is not measured.
     pub clearance: Option<&'a Clearance<'a>>,
+    /// The steps in which the recording tells its numbers: what they can make of an acceleration is part of it.
+    pub resolution: Resolution,
     /// Samples, rising, before which the recording has a gap or a jump: nothing is differenced across one, and no time
     /// of it counts. The first sample is none.
     pub breaks: &'a [usize],

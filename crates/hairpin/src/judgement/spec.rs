@@ -157,7 +157,8 @@ impl Violation {
 /// The limits that a run violates, the gravest first: a crash, leaving the world, an unfinished mission, then by
 /// excess over the limit relative to the limit; equals in the order of [`Limits`].
 ///
-/// Relative excess is (value − limit)/|limit|, of a limit of 0 the excess itself.
+/// Relative excess is (value − limit)/|limit|, of a limit of 0 the excess itself. An acceleration that is beyond its
+/// limit by no more than the recording resolves violates nothing.
 ///
 /// ```
 /// use hairpin::judgement::{LegMeasures, Limits, Measures, violations};
@@ -175,7 +176,12 @@ impl Violation {
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
     let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
-    let breaks = |one: &Violation| if one.is_lower_limit() { one.value < one.limit } else { one.value > one.limit };
+    let open = |one: &Violation| {
+        let unresolved = measures.acceleration_unresolved.filter(|_| one.what == "acceleration");
+        unresolved.is_some_and(|unresolved| unresolved.decides(one.value, one.limit))
+    };
+    let beyond = |one: &Violation| if one.is_lower_limit() { one.value < one.limit } else { one.value > one.limit };
+    let breaks = |one: &Violation| beyond(one) && !open(one);
     found.extend(held(measures, limits, (end, last)).into_iter().filter(breaks));
     // Stable, so that equals keep their order.
     found.sort_by(|a, b| {

@@ -103,11 +103,97 @@ fn going_straight_on_is_no_overshoot_but_reversing_late_is() {
     let straight = [[0.0; 3], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]].map(Point3::from);
     let positions = [[0.0; 3], [11.0, 0.0, 0.0], [20.5, 0.0, 0.0]];
     let flown = track(seconds(3), &positions, &[("leg", vec![0.0, 1.0, 1.0])]);
-    assert_eq!(measure(&flown, &straight, &Settings::default()).unwrap().overshoots, vec![0.5, 0.5]);
+    assert_eq!(measure(&flown, &straight, &Settings::default()).unwrap().overshoots, vec![0.0, 0.5]);
     let back = [[0.0; 3], [10.0, 0.0, 0.0], [0.0, 0.0, 0.0]].map(Point3::from);
     let positions = [[0.0; 3], [13.0, 0.0, 0.0], [5.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
     let flown = track(seconds(4), &positions, &[("leg", vec![0.0, 1.0, 1.0, 1.0])]);
     assert_eq!(measure(&flown, &back, &Settings::default()).unwrap().overshoots, vec![3.0, 1.0]);
+}
+
+/// Rests at waypoint 1, turns back, and is 0.4 m to the side 5 m along the next leg: that is deviation. Who comes at
+/// speed and swings out is carried on.
+#[test]
+fn who_rests_at_a_waypoint_and_strays_later_is_not_carried_on() {
+    let waypoints = [[0.0; 3], [10.0, 0.0, 0.0], [1.0, -4.0, 0.0]].map(Point3::from);
+    let smooth = |s: f64| s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+    let flown = |aside: f64, carried: f64| {
+        let (mut positions, mut legs) = (Vec::new(), Vec::new());
+        for k in 0..800_u32 {
+            let (leg, s) = (k / 400, f64::from(k % 400) / 400.0);
+            let [a, b] = [leg, leg + 1].map(|at| waypoints[at as usize]);
+            let bump = 64.0 * (s * (1.0 - s)).powi(3);
+            let across =
+                if leg == 1 { aside * bump * Vector3::new(-4.0, 9.0, 0.0).normalize() } else { Vector3::zeros() };
+            // Soon after the corner, while the next leg has hardly begun.
+            let on = if leg == 1 { carried * libm::exp(-((s - 0.1) / 0.03).powi(2)) } else { 0.0 };
+            let place = a + (b - a) * smooth(s) + across + Vector3::new(on, 0.0, 0.0);
+            positions.push([place.x, place.y, place.z]);
+            legs.push(f64::from(leg));
+        }
+        let times = (0..800).map(|i| 0.02 * f64::from(i)).collect();
+        measure(&track(times, &positions, &[("leg", legs)]), &waypoints, &Settings::default()).unwrap()
+    };
+    let strays = flown(-0.4, 0.0);
+    assert!(strays.max_overshoot() < 0.01 && (strays.max_deviation - 0.4).abs() < 1e-3, "{:?}", strays.overshoots);
+    let carried = flown(0.0, 0.8);
+    assert!((0.6..0.85).contains(&carried.overshoots[0]), "{:?}", carried.overshoots);
+    // What is between two samples is held to the same.
+    let far = Point3::new(5.8, -2.27, 0.0);
+    let around = |within: f64| between::Around { places: std::slice::from_ref(&far), within };
+    assert!(beyond(&waypoints, &far, 1, around(0.05)) < 0.0 && beyond(&waypoints, &far, 1, around(2.0)) > 0.1);
+}
+
+/// 0.9 m/s² in the numbers of a file with three decimals, 250 rows a second: differences of neighbours are 88 m/s².
+#[test]
+fn rounding_is_no_acceleration() {
+    let flown = |rate: f64, decimals: i32, sway: f64, velocities: bool| {
+        let round = |x: f64| (x * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals);
+        let (omega, count) = (4.0 * std::f64::consts::PI, (8.0 * rate) as usize);
+        let times: Vec<f64> = (0..=count).map(|i| i as f64 / rate).collect();
+        let place = |t: &f64| {
+            let [x, y, z] = [10.0 - 10.0 * (0.3 * t).cos(), 0.1 * t, sway * (omega * t).sin()];
+            if velocities { [x, y, z] } else { [x, y, z].map(round) }
+        };
+        let positions: Vec<_> = times.iter().map(place).collect();
+        let speed = |axis: usize| -> Vec<f64> {
+            let of = |t: &f64| [3.0 * (0.3 * t).sin(), 0.1, sway * omega * (omega * t).cos()][axis];
+            times.iter().map(of).map(round).collect()
+        };
+        let channels: Vec<(&str, Vec<f64>)> =
+            if velocities { vec![("vx_m_s", speed(0)), ("vy_m_s", speed(1)), ("vz_m_s", speed(2))] } else { vec![] };
+        let track = track(times, &positions, &channels);
+        let settings = Settings { resolution: Resolution::of(&track), ..Settings::default() };
+        let way = [[0.0; 3], [20.0, 0.8, 0.0]].map(Point3::from);
+        let blind = measure(&track, &way, &Settings::default()).unwrap();
+        let found = measure(&track, &way, &settings).unwrap();
+        let broken = |limit: f64| {
+            let flight =
+                Flight { track: track.clone(), ended: Ended::Done, left_world: None, reached: vec![Some(0.0); 2] };
+            let limits = Limits { acceleration: Some(limit), ..Limits::default() };
+            !violations(&found, &flight, &limits).is_empty()
+        };
+        let [low, high] = [2.0, 0.85].map(broken);
+        (found.acceleration_unresolved.unwrap(), found.max_acceleration, blind.max_acceleration, low, high)
+    };
+    for (rate, decimals, velocities) in
+        [(50.0, 3, false), (100.0, 3, false), (250.0, 3, false), (250.0, 4, false), (250.0, 2, true)]
+    {
+        let (unresolved, most, blind, low, high) = flown(rate, decimals, 0.0, velocities);
+        assert!(blind > 2.0 || velocities, "{rate} {decimals}: {blind}");
+        assert!((most - 0.9).abs() < 0.1 && unresolved.by < 0.12, "{rate} {decimals}: {most} {unresolved:?}");
+        assert!(!low && !unresolved.decides(most, 2.0) && (high || unresolved.decides(most, 0.85)));
+    }
+    // A sway of 7.9 m/s² is seen in the same numbers.
+    for velocities in [false, true] {
+        let (unresolved, most, _, low, _) = flown(250.0, 3, 0.05, velocities);
+        assert!(low && most - unresolved.by > 5.0 && most + unresolved.by > 7.0, "{most} {unresolved:?}");
+    }
+    // A centimetre 0.25 s apart can make half a metre a second squared: a limit within that is open.
+    let (unresolved, most, ..) = flown(50.0, 2, 0.0, false);
+    assert!(unresolved.decides(most, 0.95) && unresolved.by > 0.4, "{most} {unresolved:?}");
+    assert!(
+        unresolved.in_words(AccelerationSource::Position).starts_with("positions are told in steps of 0.01 m: 0.2")
+    );
 }
 
 #[test]

@@ -86,6 +86,10 @@ fn what_would_be_a_false_violation_is_refused() {
             "pose 1 (t_s = 1) comes without \"leg\", those before it with: must be in all poses or in none",
         ),
         (
+            "pose(0, [1, 1, 1], 1); pose(1, [5, 1, 1], 2); pose(2, [1, 5, 1], 2)",
+            "pose 1 (t_s = 1): leg = 2: must be 0 … 1, and 2 once all waypoints are reached: it seems to number legs from 1",
+        ),
+        (
             "pose(0, [1, 1, 1], None); pose(1, [5, 1, 1], 0)",
             "pose 1 (t_s = 1) comes with \"leg\", those before it without",
         ),

@@ -1,6 +1,6 @@
 //! A judge who takes what was measured finds the same events without the motion.
 
-use hairpin::judgement::{Limits, Measures, Settings, measure, violations};
+use hairpin::judgement::{Limits, Measures, Settings, Unresolved, measure, violations};
 use nalgebra::Point3;
 
 use super::*;
@@ -72,6 +72,7 @@ fn what_may_hide_is_still_known_when_it_is_read() {
         clearance_between: Some(-0.25),
         acceleration_over: Some(0.125),
         edge_between: Some(-0.75),
+        acceleration_unresolved: Some(Unresolved { by: 0.5, step: 0.001, over: 0.25 }),
         waypoints_within: vec![0.0, 0.25, 6.5],
         ..measures
     };

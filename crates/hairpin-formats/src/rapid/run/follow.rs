@@ -16,7 +16,11 @@ impl Machine<'_> {
         match name {
             "confl" | "confj" => {
                 let on = !named.contains_key("off");
-                *(if name == "confl" { &mut self.demanded.linear } else { &mut self.demanded.joint }) = on;
+                if name == "confl" {
+                    (self.demanded.linear, self.said.linear) = (on, true);
+                } else {
+                    (self.demanded.joint, self.said.joint) = (on, true);
+                }
                 self.mark(at, Class::Understood, "");
             }
             // What controllers start with changes nothing.

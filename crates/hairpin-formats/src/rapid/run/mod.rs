@@ -47,6 +47,9 @@ pub(super) struct Machine<'a> {
     known: Known<'a>,
     /// State of ConfL and ConfJ.
     demanded: Demanded,
+    /// Which of them a cycle has said itself, and which it found said when it moved.
+    said: Demanded,
+    found: Demanded,
     /// Whether GripLoad named another load than load0.
     gripped: bool,
     /// Whether SoftAct came before.
@@ -83,7 +86,7 @@ pub(super) struct Known<'a> {
     pub(super) work_objects: &'a [WorkObject],
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Default)]
 struct Demanded {
     linear: bool,
     joint: bool,
@@ -120,6 +123,8 @@ impl<'a> Machine<'a> {
             module: 0,
             known,
             demanded: Demanded { linear: true, joint: true },
+            said: Demanded::default(),
+            found: Demanded::default(),
             gripped: false,
             soft: false,
             carried: BTreeSet::new(),
@@ -178,15 +183,40 @@ impl<'a> Machine<'a> {
         self.globals.get(declaration.home.module, &name).map(|variable| &variable.value)
     }
 
-    /// Executes the procedure.
+    /// Executes the procedure. Controllers begin `main` again where it ends, with the data of its modules as they are
+    /// then: its cycles are followed as rounds of a loop without end are ([`round`]). Behind what is not certain, no
+    /// further cycle is either.
     pub(super) fn run(&mut self, procedure: &'a Routine) {
         if self.is_twice(procedure) {
             return self.mark(procedure.at, Class::ChangesMotion, twice(&procedure.name));
         }
-        self.module = procedure.home.module;
-        self.frames.push(Frame::default());
-        self.enter(procedure);
-        self.frames.pop();
+        let begins_again = procedure.name.eq_ignore_ascii_case("main");
+        let (mut begun, mut before) = (None, Vec::new());
+        for cycle in 1.. {
+            if begins_again {
+                self.begins_cycle(cycle, &mut begun);
+                before.push(self.moves.len());
+            }
+            self.module = procedure.home.module;
+            self.frames.push(Frame::default());
+            let flow = self.enter(procedure);
+            let frame = self.frames.pop().unwrap_or_default();
+            self.size -= frame.size.min(self.size);
+            let goes_on = begins_again && !matches!(flow, Flow::End) && self.unclear.is_none();
+            if !goes_on || !self.step(procedure.at, 1) {
+                return;
+            }
+            if self.begins_as(begun.as_mut()) {
+                self.tell_once(begun.as_ref(), &before);
+                if cycle > 1 {
+                    let what = format!(
+                        "begins again where it ends: {cycle} cycles are followed, all further ones are as before"
+                    );
+                    self.mark(procedure.at, Class::Understood, what);
+                }
+                return;
+            }
+        }
     }
 
     /// What the text leaves open at `at`: nothing behind what was executed is certain.

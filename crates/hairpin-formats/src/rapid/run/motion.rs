@@ -147,8 +147,14 @@ impl Machine<'_> {
         }
         let demanded = match kind {
             MoveKind::AbsoluteJoint => true,
-            MoveKind::Joint => self.demanded.joint,
-            MoveKind::Linear | MoveKind::Circular => self.demanded.linear,
+            MoveKind::Joint => {
+                self.found.joint |= !self.said.joint;
+                self.demanded.joint
+            }
+            MoveKind::Linear | MoveKind::Circular => {
+                self.found.linear |= !self.said.linear;
+                self.demanded.linear
+            }
         };
         let (tool, work_object) = (self.tool_index(tool), self.work_object_index(work_object));
         let m = Move {

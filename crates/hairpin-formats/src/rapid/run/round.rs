@@ -1,10 +1,11 @@
 //! Whether a loop that is not left goes on as it does: one that comes back to where a round began never ends, and is
-//! not followed until the bound of work tells it.
+//! not followed until the bound of work tells it. The cycles of `main` are such rounds.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::scope::Scope;
 use super::{Demanded, Machine};
+use crate::rapid::predefined;
 use crate::rapid::value::Variable;
 
 /// Values that are held beside what is executed, at most, and as many again as there were steps: so that looking takes
@@ -28,22 +29,61 @@ impl Machine<'_> {
     /// (Brent's method), so that a loop is found that comes back after several rounds.
     pub(super) fn begins(&mut self, round: usize, begun: &mut Option<State>) {
         if round.is_power_of_two() && self.may_look() {
-            *begun = Some(State {
-                globals: self.globals.clone(),
-                variables: self.frames.iter().map(|frame| frame.variables.clone()).collect(),
-                demanded: self.demanded,
-                gripped: self.gripped,
-                soft: self.soft,
-                carried: self.carried.clone(),
-                round,
-            });
+            self.keep(round, begun);
         }
+    }
+
+    /// The same of a cycle. The first is kept at any size: it is what was declared just now, and most programs begin
+    /// again as they began.
+    pub(super) fn begins_cycle(&mut self, cycle: usize, begun: &mut Option<State>) {
+        if cycle == 1 || (cycle.is_power_of_two() && self.may_look()) {
+            self.keep(cycle, begun);
+            (self.said, self.found) = Default::default();
+        }
+    }
+
+    fn keep(&self, round: usize, begun: &mut Option<State>) {
+        *begun = Some(State {
+            globals: self.globals.clone(),
+            variables: self.frames.iter().map(|frame| frame.variables.clone()).collect(),
+            demanded: self.demanded,
+            gripped: self.gripped,
+            soft: self.soft,
+            carried: self.carried.clone(),
+            round,
+        });
     }
 
     /// Whether a round has ended where one has `begun`: all that follow are as those since. What only counts and tells
     /// may have gone on ([`super::decides`]).
     pub(super) fn comes_again(&mut self, begun: Option<&State>) -> bool {
-        let Some(begun) = begun.filter(|_| self.may_look()) else { return false };
+        begun.is_some_and(|begun| self.may_look() && self.is_as(begun))
+    }
+
+    /// Whether a cycle has ended where one has `begun`. What every cycle since has said itself before it moved (ConfL,
+    /// ConfJ), and that tools have moved to which nothing was ever assigned, makes no difference to what they do.
+    pub(super) fn begins_as(&mut self, begun: Option<&mut State>) -> bool {
+        let Some(begun) = begun.filter(|begun| begun.round == 1 || self.may_look()) else { return false };
+        if !self.found.linear {
+            begun.demanded.linear = self.demanded.linear;
+        }
+        if !self.found.joint {
+            begun.demanded.joint = self.demanded.joint;
+        }
+        begun.carried.extend(self.carried.iter().filter(|name| self.is_never_assigned(name)).cloned());
+        self.is_as(begun)
+    }
+
+    /// Whether no module has data of the name that anything was assigned to; of none at all it is the controller's.
+    fn is_never_assigned(&self, name: &str) -> bool {
+        let mut of_modules = self.globals.all(name).peekable();
+        let is_known = of_modules.peek().is_some()
+            || self.known.tools.iter().any(|tool| tool.name.eq_ignore_ascii_case(name))
+            || predefined::value(name).is_some();
+        is_known && of_modules.all(|variable| variable.untouched)
+    }
+
+    fn is_as(&self, begun: &State) -> bool {
         let deciding = self.deciding.get_or_init(|| super::decides::deciding(self.source));
         let counts = |name: &str| !deciding.contains(name);
         let frames = begun.variables.iter().zip(&self.frames);

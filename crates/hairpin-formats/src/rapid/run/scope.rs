@@ -40,6 +40,11 @@ impl<T> Scope<T> {
         agree(&self.shared, &other.shared) && local.into_iter().all(|(one, other)| agree(one, other))
     }
 
+    /// What the name means anywhere.
+    pub(super) fn all(&self, name: &str) -> impl Iterator<Item = &T> {
+        std::iter::once(&self.shared).chain(&self.local).filter_map(move |names| names.get(name))
+    }
+
     /// What the name means in a module.
     pub(super) fn get(&self, module: usize, name: &str) -> Option<&T> {
         self.local.get(module).and_then(|local| local.get(name)).or_else(|| self.shared.get(name))

@@ -6,11 +6,11 @@ use crate::listing::Module;
 /// Line of the body's first line.
 const BODY: usize = 6;
 
-/// A `main` of the body, a step if `b` holds, and a move to `n` mm.
+/// A `main` of the body, a step if `b` holds, and a move to `n` mm; once.
 fn of(body: &str) -> Module {
     inside(&format!(
         "CONST robtarget p:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR num n:=1;\nVAR bool b;\n\
-         PROC main()\n{body}\nIF b n:=5;\nMoveL Offs(p,n,0,0),v5,fine,tool0;\nENDPROC\n\
+         PROC main()\n{body}\nIF b n:=5;\nMoveL Offs(p,n,0,0),v5,fine,tool0; EXIT;\nENDPROC\n\
          FUNC num count()\nn:=n+1;\nRETURN n;\nENDFUNC\n\
          FUNC bool ready()\nn:=n+1;\nRETURN di1=1;\nENDFUNC\n\
          FUNC num far()\nMoveL Offs(p,4000,0,0),v5,fine,tool0;\nRETURN 1;\nENDFUNC\n\

@@ -215,6 +215,52 @@ fn a_loop_that_comes_back_to_where_it_was_is_seen_at_once() {
     assert!((4..=5).contains(&line) && module.lines[&line].what.contains(told), "{:?}", module.lines);
 }
 
+/// In continuous mode `main` begins again where it ends, and its modules keep their data.
+#[test]
+fn cycles_of_main_are_rounds() {
+    let moves = "MoveL p10,v5,fine,tool0;\nMoveL p20,v5,fine,tool0;";
+    let cycles = |data: &str, body: &str| {
+        inside(&format!(
+            "CONST robtarget p10:=[[500,0,600],[0.707107,0,0.707107,0],[0,-1,0,1],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+             CONST robtarget p20:=[[400,-200,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+             PERS tooldata grip:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n\
+             {data}\nPROC main()\n{body}\nENDPROC"
+        ))
+    };
+    // What moves in the second cycle alone.
+    let first = cycles(
+        "VAR bool first:=TRUE;",
+        "IF first THEN\nMoveL p10,v5,fine,tool0;\nfirst:=FALSE;\nELSE\nMoveL p20,v5,fine,tool0;\nENDIF",
+    );
+    assert_eq!((first.program.moves.len(), first.certain, first.unclear_line), (2, 2, None), "{:?}", first.lines);
+    assert!(first.lines[&6].what.contains("2 cycles are followed"), "{:?}", first.lines[&6]);
+    let kept = cycles("PERS num n:=0;", "MoveL p10,v5,fine,tool0;\nIF n=1 MoveL p20,v5,fine,tool0;\nn:=1;");
+    assert_eq!((kept.program.moves.len(), kept.unclear_line), (3, None), "{:?}", kept.lines);
+    // What goes on and on is told where the bound is met.
+    let on = cycles("VAR num n:=0;", "MoveL Offs(p10,0,n,0),v5,fine,tool0;\nn:=n+400;");
+    assert!(on.program.moves.len() > 3 && on.unclear_line.is_some(), "{}", on.program.moves.len());
+    // Most begin again as they began, whatever they say and carry, or as they began their second cycle.
+    for (data, head) in [
+        ("", "ConfL\\Off;\nConfJ\\Off;\nMoveL p10,v5,fine,grip;"),
+        ("VAR num parts:=0;", "parts:=parts+1;\nTPWrite \"parts\"\\Num:=parts;"),
+        ("VAR num i:=7;", "i:=0;\nWHILE i<2 DO\ni:=i+1;\nENDWHILE"),
+    ] {
+        let module = cycles(data, &format!("{head}\n{moves}"));
+        let once = 2 + usize::from(head.contains("grip"));
+        assert_eq!((module.program.moves.len(), module.unclear_line), (once, None), "{head}: {:?}", module.lines);
+    }
+    // ConfL that the first cycle leaves off is off for the second.
+    let left = cycles("", "MoveL p10,v5,fine,tool0;\nConfL\\Off;");
+    let demanded: Vec<bool> = left.program.moves.iter().map(|m| m.configuration_demanded).collect();
+    assert_eq!(demanded, [true, false]);
+    // EXIT ends it, and no other procedure begins again.
+    let ended = cycles(
+        "VAR bool first:=TRUE;",
+        "IF first MoveL p10,v5,fine,tool0;\nIF NOT first MoveL p20,v5,fine,tool0;\nfirst:=FALSE;\nEXIT;",
+    );
+    assert_eq!(ended.program.moves.len(), 1);
+}
+
 /// Words that make most of what can go wrong.
 const WORDS: [&str; 48] = [
     "MODULE",

@@ -158,7 +158,7 @@ fn records_are_compared_whatever_they_are_made_by() {
     let module = inside(
         "CONST robtarget p:=[[0,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR pos a:=[1,2,3];\nVAR num n:=0;\n\
          PROC main()\nIF a=there(2) n:=n+1;\nIF there(2)=a n:=n+10;\nIF a<>there(4) n:=n+100;\n\
-         TEST a\nCASE [3,2,1]: n:=0;\nCASE [1,2,3]: n:=n+1000;\nENDTEST\nMoveL Offs(p,n,0,0),v5,fine,tool0;\nENDPROC\n\
+         TEST a\nCASE [3,2,1]: n:=0;\nCASE [1,2,3]: n:=n+1000;\nENDTEST\nMoveL Offs(p,n,0,0),v5,fine,tool0; EXIT;\nENDPROC\n\
          FUNC pos there(num y)\nRETURN [1,y,3];\nENDFUNC",
     );
     assert_clear(&module);

@@ -6,8 +6,8 @@ use super::log::Log;
 use crate::campaign::Setup;
 use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
-    self, Clearance, Close, Limits, Measures, Settings, Swiftness, Violation, beyond, is_seen, most_between,
-    where_least,
+    self, AccelerationSource, Around, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
+    beyond, is_seen, most_between, where_least,
 };
 
 /// Why a limit that the samples keep, or break, is open.
@@ -22,6 +22,8 @@ pub enum Why {
         /// Samples a second that would decide, 1/s; `None` where none do.
         rate_hz: Option<f64>,
     },
+    /// The log tells its numbers in steps that may make as much of it.
+    Resolution(Unresolved, AccelerationSource),
     /// It is a mean over as long a time, s, and what is shorter was not seen.
     Mean(f64),
     /// The log itself does not know its place any better.
@@ -138,7 +140,9 @@ impl Looked<'_> {
         let value = violation("overshoot", measures.max_overshoot(), limit, measures.t_overshoot, leg);
         // Against a path overshoot is measured from the samples' places on it, which between samples nobody knows.
         let by_leg = !matches!(settings.reference, judgement::Reference::Path(_));
-        let beyond = |p: &Point3<f64>, leg: usize| if by_leg { beyond(self.waypoints, p, leg) } else { 0.0 };
+        let beyond = |p: &Point3<f64>, leg: usize, around: Around<'_>| {
+            if by_leg { beyond(self.waypoints, p, leg, around) } else { 0.0 }
+        };
         self.of_distance(value, false, &beyond)
     }
 
@@ -153,7 +157,7 @@ impl Looked<'_> {
         let of = |leg: &judgement::LegMeasures| leg.min_clearance.unwrap_or(f64::INFINITY);
         let leg = legs.min_by(|a, b| of(a.1).total_cmp(&of(b.1))).map_or(0, |(leg, _)| leg);
         let value = violation("clearance", least, limit, measures.t_clearance, leg);
-        self.of_distance(value, true, &|p, _| clearance(p))
+        self.of_distance(value, true, &|p, _, _| clearance(p))
     }
 
     /// Whether a sample is in an obstacle with all that lies within its accuracy.
@@ -162,13 +166,22 @@ impl Looked<'_> {
         (0..track.len()).any(|i| clearance(&track.position(i)) + self.sigma(i, None).along < 0.0)
     }
 
-    /// Whether a limit on a function of places and legs that changes by no more than the way is open; `lower` of one
-    /// that must not fall short. Where the leg changes between two samples it changes where that is least.
-    fn of_distance(&self, value: Violation, lower: bool, of: &dyn Fn(&Point3<f64>, usize) -> f64) -> Option<Doubt> {
+    /// Whether a limit on a function of places, legs and what is around a place that changes by no more than the way is
+    /// open; `lower` of one that must not fall short. Where the leg changes between two samples it changes where that
+    /// is least.
+    fn of_distance(
+        &self,
+        value: Violation,
+        lower: bool,
+        of: &dyn Fn(&Point3<f64>, usize, Around<'_>) -> f64,
+    ) -> Option<Doubt> {
         // Falling short is exceeding, the other way round.
         let turn = |x: f64| if lower { -x } else { x };
         let (track, limit) = (&self.log.flight.track, turn(value.limit));
-        let at = |i: usize, leg: usize| turn(of(&track.position(i), leg));
+        let at = |i: usize, leg: usize| {
+            let p = track.position(i);
+            turn(of(&p, leg, Around { places: &[p], within: 0.0 }))
+        };
         let values: Vec<f64> = (0..track.len()).map(|i| at(i, self.close[i].leg)).collect();
         let sigma = |i: usize| self.sigma(i, None);
         let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
@@ -183,9 +196,11 @@ impl Looked<'_> {
         for i in 0..values.len() {
             let Some((_, bulge)) = self.after(i) else { continue };
             let enough = limit - sigma(i).along;
+            let places = [i, i + 1].map(|k| track.position(k));
+            let around = Around { places: &places, within: 0.5 * (places[1] - places[0]).norm() + bulge };
             let on = |leg: usize| {
-                let ends = [i, i + 1].map(|k| (track.position(k), at(k, leg)));
-                most_between(&|p| turn(of(p, leg)), ends, bulge, enough)
+                let ends = places.map(|p| (p, turn(of(&p, leg, around))));
+                most_between(&|p| turn(of(p, leg, around)), ends, bulge, enough)
             };
             let bound = where_least([self.close[i].leg, self.close[i + 1].leg], on);
             if bound > enough {
@@ -225,6 +240,17 @@ pub(super) fn mean(measures: &Measures, limit: Option<f64>, span: f64) -> Option
     let value =
         Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
     (value.value <= limit && !is_seen(span)).then_some(Doubt { value, why: Why::Mean(span) })
+}
+
+/// Why an acceleration is open that the step decides in which the log tells its numbers.
+pub(super) fn rounded(measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
+    let (limit, value) = (limit?, measures.acceleration()?);
+    let unresolved = measures.acceleration_unresolved.filter(|unresolved| unresolved.decides(value, limit))?;
+    let legs = measures.legs.iter().enumerate();
+    let leg = legs.max_by(|a, b| a.1.max_acceleration.total_cmp(&b.1.max_acceleration)).map_or(0, |(leg, _)| leg);
+    let value =
+        Violation { unit: "m/s²".into(), ..violation("acceleration", value, limit, measures.t_acceleration, leg) };
+    Some(Doubt { value, why: Why::Resolution(unresolved, measures.acceleration_source) })
 }
 
 pub(super) fn violation(what: &str, value: f64, limit: f64, at: f64, leg: usize) -> Violation {

@@ -1,5 +1,6 @@
 //! A log as it is judged.
 
+use crate::judgement::Resolution;
 use crate::trajectory::Flight;
 
 /// What of a log is judged.
@@ -16,6 +17,8 @@ pub struct Log {
     /// Horizontal and vertical standard deviation of every sample's position, m; empty where nothing is said of any.
     /// As the estimator claims (`eph`, `epv`); `None` where it claims nothing, which counts as exact.
     pub accuracy: Vec<Option<[f64; 2]>>,
+    /// The steps in which it tells its places and velocities.
+    pub resolution: Resolution,
     /// Whether the world is known that it moved in: where it is not, neither obstacles nor bounds are judged.
     pub in_world: bool,
 }

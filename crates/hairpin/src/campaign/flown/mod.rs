@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 use thiserror::Error;
 
-use self::doubts::{Looked, mean, too_fast};
+use self::doubts::{Looked, mean, rounded, too_fast};
 use self::edge::left_world;
 use self::refuted::refuted;
 use super::judge::{reference, settings};
@@ -71,6 +71,9 @@ pub enum FlownError {
 /// reference. It is kept for certain where no sample comes as near to it as that, and nothing that may hide between
 /// samples does ([`look_closely`]). Everything else is a doubt. So is leaving the world, which has no limit.
 ///
+/// An acceleration is violated, or kept, for certain by more than the log resolves
+/// ([`Resolution`](judgement::Resolution)).
+///
 /// Bounds that the log itself exceeds bound nothing. Accelerations are means over two intervals: one that is kept in
 /// means that are too long ([`is_seen`](judgement::is_seen)) is a doubt. Durations and attitudes are judged by the
 /// samples alone.
@@ -90,7 +93,8 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     terms.limits.unfinished = false;
     let path = (terms.from == DeviationFrom::Path).then(|| reference(setup, case, None)).flatten();
     let clearance = if log.in_world { setup.kind().clearance() } else { None };
-    let settings = Settings { breaks: &log.breaks, ..settings(&terms, path.as_ref(), clearance.as_deref()) };
+    let (breaks, resolution) = (&log.breaks[..], log.resolution);
+    let settings = Settings { breaks, resolution, ..settings(&terms, path.as_ref(), clearance.as_deref()) };
     let measures = measure(&log.flight.track, &case.waypoints, &settings)?;
     let enough = terms.limits.deviation.unwrap_or(f64::INFINITY);
     let (swiftness, exceeded) = refuted(setup.swiftness(), log);
@@ -120,6 +124,7 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     if log.in_world && !left {
         doubts.extend(looked.edge(setup));
     }
+    doubts.extend(rounded(&measures, terms.limits.acceleration));
     doubts.extend(mean(&measures, terms.limits.acceleration, longest_mean(&log.flight.track, &settings)));
     let deviations: Vec<f64> = close.iter().filter_map(|close| Some(close.off?.norm())).collect();
     let most_between = close.iter().filter_map(|close| close.until_next).fold(measures.max_deviation, f64::max);

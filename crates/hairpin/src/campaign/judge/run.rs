@@ -191,7 +191,7 @@ pub(in crate::campaign) fn settings<'a>(
         (DeviationFrom::NearestLeg, _) => Reference::NearestLeg,
         _ => Reference::Leg,
     };
-    Settings { reference, corner: terms.corner, clearance, breaks: &[] }
+    Settings { reference, corner: terms.corner, clearance, ..Settings::default() }
 }
 
 /// The motion that deviations from the path are measured from.
