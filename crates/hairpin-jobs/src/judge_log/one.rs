@@ -152,7 +152,7 @@ pub(super) fn judge(
         let limit = against.setup.scenario.deviation_limit();
         found.notes.extend(told::told_otherwise([found.simulated_m, told_m], limit));
     }
-    let judged = told::judged(file, found, &against.setup);
+    let judged = told::judged((file, &told::name_in(&settings.path, file)), found, &against.setup);
     match settings.page {
         Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),
