@@ -87,6 +87,8 @@ pub struct LoggedMotion {
     pub unfit: Option<String>,
 }
 
+    /// Why it has no heights, where that is so: its samples are at 0 m, wherever the body was.
+    pub no_heights: Option<String>,
 /// A body at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {

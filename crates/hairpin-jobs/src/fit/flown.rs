@@ -121,6 +121,7 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
     let motion = best(&logged, &Asks::FIT).map_err(|why| Problem::of_file(file, why))?;
     let frame = IntoWorld::of(&logged.frame, place.as_ref(), &FrameSettings::default())?;
     let mut samples =
+    Heights::needed(setup, motion).map_err(|why| Problem::of_file(file, why))?;
         mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, _>>()?;
     if let Some(heights) = Heights::of(setup, (&logged.frame, motion), 0.0) {
         // Its case is looked for in space; a fit of what drives is in the plane.

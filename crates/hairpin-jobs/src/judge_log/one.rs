@@ -55,6 +55,7 @@ pub(super) fn judge(
     settings: &LogSettings,
 ) -> Result<JudgedLog, Problem> {
     let (motion, source) = source::choose(logged, settings.source.as_deref())?;
+    Heights::needed(&against.setup, motion).map_err(Problem::input)?;
     let frame = IntoWorld::of(&logged.frame, against.place.as_ref(), &settings.frame)?;
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
@@ -100,6 +101,7 @@ pub(super) fn judge(
     let left = cut(&own, (&unsound, due), &logged.dropouts, &against.swiftness);
     let left_out = judged.told_course().and_then(|course| LeftOut::of(course, &own, motion, settings.from_s));
     let (missed, to_the_end) = judged.end(&own, &left, left_out.is_some());
+        no_heights: None,
     let finished = to_the_end && left_out.is_none();
     let is_asked = settings.from_s.or(settings.to_s).is_some();
     let behind = |near_m| again(logged, &span, (&frame, motion), (&case.waypoints, near_m));

@@ -46,7 +46,15 @@ fn samples(rate: f64, off: f64) -> Vec<Sample> {
 }
 
 fn motion(name: &str, source: Source, samples: Vec<Sample>) -> LoggedMotion {
-    LoggedMotion { name: name.into(), source, samples, resets: Vec::new(), invalid: Vec::new(), unfit: None }
+    LoggedMotion {
+        name: name.into(),
+        source,
+        samples,
+        resets: Vec::new(),
+        invalid: Vec::new(),
+        unfit: None,
+        no_heights: None,
+    }
 }
 
 fn log(rate: f64, off: f64) -> Logged {
