@@ -97,7 +97,10 @@ fn depths_and_stretched_planes_come_with_the_command_that_mends_them() {
         (&[(4096, 5715)][..], ["depths (VerticalCS = 5715)", "--calc='-A' --outfile=a_heights.tif"]),
         (&[(4096, 6357), (3072, 32632)][..], ["VerticalCS = 6357", "gdal_edit.py -a_srs EPSG:32632 a_heights.tif"]),
         (&[(4096, 5614)][..], ["VerticalCS = 5614", "--calc='-0.3048*A'"]),
-        (&[(3072, 3857)][..], ["a plane of Mercator's (EPSG:3857)", "gdalwarp -t_srs EPSG:32631 -r bilinear a.tif"]),
+        (
+            &[(3072, 3857)][..],
+            ["a plane that stretches the ground (EPSG:3857)", "gdalwarp -t_srs EPSG:32631 -r bilinear a.tif"],
+        ),
     ] {
         let plane = [&[(1024, 1), (1025, 1)][..], keys].concat();
         let error = read_terrain(&keyed(&HEIGHTS, &plane, "-9999"), "a.tif", &Georeference::default());
