@@ -74,7 +74,11 @@ pub(super) fn judge(
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
         cases => {
-            let found = matching::matched(cases, &samples, (logged, &progress, against.accept), &Asks::JUDGE)?;
+            let plan = |case: &Case| -> Result<Option<Track>, Problem> {
+                Ok(plan_followed(&against.setup, &against.whole(case)?))
+            };
+            let log = (logged, &progress[..], against.accept);
+            let found = matching::matched(cases, &samples, log, (&plan, &Asks::JUDGE))?;
             (found.0, Some(found.1))
         }
     };
