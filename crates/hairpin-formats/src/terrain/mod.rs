@@ -66,7 +66,10 @@ pub fn read_terrain(
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     check_given(&ending, georeference)?;
     let mut raster = match ending.as_str() {
-        "tif" | "tiff" => geotiff::read(bytes, name)?,
+        "tif" | "tiff" => geotiff::read(bytes, name).map_err(|error| match error {
+            TerrainError::Unplaced => beside.placed_by(name).unwrap_or(error),
+            other => other,
+        })?,
         "asc" => ascii::read(bytes)?,
         "png" => sixteen_bit::read_png(bytes, georeference)?,
         "raw" | "bin" => sixteen_bit::read_raw(bytes, georeference)?,

@@ -2,9 +2,8 @@
 
 use super::error::TerrainError;
 use super::georeference::Georeference;
-use super::mercator::{Stretched, stretched};
-use super::scale::{At, Scale, scale};
 use super::remedy::Remedy;
+use super::scale::{At, Scale, scale};
 use super::unit::{Source, Unit};
 use super::vertical::Depth;
 use crate::epsg::{System, definition, system};
@@ -24,9 +23,9 @@ pub(super) struct Reference {
     /// Where its values are depths.
     pub(super) depth: Option<Depth>,
     /// What it is called.
+    pub(super) name: String,
     /// Its projection as PROJ has it, where the file defines that itself.
     pub(super) projection: Option<String>,
-    pub(super) name: String,
     /// Degrees in one unit of angle.
     pub(super) degrees: f64,
     /// Semi-major axis of the body, m, where it is said.
@@ -57,12 +56,13 @@ pub(super) struct Units {
     pub(super) height: Unit,
     pub(super) height_from: Source,
     pub(super) epsg: Option<u32>,
-    pub(super) scale: Option<Scale>,
     pub(super) name: String,
+    pub(super) scale: Option<Scale>,
 }
 
-/// Cells of less (m) on coordinates that could be degrees are of a map in degrees: 5 seconds of arc are 0.0014.
-const FINEST: f64 = 0.002;
+/// Cells of less (m) on coordinates that could be degrees are of a map in degrees: a minute of arc is 0.017, and no map
+/// of ground is as fine.
+const FINEST: f64 = 0.05;
 
 impl Reference {
     /// Units and code, of what the file says and what is given; `center` and `cell` are in the file's own unit.
@@ -104,7 +104,7 @@ impl Reference {
         if let Some(said) = unknown().filter(|_| !self.placed && given.unit.is_none()) {
             return Err(TerrainError::UnknownUnit { key: "unit", said });
         }
-        if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
+        if !self.placed && said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
             return Err(geographic(format!(
                 "cells of {} on coordinates like degrees, and no unit said (unit = \"m\" says that they are metres)",
                 cell[0]

@@ -126,6 +126,13 @@ impl Ready {
         sets.extend(settings.sets.iter().cloned());
         let setup = setup_for_missions(base, &sets)?;
         check_asked(&setup.scenario, file)?;
+        if named.is_none() && waypoints::are_in_degrees(file).map_err(Problem::input)? {
+            return Err(Problem::of_file(
+                file,
+                "its waypoints are in degrees, and without --world there is no world.origin and no map whose plane is \
+                 known (world.terrain.epsg) to place them by: --world W",
+            ));
+        }
         let farthest = setup.handed().farthest;
         let (mut waypoints, _) = waypoints::read(file, &setup.scenario, farthest).map_err(Problem::input)?;
         if named.is_some() {

@@ -67,9 +67,9 @@ pub(crate) use source::{best, clock_words};
 /// others are judged.
 ///
 /// # Errors
-/// A campaign, mission, world or robot that cannot be read; keys of other tables than `spec`; a mission nothing is
-/// asked of; a single log that cannot be read, fits no case, or does not lie where its mission begins; a folder without
-/// a file; a page that cannot be written.
+/// A part of logs that ends before it begins; a campaign, mission, world or robot that cannot be read; keys of other
+/// tables than `spec`; a mission nothing is asked of; a single log that cannot be read, fits no case, or does not lie
+/// where its mission begins; a folder without a file; a page that cannot be written.
 pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs, Problem> {
     if settings.path.join("scenario.toml").is_file() {
         return Err(Problem::of_file(
@@ -77,6 +77,9 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
             "a campaign's folder, whose own flights `hairpin judge` judges without --campaign and --mission; logs lie in \
              another",
         ));
+    }
+    if let Some((from, to)) = settings.from_s.zip(settings.to_s).filter(|(from, to)| from >= to) {
+        return Err(Problem::input(format!("--from {from} --to {to}: --from must be before --to")));
     }
     let against = against::Ready::of(settings)?;
     against.notes.iter().for_each(|note| watch.warn(note));

@@ -101,11 +101,11 @@ pub(super) fn judge(
         resets: motion.resets.clone(),
         invalid: motion.invalid.iter().copied().chain(unstable).collect(),
         unfit: None,
+        no_heights: None,
     };
     let left = cut(&own, (&unsound, due), &logged.dropouts, &against.swiftness);
     let left_out = judged.told_course().and_then(|course| LeftOut::of(course, &own, motion, settings.from_s));
     let (missed, to_the_end) = judged.end(&own, &left, left_out.is_some());
-        no_heights: None,
     let finished = to_the_end && left_out.is_none();
     let is_asked = settings.from_s.or(settings.to_s).is_some();
     let behind = |near_m| again(logged, &span, (&frame, motion), (&case.waypoints, near_m));
@@ -129,7 +129,10 @@ pub(super) fn judge(
         span_s: left.samples.first().zip(left.samples.last()).map(|(first, last)| [first.t_s, last.t_s]),
         legs_by: course.as_ref().map_or(LegsBy::Assigned, |course| course.by),
         cuts: left.cuts.clone(),
-        ended: span.ended.clone(),
+        ended: span.ended.clone().or_else(|| {
+            let to_s = settings.to_s.filter(|to| motion.samples.iter().any(|sample| sample.t_s > *to))?;
+            Some(format!("--to at t = {to_s:.1} s"))
+        }),
         finished,
         to_the_end,
         left_out,

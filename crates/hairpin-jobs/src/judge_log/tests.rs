@@ -306,7 +306,7 @@ fn what_ends_the_mission_ends_judgement_and_is_told() {
     assert_eq!(judged.found.unwrap().ended.unwrap(), "nav_state AUTO_LAND at t = 8.0 s");
     // A log that merely stops short was not finished either; by name a part is judged.
     let short = judged_as(&log(100.0, 0.3), |settings, _| settings.to_s = Some(6.0)).unwrap().verdict;
-    assert!(short.exit_code == 5 && short.sentence.contains("the log ends, on leg 1→2"), "{}", short.sentence);
+    assert!(short.exit_code == 5 && short.sentence.contains("--to at t = 6.0 s, on leg 1→2"), "{}", short.sentence);
 }
 
 #[test]
