@@ -152,7 +152,7 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     let text = String::from_utf8_lossy(&bytes);
     let header = Table::of(&text, Cut::COMMAS).names;
-    let degrees = header.place(COLUMNS[0]).is_none() && geodetic::PLACE[..2].iter().all(|c| header.place(c).is_some());
+    let degrees = has_degrees(&header);
     if !degrees {
         return Ok((parse(path, &text, COLUMNS, |row, places| metres(path, row, places, farthest))?, false));
     }
@@ -177,6 +177,19 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
         }
     })?;
     Ok((waypoints, true))
+}
+
+fn has_degrees(header: &Row) -> bool {
+    header.place(COLUMNS[0]).is_none() && geodetic::PLACE[..2].iter().all(|column| header.place(column).is_some())
+}
+
+/// Whether the waypoints in `path` are in degrees, and so need a world on Earth.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn are_in_degrees(path: &Path) -> Result<bool, WaypointsError> {
+    let bytes = bounds::read_table(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
+    Ok(has_degrees(&Table::of(&String::from_utf8_lossy(&bytes), Cut::COMMAS).names))
 }
 
 /// Columns of the table in `path` that are not read.

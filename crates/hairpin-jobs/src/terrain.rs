@@ -42,6 +42,9 @@ pub struct MapSummary {
     pub epsg: Option<u32>,
     /// What the file calls its plane.
     pub plane: Option<String>,
+    /// How long a metre of the ground is on the plane, along its x and y at the map's middle; `None` where its
+    /// projection is not known: its metres are taken for the ground's.
+    pub ground_metre: Option<[f64; 2]>,
     /// What a campaign takes off the map's coordinates.
     pub offset_m: [f64; 2],
     /// Unit of x and y in the file.
@@ -109,7 +112,8 @@ pub struct Corner {
 pub fn summarise_map(path: &Path, georeference: &Georeference) -> Result<MapSummary, Problem> {
     let MapFile { map, told } = read_map(path, georeference)?;
     let Grid { columns, rows, cell, .. } = *map.grid();
-    let Told { unit, unit_from, height_unit, height_unit_from, epsg, name, offset_m, layout, .. } = told;
+    let Told { unit, unit_from, height_unit, height_unit_from, epsg, name, scale, offset_m, layout, .. } = told;
+    let ground_metre = scale.map(|scale| scale.along);
     let Layout { scale, offset, no_data, masked, south_up, at_centers } = layout;
     let (low, high) = map.extent();
     let [low, high] = [low, high].map(|at| [at[0] + offset_m[0], at[1] + offset_m[1]]);
@@ -127,6 +131,7 @@ pub fn summarise_map(path: &Path, georeference: &Georeference) -> Result<MapSumm
         north_west: Corner { x_m: low[0], y_m: high[1], height_m: known(map.cell_height(rows - 1, 0)) },
         epsg,
         plane: Some(name).filter(|name| !name.is_empty()),
+        ground_metre,
         offset_m,
         unit: UnitSummary::of(&unit, unit_from),
         height_unit: UnitSummary::of(&height_unit, height_unit_from),

@@ -46,6 +46,7 @@ fn in_words(asked: &ShowTerrain, map: &MapSummary) {
         map.orientation, map.coordinates_of
     ));
     console::say(&format!("plane     {}", plane(map)));
+    console::say(&format!("scale     {}", scale(map)));
     console::say(&format!("units     x and y: {}; heights: {}", unit(&map.unit), unit(&map.height_unit)));
     if map.height_unit.from == "taken" && map.height_unit.metres != 1.0 {
         console::say(
@@ -68,6 +69,14 @@ fn plane(map: &MapSummary) -> String {
         return format!("{code}{name}");
     }
     format!("{code}{name}; campaigns write x and y relative to ({east}, {north}) m")
+}
+
+/// How long a metre of the ground is on the plane.
+fn scale(map: &MapSummary) -> String {
+    match map.ground_metre {
+        Some([x, y]) => format!("a metre of the ground is {x:.4} m along x and {y:.4} m along y, at the map's middle"),
+        None => "not known here: metres of the plane are taken for the ground's".into(),
+    }
 }
 
 /// The unit of a file, and what is done with it.

@@ -21,10 +21,31 @@ const OTHERS: [(&[u8], &str); 3] = [
 
 const KNOWN: &str = "a log is read as PX4 ULog (.ulg), ArduPilot DataFlash (.bin), ROS 2 MCAP (.mcap), TUM (`t x y z qx qy qz qw`) or CSV (a header such as `t_s,x_m,y_m,z_m,qw,qx,qy,qz`)";
 
+/// What ArduPilot's users have beside the vehicle's own log: that log as text, and telemetry that a ground station
+/// recorded, whose packets have a stamp before them (µs since 1970, highest byte first) and begin with 0xFE or 0xFD.
+fn of_ardupilot(bytes: &[u8], name: &str) -> Option<String> {
+    let is_stamp = |stamp: u64| (900_000_000_000_000..5_000_000_000_000_000).contains(&stamp);
+    let is_telemetry = bytes.first_chunk().copied().is_some_and(|stamp| is_stamp(u64::from_be_bytes(stamp)))
+        && bytes.get(8).is_some_and(|first| matches!(first, 0xfe | 0xfd));
+    let (what, has) = match () {
+        () if is_telemetry => ("telemetry that a ground station recorded (MAVLink, .tlog)", "LOCAL_POSITION_NED"),
+        () if bytes.starts_with(b"FMT,") => ("an ArduPilot log as text", "XKF1"),
+        () => return None,
+    };
+    let file = shlex::try_quote(name).map_or_else(|_| "LOG".to_owned(), |quoted| quoted.into_owned());
+    Some(format!(
+        "{what}; the vehicle's own log, .bin, is read. Without it `mavlogdump.py --types {has} --format csv {file}` \
+         writes its positions as a table, of which one with `t_s,x_m,y_m,z_m` (east, north, up) is read"
+    ))
+}
+
 impl Format {
     pub(super) fn of(bytes: &[u8], name: &str) -> Result<Self, Fault> {
         if let Some((_, what)) = OTHERS.iter().find(|(magic, _)| bytes.starts_with(magic)) {
             return Err(Fault::Unknown((*what).into()));
+        }
+        if let Some(what) = of_ardupilot(bytes, name) {
+            return Err(Fault::Unknown(what));
         }
         if bytes.starts_with(dataflash::MAGIC) {
             return Ok(Self::DataFlash);
@@ -80,5 +101,17 @@ mod tests {
             matches!(Format::of(b"SQLite format 3\0...", "a.db3"), Err(Fault::Unknown(what)) if what.contains("convert"))
         );
         assert!(Format::of(b"a\0b", "a.csv").is_err());
+        let packet = [&1_700_000_000_000_000_u64.to_be_bytes()[..], &[0xfd, 28, 0, 0]].concat();
+        for (bytes, name, words) in [
+            (&packet[..], "a b.tlog", "mavlogdump.py --types LOCAL_POSITION_NED --format csv 'a b.tlog'"),
+            (
+                &b"FMT, 128, 89, FMT, BBnNZ, Type,Length,Name\n"[..],
+                "a.log",
+                "an ArduPilot log as text; the vehicle's own",
+            ),
+        ] {
+            let Err(Fault::Unknown(what)) = Format::of(bytes, name) else { panic!("{name}") };
+            assert!(what.contains(words) && what.contains(".bin, is read"), "{what}");
+        }
     }
 }

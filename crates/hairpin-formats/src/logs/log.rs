@@ -61,6 +61,8 @@ pub enum Source {
     GroundTruth,
     /// The vehicle's own filter.
     Estimate,
+    /// What that filter takes in: an odometry by cameras, say.
+    Input,
     /// The format does not tell.
     Untold,
     /// The format does not tell, and it is a whole way at once: what a planner publishes, or a trail of what was moved.
@@ -85,6 +87,8 @@ pub struct LoggedMotion {
     /// Why nothing is to be judged by it, where that is so: it is at two places at one moment, or its clock was set
     /// back.
     pub unfit: Option<String>,
+    /// Why it has no heights, where that is so: its samples are at 0 m, wherever the body was.
+    pub no_heights: Option<String>,
 }
 
 /// A body at a time.

@@ -17,6 +17,7 @@ mod modes;
 mod planned;
 mod samples;
 mod text;
+mod turns;
 mod twice;
 mod ulog;
 

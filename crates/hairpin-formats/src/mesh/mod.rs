@@ -1,6 +1,7 @@
 //! Triangle meshes in: STL (binary and ASCII), OBJ and Collada, as vertices that triangles share.
 
 mod collada;
+mod polygon;
 mod types;
 
 use std::collections::BTreeMap;
@@ -92,7 +93,7 @@ fn read_ascii_stl(text: &str) -> Result<Mesh, MeshError> {
 }
 
 /// `v x y z` and `f a b c …` (from 1, or from the end if negative; `a/b/c` has texture and normal too); faces of more
-/// corners become fans. Words are apart by any white space. Everything else is passed over.
+/// corners are cut into triangles. Words are apart by any white space. Everything else is passed over.
 fn read_obj(text: &str) -> Result<Mesh, MeshError> {
     let mut mesh = Mesh::default();
     for (index, line) in text.lines().enumerate() {
@@ -106,7 +107,13 @@ fn read_obj(text: &str) -> Result<Mesh, MeshError> {
             let Some(corners) = corners.collect::<Option<Vec<u32>>>().filter(|corners| corners.len() >= 3) else {
                 return Err(error);
             };
-            mesh.triangles.extend((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]));
+            let places: Vec<[f64; 3]> = corners.iter().map(|corner| mesh.vertices[*corner as usize]).collect();
+            let cut = polygon::cut(&places).map_err(|why| MeshError::Face {
+                place: format!("line {}", index + 1),
+                corners: corners.len(),
+                why,
+            })?;
+            mesh.triangles.extend(cut.iter().map(|triangle| triangle.map(|corner| corners[corner])));
         }
     }
     Ok(mesh)
@@ -187,6 +194,21 @@ mod tests {
         }
         let quad = read_mesh(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4", "q.obj").unwrap();
         assert_eq!(quad.triangles, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn concave_faces_are_cut_and_what_is_no_face_is_refused_with_its_line() {
+        // An L, which a fan from its second corner would leave.
+        let l = "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\n";
+        let read = read_mesh(format!("{l}f 2 3 4 5 6 1\n").as_bytes(), "a.obj").unwrap();
+        let twice = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|i| read.vertices[i as usize]);
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        assert!(read.triangles.len() == 4 && read.triangles.iter().all(|t| twice(t) > 0.0), "{:?}", read.triangles);
+        assert!((read.triangles.iter().map(twice).sum::<f64>() - 14.0).abs() < 1e-12);
+        let bow = read_mesh(format!("{l}f 1 3 2 6\n").as_bytes(), "a.obj").unwrap_err();
+        assert_eq!(bow.to_string(), "line 7: a face of 4 corners crosses itself");
     }
 
     #[test]

@@ -39,6 +39,16 @@ pub enum MeshError {
         /// What should stand there.
         expected: &'static str,
     },
+    /// A polygon that is no face.
+    #[error("{place}: a face of {corners} corners {why}")]
+    Face {
+        /// Where in the file it is.
+        place: String,
+        /// How many corners it has.
+        corners: usize,
+        /// What is wrong.
+        why: String,
+    },
     /// Nothing that could be in the way.
     #[error("holds no triangles: {0}")]
     NoTriangles(String),

@@ -39,7 +39,7 @@ pub use guest::kept_in;
 pub(crate) use python::{driver, held};
 pub use report::{Complaint, Report};
 pub use rover::rover_for;
-pub use world_of::{NamedWorld, named_world};
+pub use world_of::{NamedWorld, is_map, named_world};
 pub(crate) use write::MADE_BY;
 pub use write::{Digests, MadeBy, WriteError, changed_keys, on_a_line, read_made_by, to_toml};
 

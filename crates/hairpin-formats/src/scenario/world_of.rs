@@ -19,13 +19,34 @@ pub struct NamedWorld {
     pub is_elsewhere: bool,
 }
 
-/// The world that `name` means, a world's or scenario's file or shipped name, in the place of one at `origin`: where
-/// that is given it stays, for it is what waypoints are relative to. Files that it names are looked for beside it.
+/// Endings of maps that say themselves where they lie, or are placed by keys.
+const MAPS: [&str; 5] = ["tif", "tiff", "asc", "png", "npy"];
+
+/// Whether `name` is a map's file by its ending: a world that is ground alone.
+pub fn is_map(name: &str) -> bool {
+    let ending = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    MAPS.contains(&ending.as_str())
+}
+
+/// The world that `name` means, a world's, map's or scenario's file or shipped name, in the place of one at `origin`:
+/// where that is given it stays, for it is what waypoints are relative to. Files that it names are looked for beside
+/// it.
 ///
 /// # Errors
 /// It cannot be read, or is neither, in a sentence's part.
 pub fn named_world(name: &str, origin: Option<&Origin>) -> Result<NamedWorld, String> {
     let path = Path::new(name);
+    if is_map(name) {
+        if !path.is_file() {
+            return Err("no such file".into());
+        }
+        let file = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        let file = Value::String(file.to_string_lossy().into_owned());
+        let terrain = Table::from_iter([("file".to_owned(), file)]);
+        let set =
+            ("world".to_owned(), Value::Table(Table::from_iter([("terrain".to_owned(), terrain.into())])).to_string());
+        return Ok(NamedWorld { set, is_scenario: false, is_elsewhere: false });
+    }
     let shipped = library::worlds().chain(library::scenarios()).find(|shipped| shipped.name == name);
     let (text, base) = match shipped.filter(|_| !path.is_file()) {
         Some(shipped) => (shipped.text.to_owned(), Path::new("")),

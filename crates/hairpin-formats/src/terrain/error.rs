@@ -15,6 +15,9 @@ pub enum TerrainError {
     /// The file cannot be understood.
     #[error("{0}")]
     Broken(String),
+    /// A GeoTIFF whose tags do not say where its cells lie.
+    #[error("no georeference: ModelPixelScale and ModelTiepoint are needed")]
+    Unplaced,
     /// What is not read here can be rewritten by GDAL.
     #[error("{why}: {command}")]
     Convert {

@@ -5,13 +5,14 @@ mod error;
 mod georeference;
 mod geotiff;
 mod keep_out;
-mod mercator;
 mod no_data;
 mod numpy;
 mod prj;
+mod projection;
 mod raster;
 mod reference;
 mod remedy;
+mod scale;
 mod sidecar;
 mod sixteen_bit;
 mod told;
@@ -25,6 +26,7 @@ pub use error::{MOST_CELLS, TerrainError};
 pub use georeference::Georeference;
 pub use keep_out::{KeepOutError, read_keep_outs};
 pub use raster::Layout;
+pub use scale::Scale;
 pub use sidecar::Sidecars;
 pub use told::Told;
 pub use unit::{Source, Unit};
@@ -64,7 +66,10 @@ pub fn read_terrain(
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     check_given(&ending, georeference)?;
     let mut raster = match ending.as_str() {
-        "tif" | "tiff" => geotiff::read(bytes, name)?,
+        "tif" | "tiff" => geotiff::read(bytes, name).map_err(|error| match error {
+            TerrainError::Unplaced => beside.placed_by(name).unwrap_or(error),
+            other => other,
+        })?,
         "asc" => ascii::read(bytes)?,
         "png" => sixteen_bit::read_png(bytes, georeference)?,
         "raw" | "bin" => sixteen_bit::read_raw(bytes, georeference)?,
@@ -93,7 +98,7 @@ pub fn read_terrain(
         let cells = if i == 0 { grid.columns } else { grid.rows };
         grid.first_center[i] + 0.5 * cells.saturating_sub(1) as f64 * grid.cell[i]
     });
-    let Units { plane, plane_from, height, height_from, epsg, name } =
+    let Units { plane, plane_from, height, height_from, epsg, name, scale } =
         reference.units(center, grid.cell, name, georeference)?;
     if !height.is_metre() {
         heights.iter_mut().for_each(|value| *value = (f64::from(*value) * height.metres) as f32);
@@ -109,7 +114,7 @@ pub fn read_terrain(
     check_extent(&grid, first_center)?;
     let map = ElevationMap::new(Grid { first_center, ..grid }, &heights, georeference.holes)?;
     let (unit, unit_from, height_unit, height_unit_from) = (plane, plane_from, height, height_from);
-    let told = Told { unit, unit_from, height_unit, height_unit_from, beside, epsg, name, offset_m, layout };
+    let told = Told { unit, unit_from, height_unit, height_unit_from, beside, epsg, name, scale, offset_m, layout };
     Ok(MapFile { map, told })
 }
 

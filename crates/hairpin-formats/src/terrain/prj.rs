@@ -2,6 +2,7 @@
 //! for its newer words).
 
 use super::error::TerrainError;
+use super::projection::{self, Projection};
 use super::reference::{Model, Reference};
 use super::unit::Unit;
 use super::vertical::{Depth, Vertical, is_depth, system};
@@ -51,7 +52,9 @@ fn of(root: &Node<'_>) -> Option<Reference> {
             // Newer text has the unit in its axes where they share one.
             let unit = unit.or_else(|| root.find(&["LENGTHUNIT"]));
             let epsg = said.epsg.or_else(|| code_of_name(&said.name));
-            Some(Reference { model: Model::Projected, epsg, ..in_unit(unit, said) })
+            let plane = in_unit(unit, said);
+            let projection = root.projection(plane.unit.as_ref().map_or(1.0, |unit| unit.metres));
+            Some(Reference { model: Model::Projected, epsg, projection, ..plane })
         }
         // A yard's own plane.
         "LOCAL_CS" | "ENGCRS" | "ENGINEERINGCRS" => {
@@ -129,6 +132,46 @@ impl<'t> Node<'t> {
         let unknown = || format!("heights of \"{name}\" in its .prj, without a length of their unit");
         let unknown_heights = unit.is_none().then(unknown);
         Reference { height_unit: unit, unknown_heights, depth, ..plane }
+    }
+
+    /// The projection of a plane whose unit is so many `metres`, as PROJ has it.
+    fn projection(&self, metres: f64) -> Option<String> {
+        let method = self.find(&["PROJECTION", "METHOD"])?.values.first().copied()?;
+        let mut found = Projection { method: projection::of_name(method), ..Projection::default() };
+        let spheroid = self.find(&["SPHEROID", "ELLIPSOID"]);
+        let number = |node: &Node<'_>, place: usize| node.values.get(place)?.parse::<f64>().ok();
+        if let Some((radius, flattening)) = spheroid.and_then(|of| Some((number(of, 1)?, number(of, 2)?))) {
+            found.body = projection::body(radius, flattening);
+        }
+        for node in self.all(&["PARAMETER"]) {
+            let (Some(name), Some(value)) = (node.values.first(), number(node, 1)) else { continue };
+            let name = name.to_ascii_lowercase().replace('_', " ");
+            let has = |words: &[&str]| words.iter().all(|word| name.contains(word));
+            let slot = match () {
+                () if has(&["standard parallel", "2"]) || has(&["2nd standard"]) => &mut found.parallels[1],
+                () if has(&["standard parallel"]) => &mut found.parallels[0],
+                () if has(&["scale"]) => &mut found.scale,
+                () if has(&["easting"]) => &mut found.false_origin[0],
+                () if has(&["northing"]) => &mut found.false_origin[1],
+                () if has(&["latitude"]) || has(&["parallel"]) => &mut found.lat_0,
+                () if has(&["longitude"]) || has(&["meridian"]) => &mut found.lon_0,
+                // One that is not known may be what the rest depends on.
+                () => return None,
+            };
+            let is_length = name.contains("easting") || name.contains("northing");
+            *slot = Some(if is_length { value * metres } else { value });
+        }
+        found.text()
+    }
+
+    /// All nodes of these words within.
+    fn all(&self, words: &[&str]) -> Vec<&Node<'t>> {
+        let mut found = Vec::new();
+        for node in &self.nodes {
+            found.extend(Some(node).filter(|node| node.is(words)));
+            found.extend(node.all(words));
+        }
+        found
     }
 
     /// Whether it is the axis of a depth, or Esri's direction of one.

@@ -2,11 +2,11 @@
 
 use super::error::TerrainError;
 use super::georeference::Georeference;
-use super::mercator::{Stretched, stretched};
 use super::remedy::Remedy;
+use super::scale::{At, Scale, scale};
 use super::unit::{Source, Unit};
 use super::vertical::Depth;
-use crate::epsg::{System, system};
+use crate::epsg::{System, definition, system};
 
 /// What the coordinates of a file are, as far as it says.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,6 +24,8 @@ pub(super) struct Reference {
     pub(super) depth: Option<Depth>,
     /// What it is called.
     pub(super) name: String,
+    /// Its projection as PROJ has it, where the file defines that itself.
+    pub(super) projection: Option<String>,
     /// Degrees in one unit of angle.
     pub(super) degrees: f64,
     /// Semi-major axis of the body, m, where it is said.
@@ -55,10 +57,12 @@ pub(super) struct Units {
     pub(super) height_from: Source,
     pub(super) epsg: Option<u32>,
     pub(super) name: String,
+    pub(super) scale: Option<Scale>,
 }
 
-/// Cells of less (m) on coordinates that could be degrees are of a map in degrees: 5 seconds of arc are 0.0014.
-const FINEST: f64 = 0.002;
+/// Cells of less (m) on coordinates that could be degrees are of a map in degrees: a minute of arc is 0.017, and no map
+/// of ground is as fine.
+const FINEST: f64 = 0.05;
 
 impl Reference {
     /// Units and code, of what the file says and what is given; `center` and `cell` are in the file's own unit.
@@ -100,17 +104,20 @@ impl Reference {
         if let Some(said) = unknown().filter(|_| !self.placed && given.unit.is_none()) {
             return Err(TerrainError::UnknownUnit { key: "unit", said });
         }
-        if said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
+        if !self.placed && said.is_none() && given.unit.is_none() && looks_like_degrees(center, cell) {
             return Err(geographic(format!(
                 "cells of {} on coordinates like degrees, and no unit said (unit = \"m\" says that they are metres)",
                 cell[0]
             )));
         }
         let (plane, plane_from) = told("unit", said, given.unit.map(Unit::from), || Some(Unit::metre()))?;
-        if let Some(Stretched { times, at }) = stretched(epsg, &self.name, center.map(|c| c * plane.metres)) {
-            let what = self.called("a plane of Mercator's");
-            let why = format!("{what}, on which a metre of the ground is {times:.3} long: project it first");
-            return Err(TerrainError::Convert { why, command: Remedy::project(file, at, None) });
+        let projection = epsg.and_then(definition).or(self.projection.as_deref());
+        let found = scale(epsg, &self.name, projection, center.map(|c| c * plane.metres));
+        if let Some(found) = found.filter(At::is_stretched) {
+            let what = self.called("a plane that stretches the ground");
+            let words = found.scale.in_words();
+            let why = format!("{what}, on which a metre of the ground is {words}: project it first");
+            return Err(TerrainError::Convert { why, command: Remedy::project(file, found.at, self.radius) });
         }
         if let Some(said) = self.unknown_heights.as_ref().filter(|_| given.height_unit.is_none()) {
             return Err(TerrainError::UnknownUnit { key: "height_unit", said: said.clone() });
@@ -118,7 +125,15 @@ impl Reference {
         let taken = || (plane.is_metre() || given.assume_heights).then(|| plane.clone());
         let given_height = given.height_unit.map(Unit::from);
         let (height, height_from) = told("height_unit", self.height_unit.clone(), given_height, taken)?;
-        Ok(Units { plane, plane_from, height, height_from, epsg, name: self.name.clone() })
+        Ok(Units {
+            plane,
+            plane_from,
+            height,
+            height_from,
+            epsg,
+            name: self.name.clone(),
+            scale: found.map(|found| found.scale),
+        })
     }
 
     /// What is said of heights once more, elsewhere; another unit than before is none.

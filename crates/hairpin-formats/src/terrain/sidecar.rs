@@ -20,18 +20,23 @@ pub struct Sidecars {
     prj: Option<String>,
     aux: Option<String>,
     masked: bool,
+    /// What a file is called that places the cells.
+    world_file: Option<String>,
 }
 
 impl Sidecars {
     /// The texts of a `.prj` and an `.aux.xml`.
     pub fn of(prj: Option<String>, aux: Option<String>) -> Self {
-        Self { prj, aux, masked: false }
+        Self { prj, aux, ..Self::default() }
     }
 
     /// What lies beside the file at `path`.
     pub fn beside(path: &Path) -> Self {
         let prj = ["prj", "PRJ"].iter().find_map(|ending| text(&path.with_extension(ending)));
-        Self { prj, aux: text(&with(path, ".aux.xml")), masked: with(path, ".msk").is_file() }
+        let placed = ["tfw", "TFW", "tifw", "tiffw", "wld"].iter().map(|ending| path.with_extension(ending));
+        let world_file = placed.filter(|path| path.is_file()).find_map(|path| path.file_name().map(ToOwned::to_owned));
+        let world_file = world_file.map(|name| name.to_string_lossy().into_owned());
+        Self { prj, aux: text(&with(path, ".aux.xml")), masked: with(path, ".msk").is_file(), world_file }
     }
 
     /// What they say of the plane, where the file itself says nothing.
@@ -46,6 +51,13 @@ impl Sidecars {
             // Older ones are lists of words, which GDAL understands.
             Err(error) => Err(TerrainError::Convert { why: error.to_string(), command: Remedy::rewrite(file, "") }),
         }
+    }
+
+    /// Where the cells are placed by a file beside one that says nothing of it: what puts that into it.
+    pub(super) fn placed_by(&self, file: &str) -> Option<TerrainError> {
+        let name = self.world_file.as_ref()?;
+        let why = format!("no georeference in it, but in {name} beside it; this puts it there");
+        Some(TerrainError::Convert { why, command: Remedy::rewrite(file, "") })
     }
 
     /// Refuses another place of the cells of `grid` than the file says, which GDAL believes before the file's own.

@@ -97,7 +97,10 @@ fn depths_and_stretched_planes_come_with_the_command_that_mends_them() {
         (&[(4096, 5715)][..], ["depths (VerticalCS = 5715)", "--calc='-A' --outfile=a_heights.tif"]),
         (&[(4096, 6357), (3072, 32632)][..], ["VerticalCS = 6357", "gdal_edit.py -a_srs EPSG:32632 a_heights.tif"]),
         (&[(4096, 5614)][..], ["VerticalCS = 5614", "--calc='-0.3048*A'"]),
-        (&[(3072, 3857)][..], ["a plane of Mercator's (EPSG:3857)", "gdalwarp -t_srs EPSG:32631 -r bilinear a.tif"]),
+        (
+            &[(3072, 3857)][..],
+            ["a plane that stretches the ground (EPSG:3857)", "gdalwarp -t_srs EPSG:32631 -r bilinear a.tif"],
+        ),
     ] {
         let plane = [&[(1024, 1), (1025, 1)][..], keys].concat();
         let error = read_terrain(&keyed(&HEIGHTS, &plane, "-9999"), "a.tif", &Georeference::default());
@@ -162,6 +165,15 @@ fn steps_of_heights_in_the_georeference_are_refused() {
     assert!(error.contains("a step or an origin of heights") && error.contains("gdal_translate a.tif"), "{error}");
 }
 
+/// What a tag has, or where.
+fn tag_value(bytes: &[u8], tag: u16) -> u32 {
+    let number = |at: usize, size: usize| bytes[at..at + size].iter().rev().fold(0, |all, b| all << 8 | u32::from(*b));
+    let directory = number(4, 4) as usize;
+    let entries = (0..number(directory, 2) as usize).map(|entry| directory + 2 + 12 * entry);
+    let found = entries.into_iter().find(|at| number(*at, 2) == u32::from(tag));
+    number(found.expect("the tag") + 8, 4)
+}
+
 /// The directory's entries are 12 bytes each.
 fn set_tag(bytes: &mut [u8], tag: u16, value: u32) {
     let directory = u32::from_le_bytes(bytes[4..8].try_into().expect("four bytes")) as usize;
@@ -172,6 +184,46 @@ fn set_tag(bytes: &mut [u8], tag: u16, value: u32) {
             bytes[at + 8..at + 12].copy_from_slice(&value.to_le_bytes());
         }
     }
+}
+
+/// A GeoTIFF of three rows of three heights, a strip each, of which these are not in the file.
+fn sparse(missing: &[usize], no_data: Option<&str>) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).expect("an encoder");
+    let mut image = encoder.new_image::<colortype::Gray16>(3, 3).expect("an image");
+    image.rows_per_strip(1).expect("rows");
+    let tags = image.encoder();
+    tags.write_tag(Tag::ModelPixelScaleTag, &[0.5, 0.5, 0.0][..]).expect("a tag");
+    tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 10.0, 20.0, 0.0][..]).expect("a tag");
+    if let Some(no_data) = no_data {
+        tags.write_tag(Tag::GdalNodata, no_data).expect("a tag");
+    }
+    image.write_data(&[1, 2, 3, 4, 5, 6, 7, 8, 9]).expect("data");
+    let mut bytes = bytes.into_inner();
+    for tag in [Tag::StripOffsets, Tag::StripByteCounts] {
+        let list = tag_value(&bytes, tag.to_u16()) as usize;
+        for strip in missing {
+            bytes[list + 4 * strip..][..4].fill(0);
+        }
+    }
+    bytes
+}
+
+#[test]
+fn strips_that_are_not_in_the_file_are_no_data_and_not_its_header() {
+    let read = |bytes: &[u8]| read_terrain(bytes, "a.tif", &Georeference::default());
+    let whole = read(&sparse(&[], Some("-9999"))).expect("a map");
+    assert_eq!((at(&whole, 10.25, 19.75), at(&whole, 11.25, 18.75)), (1.0, 9.0));
+    let holes = read(&sparse(&[1], Some("0"))).expect_err("holes");
+    assert_eq!(holes, TerrainError::Map(MapError::Holes { count: 3, row: 1, column: 0 }));
+    // Where no value means no data they are 0.
+    let zero = read(&sparse(&[0], None)).expect("a map");
+    assert_eq!([at(&zero, 10.25, 19.75), at(&zero, 10.25, 19.25), at(&zero, 11.25, 18.75)], [0.0, 4.0, 9.0]);
+    let mut lies = sparse(&[], Some("-9999"));
+    let list = tag_value(&lies, Tag::StripOffsets.to_u16()) as usize;
+    lies[list + 8..][..4].fill(0);
+    let error = read(&lies).expect_err("a strip in the header").to_string();
+    assert!(error.contains("strip 2, of 6 bytes, at byte 0 of the file"), "{error}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What a map's file says of itself, as it was understood.
 
 use super::raster::Layout;
+use super::scale::Scale;
 use super::unit::{Source, Unit};
 
 /// What a file says beside its heights.
@@ -20,6 +21,9 @@ pub struct Told {
     pub epsg: Option<u32>,
     /// What the plane is called.
     pub name: String,
+    /// How long a metre of the ground is on the plane at the map's middle; `None` where its projection is not known:
+    /// its metres are then taken for the ground's.
+    pub scale: Option<Scale>,
     /// Taken off the file's coordinates, m: the map's x is the easting less the first, its y the northing less the
     /// second.
     pub offset_m: [f64; 2],

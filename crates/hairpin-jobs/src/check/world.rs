@@ -5,7 +5,7 @@ use std::path::Path;
 use hairpin::campaign::{Mistake, Setup};
 use hairpin_formats::library;
 use hairpin_formats::missions::{self, Mission};
-use hairpin_formats::scenario::{is_scenario, setup_for, setup_for_missions, shadowed};
+use hairpin_formats::scenario::{is_map, is_scenario, setup_for, setup_for_missions, shadowed};
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
@@ -19,9 +19,6 @@ use crate::{Problem, Watch};
 const ROOM_M: f64 = 30.0;
 /// A shipped robot: what a mission says does not depend on which.
 const ANYBODY: &str = "flightgoggles";
-/// Endings of maps.
-const MAPS: [&str; 5] = ["tif", "tiff", "asc", "png", "npy"];
-
 /// The robot in its world, the mission there, the world in words, and, of a flight in none, altitudes of the mission's
 /// waypoints above its home, m.
 type Read = (Setup, Mission, String, Vec<f64>);
@@ -42,8 +39,7 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<Read, 
             (setup_for_missions(world, &all)?, world.clone())
         }
         Some(world) => {
-            let ending = Path::new(world).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-            let value = match MAPS.contains(&ending.as_str()) {
+            let value = match is_map(world) {
                 true => format!("{{ terrain = {{ file = {} }} }}", quoted(world)),
                 false => format!("{{ base = {} }}", quoted(world)),
             };

@@ -18,7 +18,7 @@ use hairpin_formats::report::{DayCard, FlightCard, day_card_html};
 
 use super::airtime::AirTime;
 use super::hardware::{Hardware, PURPOSE, room};
-use super::limits::return_words;
+use super::limits::{above_home, return_words};
 use super::missions::{remove_slow, write_slow};
 use super::preflight::{Cleared, look_at};
 use super::speeds::of_legs;
@@ -220,7 +220,7 @@ fn returning(
     cleared: &Cleared,
 ) -> Result<Option<[String; 2]>, Problem> {
     let height = cleared.way.return_height(&work.setup, room, case)?;
-    let above_home = height.map(|height| height.map(|height| height - cleared.way.home.z));
+    let above_home = height.map(|height| height.map(|height| above_home(height, room, &cleared.way)));
     Ok(above_home.map(|height| ["failsafe return".into(), return_words(autopilot, height)]))
 }
 

@@ -40,7 +40,7 @@ impl Limits {
             autopilot,
             flies: room.flies,
             ceiling: room.high.z - way.home.z,
-            returning: returning.map(|height| height.map(|height| height - way.home.z)),
+            returning: returning.map(|height| height.map(|height| above_home(height, room, way))),
             accept,
             turn: widest_turn(room, case),
         }
@@ -97,7 +97,7 @@ impl Limits {
                 parameter("RTL_CONE_ANG", Value::Whole(0), cone),
             ],
             Autopilot::ArduPilot => vec![
-                parameter("RTL_ALT", Value::Whole((100.0 * height).round() as i32), &format!("cm; {home}")),
+                parameter("RTL_ALT", Value::Whole((100.0 * height - 1e-6).ceil() as i32), &format!("cm; {home}")),
                 parameter("RTL_CONE_SLOPE", Value::Real(0.0), cone),
             ],
         }
@@ -157,6 +157,13 @@ impl Limits {
             "at waypoint {waypoint} the turn of {degrees:.0}° at the vehicle's least radius {needs}, {verdict} {accept} m"
         )
     }
+}
+
+/// The height `height` (m, world frame) above home, m: up to the next whole centimetre, which all files and words of it
+/// have, for below it something stands; never above the ceiling.
+pub(super) fn above_home(height: f64, room: &Room, way: &Way) -> f64 {
+    let [exact, ceiling] = [height, room.high.z].map(|z| z - way.home.z);
+    ((100.0 * exact - 1e-6).ceil() / 100.0).min(ceiling.max(exact))
 }
 
 fn default_return(autopilot: Autopilot) -> f64 {
@@ -224,12 +231,17 @@ mod tests {
             all.iter().filter(|one| one.name.starts_with("RTL_")).map(|one| (one.name, one.value)).collect()
         };
         let over = of(Autopilot::Px4, Ok(20.32));
-        let height = Value::Real(20.32 - 1.0);
+        let height = Value::Real(19.32);
         let wanted = [("RTL_RETURN_ALT", height), ("RTL_DESCEND_ALT", height), ("RTL_CONE_ANG", Value::Whole(0))];
         assert_eq!(set(&over), wanted, "above home");
         assert!(over.told("0000")[0].contains("19.32 m to return at"), "{:?}", over.told("0000"));
         let wanted = [("RTL_ALT", Value::Whole(1932)), ("RTL_CONE_SLOPE", Value::Real(0.0))];
         assert_eq!(set(&of(Autopilot::ArduPilot, Ok(20.32))), wanted);
+        // To the nearest centimetre it would be below what it clears.
+        assert_eq!(set(&of(Autopilot::ArduPilot, Ok(20.321)))[0], ("RTL_ALT", Value::Whole(1933)));
+        assert_eq!(set(&of(Autopilot::Px4, Ok(20.321)))[0], ("RTL_RETURN_ALT", Value::Real(19.33)));
+        assert!(of(Autopilot::Px4, Ok(20.321)).told("0000")[0].contains("19.33 m to return at"));
+        assert_eq!(set(&of(Autopilot::Px4, Ok(29.999)))[0], ("RTL_RETURN_ALT", Value::Real(29.0)), "the ceiling");
         for autopilot in [Autopilot::Px4, Autopilot::ArduPilot] {
             let none = of(autopilot, Err("a beam hangs there"));
             assert_eq!(set(&none), []);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::fit::Flown;
-use hairpin::campaign::{Case, CaseNumber, Setup};
+use hairpin::campaign::{Case, CaseNumber, Setup, plan_followed};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Track};
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Progress, Sample};
@@ -90,11 +90,13 @@ impl Missions {
 
     /// The mission of the log in `file`: the one that it is called after, else the one that its targets or its track
     /// say.
-    fn of(&self, file: &Path, log: &InWorld) -> Result<&Case, Problem> {
+    fn of(&self, file: &Path, log: &InWorld, setup: &Setup) -> Result<&Case, Problem> {
         if let Some(named) = self.named(file)? {
             return Ok(named);
         }
-        let found = matched(self.cases(), &log.samples, (log.logged, &log.progress, log.accept), &Asks::FIT);
+        let plan = |case: &Case| -> Result<Option<Track>, Problem> { Ok(plan_followed(setup, case)) };
+        let of = (log.logged, &log.progress[..], log.accept);
+        let found = matched(self.cases(), &log.samples, of, (&plan, &Asks::FIT));
         found.map(|(case, _)| case).map_err(|problem| Problem::of_file(file, problem.to_string()))
     }
 }
@@ -135,6 +137,7 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
         _ => {}
     }
     let motion = best(&logged, &Asks::FIT).map_err(|why| Problem::of_file(file, why))?;
+    Heights::needed(setup, motion).map_err(|why| Problem::of_file(file, why))?;
     let frame = IntoWorld::of(&logged.frame, place.as_ref(), &FrameSettings::default())?;
     let mut samples =
         mission_of(&logged, motion).map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, _>>()?;
@@ -144,7 +147,7 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
     }
     let progress = logged.progress.iter().map(|step| frame.progress(step)).collect::<Result<_, _>>()?;
     let log = InWorld { logged: &logged, progress, samples, accept: setup.scenario.executor().accept };
-    let case = missions.of(file, &log)?;
+    let case = missions.of(file, &log, setup)?;
     let track = track(&log, case).map_err(|why| Problem::of_file(file, why))?;
     Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track })
 }

@@ -7,6 +7,7 @@ use hairpin::judgement::Swiftness;
 use hairpin_formats::missions::{self, Demands, Frame, Mission};
 use hairpin_formats::placement::Placement;
 use hairpin_formats::scenario::{NamedWorld, check_asked, named_world, setup_for_missions};
+use hairpin_formats::waypoints;
 use serde_json::{Map, Value};
 
 use super::heights::on_ground;
@@ -144,6 +145,14 @@ impl Ready {
         }
         check_asked(&setup.scenario, file)?;
         let in_world = named.is_some();
+        // A table has no home, and the world that a robot's own scenario has is nobody's here.
+        if !in_world && waypoints::are_in_degrees(file).map_err(Problem::input)? {
+            return Err(Problem::of_file(
+                file,
+                "its waypoints are in degrees, and without --world there is no world.origin and no map whose plane is \
+                 known (world.terrain.epsg) to place them by: --world W",
+            ));
+        }
         let mut mission = mission(file, &setup, in_world)?;
         let missions = Some(MissionsTold::of_log(&mission));
         if in_world {

@@ -58,6 +58,8 @@ impl Outcome {
 pub struct JudgedLog {
     /// The file.
     pub file: PathBuf,
+    /// What it is called: the file's name, of a folder's its path in that.
+    pub name: String,
     /// Its sentence.
     pub verdict: Verdict,
     /// Its word.
@@ -116,11 +118,11 @@ pub struct Found {
 /// Logs and what they came to.
 #[derive(Debug)]
 pub struct JudgedLogs {
-    /// One a file, in the order of their names.
+    /// One a file, in the order of their paths in the folder, name by name.
     pub logs: Vec<JudgedLog>,
     /// The line with counts, of a folder.
     pub count: Option<Verdict>,
-    /// Files of a folder that by their names are no recordings but what was planned.
+    /// Of a folder: files that by their names are no recordings but what was planned, and folders of campaigns.
     pub left_out: Vec<PathBuf>,
 }
 

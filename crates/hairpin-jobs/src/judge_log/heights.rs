@@ -21,6 +21,19 @@ impl<'a> Heights<'a> {
         setup.footing().filter(|_| is_untold).map(|footing| Self { footing })
     }
 
+    /// Refuses a motion without heights of what flies: at 0 m it would be another one.
+    ///
+    /// # Errors
+    /// In a sentence.
+    pub(crate) fn needed(setup: &Setup, motion: &LoggedMotion) -> Result<(), String> {
+        match &motion.no_heights {
+            Some(why) if setup.room().is_some_and(|room| room.flies) => {
+                Err(format!("{why}: heights of what flies are needed, as `z_m`, m upwards in the world's frame"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Puts `samples`, in the world's frame, on the ground; gives the moments at which the vehicle cannot stand on it,
     /// whose heights nobody knows. Off the map they are as high above it as they were last: that they are off it is
     /// told by their places.

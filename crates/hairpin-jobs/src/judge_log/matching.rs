@@ -2,7 +2,7 @@
 //! best, with the runner-up told; where two come near each other it is asked for, not guessed.
 
 use hairpin::campaign::Case;
-use hairpin::judgement::{Settings, measure};
+use hairpin::judgement::{Reference, Settings, measure};
 use hairpin::trajectory::Track;
 use hairpin_formats::logs::{Logged, Progress, Sample};
 use nalgebra::{Isometry3, Point3};
@@ -43,24 +43,39 @@ impl Matched {
     }
 }
 
+/// The plan of a case, where deviations are measured from that, as the judge measures them; `None` where they are from
+/// straight legs.
+pub(crate) type PlanOf<'p> = &'p (dyn Fn(&Case) -> Result<Option<Track>, Problem> + Sync);
+
 /// The case of `cases` that `samples` flew.
 ///
 /// A case is as far away as the mean, over the time, of the track's distance from its path, samples assigned to legs in
-/// order. Where others are less than twice as far, the mean distance of their path from the track counts too: a longer
-/// path that goes on elsewhere is then told from one that does not.
+/// order: from its plan where the judge measures from that (`plan`), else from straight legs. Where others are less
+/// than twice as far, the mean distance of their path from the track counts too: a longer path that goes on elsewhere
+/// is then told from one that does not.
 ///
 /// # Errors
-/// Two cases are as near, or none is anywhere near.
+/// Two cases are as near, or none is anywhere near; a plan cannot be read.
 pub(crate) fn matched<'a>(
     cases: &'a [Case],
     samples: &[Sample],
     (logged, progress, accept): (&Logged, &[Progress], f64),
-    asks: &Asks,
+    (plan, asks): (PlanOf, &Asks),
 ) -> Result<(&'a Case, Matched), Problem> {
+    // All are judged alike: where the first has none nobody measures from one.
+    let first = cases.first().map(plan).transpose()?.flatten();
+    let plans: Vec<Option<Track>> = match first {
+        Some(_) => cases.par_iter().map(plan).collect::<Result<_, _>>()?,
+        None => vec![None; cases.len()],
+    };
+    let plan_of = |case: &Case| {
+        let place = cases.iter().position(|other| other.number == case.number)?;
+        plans[place].as_ref()
+    };
     let ways: Vec<Point3<f64>> = thinned(samples);
     let flown = track(&ways, samples);
-    let far = |case: &Case| mean(&flown, &case.waypoints);
-    let mut by_distance: Vec<(f64, &Case)> = cases.par_iter().map(|case| (far(case), case)).collect();
+    let mut by_distance: Vec<(f64, &Case)> =
+        cases.par_iter().zip(&plans).map(|(case, plan)| (mean(&flown, &case.waypoints, plan.as_ref()), case)).collect();
     by_distance.sort_by(|a, b| a.0.total_cmp(&b.0));
     let named = |case: &&Case| {
         course(logged, progress, &case.waypoints, accept)
@@ -90,7 +105,7 @@ pub(crate) fn matched<'a>(
             )));
         }
         let near = by_distance.iter().take_while(|(far, _)| *far <= CLEAR * nearest).count();
-        let both = |(far, case): &(f64, &'a Case)| (far.max(covered(case, &ways)), *case);
+        let both = |(far, case): &(f64, &'a Case)| (far.max(covered(case, plan_of(case), &ways)), *case);
         let mut near: Vec<(f64, &Case)> = match near {
             1 => by_distance.clone(),
             near => by_distance[..near].iter().map(both).collect(),
@@ -140,13 +155,20 @@ fn track(ways: &[Point3<f64>], samples: &[Sample]) -> Track {
     Track::new(times, poses, Vec::new()).unwrap_or_default()
 }
 
-/// Mean distance of `track` from the path through `waypoints`, m.
-fn mean(track: &Track, waypoints: &[Point3<f64>]) -> f64 {
-    measure(track, waypoints, &Settings::default()).map_or(f64::INFINITY, |measures| measures.mean_deviation)
+/// Mean distance of `track` from the path through `waypoints`, or from the `plan` of it, m.
+fn mean(track: &Track, waypoints: &[Point3<f64>], plan: Option<&Track>) -> f64 {
+    let reference = plan.map_or(Reference::Leg, Reference::Path);
+    let settings = Settings { reference, ..Settings::default() };
+    measure(track, waypoints, &settings).map_or(f64::INFINITY, |measures| measures.mean_deviation)
 }
 
-/// Mean distance of the case's path from what was flown, m.
-fn covered(case: &Case, ways: &[Point3<f64>]) -> f64 {
+/// Mean distance of the case's path, its `plan` where there is one, from what was flown, m.
+fn covered(case: &Case, plan: Option<&Track>, ways: &[Point3<f64>]) -> f64 {
+    if let Some(plan) = plan {
+        let stride = plan.len().div_ceil(SAMPLES).max(1);
+        let thinned = (0..plan.len()).step_by(stride).map(|i| plan.position(i)).collect();
+        return far_of(thinned, ways);
+    }
     let total: f64 = case.waypoints.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum();
     let mut along = Vec::new();
     for leg in case.waypoints.windows(2) {
@@ -155,7 +177,12 @@ fn covered(case: &Case, ways: &[Point3<f64>]) -> f64 {
         along.extend((0..parts as usize).map(|k| leg[0] + way * (k as f64 / parts)));
     }
     along.extend(case.waypoints.last());
+    far_of(along, ways)
+}
+
+/// Mean distance of places, one after the other, from a way, m.
+fn far_of(along: Vec<Point3<f64>>, ways: &[Point3<f64>]) -> f64 {
     let poses = along.iter().map(|p| Isometry3::translation(p.x, p.y, p.z)).collect();
     let times = (0..along.len()).map(|i| i as f64).collect();
-    mean(&Track::new(times, poses, Vec::new()).unwrap_or_default(), ways)
+    mean(&Track::new(times, poses, Vec::new()).unwrap_or_default(), ways, None)
 }

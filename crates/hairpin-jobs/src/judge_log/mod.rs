@@ -18,6 +18,7 @@ mod asks;
 mod begin;
 mod cut;
 mod due;
+mod files;
 mod found;
 mod frame;
 mod heights;
@@ -37,11 +38,11 @@ mod told;
 #[cfg(test)]
 mod tests;
 
-use std::path::{Path, PathBuf};
-
-use hairpin_formats::logs::is_planned;
+use std::path::Path;
 
 use crate::{Problem, Watch};
+use files::{Files, files_in};
+use told::name_in;
 
 pub use arm::{FoundProgram, JointsTold};
 pub(crate) use arm::{arm_of, ran};
@@ -63,12 +64,13 @@ pub use sheet::Sheet;
 pub use source::SourceTold;
 pub(crate) use source::{best, clock_words};
 
-/// Judges a log, or all that are in a folder. In a folder one that cannot be judged is told, and the others are judged.
+/// Judges a log, or all that are in a folder and its subfolders. In a folder one that cannot be judged is told, and the
+/// others are judged.
 ///
 /// # Errors
-/// A campaign, mission, world or robot that cannot be read; keys of other tables than `spec`; a mission nothing is
-/// asked of; a single log that cannot be read, fits no case, or does not lie where its mission begins; a folder without
-/// a file; a page that cannot be written.
+/// A part of logs that ends before it begins; a campaign, mission, world or robot that cannot be read; keys of other
+/// tables than `spec`; a mission nothing is asked of; a single log that cannot be read, fits no case, or does not lie
+/// where its mission begins; a folder without a file; a page that cannot be written.
 pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs, Problem> {
     if settings.path.join("scenario.toml").is_file() {
         return Err(Problem::of_file(
@@ -76,6 +78,9 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
             "a campaign's folder, whose own flights `hairpin judge` judges without --campaign and --mission; logs lie in \
              another",
         ));
+    }
+    if let Some((from, to)) = settings.from_s.zip(settings.to_s).filter(|(from, to)| from >= to) {
+        return Err(Problem::input(format!("--from {from} --to {to}: --from must be before --to")));
     }
     let against = against::Ready::of(settings)?;
     against.notes.iter().for_each(|note| watch.warn(note));
@@ -101,42 +106,16 @@ fn judge_folder(
     watch: &dyn Watch,
 ) -> Result<JudgedLogs, Problem> {
     let mut logs = Vec::new();
-    let (files, left_out) = files_in(folder)?;
+    let Files { logs: files, left_out } = files_in(folder)?;
     for file in files {
         if watch.stopped() {
             return Err(Problem::Interrupted(format!("stopped after {} logs", logs.len())));
         }
         logs.push(match judge(&file) {
             Ok(judged) => judged,
-            Err(problem) => told::unreadable(&file, &problem),
+            Err(problem) => told::unreadable((&file, &name_in(folder, &file)), &problem),
         });
     }
     let count = told::count(folder, &logs, &left_out);
     Ok(JudgedLogs { logs, count: Some(count), left_out })
-}
-
-/// Endings of what lies beside logs and is none.
-const NO_LOGS: &[&str] =
-    &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
-
-/// The files of a folder, but for hidden ones and what is no log by its ending; and those that by their names were
-/// planned and did not move.
-fn files_in(folder: &Path) -> Result<(Vec<PathBuf>, Vec<PathBuf>), Problem> {
-    let refuse = |cause| Problem::of_file(folder, cause);
-    let entries = std::fs::read_dir(folder).map_err(refuse)?;
-    let paths = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(refuse)?;
-    let is_log = |path: &PathBuf| {
-        let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().to_lowercase();
-        let (name, ending) = (part(path.file_name()), part(path.extension()));
-        path.is_file() && !name.starts_with('.') && !NO_LOGS.contains(&ending.as_str())
-    };
-    let mut files: Vec<PathBuf> = paths.into_iter().filter(is_log).collect();
-    files.sort();
-    let (planned, logs): (Vec<PathBuf>, Vec<PathBuf>) =
-        files.into_iter().partition(|file| is_planned(&told::file_name(file)));
-    if logs.is_empty() {
-        let words = told::left_out(&planned).map_or(String::new(), |planned| format!("; {planned}"));
-        return Err(Problem::of_file(folder, format!("no log in it{words}")));
-    }
-    Ok((logs, planned))
 }

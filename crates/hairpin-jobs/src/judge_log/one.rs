@@ -57,6 +57,7 @@ pub(super) fn judge(
     settings: &LogSettings,
 ) -> Result<JudgedLog, Problem> {
     let (motion, source) = source::choose(logged, settings.source.as_deref())?;
+    Heights::needed(&against.setup, motion).map_err(Problem::input)?;
     let frame = IntoWorld::of(&logged.frame, against.place.as_ref(), &settings.frame)?;
     let span = mission(logged, [settings.from_s, settings.to_s]);
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
@@ -76,7 +77,11 @@ pub(super) fn judge(
         [only] => (only, None),
         cases if samples.is_empty() => (&cases[0], None),
         cases => {
-            let found = matching::matched(cases, &samples, (logged, &progress, against.accept), &Asks::JUDGE)?;
+            let plan = |case: &Case| -> Result<Option<Track>, Problem> {
+                Ok(plan_followed(&against.setup, &against.whole(case)?))
+            };
+            let log = (logged, &progress[..], against.accept);
+            let found = matching::matched(cases, &samples, log, (&plan, &Asks::JUDGE))?;
             (found.0, Some(found.1))
         }
     };
@@ -121,7 +126,10 @@ pub(super) fn judge(
         span_s: left.samples.first().zip(left.samples.last()).map(|(first, last)| [first.t_s, last.t_s]),
         legs_by: course.as_ref().map_or(LegsBy::Assigned, |course| course.by),
         cuts: left.cuts.clone(),
-        ended: span.ended.clone(),
+        ended: span.ended.clone().or_else(|| {
+            let to_s = settings.to_s.filter(|to| motion.samples.iter().any(|sample| sample.t_s > *to))?;
+            Some(format!("--to at t = {to_s:.1} s"))
+        }),
         finished,
         to_the_end,
         left_out,
@@ -160,7 +168,7 @@ pub(super) fn judge(
         let limit = against.setup.scenario.deviation_limit();
         found.notes.extend(told::told_otherwise([found.simulated_m, told_m], limit));
     }
-    let judged = told::judged(file, found, &against.setup);
+    let judged = told::judged((file, &told::name_in(&settings.path, file)), found, &against.setup);
     match settings.page {
         Some(_) => over::of_flight(judged, &whole, log, against),
         None => Ok(judged),

@@ -13,7 +13,6 @@ use super::arm::FoundProgram;
 use super::found::{Found, JudgedLog, JudgedLogs};
 use super::legs::LegsBy;
 use super::sheet::Sheet;
-use super::told::file_name;
 use crate::Problem;
 
 /// Logs that open at most; the worst do.
@@ -54,7 +53,7 @@ pub(super) fn write(file: &Path, judged: &JudgedLogs, against: &Ready) -> Result
         asked: None,
     });
     let mut names = Names::default();
-    let logs = numbered().map(|(case, log, _)| (case, if many { names.of(&log.file) } else { case.to_string() }));
+    let logs = numbered().map(|(case, log, _)| (case, if many { names.of(&log.name) } else { case.to_string() }));
     let mut data = ReportData {
         logs: logs.collect(),
         beside: Beside { runs: beside(against), cases: "the same cases in simulation", shown: "the log" },
@@ -120,7 +119,7 @@ fn facts(judged: &JudgedLogs, against: &Ready) -> Vec<[String; 2]> {
     });
     match &judged.logs[..] {
         [only] => {
-            facts.push(fact("log", file_name(&only.file)));
+            facts.push(fact("log", only.name.clone()));
             facts.extend(lines(only));
         }
         all => facts.push(fact("logs", all.len().to_string())),
@@ -177,7 +176,7 @@ fn assumptions(judged: &JudgedLogs, against: &Ready) -> Vec<String> {
     for log in &judged.logs {
         let notes = log.found.as_ref().map(|found| &found.notes).or(log.program.as_ref().map(|found| &found.notes));
         let notes = notes.into_iter().flatten().chain(log.sheet.iter().flat_map(|sheet| &sheet.notes));
-        all.extend(notes.map(|note| format!("{}: {note}", file_name(&log.file))));
+        all.extend(notes.map(|note| format!("{}: {note}", log.name)));
         if log.sheet.is_none() {
             all.push(log.verdict.sentence.clone());
         }
@@ -207,9 +206,9 @@ fn in_no_world(data: &mut ReportData) {
 struct Names(BTreeSet<String>);
 
 impl Names {
-    fn of(&mut self, file: &Path) -> String {
+    fn of(&mut self, name: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
-        let name: String = file_name(file).chars().map(plain).collect();
+        let name: String = name.chars().map(plain).collect();
         let other = || (2..).map(|i| format!("{name}-{i}")).find(|name| !self.0.contains(name));
         let own = if self.0.contains(&name) { other().unwrap_or_default() } else { name.clone() };
         self.0.insert(own.clone());

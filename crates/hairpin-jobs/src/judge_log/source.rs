@@ -12,7 +12,8 @@ pub struct SourceTold {
     pub format: &'static str,
     /// The topic.
     pub topic: String,
-    /// Who says where the robot was: `motion capture`, `ground truth`, `EKF2 estimate`, `source not told`.
+    /// Who says where the robot was: `motion capture`, `ground truth`, `EKF2 estimate`, `visual odometry, an input of
+    /// EKF2`, `source not told`.
     pub words: &'static str,
     /// Whether it says how accurate it is.
     pub has_accuracy: bool,
@@ -51,7 +52,8 @@ pub(super) fn choose<'a>(logged: &'a Logged, asked: Option<&str>) -> Result<(&'a
     Ok((motion, SourceTold::of(logged, motion)))
 }
 
-/// The motion of the best rank: motion capture, ground truth, the vehicle's own estimate, in the log's own order; of
+/// The motion of the best rank: motion capture, ground truth, the vehicle's own estimate, what that takes in, in the
+/// log's own order; of
 /// topics that do not tell who says so the only one, and no plan, way, goal or command.
 ///
 /// # Errors
@@ -103,6 +105,8 @@ fn words(source: Source, format: &str) -> &'static str {
         (Source::Estimate, "PX4 ULog") => "EKF2 estimate",
         (Source::Estimate, "ArduPilot DataFlash") => "EKF estimate",
         (Source::Estimate, _) => "estimate",
+        (Source::Input, "PX4 ULog") => "visual odometry, an input of EKF2",
+        (Source::Input, _) => "an input of the estimate",
         (Source::Untold, _) => "source not told",
         (Source::Way, _) => "a whole way, of a plan or a trail",
         (Source::Asked, _) => "by its name a plan, goal or command",
@@ -133,7 +137,7 @@ impl SourceTold {
         match self.words {
             words if self.has_accuracy => words.into(),
             "source not told" => "neither source nor accuracy told".into(),
-            words if words.contains("estimate") => format!("{words} without accuracy"),
+            words if words.contains("estimate") || words.contains("an input") => format!("{words} without accuracy"),
             words => words.into(),
         }
     }

@@ -47,7 +47,15 @@ fn samples(rate: f64, off: f64) -> Vec<Sample> {
 }
 
 fn motion(name: &str, source: Source, samples: Vec<Sample>) -> LoggedMotion {
-    LoggedMotion { name: name.into(), source, samples, resets: Vec::new(), invalid: Vec::new(), unfit: None }
+    LoggedMotion {
+        name: name.into(),
+        source,
+        samples,
+        resets: Vec::new(),
+        invalid: Vec::new(),
+        unfit: None,
+        no_heights: None,
+    }
 }
 
 fn log(rate: f64, off: f64) -> Logged {
@@ -334,7 +342,7 @@ fn what_ends_the_mission_ends_judgement_and_is_told() {
     assert_eq!(judged.found.unwrap().ended.unwrap(), "nav_state AUTO_LAND at t = 8.0 s");
     // A log that merely stops short was not finished either; by name a part is judged.
     let short = judged_as(&log(100.0, 0.3), |settings, _| settings.to_s = Some(6.0)).unwrap().verdict;
-    assert!(short.exit_code == 5 && short.sentence.contains("the log ends, on leg 1→2"), "{}", short.sentence);
+    assert!(short.exit_code == 5 && short.sentence.contains("--to at t = 6.0 s, on leg 1→2"), "{}", short.sentence);
 }
 
 #[test]
@@ -402,7 +410,7 @@ fn a_log_that_is_near_no_case_is_asked_for_none() {
         let mut log = log(10.0, 0.0);
         let moved = |p: Point3<f64>| Point3::from(p.coords * scale + Vector3::z() * by);
         log.motions[0].samples.iter_mut().for_each(|sample| sample.p_m = moved(sample.p_m));
-        let found = matched(&cases, &log.motions[0].samples, (&log, &[], 1.0), &Asks::JUDGE);
+        let found = matched(&cases, &log.motions[0].samples, (&log, &[], 1.0), (&|_| Ok(None), &Asks::JUDGE));
         found.map(|(case, _)| case.id()).map_err(|why| why.to_string())
     };
     assert_eq!(found(1.0, 0.0).as_deref(), Ok("0000"));
@@ -414,6 +422,28 @@ fn a_log_that_is_near_no_case_is_asked_for_none() {
     }
     // Who is beside one is matched to it, to be judged.
     assert_eq!(found(1.0, 8.0).as_deref(), Ok("0000"));
+}
+
+/// Two cases through the same corners, one of which is planned round: from straight legs nobody could tell them apart.
+#[test]
+fn a_log_is_matched_by_what_it_is_judged_from() {
+    let plan = |off: f64| {
+        let poses = samples(10.0, off).iter().map(|s| nalgebra::Isometry3::translation(s.p_m.x, s.p_m.y, s.p_m.z));
+        let times = samples(10.0, off).iter().map(|s| s.t_s).collect();
+        hairpin::trajectory::Track::new(times, poses.collect(), Vec::new()).unwrap()
+    };
+    let cases = [0, 1].map(|number| Case::bare(CaseNumber(number), 1, corners().to_vec()));
+    let planned = |case: &Case| -> Result<Option<hairpin::trajectory::Track>, Problem> {
+        Ok(Some(plan(if case.number.0 == 0 { 4.0 } else { -4.0 })))
+    };
+    for (off, wanted) in [(4.0, "0000"), (-3.9, "0001")] {
+        let log = log(10.0, off);
+        let of = (&log, &[][..], 1.0);
+        let found = matched(&cases, &log.motions[0].samples, of, (&planned, &Asks::JUDGE)).unwrap();
+        assert!(found.0.id() == wanted && found.1.mean_m < 0.1, "{off}: {:?}", found.1);
+        let legs = matched(&cases, &log.motions[0].samples, of, (&|_| Ok(None), &Asks::JUDGE));
+        assert!(legs.unwrap_err().to_string().contains("come too near each other to tell"));
+    }
 }
 
 /// Axes of a cage whose x points to 73.5° in east and north, by the compass: nothing of our conversions is used.

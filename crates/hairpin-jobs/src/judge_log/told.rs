@@ -20,23 +20,23 @@ use crate::Problem;
 use crate::missions::FENCE;
 
 /// A log that was judged.
-pub(super) fn judged(file: &Path, found: Found, setup: &Setup) -> JudgedLog {
-    let name = file_name(file);
+pub(super) fn judged((file, name): (&Path, &str), found: Found, setup: &Setup) -> JudgedLog {
     let source = found.source.in_sentence();
-    let how = ["flown", name.as_str(), source.as_str()];
+    let how = ["flown", name, source.as_str()];
     let (outcome, verdict) = verdict(&found, &how, setup.scenario.asked());
-    JudgedLog { file: file.into(), verdict, outcome, found: Some(found), program: None, sheet: None }
+    JudgedLog { file: file.into(), name: name.into(), verdict, outcome, found: Some(found), program: None, sheet: None }
 }
 
 /// A log of a folder that cannot be judged.
-pub(super) fn unreadable(file: &Path, problem: &Problem) -> JudgedLog {
+pub(super) fn unreadable((file, name): (&Path, &str), problem: &Problem) -> JudgedLog {
     let why = problem.to_string();
-    let verdict = invalid("log", &["flown", &file_name(file)], &format!("not judged: {}", shortened(&why)));
-    JudgedLog { file: file.into(), verdict, outcome: Outcome::Invalid, found: None, program: None, sheet: None }
+    let verdict = invalid("log", &["flown", name], &format!("not judged: {}", shortened(&why)));
+    let outcome = Outcome::Invalid;
+    JudgedLog { file: file.into(), name: name.into(), verdict, outcome, found: None, program: None, sheet: None }
 }
 
 /// The line with counts.
-pub(super) fn count(folder: &Path, logs: &[JudgedLog], planned: &[PathBuf]) -> Verdict {
+pub(super) fn count(folder: &Path, logs: &[JudgedLog], left: &[PathBuf]) -> Verdict {
     let of = |outcome: Outcome| logs.iter().filter(|log| log.outcome == outcome).count();
     let [pass, fail, open, invalid, unjudged] =
         [Outcome::Pass, Outcome::Fail, Outcome::Inconclusive, Outcome::Invalid, Outcome::Unjudged].map(of);
@@ -46,7 +46,7 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog], planned: &[PathBuf]) -> V
     let counts = [(pass, "within spec"), (fail, "in violation"), (open, "inconclusive"), (invalid, "invalid")];
     let mut words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
     words.extend((unjudged > 0).then(|| format!("{unjudged} unjudged: spec = \"none\"")));
-    let words = [Some(words.join(", ")), left_out(planned)].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let words = [Some(words.join(", ")), left_out(folder, left)].into_iter().flatten().collect::<Vec<_>>().join("; ");
     let (start, code) = match (fail, open + invalid) {
         (1.., _) => (format!("FAIL {fail}/{all}"), 1),
         (0, 1..) => (format!("INCONCLUSIVE 0/{all}"), 5),
@@ -59,12 +59,19 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog], planned: &[PathBuf]) -> V
 /// Names that are told of files that were left out.
 const NAMED: usize = 3;
 
-/// `left out, by their names planned: 0000.planned.csv, 0000.ref.tum`; `None` where nothing was.
-pub(super) fn left_out(planned: &[PathBuf]) -> Option<String> {
-    let names: Vec<String> = planned.iter().take(NAMED).map(|file| file_name(file)).collect();
-    let more = planned.len() - names.len();
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    (!planned.is_empty()).then(|| format!("left out, by their names planned: {}{more}", names.join(", ")))
+/// `left out, by their names planned: 0000.planned.csv, 0000.ref.tum; left out, folders of campaigns: out`; `None`
+/// where nothing was left out of `folder`.
+pub(super) fn left_out(folder: &Path, left: &[PathBuf]) -> Option<String> {
+    let (campaigns, planned): (Vec<&PathBuf>, Vec<&PathBuf>) = left.iter().partition(|path| path.is_dir());
+    let words = |what: &str, all: &[&PathBuf]| {
+        let names: Vec<String> = all.iter().take(NAMED).map(|path| name_in(folder, path)).collect();
+        let more = all.len() - names.len();
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        (!all.is_empty()).then(|| format!("left out, {what}: {}{more}", names.join(", ")))
+    };
+    let parts = [words("by their names planned", &planned), words("folders of campaigns", &campaigns)];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
@@ -290,6 +297,13 @@ fn bounds(flown: &Flown) -> String {
 
 fn digits(sigma: f64) -> String {
     if sigma >= 0.095 { format!("{sigma:.1}") } else { format!("{sigma:.3}") }
+}
+
+/// What the log in `file` is called where `asked`, a log or a folder of them, is judged: by its path within the folder.
+pub(super) fn name_in(asked: &Path, file: &Path) -> String {
+    let within = file.strip_prefix(asked).ok().filter(|path| path.file_name().is_some());
+    let parts = within.map(|path| path.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/"));
+    parts.unwrap_or_else(|| file_name(file))
 }
 
 pub(super) fn file_name(path: &Path) -> String {

@@ -6,6 +6,8 @@ use crate::math::decimals::that_differ;
 
 /// What is nearer to nothing is nothing to whoever reads: 5 µm.
 const NOTHING: f64 = 5e-6;
+/// What is smaller has more zeros than anybody counts.
+const LONGEST: f64 = 1e-6;
 
 /// A number of `unit` as a verdict tells it: with the digits that `limit` was given with, two decimals at least (of
 /// degrees one), and as many more as it takes to see that they differ.
@@ -37,11 +39,18 @@ pub(super) fn least(unit: &str) -> usize {
 /// Two numbers with as many decimals as it takes to see that they differ, and that a value is not zero: at least
 /// `least`.
 ///
-/// At most 11 decimals, then all digits that the numbers have. Equal numbers are told alike. NaN is told as such.
+/// At most 11 decimals, then all digits that the numbers have. Equal numbers are told alike. NaN is told as such. Below
+/// a micrometre, where the limit shows without as many zeros, the value is told by its first two digits and a power of
+/// ten.
 pub(super) fn apart(value: f64, limit: f64, least: usize) -> (String, String) {
     // Of −0 too: what is nothing has no sign. How far below zero is always told, for a bound may be there.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
+    let of_limit = least;
     let least = if value > -1e-12 && value < NOTHING { least } else { two_digits(value, least) };
+    let shows = if limit == 0.0 { value != 0.0 } else { least > of_limit && limit.abs() >= NOTHING };
+    if shows && value.abs() < LONGEST {
+        return (format!("{value:.1e}"), format!("{limit:.of_limit$}"));
+    }
     let decimals = if value == limit { least } else { that_differ(value, limit, least..=12) };
     if decimals < 12 {
         (format!("{value:.decimals$}"), format!("{limit:.decimals$}"))
@@ -94,6 +103,9 @@ mod tests {
         assert_eq!(apart(-0.002, 0.25, 2), ("-0.0020".into(), "0.2500".into()));
         assert_eq!(apart(0.0042, 0.5, 2), ("0.0042".into(), "0.5000".into()));
         assert_eq!(apart(1e-9, 0.5, 2), ("0.00".into(), "0.50".into()));
+        assert_eq!(apart(-9e-10, 0.0, 2), ("-9.0e-10".into(), "0.00".into()));
+        assert_eq!(apart(3e-7, 0.0, 2), ("3.0e-7".into(), "0.00".into()));
+        assert_eq!(apart(-0.000_02, 0.0, 2), ("-0.000020".into(), "0.000000".into()));
         assert_eq!(apart(-0.0, 0.25, 2), ("0.00".into(), "0.25".into()));
         assert_eq!(apart(0.65, 0.5, 2), ("0.65".into(), "0.50".into()));
     }

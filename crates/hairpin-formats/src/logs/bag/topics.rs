@@ -263,7 +263,15 @@ impl Topic {
             let unfit = unfit.or(unturned);
             let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             let (resets, invalid) = Default::default();
-            motions.push(LoggedMotion { name: name.clone(), source, samples, resets, invalid, unfit });
+            motions.push(LoggedMotion {
+                name: name.clone(),
+                source,
+                samples,
+                resets,
+                invalid,
+                unfit,
+                no_heights: None,
+            });
         } else {
             frame = None;
         }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::super::log::{LoggedMotion, Reset, Source};
+use super::super::log::{LoggedMotion, Source};
+use super::super::turns::by_turns;
 
 /// A core of a filter: the message that its positions are in, and its number.
 type Core = (String, u32);
@@ -66,35 +67,14 @@ impl Cores {
                 }
                 let flown = match primary {
                     [(_, core)] => motions.remove(places[core]),
-                    _ => by_turns(message, primary, &places, motions),
+                    _ => {
+                        let own = places.iter().map(|(core, place)| (*core, &motions[*place])).collect();
+                        by_turns(format!("{message}[primary]"), primary, &own)
+                    }
                 };
                 notes.push(format!("{} is what the vehicle flew by (XKF4.PI)", flown.name));
                 motions.insert(first, flown);
             }
         }
     }
-}
-
-/// The primary core's positions at each time; each change of it is a jump of unknown size.
-fn by_turns(
-    message: &str,
-    primary: &[(f64, u32)],
-    places: &BTreeMap<u32, usize>,
-    motions: &[LoggedMotion],
-) -> LoggedMotion {
-    let changes = primary.iter().skip(1).map(|(t_s, _)| *t_s);
-    // What was before the first word is the first one's.
-    let begins = std::iter::once(f64::NEG_INFINITY).chain(changes.clone());
-    let ends = changes.clone().chain([f64::INFINITY]);
-    let (mut samples, mut resets, mut unfit) = (Vec::new(), Vec::new(), None);
-    for ((from, to), (_, core)) in begins.zip(ends).zip(primary) {
-        let own = &motions[places[core]];
-        samples.extend(own.samples.iter().filter(|sample| (from..to).contains(&sample.t_s)));
-        resets.extend(own.resets.iter().filter(|reset| (from..to).contains(&reset.t_s)).cloned());
-        unfit = unfit.or_else(|| own.unfit.clone());
-    }
-    resets.extend(changes.map(|t_s| Reset { t_s, by_m: None }));
-    resets.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-    let name = format!("{message}[primary]");
-    LoggedMotion { name, source: Source::Estimate, samples, resets, invalid: Vec::new(), unfit }
 }

@@ -71,6 +71,7 @@ fn headers_of_others_are_read_by_their_units() {
     assert_eq!((sample.t_s, sample.p_m), (1.5, Point3::new(2.6, -0.4, 0.0)));
     assert!((sample.attitude.unwrap() * Vector3::x() - Vector3::y()).norm() < 1e-12);
     assert_eq!(read.notes.len(), 3, "{:?}", read.notes);
+    assert_eq!(read.motions[0].no_heights.as_deref(), Some("no column of z; columns that are not read: mode"));
 
     let arm = "t_s,q2_deg,q1_rad\n0,180,0.5\n0.1,90,0.25\n";
     let read = read_bytes(arm.as_bytes(), "arm.csv").unwrap();
@@ -114,6 +115,16 @@ fn what_is_wrong_is_told_with_its_line() {
             "t,x,y,z\n",
             "a.csv",
             ", line 1: column `x`: its unit is not in its name, must be one of `x_m`, `x_cm`, `x_mm`",
+        ),
+        (
+            "t,x_m,y_m,z_ft\n",
+            "a.csv",
+            ", line 1: column `z_ft`: `ft` is no unit that is read, must be one of `z_m`, `z_cm`, `z_mm`",
+        ),
+        (
+            "t,x_ft,y_ft,z_m\n",
+            "a.csv",
+            ", line 1: column `x_ft`: `ft` is no unit that is read, must be one of `x_m`, `x_cm`, `x_mm`",
         ),
         (
             "timestamp,x_m,y_m\n",

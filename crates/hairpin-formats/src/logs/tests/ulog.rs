@@ -174,6 +174,80 @@ fn who_measured_it_stands_before_who_estimated_it() {
     assert!((sample.accuracy_m.unwrap()[0] - 0.2).abs() < 1e-6);
 }
 
+const VISUAL: &str = "vehicle_visual_odometry:uint64_t timestamp;uint64_t timestamp_sample;float[3] position;\
+                      float[4] q;float[3] velocity;float[3] position_variance;uint8_t pose_frame;uint8_t velocity_frame;";
+
+/// Two topics of positions, subscribed to as they stand; `selected`: from when on (µs) which instance was chosen.
+fn two(topics: [(u8, &str); 2], selected: &[(u64, u8)]) -> Logged {
+    let mut log = Ulog::new();
+    let selector = "estimator_selector_status:uint64_t timestamp;uint8_t primary_instance;";
+    for format in [POSITION, VISUAL, selector] {
+        log.message(b'F', format.as_bytes());
+    }
+    for (id, (instance, name)) in topics.into_iter().enumerate() {
+        log.subscribe(instance, id as u16, name);
+    }
+    log.subscribe(0, 9, "estimator_selector_status");
+    for step in 0..4_u64 {
+        let t = 100_000 * step;
+        for (at_us, instance) in selected.iter().filter(|(at_us, _)| *at_us / 100_000 == step) {
+            log.data(9, &[&at_us.to_le_bytes(), &[*instance]]);
+        }
+        for (id, (instance, name)) in topics.into_iter().enumerate() {
+            let north = step as f32 + f32::from(instance) * 10.0;
+            if name == "vehicle_local_position" {
+                log.data(id as u16, &[&at(t, [north, 0.0, 0.0]).bytes()]);
+            } else {
+                let parts =
+                    [singles([north, 0.0, 0.0]), singles([1.0, 0.0, 0.0, 0.0]), singles([0.0; 3]), singles([0.04; 3])];
+                log.data(id as u16, &[&t.to_le_bytes(), &t.to_le_bytes(), &parts.concat(), &[1, 1]]);
+            }
+        }
+    }
+    parsed(&log.0)
+}
+
+#[test]
+fn what_a_filter_takes_in_ranks_after_what_it_gives() {
+    let (own, seen) = ((0, "vehicle_local_position"), (0, "vehicle_visual_odometry"));
+    for topics in [[own, seen], [seen, own]] {
+        let log = two(topics, &[]);
+        let order: Vec<_> = log.motions.iter().map(|motion| (&motion.name[..], motion.source)).collect();
+        let wanted = [("vehicle_local_position", Source::Estimate), ("vehicle_visual_odometry", Source::Input)];
+        assert_eq!(order, wanted);
+        assert!(matches!(log.frame, LogFrame::Enu(Some(_))), "by the estimate's reference: {:?}", log.frame);
+        let words = "vehicle_visual_odometry: about a point of its own, which is nowhere on Earth";
+        assert!(log.notes.iter().any(|note| note == words), "{:?}", log.notes);
+    }
+}
+
+#[test]
+fn of_two_instances_the_selector_says_which_was_flown_by() {
+    let of = |instance| (instance, "vehicle_local_position");
+    for topics in [[of(0), of(1)], [of(1), of(0)]] {
+        // Nobody says: neither is known to be what moved.
+        let log = two(topics, &[]);
+        assert!(log.motions.iter().all(|motion| motion.source == Source::Untold), "{:?}", log.motions);
+        let words = "no word of which of vehicle_local_position, vehicle_local_position[1] is of the vehicle";
+        assert!(log.notes.iter().any(|note| note.starts_with(words)), "{:?}", log.notes);
+        for (selected, name) in [(0, "vehicle_local_position"), (1, "vehicle_local_position[1]")] {
+            let log = two(topics, &[(0, 255), (50_000, selected)]);
+            assert_eq!((&log.motions[0].name[..], log.motions[0].source), (name, Source::Estimate));
+        }
+        let log = two(topics, &[(0, 0), (200_000, 1)]);
+        let flown = &log.motions[0];
+        assert_eq!(flown.name, "vehicle_local_position[primary]");
+        let north: Vec<f64> = flown.samples.iter().map(|sample| sample.p_m.y.round()).collect();
+        assert_eq!((north, flown.resets.len()), (vec![0.0, 1.0, 12.0, 13.0], 1));
+        let log = two(topics, &[(0, 3)]);
+        assert!(log.motions[0].unfit.as_ref().is_some_and(|why| why.contains("instance 3")), "{:?}", log.motions[0]);
+    }
+    // Of two cameras nobody says which is meant, either; what the filter gives does.
+    let camera = |instance| (instance, "vehicle_visual_odometry");
+    let log = two([camera(0), camera(1)], &[]);
+    assert!(log.motions.iter().all(|motion| motion.source == Source::Untold));
+}
+
 #[test]
 fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
     let step = |step: u64| at(100_000 * step, [step as f32, 0.0, -2.0]);

@@ -45,6 +45,11 @@ enum Kind {
 
 const TIMES: &[(&str, f64)] = &[("s", 1.0), ("sec", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 const LENGTHS: &[(&str, f64)] = &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3)];
+/// Of other lengths, which are not read: a column of a position in one is no other column.
+const OTHER_LENGTHS: &[&str] = &[
+    "ft", "feet", "foot", "usft", "us_ft", "in", "inch", "inches", "yd", "yard", "yards", "mi", "miles", "nm", "nmi",
+    "km", "dm", "um", "px", "pixel", "pixels",
+];
 const SPEEDS: &[(&str, f64)] =
     &[("m_s", 1.0), ("m/s", 1.0), ("m s^-1", 1.0), ("mps", 1.0), ("mm_s", 1e-3), ("mm/s", 1e-3)];
 const ANGLES: &[(&str, f64)] = &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0)];
@@ -76,6 +81,8 @@ enum Unit {
     Scale(f64),
     /// The name is this one, and has no unit.
     Untold,
+    /// It has one that is not read.
+    Unread(String),
     /// Another name.
     Other,
 }
@@ -88,7 +95,11 @@ fn unit(name: &str, base: &str, kind: Kind) -> Unit {
         (Some(""), None | Some("")) if kind == Kind::None => Unit::Scale(1.0),
         (Some(""), None) => Unit::Untold,
         (Some(""), Some(bracket)) => known(bracket).map_or(Unit::Untold, Unit::Scale),
-        (Some(rest), None) => rest.strip_prefix('_').and_then(known).map_or(Unit::Other, Unit::Scale),
+        (Some(rest), None) => match rest.strip_prefix('_').map(|unit| (unit, known(unit))) {
+            Some((_, Some(scale))) => Unit::Scale(scale),
+            Some((unit, None)) if kind == Kind::Length && OTHER_LENGTHS.contains(&unit) => Unit::Unread(unit.into()),
+            _ => Unit::Other,
+        },
         _ => Unit::Other,
     }
 }
@@ -121,10 +132,14 @@ impl Columns {
         let column = |base: &str, kind: Kind| match unit(name, base, kind) {
             Unit::Scale(scale) => Ok(Some(Column { index, name: told.into(), scale })),
             Unit::Other => Ok(None),
-            Unit::Untold => {
+            untold => {
                 let units: Vec<_> = kind.units().iter().map(|(unit, _)| format!("`{base}_{unit}`")).collect();
                 let units = units.join(", ");
-                Err(Fault::line(1, format!("column `{told}`: its unit is not in its name, must be one of {units}")))
+                let what = match untold {
+                    Unit::Unread(unit) => format!("`{unit}` is no unit that is read"),
+                    _ => "its unit is not in its name".into(),
+                };
+                Err(Fault::line(1, format!("column `{told}`: {what}, must be one of {units}")))
             }
         };
         let first = |bases: &[String], kind: Kind| {

@@ -40,6 +40,7 @@ struct Reading {
     time: Column,
     position: Option<[Column; 3]>,
     flat: bool,
+    no_heights: Option<String>,
     quaternion: Option<[Column; 4]>,
     velocity: Option<[Column; 3]>,
     budget: Budget,
@@ -69,6 +70,11 @@ impl Reading {
             position[2] = position[0].clone();
             notes.push("no column of z: at 0 m, unless it drives on a map".into());
         }
+        let not_read = columns.others.join(", ");
+        let not_read = quote::shortened(&not_read);
+        let beside =
+            if not_read.is_empty() { String::new() } else { format!("; columns that are not read: {not_read}") };
+        let no_heights = flat.then(|| format!("no column of z{beside}"));
         let position = all(&position);
         if position.is_none() && (columns.joints.is_empty() || columns.position.iter().any(Option::is_some)) {
             return Err(missing("each of x, y (and z): `x_m`, `y_m`, `z_m`"));
@@ -90,7 +96,7 @@ impl Reading {
             notes.push("attitude is level, turned by the yaw".into());
         }
         if !columns.others.is_empty() {
-            notes.push(format!("columns that are not read: {}", quote::shortened(&columns.others.join(", "))));
+            notes.push(format!("columns that are not read: {not_read}"));
         }
         let budget = Budget::default();
         let (samples, joints, times, progress) = Default::default();
@@ -99,6 +105,7 @@ impl Reading {
             time,
             position,
             flat,
+            no_heights,
             quaternion,
             velocity,
             budget,
@@ -179,6 +186,7 @@ impl Reading {
             resets: Vec::new(),
             invalid: Vec::new(),
             unfit: None,
+            no_heights: self.no_heights,
         };
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();
         let joints = Joints {

@@ -26,7 +26,8 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
     let (resets, invalid, unfit) = Default::default();
-    let motion = LoggedMotion { name: name.into(), source: source(name), samples, resets, invalid, unfit };
+    let motion =
+        LoggedMotion { name: name.into(), source: source(name), samples, resets, invalid, unfit, no_heights: None };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

@@ -5,6 +5,7 @@ mod mission;
 mod odometry;
 mod position;
 mod projection;
+mod selector;
 mod series;
 mod stream;
 mod topic;
@@ -142,6 +143,7 @@ impl Reader {
                     read.push(seconds(stamp, sample.and_then(|slot| slot.read(data))), turn);
                 }
             }
+            What::Chosen(selector) => selector.push(self.now_s, data, &mut self.budget)?,
             What::Flown(topic) if series.instance == 0 => self.flown.push(topic, self.now_s, data),
             What::Flown(_) | What::Other => {}
         }
@@ -195,7 +197,8 @@ impl Reader {
             notes.push(format!("{others} topics that say nothing of the motion are not read"));
         }
         let best = |source: Source| series.iter().find(|series| series.source() == Some(source) && !series.is_empty());
-        let first = [Source::MotionCapture, Source::GroundTruth, Source::Estimate].into_iter().find_map(best);
+        let first =
+            [Source::MotionCapture, Source::GroundTruth, Source::Estimate, Source::Input].into_iter().find_map(best);
         let origin = first.and_then(Series::reference);
         let frame = match first {
             Some(Series { what: What::Odometry(_, odometry), name, .. }) if odometry.is_frd() => {

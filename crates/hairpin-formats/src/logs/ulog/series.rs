@@ -8,6 +8,7 @@ use super::formats::{Size, Slot};
 use super::mission::Topic;
 use super::odometry::Odometry;
 use super::position::Positions;
+use super::selector::{self, Selector};
 use super::topic::Finder;
 use crate::frames::Geodetic;
 
@@ -31,6 +32,8 @@ pub(super) enum What {
         read: Attitudes,
     },
     Flown(Topic),
+    /// Which instance of the estimates it flew by.
+    Chosen(Selector),
     /// Says nothing of motion.
     Other,
 }
@@ -42,11 +45,12 @@ impl What {
             "vehicle_local_position" => Self::Positions(Source::Estimate, Positions::of(finder)?.into()),
             "vehicle_local_position_groundtruth" => Self::Positions(Source::GroundTruth, Positions::of(finder)?.into()),
             "vehicle_mocap_odometry" => Self::Odometry(Source::MotionCapture, Odometry::of(finder)?.into()),
-            "vehicle_visual_odometry" => Self::Odometry(Source::Estimate, Odometry::of(finder)?.into()),
+            "vehicle_visual_odometry" => Self::Odometry(Source::Input, Odometry::of(finder)?.into()),
             "vehicle_attitude" | "vehicle_attitude_groundtruth" => {
                 let slots = finder.array("q", [""; 4]).ok_or_else(|| format!("`{name}` has no field `q`"))?;
                 Self::Attitudes { slots, sample: finder.slot("timestamp_sample"), read: Attitudes::default() }
             }
+            selector::TOPIC => Selector::of(finder).map_or(Self::Other, Self::Chosen),
             _ => Topic::of(name, finder)?.map_or(Self::Other, Self::Flown),
         })
     }
@@ -84,7 +88,7 @@ impl Series {
 /// Positions with the attitudes of their own source and instance beside them.
 pub(super) fn motions(series: Vec<Series>, origin: Option<Geodetic>, notes: &mut Vec<String>) -> Vec<LoggedMotion> {
     let mut attitudes = BTreeMap::new();
-    let mut moved = Vec::new();
+    let (mut moved, mut chosen) = (Vec::new(), Vec::new());
     for series in series {
         let (name, key) = (series.told(), (series.name, series.instance));
         match series.what {
@@ -94,7 +98,11 @@ pub(super) fn motions(series: Vec<Series>, origin: Option<Geodetic>, notes: &mut
                 notes.extend(told);
                 moved.push((motion, key.1));
             }
+            What::Chosen(selector) if key.1 == 0 => chosen = selector.into_chosen(),
             What::Odometry(source, odometry) => {
+                if origin.is_some() && !odometry.is_empty() {
+                    notes.push(format!("{name}: about a point of its own, which is nowhere on Earth"));
+                }
                 let (motion, told) = odometry.motion(&name, source);
                 notes.extend(told);
                 moved.extend(motion.map(|motion| (motion, key.1)));
@@ -116,5 +124,6 @@ pub(super) fn motions(series: Vec<Series>, origin: Option<Geodetic>, notes: &mut
             notes.push(format!("{}: no `{topic}` beside it", motion.name));
         }
     }
+    selector::settle(&chosen, &mut moved, notes);
     moved.into_iter().map(|(motion, _)| motion).collect()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
+use super::super::polygon;
 use super::super::types::{MOST_TRIANGLES, MeshError};
 
 /// Points and triangles.
@@ -40,15 +41,27 @@ pub(super) fn triangles_of(geometry: &Node, named: &BTreeMap<&str, Node>) -> Res
             }
         };
         let corners = Corners { at: offset(vertex), stride, first, count: points.len() as u32 - first };
-        for face in faces(&primitive, kind, &corners)? {
+        for (number, face) in faces(&primitive, kind, &corners)?.into_iter().enumerate() {
             if triangles.len() + face.len() > MOST_TRIANGLES {
                 return Err(MeshError::TooMany(MOST_TRIANGLES));
             }
-            // A strip's triangles share two corners each, all others' are fans.
-            let one = |i: usize| {
-                if kind == "tristrips" { [face[i - 2], face[i - 1], face[i]] } else { [face[0], face[i - 1], face[i]] }
-            };
-            triangles.extend((2..face.len()).map(one));
+            match kind {
+                // Triangles of a strip share two corners each, every second one in the opposite order.
+                "tristrips" => triangles.extend((2..face.len()).map(|i| match i % 2 {
+                    0 => [face[i - 2], face[i - 1], face[i]],
+                    _ => [face[i - 1], face[i - 2], face[i]],
+                })),
+                "triangles" | "trifans" => triangles.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]])),
+                _ => {
+                    let places: Vec<[f64; 3]> = face.iter().map(|corner| points[*corner as usize]).collect();
+                    let cut = polygon::cut(&places).map_err(|why| MeshError::Face {
+                        place: format!("<{kind}> in line {}, face {number}", line(&primitive)),
+                        corners: face.len(),
+                        why,
+                    })?;
+                    triangles.extend(cut.iter().map(|triangle| triangle.map(|corner| face[corner])));
+                }
+            }
         }
     }
     Ok((points, triangles))
@@ -156,4 +169,9 @@ pub(super) fn numbers(of: &Node) -> Result<Vec<f64>, MeshError> {
         parsed.ok_or_else(|| MeshError::NoCollada(format!("<{}>: {word:?} is no number", of.tag_name().name())))
     };
     words(of).map(number).collect()
+}
+
+/// Its line in the file.
+pub(super) fn line(node: &Node) -> u32 {
+    node.document().text_pos_at(node.range().start).row
 }

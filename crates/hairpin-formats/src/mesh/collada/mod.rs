@@ -6,7 +6,7 @@
 //! | `scene`, `visual_scene`, `node`, `instance_node` | where its parts stand |
 //! | `matrix`, `translate`, `rotate`, `scale` of a node | one after the other |
 //! | `instance_geometry`, `instance_controller` (its skin's source) | a part |
-//! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | triangles; faces of more corners become fans |
+//! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | triangles; faces of more corners are cut into some |
 //! | colours, textures, lights, cameras, lines, animations | nothing |
 //!
 //! A file without a scene is taken for all of its geometries, each where it is.
@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix4, Point3};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use self::geometry::{child, children, triangles_of};
+use self::geometry::{child, children, line, triangles_of};
 use self::place::{place_of, upright};
 use super::types::{MOST_TRIANGLES, Mesh, MeshError};
 
@@ -148,8 +148,4 @@ impl<'t> Scene<'t> {
         self.mesh.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| corner + before)));
         Ok(())
     }
-}
-
-fn line(node: &Node) -> u32 {
-    node.document().text_pos_at(node.range().start).row
 }

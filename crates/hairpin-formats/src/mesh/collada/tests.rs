@@ -90,7 +90,7 @@ fn every_kind_of_face_becomes_triangles() {
             vec![[0, 1, 3], [0, 3, 2], [4, 5, 6]],
         ),
         (format!("<polygons count=\"1\">{input}<p>0 1 3 2</p></polygons>"), vec![[0, 1, 3], [0, 3, 2]]),
-        (format!("<tristrips count=\"1\">{input}<p>0 1 2 3</p></tristrips>"), vec![[0, 1, 2], [1, 2, 3]]),
+        (format!("<tristrips count=\"1\">{input}<p>0 1 2 3</p></tristrips>"), vec![[0, 1, 2], [2, 1, 3]]),
         (
             format!("<trifans count=\"1\">{input}<p>0 1 3 2</p></trifans><lines count=\"1\">{input}<p>0 7</p></lines>"),
             vec![[0, 1, 3], [0, 3, 2]],
@@ -109,6 +109,12 @@ fn what_is_no_collada_is_told() {
     assert!(told(&file("", &format!("<triangles>{input}<p>0 1 8</p></triangles>"), "")).contains("\"8\" is no vertex"));
     assert!(
         told(&file("", &format!("<polylist>{input}<vcount>9</vcount><p>0 1 2</p></polylist>"), "")).contains("vcount")
+    );
+    let bow = format!("<polylist>{input}<vcount>4</vcount><p>0 3 1 2</p></polylist>");
+    assert!(
+        told(&file("", &bow, "")).contains("face 0: a face of 4 corners crosses itself"),
+        "{}",
+        told(&file("", &bow, ""))
     );
     assert!(told(&file("<unit meter=\"-1\"/>", TRIANGLES, "")).contains("unit"));
     assert!(told(&file("", TRIANGLES, &scene("<node><instance_geometry url=\"#none\"/></node>"))).contains("#none"));

@@ -3,6 +3,9 @@
 use tiff::tags::Tag;
 
 use super::decoder::Tiff;
+use crate::epsg::definition;
+use crate::terrain::prj;
+use crate::terrain::projection::{self, Projection};
 use crate::terrain::reference::{Model, Reference};
 use crate::terrain::unit::Unit;
 use crate::terrain::vertical::{Depth, Vertical, is_depth, system};
@@ -19,6 +22,17 @@ const PROJECTED: u16 = 3072;
 const PROJECTED_CITATION: u16 = 3073;
 const LINEAR_UNIT: u16 = 3076;
 const LINEAR_UNIT_SIZE: u16 = 3077;
+const METHOD: u16 = 3075;
+const PARALLELS: [u16; 2] = [3078, 3079];
+// Of the natural origin, of the false one, of the centre, and straight down from the pole.
+const LONGITUDES: [u16; 4] = [3080, 3084, 3088, 3095];
+const LATITUDES: [u16; 3] = [3081, 3085, 3089];
+const EASTINGS: [u16; 3] = [3082, 3086, 3090];
+const NORTHINGS: [u16; 3] = [3083, 3087, 3091];
+const SCALES: [u16; 2] = [3092, 3093];
+const INVERSE_FLATTENING: u16 = 2059;
+/// What Esri's well-known text stands behind, where no key has the method.
+const ESRI: &str = "ESRI PE String = ";
 const VERTICAL: u16 = 4096;
 const VERTICAL_CITATION: u16 = 4097;
 const VERTICAL_UNIT: u16 = 4099;
@@ -64,7 +78,9 @@ pub(super) fn read(tiff: &mut Tiff<'_>) -> Keys {
     };
     let radius = table.number(SEMI_MAJOR_AXIS);
     let plane = Reference { model, epsg: epsg.map(u32::from), name, degrees, radius, ..Reference::default() };
-    let reference = heights(&table, of_plane(&table, plane));
+    let plane = of_plane(&table, plane);
+    let projection = if projected.is_none() { projection(&table, &plane) } else { None };
+    let reference = heights(&table, Reference { projection, ..plane });
     let raster = table.short(RASTER_TYPE);
     let unknown_raster = raster.filter(|kind| !matches!(*kind, UNDEFINED | PIXEL_IS_AREA | PIXEL_IS_POINT));
     Keys { reference, at_centers: raster == Some(PIXEL_IS_POINT), unknown_raster }
@@ -79,6 +95,34 @@ fn of_plane(table: &Table<'_>, plane: Reference) -> Reference {
     };
     let unknown_unit = unit.is_none().then(|| format!("ProjLinearUnits = {code}"));
     Reference { unit, unknown_unit, ..plane }
+}
+
+/// The projection that the keys define, or the text in their citations.
+fn projection(table: &Table<'_>, plane: &Reference) -> Option<String> {
+    let Some(method) = table.short(METHOD).filter(|method| !matches!(*method, UNDEFINED | OWN)) else {
+        let (_, text) = table.texts.split_once(ESRI)?;
+        return prj::read(text.split('|').next()?.trim()).ok()?.projection;
+    };
+    let first = |keys: &[u16]| keys.iter().find_map(|key| table.number(*key));
+    let angle = |keys: &[u16]| first(keys).map(|angle| angle * plane.degrees);
+    let metres = plane.unit.as_ref().map_or(1.0, |unit| unit.metres);
+    let length = |keys: &[u16]| first(keys).map(|length| length * metres);
+    let of_code = || {
+        let words = definition(u32::from(table.code(GEODETIC)?))?.split_whitespace();
+        let body = ["+a=", "+b=", "+R=", "+rf=", "+ellps=", "+datum="];
+        Some(words.filter(|word| body.iter().any(|key| word.starts_with(key))).collect::<Vec<_>>().join(" "))
+    };
+    let own = plane.radius.map(|radius| projection::body(radius, table.number(INVERSE_FLATTENING).unwrap_or(0.0)));
+    let found = Projection {
+        method: projection::of_number(method),
+        lat_0: angle(&LATITUDES),
+        lon_0: angle(&LONGITUDES),
+        parallels: PARALLELS.map(|key| angle(&[key])),
+        scale: first(&SCALES),
+        false_origin: [length(&EASTINGS), length(&NORTHINGS)],
+        body: own.or_else(of_code).unwrap_or_default(),
+    };
+    found.text()
 }
 
 /// With the unit of heights; the key of the unit goes before that of the system, as GDAL has it.

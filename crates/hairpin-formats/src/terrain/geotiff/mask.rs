@@ -5,6 +5,7 @@ use tiff::tags::{ByteOrder, Tag};
 use tiff::{TiffError, TiffFormatError, TiffResult};
 
 use super::decoder::{Tiff, limits, open};
+use super::sparse;
 
 /// Bits of NewSubfileType: a smaller copy; a mask.
 const SMALLER: u32 = 1;
@@ -14,16 +15,27 @@ const BLACK_IS_ZERO: u16 = 1;
 /// Overviews halve the sides; no file has this many.
 const MOST_DIRECTORIES: usize = 100;
 
-/// Makes holes where the file's mask says so; whether there is one.
+/// What a file has of a mask.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mask {
+    /// None.
+    Absent,
+    /// One, which holes were made by.
+    Applied,
+    /// One of which strips or tiles are not in the file.
+    Sparse,
+}
+
+/// Makes holes where the file's mask says so.
 pub(super) fn apply(
     bytes: &[u8],
     tiff: &mut Tiff<'_>,
     (columns, rows): (usize, usize),
     heights: &mut [f32],
-) -> TiffResult<bool> {
+) -> TiffResult<Mask> {
     for _ in 0..MOST_DIRECTORIES {
         if !tiff.more_images() {
-            return Ok(false);
+            return Ok(Mask::Absent);
         }
         tiff.next_image()?;
         let kind = tiff.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0);
@@ -33,6 +45,9 @@ pub(super) fn apply(
         let (wide, high) = tiff.dimensions()?;
         if (wide as usize, high as usize) != (columns, rows) {
             return Err(TiffFormatError::InconsistentSizesEncountered.into());
+        }
+        if !sparse::missing(tiff).is_ok_and(|missing| missing.is_none()) {
+            return Ok(Mask::Sparse);
         }
         let at = tiff.ifd_pointer().ok_or(TiffFormatError::ImageFileDirectoryNotFound)?.0;
         let order = tiff.byte_order();
@@ -50,9 +65,9 @@ pub(super) fn apply(
                 *height = f32::NAN;
             }
         }
-        return Ok(true);
+        return Ok(Mask::Applied);
     }
-    Ok(false)
+    Ok(Mask::Absent)
 }
 
 /// The values of the mask whose directory is at `at`: a byte or a bit each, rows padded to bytes.

@@ -8,6 +8,7 @@ mod keys;
 mod mask;
 mod metadata;
 mod place;
+mod sparse;
 
 use tiff::decoder::DecodingResult;
 use tiff::tags::Tag;
@@ -17,6 +18,7 @@ use super::no_data;
 use super::raster::{Layout, Raster, bounded, held};
 use super::remedy::Remedy;
 use decoder::{Tiff, limits, open};
+use mask::Mask;
 use metadata::Band;
 
 pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
@@ -62,9 +64,19 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     }
     let placed = place::read(&mut tiff, columns, rows, keys.at_centers, file)?;
     let band = metadata::read(&mut tiff)?;
-    let values = tiff.read_image().map_err(broken)?;
-    let mut heights = scaled(values, &band)?;
-    let masked = mask::apply(bytes, &mut tiff, (columns, rows), &mut heights).map_err(broken)?;
+    let mut heights = match sparse::missing(&mut tiff)? {
+        None => scaled(tiff.read_image().map_err(broken)?, &band)?,
+        Some(missing) => {
+            // What is not in the file is not known, or 0 where no value means that, as GDAL has it.
+            let none = if band.no_data.is_some() { f32::NAN } else { band.height(0.0) };
+            sparse::read(&mut tiff, (columns, rows), &missing, none, |values| scaled(values, &band), broken)?
+        }
+    };
+    let mask = mask::apply(bytes, &mut tiff, (columns, rows), &mut heights).map_err(broken)?;
+    if mask == Mask::Sparse {
+        return Err(convert("strips or tiles of its mask are not in the file (SPARSE_OK)".into(), ""));
+    }
+    let masked = mask == Mask::Applied;
     if placed.south_up {
         turn_over(&mut heights, columns);
     }

@@ -54,7 +54,7 @@ pub(super) fn read(
                     }
                     ([m[0], m[5]], [0.0, 0.0], [m[3], m[7]])
                 }
-                _ => return Err(broken("no georeference: ModelPixelScale and ModelTiepoint are needed")),
+                _ => return Err(TerrainError::Unplaced),
             },
         };
     let finite = [step, tie, at].iter().flatten().all(|number| number.is_finite());

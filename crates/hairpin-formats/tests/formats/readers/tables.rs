@@ -332,6 +332,8 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("obj.faces", of_obj, OBJ, &format!("{OBJ}v 1 1 0\nf 2 4 3\n")),
         row("obj.materials", of_obj, OBJ, &format!("mtllib a.mtl\nusemtl a\nvn 0 0 1\n{OBJ}")),
         row("obj.tabs", of_obj, OBJ, &OBJ.replace(' ', "\t")),
+        row("obj.concave", of_obj, OBJ, &format!("{OBJ}v 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nf 1 4 5 6 7 3\n")),
+        row("obj.crossing", of_obj, OBJ, &format!("{OBJ}v 1 1 0\nf 1 4 2 3\n")),
         row("obj.no-faces", of_obj, OBJ, "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
         row("stl.capitals", of_stl, STL, &STL.to_uppercase()),
         row("stl.no-facets", of_stl, STL, "solid s\nendsolid s\n"),

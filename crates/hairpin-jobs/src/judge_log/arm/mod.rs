@@ -28,6 +28,7 @@ use super::asks::Asks;
 use super::found::JudgedLog;
 use super::over;
 use super::settings::LogSettings;
+use super::told::name_in;
 use crate::Problem;
 
 pub use found::{FoundProgram, JointsTold};
@@ -103,7 +104,7 @@ impl<'a> Programs<'a> {
             simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
             notes: read.notes,
         };
-        let judged = told::judged(file, found, &against.setup);
+        let judged = told::judged((file, &name_in(&settings.path, file)), found, &against.setup);
         match settings.page {
             Some(_) => over::of_program(judged, case, &run, against),
             None => Ok(judged),

@@ -8,15 +8,14 @@ use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, v
 
 use super::super::found::{JudgedLog, Outcome};
 use super::super::matching::Matched;
-use super::super::told::{file_name, hundredths, where_and_when};
+use super::super::told::{hundredths, where_and_when};
 use super::found::{FoundProgram, JointsTold};
 
 /// A log that was judged.
-pub(super) fn judged(file: &Path, found: FoundProgram, setup: &Setup) -> JudgedLog {
-    let name = file_name(file);
-    let how = ["hardware", setup.robot_name(), name.as_str()];
+pub(super) fn judged((file, name): (&Path, &str), found: FoundProgram, setup: &Setup) -> JudgedLog {
+    let how = ["hardware", setup.robot_name(), name];
     let (outcome, verdict) = verdict(&found, &how, setup);
-    JudgedLog { file: file.into(), verdict, outcome, found: None, program: Some(found), sheet: None }
+    JudgedLog { file: file.into(), name: name.into(), verdict, outcome, found: None, program: Some(found), sheet: None }
 }
 
 fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdict) {

@@ -1,4 +1,4 @@
-//! Logs of drives without heights, on a map that goes up and down.
+//! Logs of drives without heights, on a map that goes up and down; and of what flies.
 
 use std::path::PathBuf;
 
@@ -108,4 +108,15 @@ fn the_ground_is_where_waypoints_of_drives_are() {
     let mut off = [Point3::new(-500.0, 0.0, 3.0)];
     crate::judge_log::heights::on_ground(&work.setup, &mut off);
     assert_eq!(off[0].z, 3.0);
+}
+
+#[test]
+fn what_flies_is_not_judged_without_heights() {
+    let mut flat = log(100.0, 0.0);
+    flat.motions[0].samples.iter_mut().for_each(|sample| sample.p_m.z = 5.0);
+    assert_eq!(said(&flat).1, 0);
+    flat.motions[0].no_heights = Some("no column of z; columns that are not read: height_m".into());
+    let told = judged_as(&flat, |_, _| {}).unwrap_err();
+    let words = "no column of z; columns that are not read: height_m: heights of what flies are needed, as `z_m`";
+    assert!(told.contains(words), "{told}");
 }

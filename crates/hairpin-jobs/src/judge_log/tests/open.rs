@@ -171,3 +171,49 @@ fn how_long_a_mission_took_is_not_seen_in_a_part_of_it() {
     told.events = vec![event(0.145, EventKind::MissionBegins, "nav_state AUTO_MISSION")];
     assert_eq!(within(&told, "7.9", None).1, 0);
 }
+
+#[test]
+fn what_is_told_of_the_edge_is_the_least_distance() {
+    // At 40 m/s, which no robot of the file flies: nothing bounds what lies between two samples, from the first on.
+    let mut fast = log(100.0, 0.0);
+    for sample in &mut fast.motions[0].samples {
+        let way = if sample.t_s < 4.0 { Vector3::x() } else { Vector3::y() };
+        sample.v_m_s = Some(way * SPEED * 8.0);
+        sample.t_s /= 8.0;
+    }
+    let judged = judged_as(&fast, |settings, here| {
+        let world = here.join("w.toml");
+        fs::write(&world, "size_m = [24.2, 30, 30]\n").unwrap();
+        settings.world = Some(world.to_string_lossy().into_owned());
+    });
+    let judged = judged.unwrap();
+    let words = "distance to the world's edge 0.20 m ≥ 0.00 m in samples at 800 Hz, but nothing bounds";
+    assert!(judged.verdict.sentence.contains(words), "{}", judged.verdict.sentence);
+    let flown = judged.found.unwrap().flown.unwrap();
+    let edge = flown.doubts.iter().find(|doubt| doubt.value.what == "edge").unwrap();
+    assert!((edge.value.at - 0.5).abs() < 1e-9 && (edge.value.value - 0.2).abs() < 1e-9, "{edge:?}");
+}
+
+#[test]
+fn parts_that_end_before_they_begin_are_refused_and_what_a_flag_ends_is_said() {
+    let here = TempDir::new().unwrap();
+    let mut settings = settings(here.path(), HALF);
+    (settings.from_s, settings.to_s) = (Some(20.0), Some(10.0));
+    let told = judge_log(&settings, &crate::Unwatched).unwrap_err().to_string();
+    assert!(told.contains("--from 20 --to 10: --from must be before --to"), "{told}");
+    let cut = judged_as(&log(100.0, 0.1), |settings, _| settings.to_s = Some(6.0)).unwrap().verdict;
+    assert!(cut.exit_code == 5 && cut.sentence.contains("--to at t = 6.0 s, on leg 1→2"), "{}", cut.sentence);
+    let longer = judged_as(&log(100.0, 0.1), |settings, _| settings.to_s = Some(60.0)).unwrap().verdict;
+    assert_eq!(longer.exit_code, 0, "{}", longer.sentence);
+}
+
+#[test]
+fn a_mission_in_degrees_needs_a_world_on_earth() {
+    let told = judged_as(&log(100.0, 0.1), |settings, here| {
+        let file = here.join("degrees.csv");
+        fs::write(&file, "lat_deg,lon_deg,alt_amsl_m\n47,8,405\n47.0001,8,405\n").unwrap();
+        settings.against = Against::Mission { file, robot: Some("flightgoggles".into()) };
+    });
+    let told = told.unwrap_err();
+    assert!(told.contains("degrees.csv") && told.contains("without --world there is no world.origin"), "{told}");
+}

@@ -261,7 +261,7 @@ fn what_is_judged_from_the_middle_cannot_pass() {
     // Both ends are told.
     let (sentence, code, _) = from(Some(7.0), Some(12.0), |_| {});
     assert!(code == 5 && sentence.contains("--from leaves out leg 0→1 and a part"), "{sentence}");
-    assert!(sentence.contains("; the log ends, on leg 2→3 of 5 waypoints: what was left"), "{sentence}");
+    assert!(sentence.contains("; --to at t = 12.0 s, on leg 2→3 of 5 waypoints: what was left"), "{sentence}");
     // What is left out before the mission left its first waypoint is none of it.
     let keep = |log: &mut Logged| log.motions[0].samples.iter_mut().for_each(|s| s.p_m.z = 5.0);
     for from_s in [None, Some(0.5), Some(1.995), Some(2.0)] {
