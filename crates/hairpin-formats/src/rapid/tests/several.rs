@@ -41,7 +41,9 @@ fn what_may_have_changed_is_that_module_s() {
     let other =
         "MODULE B\nLOCAL VAR num n:=1;\nPROC up()\nn:=n+1;\nENDPROC\nFUNC num got()\nRETURN n;\nENDFUNC\nENDMODULE";
     let main = |body: &str| {
-        format!("MODULE A\nVAR num n:=5;\nCONST robtarget p:=[[0,0,0],{END}\nPROC main()\n{body} EXIT;\nENDPROC\nENDMODULE")
+        format!(
+            "MODULE A\nVAR num n:=5;\nCONST robtarget p:=[[0,0,0],{END}\nPROC main()\n{body} EXIT;\nENDPROC\nENDMODULE"
+        )
     };
     let known = main("up;\nMoveL Offs(p,got(),n,0),v5,fine,tool0;");
     let module = all(&[("a.mod", &known), ("b.mod", other)]).unwrap();
