@@ -234,7 +234,7 @@ fn lacking_in(times: &[f64], poses: &[Isometry3<f64>], velocities: &[[f64; 3]], 
     let last = times.len() - 1;
     let step = (times[last] - times[0]) / last as f64;
     let mut worst = None::<Lacking>;
-    for axis in 0..3 {
+    for axis in [0, 1, 2] {
         let places: Vec<f64> = poses.iter().map(|pose| pose.translation.vector[axis]).collect();
         let (mut left, mut slack) = (vec![places[0]], vec![0.0]);
         let mut added = 0.0;
