@@ -428,9 +428,11 @@ fn a_log_that_is_near_no_case_is_asked_for_none() {
 #[test]
 fn a_log_is_matched_by_what_it_is_judged_from() {
     let plan = |off: f64| {
-        let poses = samples(10.0, off).iter().map(|s| nalgebra::Isometry3::translation(s.p_m.x, s.p_m.y, s.p_m.z));
-        let times = samples(10.0, off).iter().map(|s| s.t_s).collect();
-        hairpin::trajectory::Track::new(times, poses.collect(), Vec::new()).unwrap()
+        let (times, poses) = samples(10.0, off)
+            .iter()
+            .map(|s| (s.t_s, nalgebra::Isometry3::translation(s.p_m.x, s.p_m.y, s.p_m.z)))
+            .unzip();
+        hairpin::trajectory::Track::new(times, poses, Vec::new()).unwrap()
     };
     let cases = [0, 1].map(|number| Case::bare(CaseNumber(number), 1, corners().to_vec()));
     let planned = |case: &Case| -> Result<Option<hairpin::trajectory::Track>, Problem> {
