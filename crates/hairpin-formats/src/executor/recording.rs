@@ -258,8 +258,8 @@ impl<'a> Recording<'a> {
     /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
     ///
     /// # Errors
-    /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand; legs
-    /// counted from 1.
+    /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand;
+    /// legs counted from 1.
     pub fn finish(mut self, reason: EndReason) -> Result<Flight, PoseError> {
         if self.times.is_empty() {
             return Err(PoseError::Empty);

@@ -40,8 +40,8 @@ impl CampaignFolder {
             planned.push((case, piece));
         }
         there.write_planned(planned)?;
-        // What is told of missions is told by their numbers, which cases keep. What is proven of the first program is of
-        // no use without it.
+        // What is told of missions is told by their numbers, which cases keep. What is proven of the first program is
+        // of no use without it.
         let optimum = cases.contains(&CaseNumber(0)).then_some(OPTIMUM);
         for name in [NAME, BEST_SO_FAR, GRAPH, REASONS, ARCS, MISSIONS].into_iter().chain(optimum) {
             copy(&self.file(name), &there.file(name))?;

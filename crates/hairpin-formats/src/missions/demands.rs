@@ -1,4 +1,5 @@
-//! What a mission made elsewhere asks of what is executed, beside the spec: as campaign folders and repro files keep it.
+//! What a mission made elsewhere asks of what is executed, beside the spec: as campaign folders and repro files keep
+//! it.
 
 use hairpin::campaign::bounds::FARTHEST_ON_EARTH_M;
 use hairpin::world::terrain::KeepOutShape;
