@@ -40,7 +40,8 @@ pub(super) fn hold(asked: &Demands, log: &Log, flown: &mut Flown) -> Asked {
             } else {
                 Why::Between { most, rate_hz: rate_hz.filter(|rate| rate.is_finite()) }
             };
-            flown.doubts.push(Doubt { value: on_leg(&seen), why });
+            // Of what is within it is told that it is beyond by nothing.
+            flown.doubts.push(Doubt { value: on_leg(&Beyond { by: seen.by.max(0.0), ..seen }), why });
         }
         (None, None) => {}
     }

@@ -91,8 +91,8 @@ fn a_log_is_held_against_the_missions_own_fences() {
     assert!(judged.verdict.exit_code == 5 && sentence.contains("m may hide between two of them"), "{sentence}");
     assert!(sentence.contains("fence 0.00"), "{sentence}");
     let several = [wide, circle(true, [4.0, 4.0, 5.0])];
-    let told = said(&several, r#""firmwareType": 0, "vehicleType": 2,"#).unwrap_err();
-    assert!(told.contains("mission.firmwareType: must be 3 (ArduPilot"), "{told}");
+    let (code, sentence) = said(&several, r#""firmwareType": 0, "vehicleType": 2,"#).unwrap();
+    assert!(code == 5 && sentence.contains("ArduPilot (firmwareType 3) demands to be in all"), "{sentence}");
     assert_eq!(said(&several, PX4).unwrap().0, 0, "it is in one of them");
     assert_eq!(said(&several, r#""firmwareType": 3, "vehicleType": 2,"#).unwrap().0, 1);
 }
