@@ -502,18 +502,20 @@ fn a_controller_that_always_fails_ends_a_search_with_its_cause() {
     let here = folder.path();
     let always = |body: &str| format!("import sys, time\ndef control(t_s, state, reference):\n    {body}\n");
     let one = &SEARCHES[..1];
-    for (body, searches, words) in [
-        ("raise RuntimeError('boom')", &SEARCHES[..], "boom"),
-        ("return None", one, "None"),
-        ("return {'v_m_s': [float('nan'), 0.0, 0.0]}", one, "controller `python:bad.py`"),
-        ("return {'v_m_s': [0.0]}", one, "v_m_s"),
-        ("sys.exit(3)", one, "controller `python:bad.py`"),
-        ("time.sleep(60)", one, "execute.timeout_s"),
+    // A busy machine takes its time to begin Python.
+    let patient = "execute.timeout_s=10";
+    for (body, searches, words, limit) in [
+        ("raise RuntimeError('boom')", &SEARCHES[..], "boom", patient),
+        ("return None", one, "None", patient),
+        ("return {'v_m_s': [float('nan'), 0.0, 0.0]}", one, "controller `python:bad.py`", patient),
+        ("return {'v_m_s': [0.0]}", one, "v_m_s", patient),
+        ("sys.exit(3)", one, "controller `python:bad.py`", patient),
+        ("time.sleep(60)", one, "execute.timeout_s", "execute.timeout_s=1"),
     ] {
         fs::write(here.join("bad.py"), always(body)).unwrap();
         for search in searches {
             fs::write(here.join("q.toml"), searched(search, "python:bad.py")).unwrap();
-            let limit = ["--set", "execute.timeout_s=1", "--threads", "2"];
+            let limit = ["--set", limit, "--threads", "2"];
             let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a", "--force"], &limit[..]].concat());
             assert_eq!(code, 4, "{body}: {said}{error}");
             assert!(error.contains("EXECUTOR FAILED: ") && error.contains(words), "{body}: {error}");

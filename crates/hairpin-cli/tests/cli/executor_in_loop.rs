@@ -186,18 +186,19 @@ fn a_search_in_which_a_program_fails_passes_of_nothing() {
 fn a_program_that_flies_nothing_ends_the_search() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    for (sick, words) in [
-        ("--sick error --always", "executions in the loop came to a flight"),
-        ("--sick silent --always", "without an answer"),
-        ("--no-such-option", "ended without \"ready\""),
+    // A busy machine takes its time to begin a program: who is waited for in vain has more of it than that takes.
+    for (sick, words, limit) in [
+        ("--sick error --always", "executions in the loop came to a flight", "execute.timeout_s=10"),
+        ("--sick silent --always", "without an answer", "execute.timeout_s=2"),
+        ("--no-such-option", "ended without \"ready\"", "execute.timeout_s=10"),
     ] {
         fs::write(here.join("q.toml"), scenario(IN_LOOP, "high-velocity-90", sick)).unwrap();
         let begun = Instant::now();
-        let limit = ["--set", "execute.timeout_s=1", "--set", "execute.processes=1"];
+        let limit = ["--set", limit, "--set", "execute.processes=1"];
         let (code, said, error) = run(here, &[&["stress", "q.toml", "--out", "a", "--force"], &limit[..]].concat());
         assert_eq!(code, 4, "{said}{error}");
         assert!(error.contains("EXECUTOR FAILED: ") && error.contains(words), "{error}");
-        assert!(begun.elapsed() < Duration::from_secs(40), "{:?}", begun.elapsed());
+        assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
     }
     // With a program that flies it goes on.
     fs::write(here.join("q.toml"), scenario(IN_LOOP, "high-velocity-90", "")).unwrap();
