@@ -134,7 +134,7 @@ mod tests {
     use crate::Unwatched;
     use crate::execute::{ExecuteSettings, execute, run_with_motion};
     use crate::judge::judge;
-    use crate::judge_log::{Against, FrameSettings, LogSettings, judge_log};
+    use crate::judge_log::{Against, LogSettings, judge_log};
     use crate::missions::FENCE;
     use crate::select::{SelectSettings, select};
     use crate::shrink::{ShrinkSettings, Shrinking};
@@ -253,18 +253,7 @@ mod tests {
             format!("{t},{},{},{}\n", p.x, p.y, p.z)
         });
         std::fs::write(&log, ["t_s,x_m,y_m,z_m\n".to_owned()].into_iter().chain(rows).collect::<String>()).unwrap();
-        let settings = LogSettings {
-            path: log,
-            against: Against::Campaign(folder),
-            world: None,
-            sets: Vec::new(),
-            case: None,
-            frame: FrameSettings::default(),
-            source: None,
-            from_s: None,
-            to_s: None,
-            page: None,
-        };
+        let settings = LogSettings::new(log, Against::Campaign(folder));
         let judged = judge_log(&settings, &Unwatched).unwrap().logs.remove(0);
         assert!(judged.verdict.exit_code == 1 && judged.verdict.sentence.contains(" fence "), "{:?}", judged.verdict);
     }

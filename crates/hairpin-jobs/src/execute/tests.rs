@@ -5,7 +5,7 @@ use hairpin::math::simd::Simd;
 use super::*;
 use crate::Unwatched;
 use crate::export::{Export, ExportSettings, Format};
-use crate::judge_log::{Against, FrameSettings, LogSettings, judge_log};
+use crate::judge_log::{Against, LogSettings, judge_log};
 use crate::sets::Set;
 use crate::testing::{Told, generated, program};
 
@@ -87,18 +87,7 @@ fn a_scenario_that_was_edited_has_no_runs() {
     let exported = || crate::export::Export::open(&exporting).map(drop);
     let shrinking = crate::shrink::ShrinkSettings { folder: folder.clone(), ..Default::default() };
     let shrunk = crate::shrink::Shrinking::open(shrinking).map(drop).unwrap_err().to_string();
-    let log = LogSettings {
-        path: folder.join("0000-0.csv"),
-        against: Against::Campaign(folder.clone()),
-        world: None,
-        sets: Vec::new(),
-        case: None,
-        frame: FrameSettings::default(),
-        source: None,
-        from_s: None,
-        to_s: None,
-        page: None,
-    };
+    let log = LogSettings::new(folder.join("0000-0.csv"), Against::Campaign(folder.clone()));
     let log = judge_log(&log, &Unwatched).map(drop).unwrap_err().to_string();
     let others = [reported, replayed.unwrap_err().to_string(), exported().unwrap_err().to_string(), shrunk, log];
     for told in told.iter().chain(&others) {

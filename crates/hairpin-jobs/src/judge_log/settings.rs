@@ -46,6 +46,22 @@ pub struct LogSettings {
 }
 
 impl LogSettings {
+    /// The log or folder `path` as it is, against `against`.
+    pub fn new(path: PathBuf, against: Against) -> Self {
+        Self {
+            path,
+            against,
+            world: None,
+            sets: Vec::new(),
+            case: None,
+            frame: FrameSettings::default(),
+            source: None,
+            from_s: None,
+            to_s: None,
+            page: None,
+        }
+    }
+
     /// Nothing, where logs are an arm's.
     ///
     /// # Errors

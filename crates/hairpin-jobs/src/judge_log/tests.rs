@@ -76,17 +76,10 @@ fn settings(here: &Path, sets: &[(&str, &str)]) -> LogSettings {
     let file = here.join("m.csv");
     let rows = corners().map(|p| format!("{},{},{}\n", p.x, p.y, p.z)).concat();
     fs::write(&file, format!("x_m,y_m,z_m\n{rows}")).unwrap();
+    let against = Against::Mission { file, robot: Some("flightgoggles".into()) };
     LogSettings {
-        path: here.join("log_24.ulg"),
-        against: Against::Mission { file, robot: Some("flightgoggles".into()) },
-        world: None,
         sets: sets.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect(),
-        case: None,
-        frame: FrameSettings::default(),
-        source: None,
-        from_s: None,
-        to_s: None,
-        page: None,
+        ..LogSettings::new(here.join("log_24.ulg"), against)
     }
 }
 

@@ -126,8 +126,10 @@ fn bulge(setup: &Setup, case: &Case, run: &Run) -> f64 {
     if setup.program().is_none() {
         return 0.0;
     }
-    let known = run.full_rate.as_ref().map(|known| known.measures.clone()).or_else(|| measures_of(setup, case, run));
-    let Some(Measures { acceleration_over, most_between, .. }) = known else { return f64::INFINITY };
+    let bounds = |measures: &Measures| (measures.acceleration_over, measures.most_between);
+    let known = run.full_rate.as_ref().map(|known| bounds(&known.measures));
+    let known = known.or_else(|| measures_of(setup, case, run).as_ref().map(bounds));
+    let Some((acceleration_over, most_between)) = known else { return f64::INFINITY };
     let by_time = setup.swiftness().acceleration.zip(acceleration_over).map(|(a, span)| a * span * span / 8.0);
     [by_time, most_between].into_iter().flatten().reduce(f64::min).unwrap_or(0.0)
 }
