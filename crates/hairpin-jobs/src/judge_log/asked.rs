@@ -34,11 +34,10 @@ pub(super) fn hold(asked: &Demands, log: &Log, flown: &mut Flown) -> Asked {
     match (seen.beyond, seen.may_be) {
         (Some(beyond), _) => flown.violations.push(on_leg(&beyond)),
         (None, Some(MayBe { seen, most, sigma })) => {
-            let rate_hz = swiftness.acceleration.map(|a| (a / (8.0 * seen.by.abs())).sqrt());
             let why = if sigma > 0.5 * (most - seen.by) {
                 Why::Accuracy { which: "eph", sigma }
             } else {
-                Why::Between { most, rate_hz: rate_hz.filter(|rate| rate.is_finite()) }
+                Why::Between { most, rate_hz: swiftness.rate(seen.by.abs()) }
             };
             // Of what is within it is told that it is beyond by nothing.
             flown.doubts.push(Doubt { value: on_leg(&Beyond { by: seen.by.max(0.0), ..seen }), why });

@@ -102,9 +102,8 @@ pub(super) fn hold(fences: &Fences, setup: &Setup, case: &Case, runs: &[Run], re
     let open = match may_be {
         _ if !matches!(result.status, Status::Pass | Status::Unjudged) => return,
         Some(MayBe { seen, most, .. }) => {
-            let rate =
-                setup.swiftness().acceleration.map(|a| (a / (8.0 * seen.by.abs().max(ROUNDING_M))).sqrt().ceil());
-            let rate = rate.map_or("more".into(), |rate| rate.to_string());
+            let rate = setup.swiftness().rate(seen.by.abs().max(ROUNDING_M));
+            let rate = rate.map_or("more".into(), |rate| rate.ceil().to_string());
             format!(
                 "{FENCE} {:.3} m within at its poses, but {most:.3} m beyond may hide between two of them; {rate} poses a \
                  second decide",

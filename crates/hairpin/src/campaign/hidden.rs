@@ -76,13 +76,11 @@ fn nearest_edge(setup: &Setup, track: &Track, swiftness: &Swiftness) -> Option<f
 /// Why the samples do not decide that `limits` are kept which they keep: what may hide between them, and how many would
 /// decide.
 ///
-/// A motion bulges by a Δt²/8 out of the line between samples: f = √(a / 8 m), m the margin that the samples leave.
 /// What runs into an obstacle violates whatever is limited, so that where there are limits one that may have been met
 /// leaves all of them open.
 pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Option<String> {
-    let acceleration = setup.swiftness().acceleration;
     let rate = |margin: f64| {
-        let rate = acceleration.map(|a| (a / (8.0 * margin)).sqrt()).filter(|rate| rate.is_finite());
+        let rate = setup.swiftness().rate(margin);
         rate.map_or(String::new(), |rate| format!("; {} poses a second decide", rate.ceil()))
     };
     let open = |name: &str, value: f64, limit: f64, most: f64| {
@@ -113,7 +111,8 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     };
     // What nothing bounds is not known by what it does twice a second.
     let unseen = || {
-        let span = measures.acceleration_over.filter(|span| acceleration.is_none() && !is_seen(*span))?;
+        let span =
+            measures.acceleration_over.filter(|span| setup.swiftness().acceleration.is_none() && !is_seen(*span))?;
         let kept = [
             limits.deviation.filter(|limit| measures.max_deviation <= *limit),
             limits.overshoot.filter(|limit| measures.max_overshoot() <= *limit),

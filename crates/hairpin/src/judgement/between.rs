@@ -34,6 +34,17 @@ impl Swiftness {
         by_acceleration.min(self.by_speed(span, chord))
     }
 
+    /// Samples a second between which nothing bulges by as much as `margin` m; `None` where nothing bounds it, or there
+    /// is no margin.
+    ///
+    /// f = min(√(a / 8m), v / 2m): what [`Self::bulge`] is at most, a Δt²/8 and v Δt/2, solved for 1/Δt.
+    pub fn rate(&self, margin: f64) -> Option<f64> {
+        let by_acceleration = self.acceleration.map_or(f64::INFINITY, |a| (a / (8.0 * margin)).sqrt());
+        let by_speed = self.speed.map_or(f64::INFINITY, |v| v / (2.0 * margin));
+        let least = by_acceleration.min(by_speed);
+        (margin > 0.0 && least.is_finite()).then_some(least)
+    }
+
     fn by_speed(&self, span: f64, chord: f64) -> f64 {
         let farthest = self.speed.map(|speed| speed * span).filter(|way| *way >= chord);
         farthest.map_or(f64::INFINITY, |way| 0.5 * ((way - chord) * (way + chord)).sqrt())

@@ -124,7 +124,8 @@ fn of_cell(record: &CellRecord, seed: u64) -> CellLifts {
     let measured: Vec<Way> = runs.first().map_or_else(Vec::new, |run| run.ways.iter().map(|own| own.way).collect());
     let others = measured.iter().copied().filter(|way| *way != Way::Worst);
     let behind = others.map(|other| (other, over(&of(Way::Worst), &of(other), false))).collect();
-    let ahead = record.pairs.iter().filter(|pair| pair.worst.mean(false) > pair.chance.mean(false)).count();
+    let pairs = || record.pairs.iter().flatten();
+    let ahead = pairs().filter(|pair| pair.worst.mean(false) > pair.chance.mean(false)).count();
     CellLifts {
         name: record.settings.cell.clone(),
         drawn_how: record.drawn_how.clone(),
@@ -133,7 +134,7 @@ fn of_cell(record: &CellRecord, seed: u64) -> CellLifts {
         best_of: runs.iter().map(|run| run.best_of).max().unwrap_or(0),
         ways: measured.into_iter().map(way).collect(),
         behind,
-        pairs: [ahead, record.pairs.len()],
+        pairs: [ahead, pairs().count()],
         first_violation: first_violation(runs),
         cost: cost(runs),
     }

@@ -62,25 +62,27 @@ pub(super) fn defaults(sheet: &Sheet, out: &Path, watch: &dyn Watch) -> Result<O
         watch.progress(WHAT, done, cells.len());
         let file = kept.join(cell.file());
         let size = cell.size(&size);
-        if let Some(record) = CellRecord::read(&file, &cell.settings(&size))? {
-            records.push(record);
-            continue;
-        }
-        match measure(cell, &size, watch) {
-            Ok(record) => {
-                atomic::write_json(&file, &record)?;
-                records.push(record);
-            }
+        let mut record = CellRecord::read(&file, cell, cell.settings(&size))?;
+        let keep = |record: &CellRecord| Ok(atomic::write_json(&file, record)?);
+        match measure(cell, &size, &mut record, &keep, watch) {
+            Ok(()) => records.push(record),
             Err(Problem::Interrupted(_)) => {
                 return Err(Problem::Interrupted(format!(
-                    "interrupted: {done} of {} cells are done and kept",
-                    cells.len()
+                    "interrupted: {done} of {} cells are done and kept, and {} of {} runs of the next",
+                    cells.len(),
+                    record.runs.len(),
+                    size.runs
                 )));
             }
             Err(problem) => {
                 // A mistake in a scenario is told with its place below it.
                 let why = problem.to_string();
-                refused.push(format!("{}: not measured: {}", cell.name, why.lines().next().unwrap_or_default()));
+                let why = why.lines().next().unwrap_or_default();
+                refused.push(match record.runs.len() {
+                    0 => format!("{}: not measured: {why}", cell.name),
+                    runs => format!("{}: measured by {runs} of {} runs alone: {why}", cell.name, size.runs),
+                });
+                records.extend((!record.runs.is_empty()).then_some(record));
             }
         }
     }

@@ -6,22 +6,22 @@ use hairpin_jobs::{Problem, Watch};
 
 use super::field::{Field, setup};
 use super::record::{PairRecord, RunRecord};
-use super::run::{run_seed, searched, worst_of};
+use super::run::{searched, worst_of};
 use super::size::{Cell, Size};
 use super::ways::Way;
 
-/// Pair number `number`; `None` where one side found nothing. A run that was measured before is not made again.
+/// The pair of the run under `seed`; `None` where one side found nothing. A run that was `measured` before is not made
+/// again.
 pub(super) fn pair(
     cell: &Cell,
     size: &Size,
-    number: usize,
-    measured: &[RunRecord],
+    seed: u64,
+    measured: Option<&RunRecord>,
     watch: &dyn Watch,
 ) -> Result<Option<PairRecord>, Problem> {
-    let seed = run_seed(cell, size, number);
     let base = setup(cell, named_seed(seed, "chance", 0), &[])?;
     let field = Field { setup: &base, stress: cell.stress, fresh: size.fresh };
-    let known = measured.get(number).and_then(|run| run.ways.iter().find(|way| way.way == Way::Worst));
+    let known = measured.and_then(|run| run.ways.iter().find(|way| way.way == Way::Worst));
     let (kept, executions) = match known {
         Some(way) => (way.kept.clone(), way.executions),
         None => {

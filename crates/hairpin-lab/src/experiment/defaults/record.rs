@@ -6,7 +6,7 @@ use hairpin_formats::bounds;
 use hairpin_jobs::Problem;
 use serde::{Deserialize, Serialize};
 
-use super::size::Settings;
+use super::size::{Cell, Settings};
 use super::ways::Way;
 
 /// A record of a thousand runs of a thousand draws has some ten million bytes.
@@ -25,7 +25,8 @@ pub(super) struct CellRecord {
     /// The mean that it is part of.
     pub(super) mean: Option<String>,
     pub(super) runs: Vec<RunRecord>,
-    pub(super) pairs: Vec<PairRecord>,
+    /// `None` where one side found nothing.
+    pub(super) pairs: Vec<Option<PairRecord>>,
 }
 
 /// One independent run.
@@ -92,18 +93,19 @@ pub(super) struct PairRecord {
 }
 
 impl CellRecord {
-    /// The record in `file`; `None` where there is none.
+    /// The record of `cell` in `file`, as far as it was measured; one of nothing where there is none.
     ///
     /// # Errors
     /// A file that is none; one that was measured with other settings.
-    pub(super) fn read(file: &Path, settings: &Settings) -> Result<Option<Self>, Problem> {
+    pub(super) fn read(file: &Path, cell: &Cell, settings: Settings) -> Result<Self, Problem> {
         if !file.exists() {
-            return Ok(None);
+            let (drawn_how, mean) = (String::new(), cell.mean.clone());
+            return Ok(Self { settings, drawn_how, mean, runs: Vec::new(), pairs: Vec::new() });
         }
         let text = bounds::read_text(file, MOST_BYTES).map_err(|error| Problem::of_file(file, error))?;
         let record: Self = serde_json::from_str(&text).map_err(|error| Problem::of_file(file, error))?;
-        if record.settings == *settings {
-            return Ok(Some(record));
+        if record.settings == settings {
+            return Ok(record);
         }
         Err(Problem::of_file(file, "was measured with other settings; name another --out, or remove it"))
     }

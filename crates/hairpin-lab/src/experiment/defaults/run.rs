@@ -33,19 +33,13 @@ pub(super) struct Found {
     spent: f64,
 }
 
-/// The seed of run number `run` of `cell`.
-pub(super) fn run_seed(cell: &Cell, size: &Size, run: usize) -> u64 {
-    named_seed(named_seed(size.seed(), &cell.name, 0), "run", run as u64)
-}
-
-/// Run number `number`; with how its random trajectories were drawn.
+/// A run under `seed`; with how its random trajectories were drawn.
 pub(super) fn run(
     cell: &Cell,
     size: &Size,
-    number: usize,
+    seed: u64,
     watch: &dyn Watch,
 ) -> Result<(RunRecord, &'static str), Problem> {
-    let seed = run_seed(cell, size, number);
     let drawn_from = if cell.same_graphs { seed } else { named_seed(seed, "uniform", 0) };
     let base = setup(cell, drawn_from, &keys(cell, size, Way::WorstInGraph)?)?;
     let space = Space::of(&base).map_err(Problem::input)?;

@@ -63,6 +63,8 @@ struct Family {
     /// Whether random trajectories come from the search's own graphs.
     #[serde(default)]
     same_graphs: bool,
+    /// The key of the seed of a ground that is drawn: each run has one of its own, on which the robot can begin.
+    ground: Option<String>,
     /// In the place of the sheet's.
     ways: Option<Vec<Way>>,
     runs: Option<usize>,
@@ -93,6 +95,7 @@ pub(super) struct Cell {
     pub(super) stress: Stress,
     pub(super) coordinates: usize,
     pub(super) same_graphs: bool,
+    pub(super) ground: Option<String>,
     ways: Option<Vec<Way>>,
     runs: Option<usize>,
     executions: Option<u64>,
@@ -180,6 +183,7 @@ impl Family {
             stress: self.target.stress().ok_or_else(no_measure)?,
             coordinates: self.coordinates,
             same_graphs: self.same_graphs,
+            ground: self.ground.clone(),
             ways: self.ways.clone(),
             runs: self.runs,
             executions: self.executions,

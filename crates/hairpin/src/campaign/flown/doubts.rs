@@ -90,17 +90,6 @@ impl Looked<'_> {
         Some((span, self.swiftness.bulge(span, (track.position(next) - track.position(i)).norm())))
     }
 
-    /// Samples a second with which `margin` m are not exceeded between them.
-    ///
-    /// f = min(√(a / 8m), v / 2m): between samples a motion bulges by a Δt²/8 under acceleration a, and by v Δt/2 at
-    /// speed v.
-    pub(super) fn rate(&self, margin: f64) -> Option<f64> {
-        let by_acceleration = self.swiftness.acceleration.map(|a| (a / (8.0 * margin)).sqrt());
-        let by_speed = self.swiftness.speed.map(|v| v / (2.0 * margin));
-        let least = by_acceleration.into_iter().chain(by_speed).fold(f64::INFINITY, f64::min);
-        (margin > 0.0 && least.is_finite()).then_some(least)
-    }
-
     /// Whether the limit of deviation is open. What is told is the largest of the samples, wherever it is in doubt.
     pub(super) fn deviation(&self, measures: &Measures, limit: Option<f64>) -> Option<Doubt> {
         let limit = limit?;
@@ -125,7 +114,7 @@ impl Looked<'_> {
             if bound > limit {
                 let ends =
                     [i, i + 1].map(|k| self.close[k].off.map_or(0.0, |off| off.norm()) + self.sigma(k, None).along);
-                let own = self.rate(limit - ends[0].max(ends[1]));
+                let own = self.swiftness.rate(limit - ends[0].max(ends[1]));
                 rate = rate.and_then(|rate| Some(rate.max(own?)));
                 most = most.max(bound);
             }
@@ -205,7 +194,7 @@ impl Looked<'_> {
             let bound = where_least([self.close[i].leg, self.close[i + 1].leg], on);
             if bound > enough {
                 most = most.max(bound);
-                let own = self.rate(enough - values[i].max(values[i + 1]));
+                let own = self.swiftness.rate(enough - values[i].max(values[i + 1]));
                 rate = rate.and_then(|rate| Some(rate.max(own?)));
             }
         }

@@ -89,7 +89,7 @@ impl Looked<'_> {
         for i in 0..self.log.flight.track.len() {
             let Some((beyond, at_ends)) = self.beyond(setup, i) else { continue };
             most = most.max(beyond);
-            rate = rate.and_then(|rate| Some(rate.max(self.rate(-at_ends)?)));
+            rate = rate.and_then(|rate| Some(rate.max(self.swiftness.rate(-at_ends)?)));
         }
         (most > 0.0).then_some(Why::Between { most: -most, rate_hz: rate })
     }

@@ -1,12 +1,45 @@
 //! The worst trajectories that differ: what a search keeps of all that it has executed.
 //!
-//! Clearing: in the order of [ranks](crate::search::in_loop::Rank), each trajectory stands that is far enough from all
-//! that stand before it. Those that stand are the answer, the first as many as are asked for,
-//! and the parents of what is tried next. Source: Pétrowski, A clearing procedure as a niching method for genetic
-//! algorithms, 1996.
+//! Clearing: in the order of stress, each trajectory stands that is far enough from all that stand before it. Those
+//! that stand are the answer, the first as many as are asked for, and the parents of what is tried next. Source:
+//! Pétrowski, A clearing procedure as a niching method for genetic algorithms, 1996.
+//!
+//! An archive for each target, and one of what fails. What fails is worse than any stress, and often strays less than
+//! what is flown to its end, as it ends early: in one order of both the first would leave no place for the second.
 
 use super::scale::{Placed, Scale, Trace};
 use crate::search::in_loop::Trial;
+
+/// What an archive keeps the worst of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Aim {
+    /// What fails, by its stress for the first target.
+    Failures,
+    /// What a target measures, whether it fails or not: an index into [`Ran::trials`](super::Ran::trials).
+    Target(usize),
+}
+
+impl Aim {
+    /// The one of failures, and those of so many targets.
+    pub(super) fn all(targets: usize) -> impl Iterator<Item = Aim> {
+        std::iter::once(Aim::Failures).chain((0..targets).map(Aim::Target))
+    }
+
+    /// The target that its stresses are of.
+    pub(super) fn target(self) -> usize {
+        match self {
+            Aim::Failures => 0,
+            Aim::Target(target) => target,
+        }
+    }
+
+    /// What an execution comes to for it; `None` where that is nothing.
+    pub(super) fn of(self, trials: &[Trial]) -> Option<Trial> {
+        let trial = trials[self.target()];
+        let counts = trial.fails || self != Aim::Failures;
+        (counts && !trial.stress.is_nan()).then_some(trial)
+    }
+}
 
 /// An executed trajectory.
 ///
@@ -23,12 +56,13 @@ pub(super) struct Member<P> {
     pub(super) number: u64,
 }
 
-/// Executed trajectories in the order of their ranks, of which some stand.
+/// Executed trajectories in the order of their stresses, of which some stand.
 ///
-/// Invariant after [`Archive::take`]: `members` falls in rank, `standing` rises, any two standing
+/// Invariant after [`Archive::take`]: `members` falls in stress, `standing` rises, any two standing
 /// [`Archive::differ`], and every member before the last standing one that does not stand is nearer than `apart` to
 /// one that stands before it.
 pub(super) struct Archive<P> {
+    pub(super) aim: Aim,
     /// The most stressful first, the first of equals first.
     members: Vec<Member<P>>,
     /// Places of those that stand, rising.
@@ -44,11 +78,11 @@ pub(super) struct Archive<P> {
 }
 
 impl<P> Archive<P> {
-    /// Of `most` trajectories at most that stand `apart` by `scale`.
+    /// For `aim`, of `most` trajectories at most that stand `apart` by `scale`.
     ///
     /// `apart` is in the units of [`Scale::apart`]; `most` of 0 is taken as 1.
-    pub(super) fn new(scale: Scale, apart: f64, most: usize) -> Self {
-        Self { members: Vec::new(), standing: Vec::new(), scale, apart, most: most.max(1), spare: 8 }
+    pub(super) fn new(aim: Aim, scale: Scale, apart: f64, most: usize) -> Self {
+        Self { aim, members: Vec::new(), standing: Vec::new(), scale, apart, most: most.max(1), spare: 8 }
     }
 
     /// Whether two trajectories are far enough apart to stand both.
@@ -65,7 +99,7 @@ impl<P> Archive<P> {
     /// `offer` has sorted out those that are not.
     pub(super) fn take(&mut self, new: Vec<Member<P>>) {
         for member in new {
-            let place = self.members.partition_point(|known| known.trial.reaches(member.trial.rank()));
+            let place = self.members.partition_point(|known| known.trial.stress >= member.trial.stress);
             self.members.insert(place, member);
         }
         self.clear();
@@ -168,7 +202,7 @@ mod tests {
 
     #[test]
     fn near_copies_of_the_worst_do_not_stand_and_step_up_where_it_falls() {
-        let mut archive = Archive::new(scale(), 0.2, 3);
+        let mut archive = Archive::new(Aim::Target(0), scale(), 0.2, 3);
         archive.take(vec![member(5.0, 1.0), member(5.5, 2.0), member(9.0, 0.5), member(1.0, 0.1), member(0.0, 0.2)]);
         assert_eq!(plans(&archive), [5.5, 9.0, 0.0]);
         assert_eq!([archive.least(1), archive.least(3), archive.least(4)], [2.0, 0.2, f64::NEG_INFINITY]);
@@ -178,19 +212,18 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_stands_before_what_is_stressed_more() {
-        let mut archive = Archive::new(scale(), 0.2, 3);
-        let crash = |x, stress| {
-            let Member { trial, .. } = member(x, stress);
-            Member { trial: Trial { fails: true, ..trial }, ..member(x, stress) }
-        };
-        archive.take(vec![member(9.0, 5.0), crash(5.0, 0.1), crash(0.0, 0.2), member(0.5, 9.0)]);
-        assert_eq!(plans(&archive), [0.0, 5.0, 9.0], "one beside a crash does not stand, however far it strays");
+    fn an_aim_takes_what_it_measures_and_that_of_failures_what_fails() {
+        let trial = |stress, fails| Trial { stress, fails, worst_leg: 0, executions: 1 };
+        let of = |trials: &[Trial]| Aim::all(2).map(|aim| aim.of(trials).map(|trial| trial.stress)).collect::<Vec<_>>();
+        assert_eq!(of(&[trial(1.0, false), trial(2.0, false)]), [None, Some(1.0), Some(2.0)]);
+        assert_eq!(of(&[trial(1.0, true), trial(f64::NAN, true)]), [Some(1.0), Some(1.0), None]);
+        let unmeasured = f64::NEG_INFINITY;
+        assert_eq!(of(&[trial(unmeasured, true), trial(2.0, true)]), [Some(unmeasured), Some(unmeasured), Some(2.0)]);
     }
 
     #[test]
     fn what_stands_is_never_forgotten() {
-        let mut archive = Archive::new(scale(), 0.2, 2);
+        let mut archive = Archive::new(Aim::Target(0), scale(), 0.2, 2);
         archive.take(vec![member(9.0, 1.0)]);
         archive.take((0..100).map(|i| member(1.0 + 1e-3 * f64::from(i), 2.0 + f64::from(i))).collect());
         assert_eq!((plans(&archive)[1], archive.members.len()), (9.0, 17));

@@ -15,8 +15,8 @@ use crate::search::in_loop::Trial;
 /// counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// Its stress by each target, and the leg that it is owed to; NaN where that was not measured. What fails is the
-    /// worst for every target, among such by their stresses.
+    /// Its stress by each target, and the leg that it is owed to; NaN where that was not measured. What fails
+    /// has an archive of its own, and is kept for each target by its stress beside that.
     /// [`WorstSettings::targets`](super::WorstSettings::targets) entries. An infinite stress counts as not measured.
     /// `executions` of all is that of the one with the most, as they share their runs.
     pub trials: Vec<Trial>,

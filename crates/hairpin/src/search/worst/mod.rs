@@ -30,7 +30,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-use self::archive::{Archive, Member};
+use self::archive::{Aim, Archive, Member};
 pub use self::crowd::Crowd;
 pub use self::field::{Field, Ran};
 use self::rounds::{Search, offer};
@@ -54,7 +54,7 @@ pub struct Found<P> {
     /// The plan.
     /// Feasible, as all plans of a [`Field`] are; cloned from the archive.
     pub plan: P,
-    /// The target that it was kept for.
+    /// The target that it was kept for; of what was kept because it fails, the first.
     ///
     /// An index into [`Ran::trials`], below [`WorstSettings::targets`].
     pub target: usize,
@@ -70,7 +70,7 @@ pub struct Found<P> {
 /// executions of draws, not all of them, for the baseline.
 #[derive(Debug, Clone)]
 pub struct Worst<P> {
-    /// In turns for each target, the most stressful first, no two nearer than `apart`.
+    /// In turns what fails and for each target, the most stressful first, no two nearer than `apart`.
     ///
     /// At most [`WorstSettings::cases`]; fewer where fewer differ, or where the executions do not suffice for as
     /// many.
@@ -100,15 +100,15 @@ pub struct Worst<P> {
 /// Searches `field` until the executions are used up, nothing new is found, or `stopped`; `told` hears of the number of
 /// executions after each round.
 ///
-/// Where there are several targets each has an archive of its own, every execution is offered to all, and a portfolio
+/// Each target has an archive of its own, and so has what fails; every execution is offered to all, and a portfolio
 /// says for which one a round is made: one plain sum or minimum of them would let one hide the others. Source: Zhang,
 /// Hasuo, Arcaini, Multi-armed bandits for Boolean connectives in hybrid system falsification, CAV 2019.
 ///
 /// Three stages. *First* executes seeds and draws: a tenth of the executions, and 20 where at least 40 are paid for.
-/// Their traces fix the scale and `apart`. *Evolve* makes rounds: one target (drawn by its success), a change for
-/// each place of the round (drawn by its success for that target), children made in parallel and without execution,
+/// Their traces fix the scale and `apart`. *Evolve* makes rounds: one archive (drawn by its success), a change for
+/// each place of the round (drawn by its success for that archive), children made in parallel and without execution,
 /// then what is new executed in parallel, then taken over in the order of places. *Deal* takes the most stressful of
-/// each archive in turn.
+/// each archive in turn, beginning with what fails.
 ///
 /// It ends after the last execution that is paid for, after 20 rounds in a row that execute nothing new, when no
 /// archive has a member, or when `stopped` says so; what was executed until then is the answer in each case.
@@ -132,7 +132,8 @@ pub fn worst<F: Field>(
     let scale = Scale::of(&traces);
     let apart = scale.quantile(&traces, QUANTILE);
     let most = PARENTS.max(settings.cases + settings.cases / 4);
-    let mut archives: Vec<_> = (0..settings.targets.max(1)).map(|_| Archive::new(scale.clone(), apart, most)).collect();
+    let aims = Aim::all(settings.targets.max(1));
+    let mut archives: Vec<_> = aims.map(|aim| Archive::new(aim, scale.clone(), apart, most)).collect();
     offer(&mut archives, executed);
     search.evolve(&mut archives, told);
     let found = dealt(&archives, settings.cases);
@@ -143,24 +144,23 @@ pub fn worst<F: Field>(
 
 /// `count` of what stands, from each archive in turn, that differ also from each other.
 ///
-/// A trajectory is kept once, for the first target that takes it: what another archive took is nearer than `apart` to
+/// A trajectory is kept once, for the first archive that takes it: what another archive took is nearer than `apart` to
 /// itself.
 fn dealt<P: Clone>(archives: &[Archive<P>], count: usize) -> Vec<Found<P>> {
     let mut standing: Vec<_> = archives.iter().map(Archive::standing).collect();
-    let mut chosen: Vec<(usize, &Member<P>)> = Vec::with_capacity(count);
+    let mut chosen: Vec<(Aim, &Member<P>)> = Vec::with_capacity(count);
     let mut passed = 0;
     while chosen.len() < count && passed < standing.len() {
         passed = 0;
-        for (target, standing) in standing.iter_mut().enumerate() {
-            let differs = |member: &&Member<P>| {
-                chosen.iter().all(|(_, other)| archives[target].differ(&member.placed, &other.placed))
-            };
+        for (archive, standing) in archives.iter().zip(&mut standing) {
+            let differs =
+                |member: &&Member<P>| chosen.iter().all(|(_, other)| archive.differ(&member.placed, &other.placed));
             match standing.find(differs) {
-                Some(member) if chosen.len() < count => chosen.push((target, member)),
+                Some(member) if chosen.len() < count => chosen.push((archive.aim, member)),
                 _ => passed += 1,
             }
         }
     }
     let found = chosen.into_iter();
-    found.map(|(target, member)| Found { plan: member.plan.clone(), target, trial: member.trial }).collect()
+    found.map(|(aim, member)| Found { plan: member.plan.clone(), target: aim.target(), trial: member.trial }).collect()
 }

@@ -30,23 +30,26 @@ impl Portfolio {
         Self { success: vec![0.3; count] }
     }
 
-    /// One of the changes.
+    /// One of the changes that are `open`; `None` where none is.
     ///
-    /// P = least / n + (1 − least) s / Σ s.
+    /// P = least / n + (1 − least) s / Σ s, over those that are open.
     ///
-    /// An index below `count`; one uniform number is taken from `random`. With all successes at 0 shares are even.
-    pub(super) fn draw(&self, random: &mut Stream) -> usize {
-        let count = self.success.len() as f64;
-        let all: f64 = self.success.iter().sum();
+    /// An index into `open`; one uniform number is taken from `random`. With all successes at 0 shares are even.
+    pub(super) fn draw(&self, open: &[bool], random: &mut Stream) -> Option<usize> {
+        let open = || self.success.iter().zip(open).enumerate().filter(|(_, (_, open))| **open);
+        let count = open().count() as f64;
+        let all: f64 = open().map(|(_, (success, _))| success).sum();
         let mut left = unit(random);
-        for (number, success) in self.success.iter().enumerate() {
+        let mut last = None;
+        for (number, (success, _)) in open() {
             let matched = if all > 0.0 { success / all } else { 1.0 / count };
             left -= LEAST / count + (1.0 - LEAST) * matched;
+            last = Some(number);
             if left < 0.0 {
-                return number;
+                break;
             }
         }
-        self.success.len() - 1
+        last
     }
 
     /// Change `number` came to `reward`, 0 … 1.
@@ -71,7 +74,9 @@ mod tests {
         }
         let mut drawn = [0; 4];
         let mut random = stream(1);
-        (0..4000).for_each(|_| drawn[portfolio.draw(&mut random)] += 1);
+        (0..4000).for_each(|_| drawn[portfolio.draw(&[true; 4], &mut random).unwrap()] += 1);
         assert!(drawn[2] > 3000 && drawn.iter().all(|count| *count > 150), "{drawn:?}");
+        assert_eq!(portfolio.draw(&[false, true, false, false], &mut random), Some(1));
+        assert_eq!(portfolio.draw(&[false; 4], &mut random), None);
     }
 }

@@ -8,7 +8,7 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use super::archive::{Archive, Member};
+use super::archive::{Aim, Archive, Member};
 use super::change::{Change, Child, FIRST_STEP, child};
 use super::field::{Field, Ran};
 use super::portfolio::Portfolio;
@@ -63,20 +63,19 @@ pub(super) struct Executed<P> {
     number: u64,
 }
 
-/// What is executed is offered to the archive of each target.
-///
-/// One execution may stand in several archives; what a target did not measure (NaN) is not offered to its archive.
+/// What is executed is offered to all archives; one execution may stand in several.
 pub(super) fn offer<P: Clone>(archives: &mut [Archive<P>], executed: Vec<Executed<P>>) {
-    for (target, archive) in archives.iter_mut().enumerate() {
-        let measured = executed.iter().filter(|executed| !executed.trials[target].stress.is_nan());
-        let members = measured.map(|executed| Member {
-            plan: executed.plan.clone(),
-            trial: executed.trials[target],
-            placed: archive.place(&executed.trace),
-            step: executed.step,
-            number: executed.number,
-        });
-        let members = members.collect();
+    for archive in archives {
+        let member = |executed: &Executed<P>| {
+            Some(Member {
+                plan: executed.plan.clone(),
+                trial: archive.aim.of(&executed.trials)?,
+                placed: archive.place(&executed.trace),
+                step: executed.step,
+                number: executed.number,
+            })
+        };
+        let members = executed.iter().filter_map(member).collect();
         archive.take(members);
     }
 }
@@ -149,24 +148,25 @@ impl<'a, F: Field> Search<'a, F> {
         executed
     }
 
-    /// Rounds of changes, each for one target.
+    /// Rounds of changes, each for one archive, of those that have members.
     ///
     /// Reward of a child that stands as number r of the cases, from 0: 1 − 0.7 r / cases; 0.3 for one that stands
-    /// behind them; 0 else. The target of the round gets the same rewards as the change.
+    /// behind them; 0 else. The archive of the round gets the same rewards as the change.
     pub(super) fn evolve(&mut self, archives: &mut [Archive<F::Plan>], told: &dyn Fn(u64)) {
         let changes: &[Change] = if self.field.moves() { &Change::ALL } else { &Change::OF_GRAPHS };
         let mut portfolios = vec![Portfolio::new(changes.len()); archives.len()];
-        let mut targets = Portfolio::new(archives.len());
+        let mut aims = Portfolio::new(archives.len());
         let (mut fruitless, mut number) = (0, 0);
         while self.left() > 0 && fruitless < FRUITLESS && !(self.stopped)() {
-            let target = targets.draw(&mut stream(named_seed(self.settings.seed, "target", number)));
-            number += 1;
-            let (archive, portfolio) = (&archives[target], &mut portfolios[target]);
-            if archives.iter().all(|archive| archive.len() == 0) {
+            let open: Vec<bool> = archives.iter().map(|archive| archive.len() > 0).collect();
+            let Some(of) = aims.draw(&open, &mut stream(named_seed(self.settings.seed, "target", number))) else {
                 break;
-            }
-            let cases = self.settings.cases.div_ceil(archives.len());
-            let least: Vec<f64> = archives.iter().map(|archive| archive.least(cases)).collect();
+            };
+            number += 1;
+            let (archive, portfolio) = (&archives[of], &mut portfolios[of]);
+            let cases = self.settings.cases.div_ceil(open.iter().filter(|open| **open).count());
+            let targets = archives.iter().filter(|archive| archive.aim != Aim::Failures);
+            let least: Vec<f64> = targets.map(|archive| archive.least(cases)).collect();
             let slots = self.round(archive, changes, portfolio);
             let (mut tried, mut children) = (Vec::new(), Vec::new());
             for Slot { change, child } in slots {
@@ -184,13 +184,13 @@ impl<'a, F: Field> Search<'a, F> {
                 executed.iter().map(|executed| executed.as_ref().map(|executed| executed.number)).collect();
             offer(archives, executed.into_iter().flatten().collect());
             for (change, number) in tried.into_iter().zip(numbers) {
-                let reward = match number.and_then(|number| archives[target].rank(number)) {
+                let reward = match number.and_then(|number| archives[of].rank(number)) {
                     Some(rank) if rank < cases => 1.0 - (1.0 - REWARD) * rank as f64 / cases as f64,
                     Some(_) => REWARD,
                     None => 0.0,
                 };
-                portfolios[target].reward(change, reward);
-                targets.reward(target, reward);
+                portfolios[of].reward(change, reward);
+                aims.reward(of, reward);
                 self.drawn += u64::from(changes[change] == Change::Draw && number.is_some());
             }
             told(self.executions());
@@ -207,11 +207,12 @@ impl<'a, F: Field> Search<'a, F> {
         self.draws += count;
         let (field, seed) = (self.field, self.settings.seed);
         let (parents, cases): (Vec<_>, _) = (archive.standing().collect(), self.settings.cases);
+        let open = vec![true; changes.len()];
         (first..first + count)
             .into_par_iter()
             .map(|slot| {
                 let mut random = stream(named_seed(seed, "worst", slot));
-                let change = portfolio.draw(&mut random);
+                let change = portfolio.draw(&open, &mut random).unwrap_or_default();
                 let child = child(field, changes[change], (&parents, cases), draws + (slot - first), &mut random);
                 Slot { change, child }
             })

@@ -182,3 +182,58 @@ fn what_cannot_be_drawn_says_why_and_what_is_stopped_keeps_what_it_has() {
     let kept = worst(&room, &settings(3, 10_000), &stopped, &|_| {});
     assert!(kept.found.len() == 3 && kept.stresses.len() < 400, "{}", kept.stresses.len());
 }
+
+/// What crashes early strays little: neither is there one case alone, nor are all of them crashes.
+#[test]
+fn what_fails_and_what_is_stressed_most_are_found_beside_each_other() {
+    struct Walled(Room);
+    impl Field for Walled {
+        type Plan = Vec<Point3<f64>>;
+        fn draw(&self, number: u64) -> Result<Self::Plan, Option<String>> {
+            self.0.draw(number)
+        }
+        fn seeds(&self) -> Vec<Self::Plan> {
+            Vec::new()
+        }
+        fn points<'p>(&self, plan: &'p Self::Plan) -> &'p [Point3<f64>] {
+            plan
+        }
+        fn fingerprint(&self, plan: &Self::Plan) -> [u8; 16] {
+            self.0.fingerprint(plan)
+        }
+        fn moves(&self) -> bool {
+            true
+        }
+        fn over(&self, plan: &Self::Plan, points: &[Point3<f64>]) -> Option<Self::Plan> {
+            self.0.over(plan, points)
+        }
+        fn elsewhere(&self, plan: &Self::Plan, random: &mut Stream) -> Option<Point3<f64>> {
+            self.0.elsewhere(plan, random)
+        }
+        fn crossed(
+            &self,
+            plan: &Self::Plan,
+            other: &Self::Plan,
+            leg: usize,
+            random: &mut Stream,
+        ) -> Option<Self::Plan> {
+            self.0.crossed(plan, other, leg, random)
+        }
+        fn altered(&self, _: &Self::Plan, _: usize, _: &mut Stream) -> Option<Self::Plan> {
+            None
+        }
+        fn run(&self, plan: &Self::Plan, _: &[f64]) -> Option<Ran> {
+            let Trial { stress, .. } = Room::stress(plan);
+            // Beyond a wall, where it has strayed by a hundredth.
+            let fails = plan.iter().any(|point| point.z > 13.0);
+            let trial = Trial { stress: if fails { 0.01 * stress } else { stress }, fails, ..Room::stress(plan) };
+            Some(Ran { trials: vec![trial], behaviour: vec![trial.stress] })
+        }
+    }
+    let Worst { found, .. } = worst(&Walled(Room::new(true)), &settings(6, 1_200), &|| false, &|_| {});
+    let [failing, flown]: [Vec<f64>; 2] = [true, false].map(|fails| {
+        found.iter().map(|found| found.trial).filter(|trial| trial.fails == fails).map(|t| t.stress).collect()
+    });
+    assert!(found[0].trial.fails && failing.len() == 3, "{failing:?} {flown:?}");
+    assert!(flown.is_sorted_by(|a, b| a >= b) && flown[2] > 120.0, "{flown:?}");
+}
