@@ -17,6 +17,9 @@ pub struct Header {
     /// The plane of the Earth that the map lies in, where that places it: EPSG code and what is taken off coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plane: Option<PlaneWords>,
+    /// What the map's plane is called, where its projection is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unknown_plane: Option<String>,
     /// Where on Earth the first waypoint is.
     pub start: Option<Geodetic>,
     /// What positions and z are relative to: `cage origin` or `map origin`, never a vehicle's local origin or home.
@@ -65,6 +68,7 @@ impl Header {
         Self {
             origin: scenario.origin(),
             plane: plane.map(|Projected { epsg, offset }| PlaneWords { epsg, offset_m: offset }),
+            unknown_plane: scenario.unknown_plane().map(str::to_owned),
             start: world.and_then(|world| world.geodetic(&start).ok()),
             relative_to: frame.relative_to,
             frame,
@@ -118,6 +122,10 @@ impl Header {
                 lines.push(line("altitude", format!("z is relative to the {}; AMSL is not known", self.relative_to)));
             }
         }
+        if let Some(name) = &self.unknown_plane {
+            let what = format!("{name}, whose projection is not known here: its metres are taken for the ground's");
+            lines.push(line("plane", what));
+        }
         lines.push(line(
             "origins",
             format!(
@@ -134,7 +142,8 @@ impl Header {
         let lines = self.lines();
         let of = |wanted: &str| lines.iter().find(|[label, _]| label == wanted).map_or("", |[_, value]| value.as_str());
         let frame = of("frame").split(';').next().unwrap_or_default();
-        format!("frame: {frame}; {}; leg being flown: {}", of("alignment"), of("leg being flown"))
+        let plane = self.unknown_plane.as_ref().map_or(String::new(), |_| format!("; plane: {}", of("plane")));
+        format!("frame: {frame}{plane}; {}; leg being flown: {}", of("alignment"), of("leg being flown"))
     }
 
     /// What counts, whatever the robot.

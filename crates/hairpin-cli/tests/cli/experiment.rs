@@ -228,6 +228,15 @@ fn the_default_is_measured_cell_by_cell_and_goes_on_where_it_ended() {
     let again = json(folder.path(), &asked("c0ffee", "fixed-velocity"));
     assert_eq!(again["tables"], answer["tables"]);
     assert_eq!(fs::metadata(&cell).unwrap().modified().unwrap(), written);
+    // What was interrupted within a cell goes on with the next of its runs.
+    let mut part = record.clone();
+    part["runs"].as_array_mut().unwrap().truncate(1);
+    part["pairs"].as_array_mut().unwrap().clear();
+    fs::write(&cell, part.to_string()).unwrap();
+    let again = json(folder.path(), &asked("c0ffee", "fixed-velocity"));
+    assert_eq!(again["tables"]["ways"], answer["tables"]["ways"]);
+    let kept: serde_json::Value = serde_json::from_str(&fs::read_to_string(&cell).unwrap()).unwrap();
+    assert_eq!((kept["runs"].as_array().unwrap().len(), kept["pairs"].as_array().unwrap().len()), (2, 3));
     refused(folder.path(), &asked("decaf", "fixed-velocity"), &["other settings", "flightgoggles.fixed-velocity.json"]);
     refused(folder.path(), &asked("c0ffee", "anafi/"), &["`only`", "anafi/"]);
     refused(folder.path(), &["experiment", "yields", "--pairs", "3"], &["pairs", "yields"]);

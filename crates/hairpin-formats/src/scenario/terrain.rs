@@ -52,6 +52,8 @@ pub(super) fn read(
         terrain.unit = kept("unit", terrain.unit, &told.unit)?;
         terrain.height_unit = kept("height_unit", terrain.height_unit, &told.height_unit)?;
     }
+    // Of what lay beside the file a campaign's copy knows this alone.
+    terrain.unknown_plane = told.unknown_plane.or(terrain.unknown_plane.take());
     terrain.offset_m = terrain.offset_m.or(Some(told.offset_m).filter(|offset| *offset != [0.0, 0.0]));
     terrain.checksum = Some(checksum);
     Ok((terrain.clone(), map))

@@ -94,12 +94,13 @@ pub fn read_terrain(
         raster.reference = Reference { height_unit: None, unknown_heights: None, depth: None, ..raster.reference };
     }
     let Raster { grid, mut heights, reference, layout } = raster;
-    let center = [0, 1].map(|i| {
-        let cells = if i == 0 { grid.columns } else { grid.rows };
-        grid.first_center[i] + 0.5 * cells.saturating_sub(1) as f64 * grid.cell[i]
-    });
-    let Units { plane, plane_from, height, height_from, epsg, name, scale } =
-        reference.units(center, grid.cell, name, georeference)?;
+    let place = |shares: [f64; 2]| {
+        let cells = [grid.columns, grid.rows].map(|cells| cells.saturating_sub(1) as f64);
+        [0, 1].map(|i| grid.first_center[i] + shares[i] * cells[i] * grid.cell[i])
+    };
+    let places = [[0.5, 0.5], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(place);
+    let Units { plane, plane_from, height, height_from, epsg, name, scale, unknown_plane } =
+        reference.units(&places, grid.cell, name, georeference)?;
     if !height.is_metre() {
         heights.iter_mut().for_each(|value| *value = (f64::from(*value) * height.metres) as f32);
     }
@@ -114,7 +115,19 @@ pub fn read_terrain(
     check_extent(&grid, first_center)?;
     let map = ElevationMap::new(Grid { first_center, ..grid }, &heights, georeference.holes)?;
     let (unit, unit_from, height_unit, height_unit_from) = (plane, plane_from, height, height_from);
-    let told = Told { unit, unit_from, height_unit, height_unit_from, beside, epsg, name, scale, offset_m, layout };
+    let told = Told {
+        unit,
+        unit_from,
+        height_unit,
+        height_unit_from,
+        beside,
+        epsg,
+        name,
+        scale,
+        unknown_plane,
+        offset_m,
+        layout,
+    };
     Ok(MapFile { map, told })
 }
 

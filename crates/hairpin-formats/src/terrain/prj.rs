@@ -59,7 +59,7 @@ fn of(root: &Node<'_>) -> Option<Reference> {
         // A yard's own plane.
         "LOCAL_CS" | "ENGCRS" | "ENGINEERINGCRS" => {
             let unit = root.find(&["UNIT", "LENGTHUNIT"]);
-            Some(Reference { model: Model::Projected, epsg: None, ..in_unit(unit, said) })
+            Some(Reference { model: Model::Local, epsg: None, ..in_unit(unit, said) })
         }
         // A plane with heights: what it says of the plane comes first.
         "COMPD_CS" | "COMPOUNDCRS" => {

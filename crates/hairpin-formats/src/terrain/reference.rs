@@ -3,7 +3,7 @@
 use super::error::TerrainError;
 use super::georeference::Georeference;
 use super::remedy::Remedy;
-use super::scale::{At, Scale, scale};
+use super::scale::{Scale, scale};
 use super::unit::{Source, Unit};
 use super::vertical::Depth;
 use crate::epsg::{System, definition, system};
@@ -39,8 +39,10 @@ pub(super) enum Model {
     /// Nothing is said.
     #[default]
     Unsaid,
-    /// A plane.
+    /// A plane of the Earth, or of another body.
     Projected,
+    /// A yard's own plane, whose metres are the ground's.
+    Local,
     /// Longitude and latitude.
     Geographic,
     /// Earth-centred.
@@ -58,6 +60,8 @@ pub(super) struct Units {
     pub(super) epsg: Option<u32>,
     pub(super) name: String,
     pub(super) scale: Option<Scale>,
+    /// What a plane of the Earth is called whose scale nobody here can compute.
+    pub(super) unknown_plane: Option<String>,
 }
 
 /// Cells of less (m) on coordinates that could be degrees are of a map in degrees: a minute of arc is 0.017, and no map
@@ -65,14 +69,16 @@ pub(super) struct Units {
 const FINEST: f64 = 0.05;
 
 impl Reference {
-    /// Units and code, of what the file says and what is given; `center` and `cell` are in the file's own unit.
+    /// Units and code, of what the file says and what is given; `places`, the map's middle and its corners, and `cell`
+    /// are in the file's own unit.
     pub(super) fn units(
         &self,
-        center: [f64; 2],
+        places: &[[f64; 2]; 5],
         cell: [f64; 2],
         file: &str,
         given: &Georeference,
     ) -> Result<Units, TerrainError> {
+        let center = places[0];
         let as_degrees = if self.degrees > 0.0 { self.degrees } else { 1.0 };
         let geographic = |what: String| {
             let center = center.map(|angle| angle * as_degrees);
@@ -81,7 +87,7 @@ impl Reference {
         match self.model {
             Model::Geographic => return Err(geographic(self.called("longitude and latitude"))),
             Model::Geocentric => return Err(geographic(self.called("Earth-centred coordinates"))),
-            Model::Unsaid | Model::Projected => {}
+            Model::Unsaid | Model::Projected | Model::Local => {}
         }
         let epsg = same("epsg", self.epsg, given.epsg)?;
         if let Some(Depth { said, metres }) = &self.depth {
@@ -112,11 +118,13 @@ impl Reference {
         }
         let (plane, plane_from) = told("unit", said, given.unit.map(Unit::from), || Some(Unit::metre()))?;
         let projection = epsg.and_then(definition).or(self.projection.as_deref());
-        let found = scale(epsg, &self.name, projection, center.map(|c| c * plane.metres));
-        if let Some(found) = found.filter(At::is_stretched) {
+        let in_metres = |place: &[f64; 2]| place.map(|c| c * plane.metres);
+        let found = places.map(|place| scale(epsg, &self.name, projection, in_metres(&place)));
+        if let Some((place, found)) = (0..).zip(found.iter().flatten()).find(|(_, found)| found.is_stretched()) {
             let what = self.called("a plane that stretches the ground");
             let words = found.scale.in_words();
-            let why = format!("{what}, on which a metre of the ground is {words}: project it first");
+            let at = if place == 0 { "" } else { " at a corner of the map" };
+            let why = format!("{what}, on which a metre of the ground is {words}{at}: project it first");
             return Err(TerrainError::Convert { why, command: Remedy::project(file, found.at, self.radius) });
         }
         if let Some(said) = self.unknown_heights.as_ref().filter(|_| given.height_unit.is_none()) {
@@ -125,14 +133,16 @@ impl Reference {
         let taken = || (plane.is_metre() || given.assume_heights).then(|| plane.clone());
         let given_height = given.height_unit.map(Unit::from);
         let (height, height_from) = told("height_unit", self.height_unit.clone(), given_height, taken)?;
+        let is_unknown = found[0].is_none() && (self.model == Model::Projected || epsg.is_some());
         Ok(Units {
+            unknown_plane: is_unknown.then(|| named(epsg, &self.name).unwrap_or_else(|| "without a name".into())),
             plane,
             plane_from,
             height,
             height_from,
             epsg,
             name: self.name.clone(),
-            scale: found.map(|found| found.scale),
+            scale: found[0].map(|found| found.scale),
         })
     }
 
@@ -149,10 +159,13 @@ impl Reference {
     }
 
     fn called(&self, what: &str) -> String {
-        let code = self.epsg.map(|code| format!(" (EPSG:{code})"));
-        let name = if self.name.is_empty() { String::new() } else { format!(" ({})", self.name) };
-        format!("{what}{}", code.unwrap_or(name))
+        named(self.epsg, &self.name).map_or_else(|| what.into(), |name| format!("{what} ({name})"))
     }
+}
+
+/// What a plane is called: by its code, else by its name, where it has one.
+fn named(epsg: Option<u32>, name: &str) -> Option<String> {
+    epsg.map(|code| format!("EPSG:{code}")).or_else(|| (!name.is_empty()).then(|| name.to_owned()))
 }
 
 fn looks_like_degrees([x, y]: [f64; 2], cell: [f64; 2]) -> bool {

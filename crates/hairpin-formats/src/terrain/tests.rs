@@ -112,6 +112,30 @@ fn depths_and_stretched_planes_come_with_the_command_that_mends_them() {
 }
 
 #[test]
+fn a_plane_is_looked_at_in_its_corners_and_one_that_is_not_known_is_told() {
+    let asc = |low: &str, cell: &str| {
+        let rows = "1 2 3\n".repeat(3);
+        format!("ncols 3\nnrows 3\nxllcenter {low}\nyllcenter {low}\ncellsize {cell}\n{rows}").into_bytes()
+    };
+    let read = |bytes: &[u8], plane: &str| {
+        read_file(bytes, "a.asc", &Sidecars::of(Some(plane.into()), None), &Georeference::default())
+    };
+    // About 9° from the equator a metre along it is cos 9° of one; at the middle it is one.
+    let world = r#"PROJCS["World",UNIT["metre",1],AUTHORITY["EPSG","4087"]]"#;
+    let error = read(&asc("-1000000", "1000000"), world).expect_err("a corner").to_string();
+    assert!(error.contains("1.012 long along x") && error.contains("at a corner of the map"), "{error}");
+    assert_eq!(read(&asc("-1000", "1000"), world).expect("a map").told.unknown_plane, None);
+
+    let unknown = |plane: &str| read(&asc("0", "1"), plane).expect("a map").told.unknown_plane;
+    let bonne = r#"PROJCS["Bonne of the yard",PROJECTION["Nobody_s"],UNIT["metre",1]]"#;
+    assert_eq!(unknown(bonne).as_deref(), Some("Bonne of the yard"));
+    assert_eq!(unknown(r#"PROJCS["",PROJECTION["Nobody_s"],UNIT["metre",1]]"#).as_deref(), Some("without a name"));
+    assert_eq!(unknown(r#"LOCAL_CS["the yard",UNIT["metre",1]]"#), None);
+    let nothing = read_file(&asc("0", "1"), "a.asc", &Sidecars::default(), &Georeference::default());
+    assert_eq!(nothing.expect("a map").told.unknown_plane, None);
+}
+
+#[test]
 fn pictures_where_white_is_zero_are_refused() {
     let mut bytes = geotiff(&HEIGHTS, 1, "-9999");
     set_tag(&mut bytes, 262, 0);

@@ -7,49 +7,9 @@ use super::carried_on::counts_beyond;
 use super::deviation::{Off, deviations, legs_flown};
 use super::measure::{check, time_weights};
 use super::settings::{JudgementError, Reference, Settings};
+use super::swiftness::Swiftness;
 use crate::math::segment::{nearest_point, point_distance};
 use crate::trajectory::Track;
-
-/// How fast a robot can be, and become, whichever way it moves; `None`: not known.
-///
-/// Bounds of the model. The default knows neither, and nothing is bounded then.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Swiftness {
-    /// Largest ‖v‖, m/s.
-    pub speed: Option<f64>,
-    /// Largest ‖dv/dt‖, m/s².
-    pub acceleration: Option<f64>,
-}
-
-impl Swiftness {
-    /// How far (m) from the straight line between two samples, `span` s and `chord` m apart, it can have been.
-    ///
-    /// With ‖dv/dt‖ ≤ a: a h²/8. With ‖v‖ ≤ v it was within the ellipse around both samples whose points are no longer
-    /// a way than v h, so ½ √((v h)² − c²). +∞ where nothing bounds it, and where the two samples are further apart
-    /// than the speed explains, so that it was faster than it can be.
-    ///
-    /// The lesser of both bounds.
-    pub fn bulge(&self, span: f64, chord: f64) -> f64 {
-        let by_acceleration = self.acceleration.map_or(f64::INFINITY, |a| a * span * span / 8.0);
-        by_acceleration.min(self.by_speed(span, chord))
-    }
-
-    /// Samples a second between which nothing bulges by as much as `margin` m; `None` where nothing bounds it, or there
-    /// is no margin.
-    ///
-    /// f = min(√(a / 8m), v / 2m): what [`Self::bulge`] is at most, a Δt²/8 and v Δt/2, solved for 1/Δt.
-    pub fn rate(&self, margin: f64) -> Option<f64> {
-        let by_acceleration = self.acceleration.map_or(f64::INFINITY, |a| (a / (8.0 * margin)).sqrt());
-        let by_speed = self.speed.map_or(f64::INFINITY, |v| v / (2.0 * margin));
-        let least = by_acceleration.min(by_speed);
-        (margin > 0.0 && least.is_finite()).then_some(least)
-    }
-
-    fn by_speed(&self, span: f64, chord: f64) -> f64 {
-        let farthest = self.speed.map(|speed| speed * span).filter(|way| *way >= chord);
-        farthest.map_or(f64::INFINITY, |way| 0.5 * ((way - chord) * (way + chord)).sqrt())
-    }
-}
 
 /// A sample, and the motion from it to the next one.
 ///

@@ -15,8 +15,8 @@
 //!
 //! Nothing here asks how a motion came about: the judge gets obstacles as a distance function and a reference as
 //! points, so that what judges our simulator judges hardware. Larger is worse, but for clearances and margins. Maxima
-//! are over samples; what may hide between them is bounded by how fast the robot can be (`between`), which a log needs
-//! and a simulation does not.
+//! are over samples; what may hide between them is bounded by how fast the robot can be (`between`, `swiftness`), which a log
+//! needs and a simulation does not.
 
 mod apart;
 mod assign;
@@ -35,6 +35,7 @@ pub mod settings;
 pub mod spec;
 pub mod statistics;
 mod stress;
+mod swiftness;
 mod unmeasured;
 pub mod verdict;
 
@@ -43,7 +44,7 @@ mod tests;
 
 pub use apart::{decimals_of, told, told_outward};
 pub(crate) use between::where_least;
-pub use between::{Around, Close, Swiftness, beyond, longest_mean, look_closely, most_anywhere, most_between};
+pub use between::{Around, Close, beyond, longest_mean, look_closely, most_anywhere, most_between};
 pub use chosen::Chosen;
 pub use measure::{deviation_of_samples, legs_of_samples, measure};
 pub use measures::{Late, LegMeasures, LegSource, Measures, Missing};
@@ -57,6 +58,7 @@ pub use statistics::{
     student_quantile,
 };
 pub use stress::Stress;
+pub use swiftness::Swiftness;
 pub use verdict::{
     Beside, Claim, Judged, Verdict, Worst, finding, inconclusive, invalid, nothing_feasible, search_in_vain, unjudged,
     verdict, violated, within_spec,

@@ -229,6 +229,11 @@ pub trait Keys: Any {
         None
     }
 
+    /// What the plane of its map is called whose metres are taken for the ground's, as its projection is not known.
+    fn unknown_plane(&self) -> Option<&str> {
+        None
+    }
+
     /// Distributions, by key.
     fn vary(&self) -> &BTreeMap<String, Distribution> {
         self.head().vary

@@ -129,6 +129,7 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
         ("epsg", terrain.epsg.is_some()),
         ("unit", terrain.unit.is_some()),
         ("height_unit", terrain.height_unit.is_some()),
+        ("unknown_plane", terrain.unknown_plane.is_some()),
         ("offset_m", terrain.offset_m.is_some()),
         ("origin_m", terrain.origin_m.is_some()),
         ("height_m", terrain.height_m.is_some()),

@@ -79,6 +79,10 @@ impl Keys for DriveScenario {
         self.world.terrain.projected()
     }
 
+    fn unknown_plane(&self) -> Option<&str> {
+        self.world.terrain.unknown_plane.as_deref()
+    }
+
     fn subject(&self) -> Subject {
         let at_ends = self.generate.reach == GroundReach::Witness;
         let controller = self.execute.controller_word();

@@ -95,6 +95,10 @@ pub struct TerrainSection {
     /// map's own coordinates; resolved scenarios say it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset_m: Option<[f64; 2]>,
+    /// What the map's plane is called, as resolved scenarios have it, where its projection is not known: its metres are
+    /// taken for the ground's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unknown_plane: Option<String>,
     /// SHA-256 of the file's bytes, as resolved scenarios have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
