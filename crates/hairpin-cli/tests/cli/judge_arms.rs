@@ -114,6 +114,11 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     assert!(log["status"] == "inconclusive" && log["finished"] == true, "{log}");
     assert!(log["verdict"].as_str().unwrap().contains("→pHome) was never arrived at: "), "{log}");
 
+    // What `--to` ends is said to end by it.
+    let log = judged(here, "part.csv", table.as_bytes(), &["--case", "0001", "--to", "1.5"]);
+    let sentence = log["verdict"].as_str().unwrap();
+    assert!(log["status"] == "inconclusive" && sentence.contains("--to at t = 1.50 s, on move "), "{sentence}");
+
     // It waits 0.3 s on its way.
     let mut late = ran.clone();
     late.iter_mut().filter(|row| row.t > 1.5).for_each(|row| row.t += 0.3);

@@ -37,6 +37,8 @@ pub struct FoundProgram {
     pub begins_s: f64,
     /// Where it ends before its program does.
     pub short: Option<Shorter>,
+    /// `--to`, s of the log, where that left samples out.
+    pub to_s: Option<f64>,
     /// What it was judged to be.
     pub result: CaseResult,
     /// By how much its clock is estimated to be off the program's, and the time between samples, s.

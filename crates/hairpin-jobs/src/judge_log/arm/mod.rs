@@ -97,6 +97,7 @@ impl<'a> Programs<'a> {
             joints: read.joints,
             begins_s: read.begins_s,
             short,
+            to_s: read.to_s,
             result,
             late_between: measured.iter().flat_map(|run| &run.moves).map(MoveMeasures::late_between).collect(),
             not_excluded_m: measured.as_ref().and_then(|run| run.unseen.as_ref()?.estimate),

@@ -22,6 +22,8 @@ pub(super) struct Read {
     pub(super) joints: Option<JointsTold>,
     /// When the program is taken to begin, s of the log; its times are counted from there.
     pub(super) begins_s: f64,
+    /// The moment to which it is judged, s of the log, where samples come after it.
+    pub(super) to_s: Option<f64>,
     pub(super) notes: Vec<String>,
 }
 
@@ -88,7 +90,8 @@ pub(super) fn recording(
         rate_hz: 1.0 / spans[spans.len() / 2],
     };
     let track = part(&log.track, &which, begins_s).map_err(refuse)?;
-    Ok(Read { log: ControllerLog { track, ..log }, source, joints, begins_s, notes })
+    let to_s = to_s.filter(|to| times[times.len() - 1] > *to);
+    Ok(Read { log: ControllerLog { track, ..log }, source, joints, begins_s, to_s, notes })
 }
 
 /// The only topic with the arm's joints, or the one that is asked for, and where the axes are in it.

@@ -28,9 +28,12 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
         return (Outcome::Fail, violated(case, how, &with(where_and_when(violation))));
     }
     if let Some(short) = &found.short {
+        let ended = match found.to_s {
+            Some(to) => format!("--to at t = {to:.2} s"),
+            None => format!("the log ends at t = {:.2} s", short.ends),
+        };
         let sentence = format!(
-            "the log ends at t = {:.2} s, on move {} of {} ({}): what was left of the program is not judged",
-            short.ends,
+            "{ended}, on move {} of {} ({}): what was left of the program is not judged",
             short.reached + 1,
             short.moves,
             short.name
