@@ -45,7 +45,7 @@ pub mod worst;
 
 pub use beam::{BeamOutcome, BeamSettings, beam, beam_grown};
 pub use ddmin::ddmin;
-pub use exact::{ExactOutcome, ExactSearch, ExactSettings, Ranking, Scored, exact};
+pub use exact::{ExactOutcome, ExactSearch, ExactSettings, Ranking, Scored, exact, exact_proven};
 pub use graph::{Count, LegGraph};
 pub use growth::{ByLegs, Growth, Parent};
 pub use objective::{Additive, Aggregate, ByTurn, LegView, Objective};

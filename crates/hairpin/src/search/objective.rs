@@ -120,6 +120,11 @@ pub trait Additive: Objective {
         None
     }
 
+    /// Whether no leg's score depends on its duration: legs that may be longer than is known then have their scores.
+    fn is_timeless(&self) -> bool {
+        false
+    }
+
     /// Whether the last leg is one to the sink of a task without an end: nothing is left to it.
     fn has_sink(&self) -> bool {
         false

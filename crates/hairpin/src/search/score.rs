@@ -220,6 +220,10 @@ impl Additive for Score {
         self.extend(&(), leg).0
     }
 
+    fn is_timeless(&self) -> bool {
+        true
+    }
+
     /// The formulas of [`Objective::extend`], of which products and sums with 1 and −0 leave every bit.
     fn by_turn(&self, leg: &LegView<'_>) -> Option<ByTurn> {
         let LegFeatures { v_in, v_out, .. } = leg.features;

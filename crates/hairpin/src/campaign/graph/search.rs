@@ -10,7 +10,9 @@ use super::question::{Question, Wanted};
 use super::rounds::by_round;
 use crate::campaign::scenario::SearchMethod;
 use crate::feasibility::reach::Until;
-use crate::search::{Additive, ExactSettings, Task, UniformSettings, beam, exact, uniform, uniform_proven};
+use crate::search::{
+    Additive, ExactSettings, Task, UniformSettings, beam, exact, exact_proven, uniform, uniform_proven,
+};
 
 /// Searches one graph. `may_arrive(node, steps)` is necessary for the end to be reached from `node` in `steps` legs.
 ///
@@ -66,7 +68,6 @@ fn by_beam<N: Copy + Eq + Ord + Hash, O: Additive>(
 /// may be. Needs all legs at once: O(legs) memory.
 fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Question<N, O>) -> Answer {
     let search = question.search;
-    let Some(graph) = question.leg_graph() else { return Answer::stopped() };
     let settings = ExactSettings {
         length: question.length,
         best: search.per_graph as usize,
@@ -74,11 +75,19 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Questio
         aggregate: search.aggregate,
         ..ExactSettings::default()
     };
-    let outcome = exact(&graph, &question.score, &settings);
+    let Some(possible) = question.possible_graph() else { return Answer::stopped() };
+    let (outcome, legs) = match exact_proven(&possible, question.reach, &question.score, &settings) {
+        Some(outcome) => (outcome, possible.legs()),
+        None => {
+            drop(possible);
+            let Some(graph) = question.leg_graph() else { return Answer::stopped() };
+            (exact(&graph, &question.score, &settings), graph.legs())
+        }
+    };
     let proven_empty = outcome.found.is_empty() && outcome.bound.is_none();
     let reason = match (outcome.found.is_empty(), proven_empty) {
         (false, _) => None,
-        (true, true) => Some(format!("none among the {} feasible legs of the last graph", graph.legs())),
+        (true, true) => Some(format!("none among the {legs} legs that may be of the last graph")),
         (true, false) => Some("none without revisits was found within the search's budget".into()),
     };
     Answer { proven_empty, expansions: outcome.expansions, reason, ..question.answer(outcome.found, outcome.bound) }

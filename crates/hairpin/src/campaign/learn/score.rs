@@ -65,6 +65,10 @@ impl Additive for AnyScore<'_> {
         }
     }
 
+    fn is_timeless(&self) -> bool {
+        matches!(self, Self::Named(_))
+    }
+
     fn own_and_left(&self, legs: &[LegView<'_>]) -> Vec<[f64; 2]> {
         match self {
             Self::Named(score) => score.own_and_left(legs),

@@ -12,6 +12,9 @@ use super::super::task::Found;
 use super::settings::ExactSettings;
 use super::worth::Worth;
 
+/// What is known of a leg, by its nodes and the duration that the graph has, s: its duration, s; `None` where it is none.
+pub(super) type Prove<'p> = dyn FnMut(u32, u32, f64) -> Option<f64> + 'p;
+
 /// A partial trajectory and the best it can become.
 #[derive(Debug, Clone, Copy)]
 struct Entry {
@@ -48,11 +51,16 @@ pub(super) struct BestFirst<N> {
 /// f(p) = g(p) ⊕ (what p's last leg leaves) ⊕ V_s(node of p): admissible, as V is over walks and a walk may do more
 /// than a trajectory without revisits; consistent up to rounding, which the parent's bound clips. An expansion costs
 /// one lookup and a push of O(log n) for each leg; memory grows by as many entries.
+///
+/// Legs of the graph need not be all legs: V of more legs is no less admissible. `prove` is asked for the last leg of
+/// what comes off the queue, and what has one that is none is dropped there (lazily evaluated edges; Cohen, Phillips,
+/// Likhachev 2014).
 pub(super) fn best_first<N: Copy>(
     graph: &LegGraph<'_, N>,
     scores: &Worth<'_>,
     values: &Values,
     settings: &ExactSettings,
+    prove: &mut Prove<'_>,
 ) -> BestFirst<N> {
     let aggregate = settings.aggregate;
     // What the last leg leaves to the next is remembered.
@@ -66,9 +74,14 @@ pub(super) fn best_first<N: Copy>(
     let mut visited = vec![false; graph.candidates().len()];
     while let Some(entry) = queue.pop_best(order(&tree)) {
         let partial = *tree.get(entry.id);
+        let before = tree.backwards(entry.id).nth(1).map(|before| before.node);
+        if before.is_some_and(|before| prove(before, partial.node, partial.duration).is_none()) {
+            tree.release(entry.id);
+            continue;
+        }
         if entry.length as usize == settings.length {
             if known.insert(tree.waypoints(entry.id)) {
-                result.found.push(trajectory(graph, &tree, entry.id));
+                result.found.push(trajectory(graph, &tree, entry.id, prove));
             }
             tree.release(entry.id);
             if result.found.len() == settings.best.max(1) {
@@ -112,12 +125,13 @@ pub(super) fn best_first<N: Copy>(
 }
 
 /// Nodes and waypoints have one entry a waypoint, leg times (s) one less.
-fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<f64>, id: u32) -> Found<N> {
-    let mut nodes: Vec<u32> = tree.backwards(id).map(|p| p.node).collect();
-    let mut leg_times: Vec<f64> = tree.backwards(id).map(|p| p.duration).collect();
+fn trajectory<N: Copy>(graph: &LegGraph<'_, N>, tree: &Tree<f64>, id: u32, prove: &mut Prove<'_>) -> Found<N> {
+    let (mut nodes, durations): (Vec<u32>, Vec<f64>) =
+        tree.backwards(id).map(|partial| (partial.node, partial.duration)).unzip();
     nodes.reverse();
-    leg_times.pop(); // the start has no leg
-    leg_times.reverse();
+    let durations = durations.into_iter().rev().skip(1); // the start has no leg
+    let legs = nodes.windows(2).zip(durations);
+    let leg_times = legs.map(|(ends, time)| prove(ends[0], ends[1], time).unwrap_or(time)).collect();
     Found {
         waypoints: tree.waypoints(id),
         nodes: nodes.into_iter().map(|node| graph.node(node)).collect(),

@@ -23,13 +23,16 @@ mod worth;
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
-use self::best_first::BestFirst;
+use rustc_hash::FxBuildHasher;
+
+use self::best_first::{BestFirst, Prove};
 use self::worth::Worth;
 use super::graph::{Count, LegGraph, LegScores, Scoring, Values};
 use super::objective::{Additive, Aggregate};
 use super::task::Found;
+use crate::feasibility::reach::Reach;
 
 pub use settings::ExactSettings;
 
@@ -90,6 +93,35 @@ where
 {
     let [outcome] = ExactSearch::new(graph, settings.clone()).best(objective, [settings.aggregate]);
     outcome
+}
+
+/// The same of a graph of legs that may be ([`LegGraph::explore_possible`]) by `reach`, which is asked for the legs of
+/// what comes into question alone: what more legs could become bounds what these can.
+///
+/// `walks` counts those over all legs that may be. `None` where that bound is too far off to come to a proof within the
+/// budget, or the score depends on the durations of legs, which are not known before they are proven: legs are then
+/// better proven first.
+pub fn exact_proven<N, O, R>(
+    possible: &LegGraph<'_, N>,
+    reach: &R,
+    objective: &O,
+    settings: &ExactSettings,
+) -> Option<ExactOutcome<N>>
+where
+    N: Copy,
+    O: Additive,
+    R: Reach<N> + ?Sized,
+{
+    if !objective.is_timeless() {
+        return None;
+    }
+    let search = ExactSearch::new(possible, settings.clone());
+    let mut known: HashMap<(u32, u32), Option<f64>, FxBuildHasher> = HashMap::default();
+    let mut prove = |from, to, time| {
+        let prove = || reach.proven(&possible.node(from), &possible.node(to), time);
+        *known.entry((from, to)).or_insert_with(prove)
+    };
+    search.scored(objective).by(settings.aggregate).proven(settings.best, &mut prove)
 }
 
 /// Searches of one graph for several scores: what they share is done once.
@@ -188,7 +220,7 @@ impl<N: Copy> Ranking<'_, N> {
             return ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
         };
         let settings = &ExactSettings { best, ..self.settings.clone() };
-        let mut search = best_first::best_first(graph, scores, values, settings);
+        let mut search = best_first::best_first(graph, scores, values, settings, &mut |_, _, time| Some(time));
         let proven = search.found.len();
         if search.open_bound.is_some() && proven < best {
             let (more, expansions) = descent::descent(graph, scores, values, settings);
@@ -200,5 +232,17 @@ impl<N: Copy> Ranking<'_, N> {
         let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
         let BestFirst { found, expansions, .. } = search;
         ExactOutcome { found, proven, bound, walks, expansions }
+    }
+
+    /// The `count` best whose legs `prove` has; `None` where the expansions do not suffice for a proof.
+    fn proven(&self, count: usize, prove: &mut Prove<'_>) -> Option<ExactOutcome<N>> {
+        let walks = self.walks;
+        let nothing = ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
+        let Some((scores, values)) = &self.known else { return Some(nothing) };
+        let settings = ExactSettings { best: count.max(1), ..self.settings.clone() };
+        let BestFirst { found, open_bound, expansions } =
+            best_first::best_first(self.graph, scores, values, &settings, prove);
+        let bound = found.first().map(|found| found.score);
+        open_bound.is_none().then_some(ExactOutcome { proven: found.len(), found, bound, expansions, ..nothing })
     }
 }
