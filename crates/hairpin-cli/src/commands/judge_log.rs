@@ -212,6 +212,7 @@ fn measures(flown: &Flown) -> Value {
         "max_overshoot_m": m.max_overshoot(),
         "max_acceleration_m_s2": m.acceleration(),
         "acceleration_unresolved_m_s2": m.acceleration_unresolved.map(|unresolved| unresolved.by),
+        "place_unresolved_m": m.place_unresolved,
         "min_clearance_m": m.min_clearance,
         "total_time_s": m.total_time,
         "statistics": flown.statistics.map(|s| json!({
@@ -234,6 +235,7 @@ fn doubt(doubt: &Doubt) -> Value {
             "over_s": unresolved.over, "unresolved_m_s2": unresolved.by,
         }),
         Why::Mean(span) => json!({ "mean_over_s": span }),
+        Why::Digits(moved) => json!({ "moved_by_digits_m": moved }),
         Why::Accuracy { which, sigma } => json!({ "accuracy": which, "sigma_m": sigma }),
     };
     json!({ "value": finding(&doubt.value), "t_s": doubt.value.at, "leg": doubt.value.leg, "why": why })

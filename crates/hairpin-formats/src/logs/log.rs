@@ -87,6 +87,8 @@ pub struct LoggedMotion {
     /// Why nothing is to be judged by it, where that is so: it is at two places at one moment, or its clock was set
     /// back.
     pub unfit: Option<String>,
+    /// What the last decimal of the finest of a text's positions is, m; `None` of what is no text.
+    pub told_to_m: Option<f64>,
     /// Why it has no heights, where that is so: its samples are at 0 m, wherever the body was.
     pub no_heights: Option<String>,
 }

@@ -21,5 +21,5 @@ pub(super) fn by_turns(name: String, chosen: &[(f64, u32)], own: &BTreeMap<u32, 
     }
     resets.extend(changes.map(|t_s| Reset { t_s, by_m: None }));
     resets.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-    LoggedMotion { name, source: Source::Estimate, samples, resets, invalid, unfit, no_heights: None }
+    LoggedMotion { name, source: Source::Estimate, samples, resets, invalid, unfit, told_to_m: None, no_heights: None }
 }

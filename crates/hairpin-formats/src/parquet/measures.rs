@@ -98,8 +98,8 @@ const WITHIN: &str = "waypoints_within_m";
 type Figure = fn(&Measures) -> Option<f64>;
 
 /// The same of other limits, the longest time that an acceleration is a mean over, and what the step in which rows are
-/// told (m, or m/s where velocities are) leaves open of the largest.
-pub(super) const BETWEEN_TOO: [(&str, Figure); 7] = [
+/// told (m, or m/s where velocities are) leaves open of the largest, and of places.
+pub(super) const BETWEEN_TOO: [(&str, Figure); 8] = [
     ("max_overshoot_between_m", |m| m.overshoot_between),
     ("min_clearance_between_m", |m| m.clearance_between),
     ("acceleration_over_s", |m| m.acceleration_over),
@@ -107,6 +107,7 @@ pub(super) const BETWEEN_TOO: [(&str, Figure); 7] = [
     ("acceleration_unresolved_m_s2", |m| Some(m.acceleration_unresolved?.by)),
     ("acceleration_step", |m| Some(m.acceleration_unresolved?.step)),
     ("acceleration_step_over_s", |m| Some(m.acceleration_unresolved?.over)),
+    ("place_unresolved_m", |m| m.place_unresolved),
 ];
 
 fn leg_source_word(source: LegSource) -> &'static str {
@@ -142,11 +143,11 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
     let saturation = table.optional_numbers("saturation_share")?;
     let effort = optional_column(table, "joint_effort_rad2_s3")?;
     let between = optional_column(table, BETWEEN)?;
-    let [over_between, clear_between, mean_over, edge_between, unresolved, step, step_over] =
+    let [over_between, clear_between, mean_over, edge_between, unresolved, step, step_over, place] =
         BETWEEN_TOO.map(|(name, _)| optional_column(table, name));
     let (over_between, clear_between) = (over_between?, clear_between?);
     let (mean_over, edge_between) = (mean_over?, edge_between?);
-    let (unresolved, step, step_over) = (unresolved?, step?, step_over?);
+    let (unresolved, step, step_over, place) = (unresolved?, step?, step_over?, place?);
     let no_deviation = flags(table, NO_DEVIATION)?;
     let no_acceleration = flags(table, NO_ACCELERATION)?;
     let late = [table.optional_numbers("max_late_s")?, table.optional_numbers("t_late_s")?];
@@ -181,6 +182,7 @@ pub(super) fn read(table: &Table) -> Result<Vec<Option<Measures>>, TableError> {
                 clearance_between: clear_between[row],
                 acceleration_over: mean_over[row],
                 edge_between: edge_between[row],
+                place_unresolved: place[row],
                 waypoints_within: within[row].clone(),
                 mean_deviation,
                 max_acceleration,

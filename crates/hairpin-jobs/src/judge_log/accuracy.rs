@@ -22,6 +22,9 @@ pub(super) fn accuracies(samples: &[Sample]) -> (Vec<Option<[f64; 2]>>, Option<S
     (all, (untold > 0).then_some(note))
 }
 
+/// Rows that tell in which step they are written.
+const ENOUGH: usize = 20;
+
 /// The steps in which the log tells its numbers, in its own frame: turned into the world's they are as long and no
 /// longer to be seen.
 pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
@@ -29,8 +32,12 @@ pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
         Step::of(&[0, 1, 2].map(|axis| motion.samples.iter().map(|sample| value(sample, axis)).collect()))
     };
     let velocities = motion.samples.iter().all(|sample| sample.v_m_s.is_some());
+    let place = of(&|sample, axis| sample.p_m[axis]);
     Resolution {
-        place: of(&|sample, axis| sample.p_m[axis]),
+        place: match motion.told_to_m.filter(|_| motion.samples.len() >= ENOUGH) {
+            Some(digit) => place.written_to(digit),
+            None => place,
+        },
         velocity: if velocities { of(&|sample, axis| sample.v_m_s.map_or(0.0, |v| v[axis])) } else { Step::default() },
     }
 }

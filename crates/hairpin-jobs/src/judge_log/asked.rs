@@ -25,7 +25,8 @@ pub(super) fn hold(asked: &Demands, log: &Log, flown: &mut Flown) -> Asked {
         let goes_on = i + 1 < times.len() && log.breaks.binary_search(&(i + 1)).is_err();
         goes_on.then(|| swiftness.bulge(times[i + 1] - times[i], (track.position(i + 1) - track.position(i)).norm()))
     };
-    let sigma = |i: usize| log.accuracy.get(i).copied().flatten().map_or(0.0, |[across, _]| across);
+    let moved = log.resolution.place.moved;
+    let sigma = |i: usize| log.accuracy.get(i).copied().flatten().map_or(0.0, |[across, _]| across) + moved;
     let seen = look(&asked.fences, &Moved { track, bulge: &bulge, sigma: &sigma });
     let on_leg = |beyond: &Beyond| {
         let before = times.partition_point(|time| *time <= beyond.at).saturating_sub(1);
@@ -34,10 +35,10 @@ pub(super) fn hold(asked: &Demands, log: &Log, flown: &mut Flown) -> Asked {
     match (seen.beyond, seen.may_be) {
         (Some(beyond), _) => flown.violations.push(on_leg(&beyond)),
         (None, Some(MayBe { seen, most, sigma })) => {
-            let why = if sigma > 0.5 * (most - seen.by) {
-                Why::Accuracy { which: "eph", sigma }
-            } else {
-                Why::Between { most, rate_hz: swiftness.rate(seen.by.abs()) }
+            let why = match sigma > 0.5 * (most - seen.by) {
+                true if moved > sigma - moved => Why::Digits(moved),
+                true => Why::Accuracy { which: "eph", sigma: sigma - moved },
+                false => Why::Between { most, rate_hz: swiftness.rate(seen.by.abs()) },
             };
             // Of what is within it is told that it is beyond by nothing.
             flown.doubts.push(Doubt { value: on_leg(&Beyond { by: seen.by.max(0.0), ..seen }), why });

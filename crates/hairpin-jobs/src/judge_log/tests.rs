@@ -48,6 +48,7 @@ fn samples(rate: f64, off: f64) -> Vec<Sample> {
 
 fn motion(name: &str, source: Source, samples: Vec<Sample>) -> LoggedMotion {
     LoggedMotion {
+        told_to_m: None,
         name: name.into(),
         source,
         samples,

@@ -198,6 +198,26 @@ fn nearest(flown: &Flown) -> Option<String> {
     Some(where_and_when(&told))
 }
 
+/// Why a limit is open whose `value` may be another, as `why` says, and what `other` decides it; `met` of an obstacle
+/// that may have been met, whose clearance nobody limits.
+fn inexact(doubt: &Doubt, value: &str, met: bool, [why, other]: [&str; 2]) -> String {
+    let Doubt { value: seen, .. } = doubt;
+    let is_lower = seen.is_lower_limit();
+    let (more, limit) = if is_lower { ("less", "lower") } else { ("more", "raise") };
+    let kept = if is_lower { seen.value >= seen.limit } else { seen.value <= seen.limit };
+    let may = if kept { format!(", so that it may be {more}") } else { String::new() };
+    let own = format!("{value}, but {why}");
+    // The world's edge is no limit that could be another.
+    match seen.what.as_str() {
+        "edge" if kept => format!("{own}, so that it may have left the world; {other}"),
+        "edge" => format!("{own}; {other}"),
+        FENCE if kept => format!("{own}, so that it may have been beyond one of the mission's; {other}"),
+        FENCE => format!("{own}; {other}"),
+        _ if met => format!("{own}; {other}"),
+        _ => format!("{own}{may}; {other} or {limit} the limit"),
+    }
+}
+
 /// Why a limit is open, and what would decide it.
 fn in_words(doubt: &Doubt, found: &Found) -> String {
     let value = finding(&doubt.value);
@@ -209,23 +229,11 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
         Why::Accuracy { which, sigma } => {
             let other =
                 if found.source.others.is_empty() { "judge motion capture" } else { "judge motion capture (--source)" };
-            let (more, limit) = if doubt.value.is_lower_limit() { ("less", "lower") } else { ("more", "raise") };
-            let kept = if doubt.value.is_lower_limit() {
-                doubt.value.value >= doubt.value.limit
-            } else {
-                doubt.value.value <= doubt.value.limit
-            };
-            let may = if kept { format!(", so that it may be {more}") } else { String::new() };
-            let own = format!("{value}, but the log's own {which} is {} m", digits(sigma));
-            // The world's edge is no limit that could be another.
-            match doubt.value.what.as_str() {
-                "edge" if kept => format!("{own}, so that it may have left the world; {other}"),
-                "edge" => format!("{own}; {other}"),
-                FENCE if kept => format!("{own}, so that it may have been beyond one of the mission's; {other}"),
-                FENCE => format!("{own}; {other}"),
-                _ if met => format!("{own}; {other}"),
-                _ => format!("{own}{may}; {other} or {limit} the limit"),
-            }
+            inexact(doubt, &value, met, [&format!("the log's own {which} is {} m", digits(sigma)), other])
+        }
+        Why::Digits(moved) => {
+            let why = format!("its positions are told in steps that move them by up to {} m", digits(moved));
+            inexact(doubt, &value, met, [&why, "log more digits"])
         }
         Why::Impossible(found) => found.in_words(),
         Why::Resolution(unresolved, source) => {

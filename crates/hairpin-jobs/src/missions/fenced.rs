@@ -77,8 +77,8 @@ pub(super) fn hold(fences: &Fences, setup: &Setup, case: &Case, runs: &[Run], re
     let flown = runs.iter().filter_map(|run| Some((run, run.outcome.as_ref().ok()?)));
     let (mut worst, mut may_be, mut otherwise): (Option<(&Run, Beyond)>, Option<MayBe>, bool) = (None, None, false);
     for (run, flight) in flown {
-        let bulge = bulge(setup, case, run);
-        let moved = Moved { track: &flight.track, bulge: &|_| Some(bulge), sigma: &|_| 0.0 };
+        let [bulge, rounded] = inexact(setup, case, run);
+        let moved = Moved { track: &flight.track, bulge: &|_| Some(bulge), sigma: &|_| rounded };
         let seen = look(fences, &moved);
         otherwise |= seen.otherwise;
         // Of a case that fails already its worst run is told.
@@ -120,17 +120,17 @@ pub(super) fn hold(fences: &Fences, setup: &Setup, case: &Case, runs: &[Run], re
 /// as it takes, not at all.
 ///
 /// a Δt²/8 over the longest time between two poses, which is less than that which accelerations are means over; and no
-/// more than what may hide of the deviation.
-fn bulge(setup: &Setup, case: &Case, run: &Run) -> f64 {
+/// more than what may hide of the deviation. With how far rounding has moved a pose at most, m.
+fn inexact(setup: &Setup, case: &Case, run: &Run) -> [f64; 2] {
     if setup.program().is_none() {
-        return 0.0;
+        return [0.0, 0.0];
     }
-    let bounds = |measures: &Measures| (measures.acceleration_over, measures.most_between);
+    let bounds = |m: &Measures| (m.acceleration_over, m.most_between, m.place_unresolved.unwrap_or(0.0));
     let known = run.full_rate.as_ref().map(|known| bounds(&known.measures));
     let known = known.or_else(|| measures_of(setup, case, run).as_ref().map(bounds));
-    let Some((acceleration_over, most_between)) = known else { return f64::INFINITY };
+    let Some((acceleration_over, most_between, rounded)) = known else { return [f64::INFINITY, 0.0] };
     let by_time = setup.swiftness().acceleration.zip(acceleration_over).map(|(a, span)| a * span * span / 8.0);
-    [by_time, most_between].into_iter().flatten().reduce(f64::min).unwrap_or(0.0)
+    [[by_time, most_between].into_iter().flatten().reduce(f64::min).unwrap_or(0.0), rounded]
 }
 
 /// Where a motion was to `fences`.

@@ -36,7 +36,9 @@ pub(super) fn sampled(
     let acceleration = setup.swiftness().acceleration;
     let swiftness = Swiftness { speed: None, acceleration: Some(acceleration.unwrap_or(0.0)) };
     let close = look_closely(track, waypoints, settings, &swiftness, 0.0)?;
-    let most = close.iter().filter_map(|close| close.until_next).reduce(f64::max);
+    // What rounding has moved the poses by is hidden as well.
+    let moved = measures.place_unresolved.unwrap_or(0.0);
+    let most = close.iter().filter_map(|close| close.until_next).reduce(f64::max).map(|most| most + moved);
     measures.most_between = most.filter(|most| most.is_finite());
     let overshoot = match settings.reference {
         // Where on a path a robot belongs between two samples nobody knows: as far as at these, and what it bulges.
@@ -47,12 +49,12 @@ pub(super) fn sampled(
         _ => most_anywhere(track, &close, settings, &swiftness, &|p, leg, around| beyond(waypoints, p, leg, around))
             .max(0.0),
     };
-    measures.overshoot_between = Some(overshoot).filter(|most| most.is_finite());
+    measures.overshoot_between = Some(overshoot + moved).filter(|most| most.is_finite());
     let nearest = |clearance: &dyn Fn(&Point3<f64>) -> f64| {
         -most_anywhere(track, &close, settings, &swiftness, &|p, _, _| -clearance(p))
     };
     measures.clearance_between =
-        settings.clearance.map(|clearance| nearest(clearance)).filter(|least| least.is_finite());
+        settings.clearance.map(|clearance| nearest(clearance) - moved).filter(|least| least.is_finite());
     measures.edge_between = nearest_edge(setup, track, &swiftness).map(|within| {
         // As far as it is exact, so that it changes by no more than the way.
         nearest(&|p: &Point3<f64>| setup.edge_distance(p, within).min(within))
@@ -88,14 +90,35 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
         let most = told_outward(most, limit, "m", most < value);
         format!("{name}{seen} m at its poses, but {most} m may hide between two of them{rate}")
     };
+    let digits = |name: &str, value: f64, limit: f64, is_lower: bool| {
+        let moved = measures.place_unresolved.filter(|moved| (value - limit).abs() <= *moved)?;
+        let side = match (value > limit, is_lower) {
+            (true, false) => ">",
+            (false, false) => "≤",
+            (_, true) if value < limit => "<",
+            (_, true) => "≥",
+        };
+        let (seen, limit) = (told(value, Some(limit), "m"), told(limit, Some(value), "m"));
+        let moved = told_outward(moved, 0.0, "m", false);
+        Some(format!(
+            "{name}{seen} {side} {limit} m, but its positions are told in steps that move them by up to {moved} m; more \
+             digits decide"
+        ))
+    };
     let above = |name: &str, limit: Option<f64>, value: f64, most: Option<f64>| {
-        let limit = limit.filter(|limit| value <= *limit)?;
-        most.filter(|most| *most > limit).map(|most| open(name, value, limit, most))
+        let between = |limit: f64| {
+            let most = most.filter(|most| value <= limit && *most > limit)?;
+            Some(open(name, value, limit, most))
+        };
+        limit.and_then(|limit| digits(name, value, limit, false).or_else(|| between(limit)))
     };
     let below = |limit: Option<f64>| {
-        let (value, least) = (measures.min_clearance?, measures.clearance_between?);
-        let limit = limit.filter(|limit| value >= *limit && least < *limit)?;
-        Some(open("clearance ", value, limit, least))
+        let (value, limit) = (measures.min_clearance?, limit?);
+        let between = || {
+            let least = measures.clearance_between.filter(|least| value >= limit && *least < limit)?;
+            Some(open("clearance ", value, limit, least))
+        };
+        digits("clearance ", value, limit, true).or_else(between)
     };
     let contact = || {
         let met = below(Some(0.0).filter(|_| limits.contact && limits.are_given()))?;

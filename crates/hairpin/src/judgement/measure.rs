@@ -70,6 +70,7 @@ pub fn measure(track: &Track, waypoints: &[Point3<f64>], settings: &Settings) ->
         leg_source,
         total_time: track.times()[track.len() - 1] - track.times()[0],
         legs: vec![LegMeasures::default(); waypoints.len() - 1],
+        place_unresolved: Some(settings.resolution.place.moved).filter(|moved| *moved > 0.0),
         ..Measures::default()
     };
     measure_deviation(&mut measures, track.times(), &weights, &legs, &off);

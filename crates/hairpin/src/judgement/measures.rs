@@ -88,6 +88,8 @@ pub struct Measures {
     /// Smallest distance to the world's edge that may hide between two samples, m, below 0 outside; `None` as of
     /// [`Self::most_between`], and where that edge is farther than a motion between two samples.
     pub edge_between: Option<f64>,
+    /// How far the step in which they were recorded has moved places at most, m; `None` where they are told exactly.
+    pub place_unresolved: Option<f64>,
     /// Longest time that an acceleration, or two intervals between samples of what nothing bounds, is a mean over, s;
     /// `None` where nobody asks for it.
     pub acceleration_over: Option<f64>,

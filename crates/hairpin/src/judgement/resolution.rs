@@ -35,8 +35,11 @@ const OFF: f64 = 1e-6;
 pub struct Step {
     /// Of the axis whose numbers are the coarsest.
     pub each: f64,
-    /// Length of the vector of all three: twice as far as rounding moves a place at most.
+    /// Length of the vector of all three.
     pub all: f64,
+    /// How far rounding has moved a vector at most: half of that, where the numbers are those nearest to whole steps, as
+    /// rounded ones are. Computed ones are a few bits off, and were moved by nothing.
+    pub moved: f64,
 }
 
 /// The steps of a recording.
@@ -78,6 +81,12 @@ impl Resolution {
 }
 
 impl Step {
+    /// The same of numbers that a text has to `digit`, whose steps are never finer; of whole ones nothing is said, as they
+    /// are somebody's grid.
+    pub fn written_to(self, digit: f64) -> Self {
+        Self { moved: if digit < 1.0 { 0.5 * 3_f64.sqrt() * digit } else { 0.0 }, ..self }
+    }
+
     /// Of the values of three axes. One that never changes does not show its own, and counts as the coarsest that does.
     ///
     /// O(values).
@@ -86,7 +95,10 @@ impl Step {
         let steps = [0, 1, 2].map(|axis| changes(&axes[axis]).then(|| step(&axes[axis])));
         let each = steps.iter().flatten().copied().fold(0.0, f64::max);
         let all = steps.iter().map(|step| step.unwrap_or(each)).map(|step| step * step).sum::<f64>().sqrt();
-        Self { each, all }
+        let per_unit = (1.0 / each).round();
+        let nearest = |value: &f64| *value == (value * per_unit).round() / per_unit;
+        let moved = if each > 0.0 && axes.iter().flatten().all(nearest) { 0.5 * all } else { 0.0 };
+        Self { each, all, moved }
     }
 }
 

@@ -157,8 +157,8 @@ impl Violation {
 /// The limits that a run violates, the gravest first: a crash, leaving the world, an unfinished mission, then by
 /// excess over the limit relative to the limit; equals in the order of [`Limits`].
 ///
-/// Relative excess is (value − limit)/|limit|, of a limit of 0 the excess itself. An acceleration that is beyond its
-/// limit by no more than the recording resolves violates nothing.
+/// Relative excess is (value − limit)/|limit|, of a limit of 0 the excess itself. An acceleration or a
+/// distance that is beyond its limit by no more than the recording resolves violates nothing.
 ///
 /// ```
 /// use hairpin::judgement::{LegMeasures, Limits, Measures, violations};
@@ -176,9 +176,14 @@ impl Violation {
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
     let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
-    let open = |one: &Violation| {
-        let unresolved = measures.acceleration_unresolved.filter(|_| one.what == "acceleration");
-        unresolved.is_some_and(|unresolved| unresolved.decides(one.value, one.limit))
+    let open = |one: &Violation| match one.what.as_str() {
+        "acceleration" => {
+            measures.acceleration_unresolved.is_some_and(|unresolved| unresolved.decides(one.value, one.limit))
+        }
+        "deviation" | "overshoot" | "clearance" => {
+            measures.place_unresolved.is_some_and(|moved| (one.value - one.limit).abs() <= moved)
+        }
+        _ => false,
     };
     let beyond = |one: &Violation| if one.is_lower_limit() { one.value < one.limit } else { one.value > one.limit };
     let breaks = |one: &Violation| beyond(one) && !open(one);
@@ -254,7 +259,7 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
             _ => "crash",
         };
         found.push(event(what, end, 0.0, "s", end, last));
-    } else if let Some(clearance) = measures.min_clearance.filter(|clearance| limits.contact && *clearance < 0.0) {
+    } else if let Some(clearance) = met(measures).filter(|_| limits.contact) {
         found.push(event("contact", clearance, 0.0, "m", measures.t_clearance, nearest_leg(measures)));
     }
     if let Some(at) = flight.left_world {
@@ -274,6 +279,12 @@ fn events(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violatio
         found.push(event(what, reached as f64, all as f64, "waypoints", at, last));
     }
     found
+}
+
+/// The clearance of what met an obstacle, m; what rounding may have moved into one decides nothing.
+fn met(measures: &Measures) -> Option<f64> {
+    let moved = measures.place_unresolved.unwrap_or(0.0);
+    measures.min_clearance.filter(|clearance| *clearance < -moved)
 }
 
 /// Since when a run that its time limit ended had stood still, s: for [`STILL_S`] at least.

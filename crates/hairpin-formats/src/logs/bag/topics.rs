@@ -270,6 +270,7 @@ impl Topic {
                 resets,
                 invalid,
                 unfit,
+                told_to_m: None,
                 no_heights: None,
             });
         } else {

@@ -45,3 +45,11 @@ pub(super) fn after(t_s: f64, before: Option<f64>, line: usize) -> Result<(), Fa
         _ => Ok(()),
     }
 }
+
+/// The step in which a number is written: of its last decimal.
+pub(super) fn step(text: &str) -> f64 {
+    let (digits, power) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let power = power.parse::<i32>().unwrap_or(0);
+    libm::exp10(f64::from(power) - decimals as f64)
+}

@@ -8,7 +8,7 @@ use super::super::error::Fault;
 use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample};
 use super::super::planned::source;
 use super::super::samples::Budget;
-use super::checks::{FARTHEST_M, after, attitude};
+use super::checks::{FARTHEST_M, after, attitude, step};
 use super::columns::{Column, Columns};
 use crate::delimited::{Cut, Row, Table};
 use crate::quote;
@@ -46,6 +46,7 @@ struct Reading {
     budget: Budget,
     before: Option<f64>,
     samples: Vec<Sample>,
+    told_to_m: Option<f64>,
     joints: Vec<Vec<f64>>,
     times: Vec<f64>,
     progress: Vec<Progress>,
@@ -111,6 +112,7 @@ impl Reading {
             budget,
             before: None,
             samples,
+            told_to_m: None,
             joints,
             times,
             progress,
@@ -128,6 +130,8 @@ impl Reading {
             if self.flat {
                 p[2] = 0.0;
             }
+            let steps = position.iter().map(|column| step(row.cell(column.index)) * column.scale);
+            self.told_to_m = steps.chain(self.told_to_m).reduce(f64::min);
             let level = match &self.columns.level {
                 Some(column) => number(row, column, f64::MAX, FINITE)? != 0.0,
                 None => false,
@@ -186,6 +190,7 @@ impl Reading {
             resets: Vec::new(),
             invalid: Vec::new(),
             unfit: None,
+            told_to_m: self.told_to_m,
             no_heights: self.no_heights,
         };
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();

@@ -6,14 +6,14 @@ use super::super::error::Fault;
 use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample};
 use super::super::planned::source;
 use super::super::samples::Budget;
-use super::checks::{FARTHEST_M, after, attitude};
+use super::checks::{FARTHEST_M, after, attitude, step};
 use crate::quote;
 
 const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];
 
 pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault> {
     let mut budget = Budget::default();
-    let mut samples: Vec<Sample> = Vec::new();
+    let (mut samples, mut told_to_m): (Vec<Sample>, Option<f64>) = (Vec::new(), None);
     for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         let content = content.trim();
         if content.is_empty() || content.starts_with('#') {
@@ -21,13 +21,23 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         }
         budget.take()?;
         let [t_s, x, y, z, qx, qy, qz, qw] = numbers(content, line)?;
+        let steps = content.split_whitespace().skip(1).take(3).map(step);
+        told_to_m = steps.chain(told_to_m).reduce(f64::min);
         after(t_s, samples.last().map(|sample| sample.t_s), line)?;
         let attitude = Some(attitude(qw, [qx, qy, qz], line)?);
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
     let (resets, invalid, unfit) = Default::default();
-    let motion =
-        LoggedMotion { name: name.into(), source: source(name), samples, resets, invalid, unfit, no_heights: None };
+    let motion = LoggedMotion {
+        name: name.into(),
+        source: source(name),
+        samples,
+        resets,
+        invalid,
+        unfit,
+        told_to_m,
+        no_heights: None,
+    };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

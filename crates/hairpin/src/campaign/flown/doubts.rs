@@ -24,6 +24,8 @@ pub enum Why {
     },
     /// The log tells its numbers in steps that may make as much of it.
     Resolution(Unresolved, AccelerationSource),
+    /// The log tells its positions in steps that have moved them as far as this, m.
+    Digits(f64),
     /// It is a mean over as long a time, s, and what is shorter was not seen.
     Mean(f64),
     /// The log itself does not know its place any better.
@@ -61,16 +63,16 @@ pub(super) struct Looked<'a> {
     pub(super) swiftness: &'a Swiftness,
 }
 
-/// A standard deviation (m) and which of the log's two it is mostly.
+/// How far off a place may be (m), and what that mostly is.
 #[derive(Clone, Copy)]
 struct Sigma {
     along: f64,
-    which: &'static str,
-    claimed: f64,
+    why: Why,
 }
 
 impl Looked<'_> {
-    /// Of sample `i` in the direction `off`, or in whichever is worse.
+    /// Of sample `i` in the direction `off`, or in whichever is worse: its standard deviation, and what rounding has moved
+    /// it at most, whichever way.
     fn sigma(&self, i: usize, off: Option<Vector3<f64>>) -> Sigma {
         let [across, up] = self.log.sigma(i);
         let [own_across, own_up] = match off.and_then(|off| off.try_normalize(0.0)) {
@@ -78,8 +80,13 @@ impl Looked<'_> {
             None => [across, up],
         };
         let along = if off.is_some() { libm::hypot(own_across, own_up) } else { across.max(up) };
-        let (which, claimed) = if own_up > own_across { ("epv", up) } else { ("eph", across) };
-        Sigma { along, which, claimed }
+        let moved = self.log.resolution.place.moved;
+        let why = match own_up > own_across {
+            _ if moved > along => Why::Digits(moved),
+            true => Why::Accuracy { which: "epv", sigma: up },
+            false => Why::Accuracy { which: "eph", sigma: across },
+        };
+        Sigma { along: along + moved, why }
     }
 
     /// The interval after sample `i`, s, and how far (m) the motion may bulge out of it; `None` before a break.
@@ -102,11 +109,11 @@ impl Looked<'_> {
             let times = self.log.flight.track.times();
             let certain = samples().any(|(_, off, sigma)| off - sigma.along > limit);
             let (_, _, sigma) = samples().find(|(i, ..)| times[*i] == measures.t_worst)?;
-            return (!certain).then_some(Doubt { value: worst, why: sigma.doubt() });
+            return (!certain).then_some(Doubt { value: worst, why: sigma.why });
         }
         let unsure = samples().filter(|(_, off, sigma)| off + sigma.along > limit);
         if let Some((.., sigma)) = unsure.max_by(|a, b| (a.1 + a.2.along).total_cmp(&(b.1 + b.2.along))) {
-            return Some(Doubt { value: worst, why: sigma.doubt() });
+            return Some(Doubt { value: worst, why: sigma.why });
         }
         let (mut most, mut rate) = (0.0_f64, Some(0.0_f64));
         for (i, close) in self.close.iter().enumerate() {
@@ -176,10 +183,10 @@ impl Looked<'_> {
         let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
         if turn(value.value) > limit {
             let certain = (0..values.len()).any(|i| values[i] - sigma(i).along > limit);
-            return (!certain && sigma(worst).along > 0.0).then(|| Doubt { value, why: sigma(worst).doubt() });
+            return (!certain && sigma(worst).along > 0.0).then(|| Doubt { value, why: sigma(worst).why });
         }
         if let Some(i) = (0..values.len()).find(|i| values[*i] + sigma(*i).along > limit) {
-            return Some(Doubt { value, why: sigma(i).doubt() });
+            return Some(Doubt { value, why: sigma(i).why });
         }
         let (mut most, mut rate) = (f64::NEG_INFINITY, Some(0.0_f64));
         for i in 0..values.len() {
@@ -213,12 +220,6 @@ pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Mea
     });
     let value = violation("speed", found.speed(), found.bound_m_s, found.from_s, leg.unwrap_or(0));
     Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
-}
-
-impl Sigma {
-    fn doubt(self) -> Why {
-        Why::Accuracy { which: self.which, sigma: self.claimed }
-    }
 }
 
 /// Why an acceleration within its `limit` is open: it is a mean over `span` s.
