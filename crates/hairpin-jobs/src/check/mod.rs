@@ -85,6 +85,9 @@ fn answer(mission: &Mission, passage: &Passage) -> (Option<bool>, Option<Broken>
     }
 }
 
+/// A leg that is held at a speed comes to so many times it within its time without a word.
+const FASTER: f64 = 1.05;
+
 fn verdict(
     setup: &Setup,
     mission: &Mission,
@@ -106,8 +109,7 @@ fn verdict(
             let length: f64 = passage.legs.iter().map(|leg| leg.length).sum();
             let time = passage.witness.as_ref().map(|witness| witness.leg_times.iter().sum::<f64>());
             let time = time.map_or(", leg by leg".into(), |time| format!(" in {time:.1} s")) + &waits(mission);
-            let demanded =
-                if mission.speeds.iter().any(Option::is_some) { ", at the speeds that it demands" } else { "" };
+            let demanded = demanded(mission, passage);
             let heights = heights.map_or(String::new(), |words| format!("; {words}"));
             Verdict::of(
                 &format!(
@@ -122,6 +124,25 @@ fn verdict(
             let why = broken.map(at).into_iter().chain(uncertain).collect::<Vec<_>>().join("; ");
             Verdict::of(&format!("INCONCLUSIVE {file} (not found out, {robot}): {why}"), 5)
         }
+    }
+}
+
+/// How the witness keeps the speeds that are demanded: a leg takes the time of its speed, and what it comes to within it
+/// is told where that is another.
+fn demanded(mission: &Mission, passage: &Passage) -> String {
+    if mission.speeds.iter().all(Option::is_none) {
+        return String::new();
+    }
+    let beyond = passage.legs.iter().enumerate().filter_map(|(leg, seen)| {
+        let (top, demanded) = (seen.top_speed?, mission.speeds.get(leg).copied().flatten()?);
+        (top > FASTER * demanded).then_some((leg, top, demanded))
+    });
+    match beyond.max_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2))) {
+        None => ", at the speeds that it demands".into(),
+        Some((leg, top, demanded)) => format!(
+            ", in the times of the speeds that it demands, at up to {top:.2} m/s where {demanded:.2} are (leg {leg}→{})",
+            leg + 1
+        ),
     }
 }
 
@@ -266,6 +287,31 @@ mod tests {
         std::fs::write(&mission, text).unwrap();
         let (robot, world) = (robot.to_owned(), world.map(str::to_owned));
         check(&CheckSettings { mission, robot, world, ..CheckSettings::default() }, &Unwatched).unwrap()
+    }
+
+    /// Two legs of 20 m straight on: the first comes to more than its speed within the time of that.
+    #[test]
+    fn what_a_witness_comes_to_beyond_a_demanded_speed_is_told() {
+        let place = tempfile::tempdir().unwrap();
+        let mission = place.path().join("line.waypoints");
+        let item = |number: u32, command: u32, second: u32, lat: &str| {
+            format!("{number}\t0\t3\t{command}\t1\t{second}\t0\t0\t{lat}\t8\t10\t1\n")
+        };
+        let text = format!(
+            "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t47\t8\t500\t1\n{}{}{}{}",
+            item(1, 22, 0, "47"),
+            item(2, 178, 5, "0"),
+            item(3, 16, 0, "47.0001799"),
+            item(4, 16, 0, "47.0003598")
+        );
+        std::fs::write(&mission, text).unwrap();
+        let asked = CheckSettings { mission, robot: "anafi".into(), ..CheckSettings::default() };
+        let found = check(&asked, &Unwatched).unwrap();
+        let top = found.passage.legs[0].top_speed.unwrap();
+        let words = format!(
+            "in 16.0 s, in the times of the speeds that it demands, at up to {top:.2} m/s where 5.00 are (leg 0→1)"
+        );
+        assert!(top > 5.5 && found.verdict.sentence.contains(&words), "{top} {}", found.verdict.sentence);
     }
 
     #[test]

@@ -125,6 +125,35 @@ fn what_keeps_its_limit_passes_and_what_does_not_fails() {
     assert!(found.finished && found.legs_by == LegsBy::Assigned);
 }
 
+/// What is within half a step of its limit, along all three axes, is open; what nothing rounded is as it is told.
+#[test]
+fn what_rounding_may_have_made_decides_nothing() {
+    let rounded = |off: f64, told_to_m: Option<f64>| {
+        let mut logged = log(100.0, off);
+        for sample in &mut logged.motions[0].samples {
+            sample.p_m = Point3::from(sample.p_m.coords.map(|x| (10.0 * x).round() / 10.0));
+        }
+        logged.motions[0].told_to_m = told_to_m;
+        said(&logged)
+    };
+    // Of whatever the numbers themselves show, and of a text whose last decimal it is.
+    for told_to_m in [None, Some(0.1)] {
+        for (off, seen) in [(0.54, "0.50 m ≤ 0.50 m"), (0.56, "0.60 m > 0.50 m"), (0.46, "0.50 m ≤ 0.50 m")] {
+            let (sentence, code) = rounded(off, told_to_m);
+            let why = "but its positions are told in steps that move them by up to 0.087 m";
+            let seen = sentence.contains(&format!(": {seen}, {why}"));
+            assert!(
+                code == 5 && seen && sentence.contains("; log more digits or raise the limit"),
+                "{off}: {sentence}"
+            );
+        }
+        assert_eq!((rounded(0.65, told_to_m).1, rounded(0.4, told_to_m).1), (1, 0));
+    }
+    // A text that has three decimals tells three, whatever they are.
+    assert_eq!(rounded(0.56, Some(1e-3)).1, 1);
+    assert_eq!((said(&log(100.0, 0.49)).1, said(&log(100.0, 0.51)).1), (0, 1));
+}
+
 /// Velocities that contradict the positions beside them judge nothing, whether they are 0 throughout or lack a sway.
 #[test]
 fn velocities_are_believed_where_they_are_those_of_the_positions() {

@@ -188,7 +188,8 @@ mod tests {
     use super::*;
     use crate::campaign::Scenario;
     use crate::campaign::testing::quadrotor;
-    use crate::trajectory::Channel;
+    use crate::judgement::violations;
+    use crate::trajectory::{Channel, Ended, Flight};
 
     fn setup(command: Option<&str>) -> Setup {
         among(command, json!([]))
@@ -241,6 +242,36 @@ mod tests {
         let limits = Limits { deviation: Some(0.5), ..Limits::default() };
         assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, edge_between: None, ..sparse }, &limits), None);
         assert_eq!(judged(&setup(None), 2.5, 0.5).0.most_between, None);
+    }
+
+    /// Poses in whole decimetres, and beside the leg by what that makes of it.
+    #[test]
+    fn neither_is_what_rounding_may_have_made() {
+        let program = setup(Some("sim"));
+        let told = |off: f64, digits: f64, limit: f64| {
+            let times: Vec<f64> = (0..=500).map(|i| 0.02 * f64::from(i)).collect();
+            let round = |x: f64| (x * digits).round() / digits;
+            let at = |t: &f64| {
+                let aside = off * (0.1 * std::f64::consts::PI * t).sin();
+                Isometry3::translation(round(3.0 + 2.0 * t), round(3.0 + aside), 3.0)
+            };
+            let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
+            let track = Track::new(times.clone(), times.iter().map(at).collect(), vec![leg]).unwrap();
+            let way = [Point3::new(3.0, 3.0, 3.0), Point3::new(23.0, 3.0, 3.0)];
+            let measures = sampled(&program, &track, &way, &Settings::default()).unwrap();
+            let limits = Limits { deviation: Some(limit), ..Limits::default() };
+            let flight = Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0), Some(10.0)] };
+            (violations(&measures, &flight, &limits).len(), hidden(&program, &measures, &limits))
+        };
+        let (broken, why) = told(0.44, 10.0, 0.42);
+        let words =
+            "0.40 ≤ 0.42 m, but its positions are told in steps that move them by up to 0.09 m; more digits decide";
+        assert_eq!((broken, why.as_deref()), (0, Some(words)));
+        let (broken, why) = told(0.46, 10.0, 0.48);
+        assert!(broken == 0 && why.is_some_and(|why| why.starts_with("0.50 > 0.48 m, but its positions")));
+        assert_eq!(told(0.66, 10.0, 0.48), (1, None));
+        assert_eq!(told(0.26, 10.0, 0.48), (0, None));
+        assert_eq!((told(0.44, 1e5, 0.42), told(0.44, 1e5, 0.46)), ((1, None), (0, None)));
     }
 
     /// A plate stands half-way between two of the poses that are a second apart, 1 m from each.

@@ -14,6 +14,9 @@ use crate::trajectory::{Flight, Track};
 /// What positions come to over so long (s) is a speed; over less it may be the noise of an estimate.
 pub(super) const LONG_S: f64 = 1.0;
 
+/// A step of a program's motion may come so much farther than anything moves: its places may be an estimate's, m.
+const ROOM_M: f64 = 1.0;
+
 /// The fastest part of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fastest {
@@ -117,7 +120,21 @@ pub(super) fn of_program(setup: &Setup, case: &Case, flight: &Flight) -> Option<
     setup.program()?;
     let accept = setup.scenario.executor().accept;
     let by_waypoints = || impossible(setup, &of_waypoints(case, flight)?, &[], &|_| accept);
-    impossible(setup, &flight.track, &[], &|_| 0.0).or_else(by_waypoints)
+    let track = &flight.track;
+    impossible(setup, track, &[], &|_| 0.0).or_else(|| leap(setup, track)).or_else(by_waypoints)
+}
+
+/// The first step of a program's motion that comes a metre farther than all that is possible in its time: over a second
+/// with rests before and after it, it is lost.
+fn leap(setup: &Setup, track: &Track) -> Option<Impossible> {
+    let times = track.times();
+    (1..track.len()).find_map(|to| {
+        let over_s = times[to] - times[to - 1];
+        let way_m = (track.position(to) - track.position(to - 1)).norm();
+        // It need not begin at rest.
+        let bound_m_s = setup.ceiling(over_s.max(LONG_S)).filter(|bound| way_m > bound * over_s + ROOM_M)?;
+        Some(Impossible { from_s: times[to - 1], over_s, way_m, bound_m_s })
+    })
 }
 
 /// Where `flight` was when it reached its waypoints, those of one stamp but once; `None` where that is no motion.
@@ -187,6 +204,21 @@ mod tests {
         assert!(why.starts_with(words), "{why}");
         // Our own simulator is not asked.
         assert_eq!(judged(None, 1e-3).status, Status::Pass);
+    }
+
+    /// A second at each end, and nothing in between: in the mean over a second it is no faster than may be.
+    #[test]
+    fn who_leaps_is_no_pass() {
+        let (setup, case) = (setup(Some("sim")), Case::bare(CaseNumber(0), 1, WAY.map(Point3::from).to_vec()));
+        let leaping = |length: f64| {
+            let times: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
+            let place = |t: &f64| Isometry3::translation(3.0 + if *t > 1.0 { length } else { 0.0 }, 3.0, 3.0);
+            let track = Track::new(times.clone(), times.iter().map(place).collect(), vec![]).unwrap();
+            of_program(&setup, &case, &Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0)] })
+        };
+        let found = leaping(20.0).unwrap();
+        assert!((found.way_m - 20.0).abs() < 1e-9 && (found.over_s - 0.01).abs() < 1e-9, "{found:?}");
+        assert_eq!((leaping(1.5), leaping(0.0)), (None, None), "an estimate that is set right");
     }
 
     /// What was measured suffices for the limits, and rows are not read: the waypoints tell as much.

@@ -56,6 +56,37 @@ impl Reach<StepNode> for Octahedron {
     }
 }
 
+/// [`Octahedron::WIDE`], of which more legs may be than there are, and none takes as long as it does.
+pub(super) struct Loose<'a> {
+    may_be: Octahedron,
+    points: &'a [Point3<f64>],
+}
+
+impl<'a> Loose<'a> {
+    /// By an octahedron grown `share` times.
+    pub(super) fn of(share: f64, points: &'a [Point3<f64>]) -> Self {
+        Self { may_be: Octahedron { half: Octahedron::WIDE.half * share, ..Octahedron::WIDE }, points }
+    }
+}
+
+impl Reach<StepNode> for Loose<'_> {
+    fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+        Octahedron::WIDE.legs(from, candidates, out);
+    }
+
+    fn possible(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
+        self.may_be.legs(from, candidates, out);
+        out.iter_mut().for_each(|leg| leg.duration = 0.5);
+    }
+
+    fn proven(&self, from: &StepNode, to: &StepNode, duration: f64) -> Option<f64> {
+        assert_eq!(duration, 0.5);
+        let mut legs = Vec::new();
+        Octahedron::WIDE.legs(from, self.points, &mut legs);
+        Some(legs.iter().find(|leg| leg.to == *to)?.duration)
+    }
+}
+
 /// Start, `count` seeded points in a cube of `size`, end.
 pub(super) fn points(seed: u64, count: usize, size: f64) -> Vec<Point3<f64>> {
     let mut rng = stream(seed);

@@ -278,39 +278,12 @@ fn score<N: Copy, O: Objective>(
 mod tests {
     use std::collections::HashMap;
 
-    use nalgebra::Point3;
-
     use super::super::score::Score;
-    use super::super::small::{Octahedron, START, enumerate, points};
+    use super::super::small::{Loose, Octahedron, START, enumerate, points};
     use super::super::task::Task;
     use super::*;
-    use crate::feasibility::reach::{Leg, StepNode};
 
     const SMALL: Octahedron = Octahedron::WIDE;
-
-    /// More legs may be than there are.
-    struct Loose<'a> {
-        may_be: Octahedron,
-        points: &'a [Point3<f64>],
-    }
-
-    impl Reach<StepNode> for Loose<'_> {
-        fn legs(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
-            SMALL.legs(from, candidates, out);
-        }
-
-        fn possible(&self, from: &StepNode, candidates: &[Point3<f64>], out: &mut Vec<Leg<StepNode>>) {
-            self.may_be.legs(from, candidates, out);
-            out.iter_mut().for_each(|leg| leg.duration = 0.5);
-        }
-
-        fn proven(&self, from: &StepNode, to: &StepNode, duration: f64) -> Option<f64> {
-            assert_eq!(duration, 0.5);
-            let mut legs = Vec::new();
-            SMALL.legs(from, self.points, &mut legs);
-            Some(legs.iter().find(|leg| leg.to == *to)?.duration)
-        }
-    }
 
     /// What is left of walks over more legs than there are is drawn as evenly as where all are known, with what legs
     /// take and are worth; where hardly any is left it is said.
@@ -319,8 +292,7 @@ mod tests {
         let (mut tested, mut given_up) = (0, 0);
         for seed in 0..100 {
             let points = points(seed, 8, 11.0);
-            let loose =
-                |share: f64| Loose { may_be: Octahedron { half: SMALL.half * share, ..SMALL }, points: &points };
+            let loose = |share: f64| Loose::of(share, &points);
             let task = Task { start: START, candidates: &points, reach: &SMALL };
             let objective = |leg: &LegView<'_>| leg.duration * leg.features.length;
             let all = enumerate(&task, &objective, (6, false, Aggregate::Sum));

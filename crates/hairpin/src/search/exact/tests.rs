@@ -3,7 +3,7 @@
 use super::super::objective::{LegView, Objective};
 use super::super::open_end::OpenEnd;
 use super::super::score::Score;
-use super::super::small::{Octahedron, START, enumerate, enumerate_open, points};
+use super::super::small::{Loose, Octahedron, START, enumerate, enumerate_open, points};
 use super::super::task::Task;
 use super::*;
 use crate::feasibility::reach::{Leg, LegFeatures};
@@ -49,6 +49,48 @@ fn the_best_are_those_of_brute_force() {
         }
     }
     assert!(compared > 5_000, "{compared}");
+}
+
+/// The best over legs that are proven as they are asked for is that over all that were proven first.
+#[test]
+fn what_is_proven_as_it_comes_off_the_queue_is_the_best_there_is() {
+    let (mut compared, mut given_up) = (0, 0);
+    for seed in 0..40 {
+        let points = points(seed, 9, 11.0);
+        let graph = LegGraph::explore(START, &points, &SMALL, 6);
+        for (share, revisits, aggregate) in [
+            (1.1, false, Aggregate::Sum),
+            (1.1, true, Aggregate::Max),
+            (1.5, true, Aggregate::Sum),
+            (1.5, false, Aggregate::Max),
+        ] {
+            let more = Loose::of(share, &points);
+            let possible = LegGraph::explore_possible(START, &points, &more, 6);
+            assert!(possible.legs() > graph.legs(), "seed {seed}");
+            for score in [Score::Random { seed }, Score::HighVelocity { v_max: 12.0 }] {
+                for best in [1, 5] {
+                    let settings = ExactSettings { length: 6, best, revisits, aggregate, ..Default::default() };
+                    let all = exact(&graph, &score, &settings);
+                    let proven = exact_proven(&possible, &more, &score, &settings).expect("within the budget");
+                    let scores = |outcome: &ExactOutcome<_>| -> Vec<f64> {
+                        outcome.found.iter().map(|found| found.score).collect()
+                    };
+                    let told = format!("seed {seed} share {share} best {best}");
+                    assert_eq!((scores(&proven), proven.bound), (scores(&all), all.bound), "{told}");
+                    assert_eq!((proven.proven, proven.walks.is_zero()), (all.proven, possible.legs() == 0), "{told}");
+                    assert!(proven.found.iter().all(|found| found.leg_times == [1.0; 5]), "{told}");
+                    compared += proven.found.len();
+                    let few = exact_proven(&possible, &more, &score, &ExactSettings { expansions: 2, ..settings });
+                    given_up += usize::from(few.is_none());
+                }
+            }
+            let timed = |leg: &LegView<'_>| leg.duration;
+            assert!(
+                exact_proven(&possible, &more, &timed, &ExactSettings { length: 6, ..Default::default() }).is_none()
+            );
+        }
+    }
+    assert!(compared > 500 && given_up > 100, "{compared} {given_up}");
 }
 
 /// A number per leg, and another that the leg leaves to the next.
