@@ -127,8 +127,8 @@ fn verdict(
     }
 }
 
-/// How the witness keeps the speeds that are demanded: a leg takes the time of its speed, and what it comes to within it
-/// is told where that is another.
+/// How the witness keeps the speeds that are demanded: a leg takes the time of its speed, and what it comes to within
+/// it is told where that is another.
 fn demanded(mission: &Mission, passage: &Passage) -> String {
     if mission.speeds.iter().all(Option::is_none) {
         return String::new();

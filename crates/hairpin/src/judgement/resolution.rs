@@ -37,8 +37,8 @@ pub struct Step {
     pub each: f64,
     /// Length of the vector of all three.
     pub all: f64,
-    /// How far rounding has moved a vector at most: half of that, where the numbers are those nearest to whole steps, as
-    /// rounded ones are. Computed ones are a few bits off, and were moved by nothing.
+    /// How far rounding has moved a vector at most: half of that, where the numbers are those nearest to whole steps,
+    /// as rounded ones are. Computed ones are a few bits off, and were moved by nothing.
     pub moved: f64,
 }
 
@@ -81,8 +81,8 @@ impl Resolution {
 }
 
 impl Step {
-    /// The same of numbers that a text has to `digit`, whose steps are never finer; of whole ones nothing is said, as they
-    /// are somebody's grid.
+    /// The same of numbers that a text has to `digit`, whose steps are never finer; of whole ones nothing is said, as
+    /// they are somebody's grid.
     pub fn written_to(self, digit: f64) -> Self {
         Self { moved: if digit < 1.0 { 0.5 * 3_f64.sqrt() * digit } else { 0.0 }, ..self }
     }

@@ -71,8 +71,8 @@ struct Sigma {
 }
 
 impl Looked<'_> {
-    /// Of sample `i` in the direction `off`, or in whichever is worse: its standard deviation, and what rounding has moved
-    /// it at most, whichever way.
+    /// Of sample `i` in the direction `off`, or in whichever is worse: its standard deviation, and what rounding has
+    /// moved it at most, whichever way.
     fn sigma(&self, i: usize, off: Option<Vector3<f64>>) -> Sigma {
         let [across, up] = self.log.sigma(i);
         let [own_across, own_up] = match off.and_then(|off| off.try_normalize(0.0)) {

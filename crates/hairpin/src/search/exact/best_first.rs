@@ -12,7 +12,8 @@ use super::super::task::Found;
 use super::settings::ExactSettings;
 use super::worth::Worth;
 
-/// What is known of a leg, by its nodes and the duration that the graph has, s: its duration, s; `None` where it is none.
+/// What is known of a leg, by its nodes and the duration that the graph has, s: its duration, s; `None` where it is
+/// none.
 pub(super) type Prove<'p> = dyn FnMut(u32, u32, f64) -> Option<f64> + 'p;
 
 /// A partial trajectory and the best it can become.

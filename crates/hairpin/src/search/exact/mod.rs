@@ -118,7 +118,8 @@ where
     let search = ExactSearch::new(possible, settings.clone());
     let mut known: HashMap<(u32, u32), Option<f64>, FxBuildHasher> = HashMap::default();
     let mut prove = |from, to, time| {
-        let prove = || reach.proven(&possible.node(from), &possible.node(to), time);
+        // Without revisits it has nodes of its own.
+        let prove = || reach.proven(&search.graph.node(from), &search.graph.node(to), time);
         *known.entry((from, to)).or_insert_with(prove)
     };
     search.scored(objective).by(settings.aggregate).proven(settings.best, &mut prove)
