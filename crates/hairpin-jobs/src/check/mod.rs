@@ -294,15 +294,15 @@ mod tests {
     fn what_a_witness_comes_to_beyond_a_demanded_speed_is_told() {
         let place = tempfile::tempdir().unwrap();
         let mission = place.path().join("line.waypoints");
-        let item = |number: u32, command: u32, second: u32, lat: &str| {
-            format!("{number}\t0\t3\t{command}\t1\t{second}\t0\t0\t{lat}\t8\t10\t1\n")
+        let item = |number: u32, command: u32, [first, second]: [u32; 2], lat: &str| {
+            format!("{number}\t0\t3\t{command}\t{first}\t{second}\t0\t0\t{lat}\t8\t10\t1\n")
         };
         let text = format!(
             "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t47\t8\t500\t1\n{}{}{}{}",
-            item(1, 22, 0, "47"),
-            item(2, 178, 5, "0"),
-            item(3, 16, 0, "47.0001799"),
-            item(4, 16, 0, "47.0003598")
+            item(1, 22, [0, 0], "47"),
+            item(2, 178, [1, 5], "0"),
+            item(3, 16, [0, 0], "47.0001799"),
+            item(4, 16, [0, 0], "47.0003598")
         );
         std::fs::write(&mission, text).unwrap();
         let asked = CheckSettings { mission, robot: "anafi".into(), ..CheckSettings::default() };

@@ -128,18 +128,22 @@ fn what_keeps_its_limit_passes_and_what_does_not_fails() {
 /// What is within half a step of its limit, along all three axes, is open; what nothing rounded is as it is told.
 #[test]
 fn what_rounding_may_have_made_decides_nothing() {
-    let rounded = |off: f64, told_to_m: Option<f64>| {
+    let rounded = |off: f64, told_to_m: Option<f64>, limit: &str| {
         let mut logged = log(100.0, off);
         for sample in &mut logged.motions[0].samples {
             sample.p_m = Point3::from(sample.p_m.coords.map(|x| (10.0 * x).round() / 10.0));
         }
         logged.motions[0].told_to_m = told_to_m;
-        said(&logged)
+        let limits = &[("spec.deviation.max_m", limit)];
+        let verdict = judged_as(&logged, |changed, here| *changed = settings(here, limits)).unwrap().verdict;
+        (verdict.sentence, verdict.exit_code)
     };
     // Of whatever the numbers themselves show, and of a text whose last decimal it is.
     for told_to_m in [None, Some(0.1)] {
-        for (off, seen) in [(0.54, "0.50 m ≤ 0.50 m"), (0.56, "0.60 m > 0.50 m"), (0.46, "0.50 m ≤ 0.50 m")] {
-            let (sentence, code) = rounded(off, told_to_m);
+        for (off, limit, seen) in
+            [(0.54, "0.5", "0.50 m ≤ 0.50 m"), (0.56, "0.55", "0.60 m > 0.55 m"), (0.46, "0.5", "0.50 m ≤ 0.50 m")]
+        {
+            let (sentence, code) = rounded(off, told_to_m, limit);
             let why = "but its positions are told in steps that move them by up to 0.087 m";
             let seen = sentence.contains(&format!(": {seen}, {why}"));
             assert!(
@@ -147,10 +151,10 @@ fn what_rounding_may_have_made_decides_nothing() {
                 "{off}: {sentence}"
             );
         }
-        assert_eq!((rounded(0.65, told_to_m).1, rounded(0.4, told_to_m).1), (1, 0));
+        assert_eq!((rounded(0.65, told_to_m, "0.5").1, rounded(0.4, told_to_m, "0.5").1), (1, 0));
     }
     // A text that has three decimals tells three, whatever they are.
-    assert_eq!(rounded(0.56, Some(1e-3)).1, 1);
+    assert_eq!(rounded(0.56, Some(1e-3), "0.55").1, 1);
     assert_eq!((said(&log(100.0, 0.49)).1, said(&log(100.0, 0.51)).1), (0, 1));
 }
 
