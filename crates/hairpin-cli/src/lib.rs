@@ -100,8 +100,8 @@ fn explain(usage: &clap::Error, json: bool) -> u8 {
     WRONG_INPUT
 }
 
-/// What clap says of wrong usage, on one line: what is wrong, missing or possible, and what may have been meant; not the
-/// usage below it.
+/// What clap says of wrong usage, on one line: what is wrong, missing or possible, and what may have been meant; not
+/// the usage below it.
 fn on_a_line(text: &str) -> String {
     let end = ["\n\nUsage:", "\n\nFor more information"].iter().find_map(|below| text.rfind(below));
     let text = &text[..end.unwrap_or(text.len())];
