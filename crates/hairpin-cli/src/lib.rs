@@ -94,11 +94,28 @@ fn explain(usage: &clap::Error, json: bool) -> u8 {
         return DONE;
     }
     if json {
-        let text = usage.render().to_string();
-        let sentence = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        let sentence = on_a_line(&usage.render().to_string());
         console::say(&exit::object(&Problem::input(sentence)).to_string());
     }
     WRONG_INPUT
+}
+
+/// What clap says of wrong usage, on one line: what is wrong, missing or possible, and what may have been meant; not
+/// the usage below it.
+fn on_a_line(text: &str) -> String {
+    let end = ["\n\nUsage:", "\n\nFor more information"].iter().find_map(|below| text.rfind(below));
+    let text = &text[..end.unwrap_or(text.len())];
+    let mut sentence = String::new();
+    for line in text.trim_start_matches("error: ").lines().map(str::trim).filter(|line| !line.is_empty()) {
+        sentence += match sentence.chars().last() {
+            None => "",
+            Some(':') => " ",
+            Some(_) if line.starts_with('[') => " ",
+            Some(_) => "; ",
+        };
+        sentence += line;
+    }
+    sentence
 }
 
 fn command(arguments: Arguments) -> Result<u8, Problem> {

@@ -7,6 +7,7 @@ use hairpin::trajectory::program::{NO_EXTERNAL, PoseTarget};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
 
+use crate::decimal::decimal;
 use crate::delimited::{Cut, Row, Table};
 use crate::quote;
 
@@ -116,7 +117,7 @@ pub enum CloudError {
         line: usize,
     },
     /// A size that no cell has.
-    #[error("the points lie within {extent_mm} mm: {}", question(*suspicion))]
+    #[error("the points lie within {} mm: {}", decimal(*extent_mm, 6), question(*suspicion))]
     Extent {
         /// Longest edge of the box around all points, mm.
         extent_mm: f64,
@@ -162,7 +163,7 @@ const COLUMNS: [&str; 11] = ["x_mm", "y_mm", "z_mm", "q1", "q2", "q3", "q4", "cf
 /// # Errors
 /// The first thing wrong, with its line. Sizes are asked about by [`check_extent`].
 pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
-    let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
+    let Table { header, names, rows } = Table::of(text, Cut::told_by(text));
     let place = |column: &str| names.place(column);
     let refuse = |column| CloudError::Header { column, header: header.into() };
     let mut places = [None; COLUMNS.len()];
@@ -404,6 +405,14 @@ mod tests {
     }
 
     #[test]
+    fn cells_may_stand_between_commas_semicolons_or_tabs() {
+        let table = "x_mm,y_mm,z_mm\n300,0,300\n0,-20.5,9\n";
+        for delimiter in [";", "\t"] {
+            assert_eq!(parse(&table.replace(',', delimiter)).unwrap(), parse(table).unwrap(), "{delimiter:?}");
+        }
+    }
+
+    #[test]
     fn sizes_that_no_cell_has_are_asked_about() {
         let cloud = |a: &str, b: &str| parse(&format!("x_mm,y_mm,z_mm\n{a},0,0\n{b},0,0\n")).unwrap();
         assert!(check_extent(&cloud("0", "5")).is_ok() && check_extent(&cloud("0", "50000")).is_ok());
@@ -412,6 +421,8 @@ mod tests {
             matches!(error, CloudError::Extent { suspicion: Suspicion::Small, .. })
                 && error.to_string().contains("in m?")
         );
+        let error = check_extent(&cloud("300", "300.01")).unwrap_err().to_string();
+        assert!(error.starts_with("the points lie within 0.01 mm: "), "{error}");
         let error = check_extent(&cloud("0", "50001")).unwrap_err();
         assert!(matches!(error, CloudError::Extent { suspicion: Suspicion::Large, .. }));
         assert!(check_extent(&cloud("0.3", "0.5")[..1]).is_ok(), "one point has no size");

@@ -5,7 +5,8 @@
 
 use csv::{Position, ReaderBuilder, StringRecord, StringRecordsIntoIter};
 
-const BYTE_ORDER_MARK: char = '\u{feff}';
+/// What a text may begin with that says nothing but how it is encoded.
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// How a text is cut into rows and cells.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +20,18 @@ pub(crate) struct Cut {
 impl Cut {
     /// At commas.
     pub(crate) const COMMAS: Self = Self { delimiter: b',', comment: None };
+
+    /// At what stands between the names of columns in the first line of `text` that is not blank: commas, or where it
+    /// has none semicolons or tabs.
+    pub(crate) fn told_by(text: &str) -> Self {
+        let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+        Self { delimiter: delimiter_of(first.as_bytes()), ..Self::COMMAS }
+    }
+}
+
+/// What stands between the names of columns in `head`.
+pub(crate) fn delimiter_of(head: &[u8]) -> u8 {
+    [b',', b';', b'\t'].into_iter().find(|delimiter| head.contains(delimiter)).unwrap_or(b',')
 }
 
 /// A text with names of columns in its first line.
@@ -137,6 +150,15 @@ mod tests {
         let commented = Cut { comment: Some(b'#'), delimiter: b';' };
         assert_eq!(rows("# x\n\n# y\r\n1,5;2\n#\n3\n", commented), [owned(4, &["1,5", "2"]), owned(6, &["3"])]);
         assert!(rows("", Cut::COMMAS).is_empty());
+    }
+
+    #[test]
+    fn names_of_columns_tell_what_stands_between_cells() {
+        for (text, delimiter) in
+            [("a,b;c", b','), ("\n \na;b\n1,2\n", b';'), ("a\tb;c\n", b';'), ("a\tb", b'\t'), ("", b',')]
+        {
+            assert_eq!(Cut::told_by(text).delimiter, delimiter, "{text:?}");
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use hairpin::campaign::kind::{FrameWords, Handed};
 use hairpin::campaign::scenario::{Origin, Projected};
-use hairpin::campaign::{CaseResult, Setup};
+use hairpin::campaign::{Case, CaseResult, Setup, Tally};
 use hairpin::judgement::LegSource;
 use serde::Serialize;
 
@@ -56,12 +56,17 @@ pub struct LegSources {
 }
 
 impl Header {
-    /// The header of `results`.
-    pub fn of(setup: &Setup, results: &[CaseResult]) -> Self {
+    /// The header of `results`, of `cases` that were found as `tally` says.
+    ///
+    /// Missions made elsewhere have as many waypoints as they have, whatever the scenario's task: their length is told
+    /// where they have one in common.
+    pub fn of(setup: &Setup, (cases, results): (&[Case], &[CaseResult]), tally: &Tally) -> Self {
         let (scenario, Handed { frame, start, .. }) = (&setup.scenario, setup.handed());
         let from = |source: LegSource| {
             results.iter().filter(|r| r.measures.as_ref().is_some_and(|m| m.leg_source == source)).count()
         };
+        let mut lengths = cases.iter().map(|case| case.waypoints.len() as u64);
+        let in_common = lengths.next().filter(|first| lengths.all(|other| other == *first));
         // A plane that cannot be computed is told where something is to be exported in degrees.
         let world = Placement::of(scenario).ok().flatten();
         let plane = scenario.projected().filter(|_| matches!(world, Some(Placement::Plane(_))));
@@ -72,7 +77,7 @@ impl Header {
             start: world.and_then(|world| world.geodetic(&start).ok()),
             relative_to: frame.relative_to,
             frame,
-            length: scenario.length(),
+            length: if tally.missions.is_empty() { scenario.length() } else { in_common },
             length_counts: "waypoints",
             aligned: false,
             leg_source: LegSources { executor: from(LegSource::Executor), assigned: from(LegSource::Assigned) },

@@ -20,7 +20,7 @@ pub struct RotorSpeeds {
 /// # Errors
 /// The first thing wrong, with its line.
 pub fn parse(text: &str, limits: (f64, f64)) -> Result<Vec<RotorSpeeds>, String> {
-    let mut lines = Rows::of(text, Cut::COMMAS);
+    let mut lines = Rows::of(text, Cut::told_by(text));
     if !lines.next().is_some_and(|header| header.cells().eq(COLUMNS)) {
         return Err(format!("line 1: the columns must be {}", COLUMNS.join(",")));
     }

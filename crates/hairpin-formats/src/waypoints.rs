@@ -151,7 +151,7 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<(Vec<Poin
     let bytes = bounds::read_table(path).map_err(unreadable)?;
     // Bytes that are no UTF-8 stay visible in the message of the cell that they stand in.
     let text = String::from_utf8_lossy(&bytes);
-    let header = Table::of(&text, Cut::COMMAS).names;
+    let header = Table::of(&text, Cut::told_by(&text)).names;
     let degrees = has_degrees(&header);
     if !degrees {
         return Ok((parse(path, &text, COLUMNS, |row, places| metres(path, row, places, farthest))?, false));
@@ -189,7 +189,8 @@ fn has_degrees(header: &Row) -> bool {
 /// The file cannot be read.
 pub fn are_in_degrees(path: &Path) -> Result<bool, WaypointsError> {
     let bytes = bounds::read_table(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
-    Ok(has_degrees(&Table::of(&String::from_utf8_lossy(&bytes), Cut::COMMAS).names))
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(has_degrees(&Table::of(&text, Cut::told_by(&text)).names))
 }
 
 /// Columns of the table in `path` that are not read.
@@ -199,7 +200,7 @@ pub fn are_in_degrees(path: &Path) -> Result<bool, WaypointsError> {
 pub fn unread_columns(path: &Path) -> Result<Vec<String>, WaypointsError> {
     let bytes = bounds::read_table(path).map_err(|cause| WaypointsError::Unreadable { path: path.into(), cause })?;
     let text = String::from_utf8_lossy(&bytes);
-    let header = Table::of(&text, Cut::COMMAS).names;
+    let header = Table::of(&text, Cut::told_by(&text)).names;
     let is_in = |columns: [&str; 3]| columns.iter().all(|column| header.place(column).is_some());
     let read = if is_in(COLUMNS) { COLUMNS } else { geodetic::PLACE };
     let others = header.cells().filter(|name| !name.is_empty() && !read.contains(name));
@@ -245,7 +246,7 @@ fn parse(
     columns: [&'static str; 3],
     point_of: impl Fn(&Row, [usize; 3]) -> Result<Point3<f64>, WaypointsError>,
 ) -> Result<Vec<Point3<f64>>, WaypointsError> {
-    let Table { header, names, rows } = Table::of(text, Cut::COMMAS);
+    let Table { header, names, rows } = Table::of(text, Cut::told_by(text));
     let mut places = [0; 3];
     for (place, column) in places.iter_mut().zip(columns) {
         let missing = || match header.trim_start() {

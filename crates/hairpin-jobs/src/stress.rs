@@ -76,10 +76,18 @@ pub fn stress_missions(
     let (cases, tally) = (work.folder.read_cases()?, work.folder.read_tally()?);
     let flown = fly(&work, &cases, (Part::Search, &budget), watch)?;
     let searched =
-        budget.within(Part::Runs, watch, |watch| fly_searched(&work, budget.end_of_search(Part::Runs), watch))?;
-    if searched.is_none() {
-        budget.leave_undone("nothing was searched beside the missions");
-    }
+        budget.within(Part::Runs, watch, |watch| fly_searched(&work, budget.end_of_search(Part::Runs), watch));
+    let failed = match searched {
+        Ok(Some(())) => None,
+        Ok(None) => {
+            budget.leave_undone("nothing was searched beside the missions");
+            None
+        }
+        // What stands beside the missions is counted nowhere, and takes no verdict from them.
+        Err(Problem::Executor(why)) => Some(why),
+        Err(problem) => return Err(problem),
+    };
+    missions::keep_search_failed(&work, failed)?;
     judged((work, cases, tally), (flown, &budget), replayed, watch)
 }
 

@@ -27,13 +27,13 @@ pub(crate) struct MaxLoad {
     pub(crate) cloud: Option<PathBuf>,
     /// Campaign folder for the programs of CELL, with the graph and the reasons of refused moves; then `hairpin
     /// export OUT --to rapid`
-    #[arg(long, value_name = "OUT", requires = "cell")]
+    #[arg(long, value_name = "OUT", requires = "cell", conflicts_with = "graph")]
     pub(crate) out: Option<PathBuf>,
     /// Replace the campaign in --out
-    #[arg(long, requires = "out")]
+    #[arg(long, requires = "out", conflicts_with = "graph")]
     pub(crate) force: bool,
     /// Override one key of CELL's scenario, such as generate.mode=\"cartesian\"; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE", requires = "cell")]
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "cell", conflicts_with = "graph")]
     pub(crate) sets: Vec<String>,
     /// First point, counted from 0
     #[arg(long, value_name = "I")]

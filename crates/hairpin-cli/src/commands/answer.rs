@@ -40,7 +40,7 @@ pub struct Answer<'a> {
 
 impl Answer<'_> {
     fn header(&self) -> Header {
-        Header::of(&self.work.setup, &self.judgement.results)
+        Header::of(&self.work.setup, (self.cases, &self.judgement.results), self.tally)
     }
 
     fn claim(&self, result: &CaseResult) -> Option<String> {

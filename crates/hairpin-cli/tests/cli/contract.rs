@@ -206,6 +206,31 @@ fn every_answer_for_machines_is_one_document() {
     }
 }
 
+/// Clap says on lines of their own what is missing, what is possible and what may have been meant.
+#[test]
+fn wrong_usage_is_told_to_machines_as_a_whole() {
+    let place = tempfile::tempdir().unwrap();
+    for (wrong, told) in [
+        (&["fit", "a.csv"][..], "the following required arguments were not provided: --robot <"),
+        (&["fit", "a.csv"], "; --out <"),
+        (
+            &["steer", "generic", "--to", "1,0,0", "--cost", "none"],
+            "for '--cost <NAME>' [possible values: any, curvature,",
+        ),
+        (
+            &["stress", "quadrotor.toml", "--thread", "1"],
+            "unexpected argument '--thread' found; tip: a similar argument exists: '--threads'",
+        ),
+        (&["max-load", "--graph", "g.csv", "--out", "o"], " cannot be used with '--"),
+    ] {
+        let (object, error) = json(place.path(), wrong);
+        let sentence = object["error"].as_str().unwrap();
+        assert!(sentence.contains(told), "{sentence}");
+        assert!(!sentence.contains('\n') && !sentence.contains("Usage"), "{sentence}");
+        assert!(!sentence.contains("more information") && error.contains("more information"), "{sentence}: {error}");
+    }
+}
+
 #[test]
 fn a_share_has_an_interval_where_it_estimates_something() {
     let place = tempfile::tempdir().unwrap();

@@ -67,6 +67,16 @@ fn what_is_no_table_is_refused_with_its_place() {
     refused(folder.path(), &[&graph[..], &["--start", "2"]].concat(), &["start", "2"]);
     refused(folder.path(), &[&graph[..], &["--min-cost", "-3"]].concat(), &["min-cost", "-3"]);
     refused(folder.path(), &[&graph[..], &["--programs", "2", "--method", "dfs"]].concat(), &["dfs", "2"]);
+    // What is of cells alone.
+    for (more, name) in [
+        (&["--out", "o"][..], "--out"),
+        (&["--force"], "--force"),
+        (&["--out", "o", "--force"], "--out"),
+        (&["--set", "generate.mode=1"], "--set"),
+        (&["irb120"], "CELL"),
+    ] {
+        refused(folder.path(), &[&graph[..], more].concat(), &[name, "cannot be used with"]);
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::commands::{SMALL, assert_same, copy, json, refused, run};
+use crate::commands::{SMALL, assert_same, copy, json, refused, run, small_hull};
 
 const FINE: &str = "x_m,y_m,z_m\n3,3,3\n3,3,9\n9,3,9\n";
 
@@ -66,6 +66,8 @@ fn what_spreadsheets_write_flies_as_the_same_mission() {
         format!("\u{feff}{FINE}"),
         FINE.trim_end().to_owned(),
         format!("{FINE}\n \n"),
+        FINE.replace(',', ";"),
+        FINE.replace(',', "\t"),
         "note,z_m,\"y_m\", x_m\na,3,3,3\nb,9.0,3,3\nc,9,\"3\",9e0\n".to_owned(),
     ] {
         mission(folder.path(), &text);
@@ -140,6 +142,44 @@ fn missions_are_judged_and_compared_with_what_a_search_finds() {
         &["execute", "s", "--missions", "mine"],
         &["a.plan", "item 4 (command 18, loiter for turns)"],
     );
+}
+
+/// What a search finds beside missions is counted nowhere, and where whoever executes fails in all of it, nothing is
+/// there to compare with. The missions are judged and reported all the same.
+#[test]
+fn missions_are_judged_whatever_becomes_of_the_search_beside_them() {
+    let folder = tempfile::tempdir().unwrap();
+    mission(folder.path(), "x_m,y_m,z_m\n2,2,5\n6,2,5\n6,6,5\n");
+    let sluggish = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/sluggish.py");
+    let command = format!("command = \"python3 '{sluggish}' --sick error --always --but 3\"");
+    let in_loop = r#"{ method = "in-loop", waypoints = 60, cases = 2, executions = 8 }"#;
+    let beam = r#"{ method = "beam", waypoints = 40, cases = 2 }"#;
+    let in_loop_failed = "the search beside it failed (sluggish point: none of the executions in the loop came to a \
+                          flight; the last: reports: not today)";
+    let beam_failed = "none of 2 that a search finds was executed (";
+    for (out, search, limit, outcome, code, failed) in [
+        ("a", in_loop, "0.01", "FAIL 1/1", 1, in_loop_failed),
+        ("b", in_loop, "15", "PASS 1/1", 0, in_loop_failed),
+        ("c", beam, "15", "PASS 1/1", 0, beam_failed),
+    ] {
+        let text = small_hull(search).replace("controller = \"minimum-snap\"", &command);
+        fs::write(folder.path().join("s.toml"), text.replace("max_m = 0.5", &format!("max_m = {limit}"))).unwrap();
+        let found = json(folder.path(), &["stress", "s.toml", "--missions", "mine", "--out", out]);
+        let verdict = found["verdict"].as_str().unwrap();
+        assert!(verdict.starts_with(outcome) && found["exit_code"] == code, "{found}");
+        assert!(verdict.contains(&format!(" m: nothing to compare with; {failed}")), "{verdict}");
+        // What is counted is the mission's, not the scenario's.
+        assert_eq!((&found["counts"]["cases"], &found["frame"]["length"]), (&1.into(), &3.into()), "{found}");
+        let junit = fs::read_to_string(folder.path().join(out).join("junit.xml")).unwrap();
+        assert_eq!((junit.matches("<testcase ").count(), junit.matches("<failure ").count()), (1, code));
+        let report = fs::read_to_string(folder.path().join(out).join("report.html")).unwrap();
+        assert!(report.contains("3 counts waypoints") && !report.contains("5 counts waypoints"));
+        let judged = json(folder.path(), &["judge", out]);
+        assert_eq!((&judged["verdict"], &judged["missions"]), (&found["verdict"], &found["missions"]));
+        // Gone on with, it is searched again, and comes to the same.
+        let again = json(folder.path(), &["stress", "s.toml", "--missions", "mine", "--out", out, "--resume"]);
+        assert_eq!(again["verdict"], found["verdict"]);
+    }
 }
 
 /// The folder's own search is what missions are compared with, where it was judged.

@@ -231,9 +231,44 @@ fn broken_files_and_flags_are_2() {
         (vec!["steer", "generic", "--to", "1,0,0", "--max-curvature", "0"], "> 0"),
         (vec!["steer", "generic", "--to", "1,0,0", "--queries", "q.csv"], "cannot be used with"),
         (vec!["steer", "generic", "--queries", "q.csv", "--time-limit-ms", "-1"], "milliseconds"),
+        (vec!["steer", "generic", "--to", "1,0,0", "--out", "r.csv"], "cannot be used with"),
+        (vec!["steer", "generic", "--from", "1,0,0", "--out", "r.csv"], "cannot be used with"),
+        (vec!["steer", "generic", "--to", "1,0,0", "--resume"], "cannot be used with"),
+        (vec!["steer", "quadrotor", "--to", "1,0,0"], "no rover"),
     ] {
         let (code, out, error) = run(path, &arguments);
         assert!(code == 2 && out.is_empty() && error.contains(told), "{arguments:?}: {code} {out} {error}");
+    }
+}
+
+/// Where nothing else takes them, the answers are in the object.
+#[test]
+fn machines_get_the_answers_without_a_file_too() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("q.csv"), "id,x,y,yaw,k0,kf\n7,4,1,0.5,0,0\nb,x,1,0,0,0\n").unwrap();
+    let ask = ["steer", "generic", "--queries", "q.csv", "--json"];
+    let object = |more: &[&str]| -> Value {
+        let (code, out, error) = run(folder.path(), &[&ask[..], more].concat());
+        assert_eq!(code, 0, "{error}");
+        serde_json::from_str(&out).unwrap_or_else(|why| panic!("{why}: {out}{error}"))
+    };
+    let answers = object(&[])["answers"].as_array().unwrap().clone();
+    let filed = object(&["--out", "r.csv"]);
+    assert!(filed.get("answers").is_none() && filed["queries"] == 2, "{filed}");
+    let table = fs::read_to_string(folder.path().join("r.csv")).unwrap();
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(lines.clone().count(), answers.len());
+    for (line, answer) in lines.zip(&answers) {
+        assert_eq!(answer.as_object().unwrap().len(), names.len(), "{answer}");
+        for (name, cell) in names.iter().zip(line.split(',')).filter(|(name, _)| **name != "time_us") {
+            let told = match &answer[*name] {
+                Value::Null => String::new(),
+                Value::String(text) => text.clone(),
+                number => number.as_f64().unwrap().to_string(),
+            };
+            assert_eq!(told, cell, "{name} of {answer}");
+        }
     }
 }
 

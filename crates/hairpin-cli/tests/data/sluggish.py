@@ -1,7 +1,8 @@
 """A sluggish point that chases waypoint after waypoint, for tests: deterministic, and the worse the sharper it has to turn.
 
 What it is asked is kept in the file FILE (`--log FILE`); `--sick KIND` makes a third of its missions, by their waypoints, go wrong: KIND is
-`error`, `exit`, `nan` or `silent`; `--always` makes all of them.
+`error`, `exit`, `nan` or `silent`; `--always` makes all of them, `--but N`
+those that have N waypoints excepted.
 """
 import argparse
 import json
@@ -13,6 +14,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument("--log")
 parser.add_argument("--sick")
 parser.add_argument("--always", action="store_true")
+parser.add_argument("--but", type=int, metavar="N")
 options = parser.parse_args()
 
 
@@ -23,7 +25,7 @@ def say(**message):
 def fly(mission, step=0.05):
     points, of = mission["waypoints_m"], {"case": mission["case"], "run": mission["run"]}
     third = int(sum(abs(x) for p in points for x in p) * 1000) % 3 == 0
-    if options.sick and (third or options.always):
+    if options.sick and (third or options.always) and len(points) != options.but:
         if options.sick == "error":
             return say(type="error", message="not today", **of)
         if options.sick == "exit":

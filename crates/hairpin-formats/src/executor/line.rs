@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, excerpt};
 use super::heard::FromExecutor;
+use crate::delimited::BYTE_ORDER_MARK;
 
 /// The message in line number `number`.
 pub(super) fn parse(bytes: &[u8], number: u64) -> Result<FromExecutor, Failure> {
@@ -12,6 +13,9 @@ pub(super) fn parse(bytes: &[u8], number: u64) -> Result<FromExecutor, Failure> 
         // Whole as a table, and so meant for us; a banner is none.
         if error.is_data() && text.trim_start().starts_with('{') {
             return Failure::NotUnderstood { number, cause: error.to_string(), line: line() };
+        }
+        if text.starts_with(BYTE_ORDER_MARK) {
+            return garbage("it begins with a byte order mark, as the stream alone may".into());
         }
         // Python's json writes these; they are no JSON.
         let infinite = ["NaN", "Infinity"].into_iter().find(|word| text.contains(word));

@@ -7,6 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use crate::delimited::BYTE_ORDER_MARK;
+
 /// No message of the protocol comes near this, bytes.
 pub(super) const LONGEST_LINE: usize = 1 << 20;
 /// What is read at once, bytes: as much as a pipe holds.
@@ -40,6 +42,8 @@ pub(crate) struct Lines {
     /// The batch that is being looked at, and how far.
     batch: Vec<u8>,
     at: usize,
+    /// Whether a line of it was handed on.
+    begun: bool,
 }
 
 impl Lines {
@@ -47,7 +51,7 @@ impl Lines {
     pub(crate) fn of(stdout: impl Read + Send + 'static) -> Self {
         let (sender, batches) = sync_channel(WAITING);
         thread::spawn(move || send_batches(stdout, &sender));
-        Self { batches, batch: Vec::new(), at: 0 }
+        Self { batches, batch: Vec::new(), at: 0, begun: false }
     }
 
     /// The next one, if it comes in time.
@@ -64,7 +68,11 @@ impl Lines {
         if end > LONGEST_LINE {
             return Ok(Line::TooLong);
         }
-        let text = &rest[..end];
+        let mut text = &rest[..end];
+        if !std::mem::replace(&mut self.begun, true) {
+            // A stream may begin with it, as a file may.
+            text = text.strip_prefix(BYTE_ORDER_MARK.encode_utf8(&mut [0; 3]).as_bytes()).unwrap_or(text);
+        }
         let kept = text.iter().rposition(|byte| *byte != b'\r').map_or(0, |last| last + 1);
         Ok(Line::Text(text[..kept].to_vec()))
     }

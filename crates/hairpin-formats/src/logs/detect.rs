@@ -72,7 +72,9 @@ impl Format {
             bytes.split(|byte| *byte == b'\n').map(|line| String::from_utf8_lossy(&line[..line.len().min(2_000)]));
         let is_data = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
         let first = lines.clone().find(|line| !line.trim().is_empty())?;
-        if first.contains([',', ';']) {
+        // Numbers between tabs may be a TUM log's; names are a table's.
+        let names = |line: &str| line.split('\t').all(|word| word.trim().parse::<f64>().is_err());
+        if first.contains([',', ';']) || first.contains('\t') && is_data(&first) && names(&first) {
             return Some(Self::Csv);
         }
         let first = lines.find(|line| is_data(line))?;
@@ -92,6 +94,8 @@ mod tests {
             ("1 2 3 4 0 0 0 1\n", "a.csv", Some(Format::Csv)),
             ("#timestamp, x [m]\n1,2\n", "a", Some(Format::Csv)),
             ("t_s;x_m\n", "a.log", Some(Format::Csv)),
+            ("t_s\tx_m\n", "a.log", Some(Format::Csv)),
+            ("1\t2\t3\t4\t0\t0\t0\t1\n", "a.log", Some(Format::Tum)),
             ("hello world\n", "a.log", None),
             ("", "a.log", None),
         ] {

@@ -126,7 +126,7 @@ pub fn from_folder(
         verdict,
         assumptions,
         shown: in_full.into_iter().map(|(_, shown)| shown).collect(),
-        frame: Header::of(setup, &results).lines(),
+        frame: Header::of(setup, (&cases, &results), &tally).lines(),
         influences: folder.read_influences()?,
         coverage: folder.read_coverage()?,
         baseline: baseline

@@ -38,6 +38,7 @@ pub use files::attach;
 pub use guest::kept_in;
 pub(crate) use python::{driver, held};
 pub use report::{Complaint, Report};
+pub use robot::means_scenario;
 pub use rover::rover_for;
 pub use world_of::{NamedWorld, is_map, named_world};
 pub(crate) use write::MADE_BY;

@@ -7,15 +7,17 @@ use hairpin::campaign::Mistake;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
+use super::guest::Guest;
 use super::report::{Place, Report};
 use super::resolve::Resolver;
 use super::tree::{Node, NodeKind};
 use super::whole::as_path;
-use super::{apply_sets, place_of, shape};
+use super::{apply_sets, is_scenario, kept_in, place_of, shape, tree};
+use crate::bounds::{self, MOST_TEXT_BYTES};
 use crate::library::{self, Shipped};
 
-/// The robot of one of `kinds` that `name_or_path` means, built from its description with `sets` in it (`robot.KEY`,
-/// value); `shipped` are those that are told of.
+/// The robot of one of `kinds` that `name_or_path` means, a robot's name or file or a scenario ([`means_scenario`]),
+/// built from its description with `sets` in it (`robot.KEY`, value); `shipped` are those that are told of.
 ///
 /// # Errors
 /// Nothing of that name, no robot's file, another kind of robot, wrong keys and types, values out of bounds.
@@ -33,6 +35,36 @@ pub(super) fn robot_for<D: DeserializeOwned + JsonSchema, R>(
     }
 }
 
+/// Whether `name_or_path` gives a robot by a scenario: a file of one, or a shipped name that no robot has.
+pub fn means_scenario(name_or_path: &str) -> bool {
+    is_scenario(name_or_path)
+        && (Path::new(name_or_path).is_file() || library::robots().all(|robot| robot.name != name_or_path))
+}
+
+/// Of the scenario that `name_or_path` means the robot, as it names or describes it, and nothing else.
+fn of_scenario(name_or_path: &str, sets: &[(String, String)], report: &mut Report) -> Option<Node> {
+    let path = Path::new(name_or_path);
+    let text = if path.is_file() {
+        bounds::read_text(path, MOST_TEXT_BYTES).unwrap_or_default()
+    } else {
+        library::scenarios().find(|shipped| shipped.name == name_or_path)?.text.to_owned()
+    };
+    let source = report.add_source(name_or_path, text);
+    let mut root = tree::parse(source, report)?;
+    if let Some(folder) = kept_in(name_or_path)
+        && let Some((key, name, why)) = Guest::new(&folder, sets).wrong_part(&root)
+    {
+        report.complain(&place_of(&root, key), key, &name, &why, format!("`{key}` = {name:?}: {why}"));
+        return None;
+    }
+    root.entries()?.retain(|key, _| key == "robot");
+    if root.get("robot").is_none() {
+        report.complain(&root.place, "robot", "", "must be given", "`robot` is missing: the scenario has none".into());
+        return None;
+    }
+    Some(root)
+}
+
 fn read<D: DeserializeOwned + JsonSchema, R>(
     name_or_path: &str,
     kinds: &[&str],
@@ -43,7 +75,8 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
 ) -> Option<R> {
     let kind = alternatives(kinds);
     let own = Path::new(name_or_path).is_file();
-    if !own && library::robots().all(|robot| robot.name != name_or_path) {
+    let whole = means_scenario(name_or_path);
+    if !whole && !own && library::robots().all(|robot| robot.name != name_or_path) {
         let known: Vec<&str> = shipped.map(|robot| robot.name).collect();
         let near = shape::nearest(name_or_path, known.iter().copied());
         let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -52,14 +85,19 @@ fn read<D: DeserializeOwned + JsonSchema, R>(
         report.complain_of_file(name_or_path, &message);
         return None;
     }
-    let source = report.add_source(name_or_path, "");
-    let asked = Place { source, span: 0..0 };
-    // A file goes before what is shipped.
-    let path = if own { as_path(name_or_path) } else { name_or_path.into() };
-    let named = Node { kind: NodeKind::Text(path.into_owned()), place: asked.clone(), key: None };
-    let robot = BTreeMap::from([("robot".to_owned(), named)]);
-    let mut around = Node { kind: NodeKind::Table(robot), place: asked, key: None };
-    let mut resolver = Resolver { base: Path::new(""), report };
+    let mut around = if whole {
+        of_scenario(name_or_path, sets, report)?
+    } else {
+        let source = report.add_source(name_or_path, "");
+        let asked = Place { source, span: 0..0 };
+        // A file goes before what is shipped.
+        let path = if own { as_path(name_or_path) } else { name_or_path.into() };
+        let named = Node { kind: NodeKind::Text(path.into_owned()), place: asked.clone(), key: None };
+        let robot = BTreeMap::from([("robot".to_owned(), named)]);
+        Node { kind: NodeKind::Table(robot), place: asked, key: None }
+    };
+    let base = if whole && own { Path::new(name_or_path).parent() } else { None };
+    let mut resolver = Resolver { base: base.unwrap_or(Path::new("")), report };
     apply_sets(&mut around, sets, &mut resolver);
     resolver.robot(&mut around);
     let root = around.entries()?.remove("robot")?;

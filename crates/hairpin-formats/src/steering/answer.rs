@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 
 use serde::Serialize;
+use serde_json::Value;
 
 use super::Frame;
 
@@ -139,6 +140,25 @@ pub fn rows(answers: &[Answer]) -> String {
     table
 }
 
+/// The rows of a table that [`head`] and [`rows`] wrote, each with its cells by column: numbers as such, null where
+/// there is none.
+pub fn objects(table: &str) -> Vec<Value> {
+    /// The columns that are words, whatever they look like.
+    const WORDS: [&str; 4] = ["id", "kind", "status", "limit"];
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let of = |(column, cell): (&str, &str)| {
+        let value = match cell {
+            "" => Value::Null,
+            _ if WORDS.contains(&column) => cell.into(),
+            // Whole numbers as such; of others the bits that were written.
+            _ => cell.parse::<i64>().map_or_else(|_| cell.parse::<f64>().ok().into(), Value::from),
+        };
+        (column.to_owned(), value)
+    };
+    let all = reader.records().map_while(Result::ok);
+    all.map(|row| COLUMNS.into_iter().zip(&row).map(of).collect::<serde_json::Map<_, _>>().into()).collect()
+}
+
 fn add_rows(table: &mut String, answer: &Answer) {
     let left = answer.frame.left();
     let pieces = answer.drive.as_ref().map_or(&[][..], |drive| &drive.pieces);
@@ -246,6 +266,34 @@ mod tests {
         let ned = lines(&[answer]);
         assert!(ned[1].contains(",1.5,0,-0.25,0.5,0,0,0,0,0.000000001,-0.000000002,0.000000003,0,0.5,,"), "{}", ned[1]);
         assert!(ned[2].contains(",turn,1,ok,3,1.250,0,-0.5,"), "{}", ned[2]);
+    }
+
+    #[test]
+    fn rows_become_objects_with_the_same_fields() {
+        let arc = Piece::Arc { length_m: 0.1, curvature: [1.0 / 3.0, 0.0, 0.0, 0.0, 0.0, 0.0], direction: -1 };
+        let errors = Errors { x_m: 1e-19, y_m: 0.0, yaw_rad: 0.0, curvature_1_m: 0.0 };
+        let of = |id: &str, status, drive, limit: Option<(String, Option<f64>)>| Answer {
+            id: id.into(),
+            frame: Frame::Enu,
+            status,
+            iterations: 3,
+            time_us: 1.25,
+            drive,
+            limit,
+        };
+        let drive = Drive { pieces: vec![arc], errors, max_curvature_1_m: 0.5 };
+        let limit = Some(("x".to_owned(), None));
+        let answers = [of("7", Status::Ok, Some(drive), None), of("a,\n\"b\"", Status::Invalid, None, limit)];
+        let found = objects(&(head() + &rows(&answers)));
+        assert_eq!(found.len(), 2);
+        let fields: Vec<&str> = found[0].as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(fields.len(), COLUMNS.len());
+        assert!(COLUMNS.iter().all(|column| fields.contains(column)));
+        assert_eq!((&found[0]["id"], &found[0]["direction"]), (&"7".into(), &(-1).into()));
+        assert_eq!((found[0]["a0"].as_f64(), found[0]["err_x_m"].as_f64()), (Some(1.0 / 3.0), Some(1e-19)));
+        assert_eq!((&found[1]["id"], &found[1]["limit"]), (&"a,\n\"b\"".into(), &"x".into()));
+        assert!(found[1]["length_m"].is_null() && found[1]["kind"].is_null() && found[1]["time_us"] == 1.25);
+        assert!(objects(&head()).is_empty());
     }
 
     #[test]

@@ -10,7 +10,7 @@ mod start_table;
 mod states;
 mod stored;
 
-pub use answer::{Answer, Drive, Errors, Piece, Status, head, rows};
+pub use answer::{Answer, Drive, Errors, Piece, Status, head, objects, rows};
 pub use blocks::{Block, Blocks};
 pub use kept::{KeptAnswer, kept_answers};
 pub use plot::{Stretch, svg};

@@ -153,6 +153,8 @@ mod tests {
             ("id,sx,x,y,yaw,k0,kf\n", "belong together"),
             ("id,x,y,yaw,k0,kf\n\"a,1,2,0,0,0\nb,1,2,0,0,0\n", "quotes"),
             ("{\"id\": 1}\n", "no column"),
+            ("id;x;y;yaw;k0;kf\na;1;2;0;0;0\n", "no column `id`: its cells stand between semicolons"),
+            ("id\tx\ty\tyaw\tk0\tkf\n", "no column `id`: its cells stand between tabs"),
         ] {
             let found = parse(text.as_bytes()).unwrap_err().to_string();
             assert!(found.contains(told), "{text:?}: {found}");

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::blocks::Block;
-use crate::delimited::line_of;
+use crate::delimited::{delimiter_of, line_of};
 use crate::frames;
 use crate::quote;
 
@@ -151,7 +151,14 @@ impl Columns {
         }
         let mut needed = [0; NEEDED.len()];
         for (at, column) in needed.iter_mut().zip(NEEDED) {
-            let Some(place) = place(column) else { return refuse(format!("no column `{column}`")) };
+            let Some(place) = place(column) else {
+                let between = match delimiter_of(head) {
+                    b';' => ": its cells stand between semicolons, and must stand between commas",
+                    b'\t' => ": its cells stand between tabs, and must stand between commas",
+                    _ => "",
+                };
+                return refuse(format!("no column `{column}`{between}"));
+            };
             *at = place;
         }
         let start = match START.map(place) {

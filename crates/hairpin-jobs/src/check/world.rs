@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use hairpin::campaign::{Mistake, Setup};
-use hairpin_formats::library;
 use hairpin_formats::missions::{self, Mission};
-use hairpin_formats::scenario::{is_map, is_scenario, setup_for, setup_for_missions, shadowed};
+use hairpin_formats::scenario::{is_map, is_scenario, means_scenario, setup_for, setup_for_missions, shadowed};
 use nalgebra::{Point3, Vector3};
 use serde_json::json;
 
@@ -29,7 +28,7 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<Read, 
     shadowed(robot).iter().for_each(|note| watch.warn(note));
     let (setup, name) = match world {
         Some(world) if is_scenario(world) => {
-            if brings_a_world(robot) {
+            if means_scenario(robot) {
                 return Err(Problem::input(format!(
                     "--robot {robot} and --world {world} are both scenarios: give a robot's name or file, or one scenario as --robot"
                 )));
@@ -48,18 +47,13 @@ pub(super) fn read(settings: &CheckSettings, watch: &dyn Watch) -> Result<Read, 
         }
         None => (setup_for_missions(robot, sets)?, robot.clone()),
     };
-    let given = world.is_some() || brings_a_world(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
+    let given = world.is_some() || means_scenario(robot) || sets.iter().any(|(key, _)| key.trim().starts_with("world"));
     if given {
         let read = missions::read(mission, &setup.scenario, setup.handed().farthest).map_err(Problem::input)?;
         same_vehicle(&setup, &read)?;
         return Ok((setup, read, format!("world of {name}"), Vec::new()));
     }
     in_the_open((&setup, sets), mission)
-}
-
-/// Whether a robot is given by a scenario; a shipped name that is a robot's too is the robot's.
-fn brings_a_world(robot: &str) -> bool {
-    is_scenario(robot) && (Path::new(robot).is_file() || !library::robots().any(|shipped| shipped.name == robot))
 }
 
 /// The mission in `file` by itself, for whoever asks what it is: of no robot, and nothing is around it.

@@ -200,6 +200,14 @@ mod tests {
         };
         assert_eq!((searched.found.outcome, searched.found.paths.len()), (Outcome::Infeasible, 0));
         assert_eq!(searched.why_none.unwrap(), "no move from one point of the cloud to another is possible");
+        std::fs::write(&points, "x_mm,y_mm,z_mm\n300,0,300\n").unwrap();
+        let CloudAnswer::Searched(searched) = search_cloud(&settings, &Unwatched).unwrap() else {
+            panic!("it can be met")
+        };
+        assert_eq!(
+            searched.why_none.unwrap(),
+            "the cloud has one point, and a program goes from one to another at least"
+        );
         std::fs::write(&points, "x_mm,y_mm,z_mm\n9000,0,300\n9000,100,300\n").unwrap();
         assert!(matches!(search_cloud(&settings, &Unwatched).unwrap(), CloudAnswer::Nothing { open: None, .. }));
     }

@@ -1,7 +1,7 @@
 //! How stressful missions are, beside what a search finds in the same scenario and beside random feasible cases.
 
 use hairpin::campaign::digits::number;
-use hairpin::campaign::{Baseline, CaseNumber, CaseResult, Rank, stresses};
+use hairpin::campaign::{Baseline, CaseNumber, CaseResult, Rank, Status, stresses};
 use hairpin::judgement::Verdict;
 
 use super::told::{MissionsTold, read_told};
@@ -52,13 +52,29 @@ pub(crate) fn compare(work: &Work, results: &[CaseResult]) -> Result<Option<Comp
     let Some(worst) = each.iter().max_by(|a, b| (sign * a.stress).total_cmp(&(sign * b.stress))).cloned() else {
         return Ok(None);
     };
-    let words = in_words(work, &told, &worst);
+    let own = Baseline::of(sought, repeat, results);
+    let stress = own.map_or_else(|| number(Some(worst.stress)), |own| own.told(&work.setup, worst.stress));
+    let failed = if worst.searched.is_none() { failed(&told, &searched) } else { None };
+    let words = in_words(work, (&told, &worst), &stress, failed);
     Ok(Some(Compared { worst, each, told, words }))
+}
+
+/// Why nothing of what was to be `searched` beside missions is there to compare with; `None` where nothing was to be,
+/// or nothing was found.
+fn failed(told: &MissionsTold, searched: &[CaseResult]) -> Option<String> {
+    if let Some(why) = &told.search_failed {
+        return Some(format!("the search beside it failed ({why})"));
+    }
+    let first = searched.iter().find(|result| result.status == Status::ExecutorFailed)?;
+    let why = first.message.as_ref().map_or(String::new(), |why| format!(" ({why})"));
+    Some(format!("none of {} that a search finds was executed{why}", searched.len()))
 }
 
 /// `the most stressful mission is up (0000), 0.42 m: above 12 of 20 that a search finds (0.65 of their worst, 0.65 m)
 /// and above 20 of 20 random feasible ones (1.9 of their mean, 0.22 m)`.
-fn in_words(work: &Work, told: &MissionsTold, worst: &Ranked) -> String {
+///
+/// Of a search that `failed` this is said behind it.
+fn in_words(work: &Work, (told, worst): (&MissionsTold, &Ranked), stress: &str, failed: Option<String>) -> String {
     let name = told.missions.get(worst.case.0).map_or("", |one| one.name.as_str());
     let unit = |of: &Baseline, value: f64| of.told(&work.setup, value);
     let among = |rank: &Rank, who: &str, what: &str, value: f64, ratio: Option<f64>| {
@@ -71,11 +87,10 @@ fn in_words(work: &Work, told: &MissionsTold, worst: &Ranked) -> String {
         .map(|rank| among(rank, "that a search finds", "their worst", rank.of.worst, rank.to_worst));
     let random =
         worst.random.as_ref().map(|rank| among(rank, "random feasible ones", "their mean", rank.of.mean, rank.to_mean));
-    let of = worst.searched.as_ref().or(worst.random.as_ref()).map(|rank| &rank.of);
-    let stress = of.map_or_else(|| number(Some(worst.stress)), |of| unit(of, worst.stress));
     let beside: Vec<String> = searched.into_iter().chain(random).collect();
     let beside = if beside.is_empty() { "nothing to compare with".into() } else { beside.join(" and ") };
-    format!("the most stressful mission is {name} ({}), {stress}: {beside}", worst.case)
+    let failed = failed.map_or(String::new(), |failed| format!("; {failed}"));
+    format!("the most stressful mission is {name} ({}), {stress}: {beside}{failed}", worst.case)
 }
 
 /// `verdict` with how stressful the missions are, and how many are not feasible.

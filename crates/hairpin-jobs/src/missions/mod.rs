@@ -23,7 +23,7 @@ pub(crate) use compared::{compare, with_compared};
 pub(crate) use fenced::{Beyond, FENCE, MayBe, Moved, READ_OTHERWISE, look};
 pub(crate) use leg::Leg;
 pub use told::{MissionTold, MissionsTold};
-pub(crate) use told::{doubt_lost_fence, hold, read_told, takes_all_parts};
+pub(crate) use told::{doubt_lost_fence, hold, keep_search_failed, read_told, takes_all_parts};
 
 /// The missions of a folder or file, as cases of `setup` may be made of them. Asked before anything is written.
 ///

@@ -10,12 +10,16 @@ use super::fenced::{self, FENCE};
 use super::leg::Leg;
 use crate::Problem;
 use crate::check::{certainty_word, frame_in_words};
+use crate::work::Work;
 
 /// All missions of a campaign, a row a case.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MissionsTold {
     /// In the order of cases.
     pub missions: Vec<MissionTold>,
+    /// Why the search beside them came to nothing, where whoever executes failed in all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub search_failed: Option<String>,
 }
 
 /// A mission.
@@ -75,13 +79,14 @@ impl MissionsTold {
                 },
             }
         };
-        Self { missions: legs.iter().map(one).collect() }
+        Self { missions: legs.iter().map(one).collect(), search_failed: None }
     }
 
     /// What a log of `mission`, the only case, is held against: however it is divided by its stops, it is all of it.
     pub(crate) fn of_log(mission: &Mission) -> Self {
         let demands = Demands { fences: Fences::of(mission), ..Demands::default() };
-        Self { missions: vec![MissionTold { name: mission.name.clone(), demands, ..MissionTold::default() }] }
+        let mission = MissionTold { name: mission.name.clone(), demands, ..MissionTold::default() };
+        Self { missions: vec![mission], search_failed: None }
     }
 
     /// What is asked of `case` beside the spec; `None` where that is nothing.
@@ -151,6 +156,15 @@ pub(crate) fn doubt_lost_fence(repro: &Repro, result: &mut CaseResult) {
 /// What `folder` keeps of its missions; `None` where its cases are none.
 pub(crate) fn read_told(folder: &CampaignFolder) -> Result<Option<MissionsTold>, Problem> {
     Ok(folder.read_missions()?)
+}
+
+/// Keeps in the folder of `work` why the search beside its missions came to nothing, or that it no longer does.
+///
+/// # Errors
+/// A file that is broken or cannot be written.
+pub(crate) fn keep_search_failed(work: &Work, why: Option<String>) -> Result<(), Problem> {
+    let Some(told) = read_told(&work.folder)?.filter(|told| told.search_failed != why) else { return Ok(()) };
+    Ok(work.folder.write_missions(&MissionsTold { search_failed: why, ..told })?)
 }
 
 #[cfg(test)]

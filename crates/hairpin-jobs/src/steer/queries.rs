@@ -1,4 +1,4 @@
-//! Many queries from a file, answered into another, to whoever shows them, or counted.
+//! Many queries from a file, answered into another, or to whoever shows them.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -23,8 +23,6 @@ pub enum Answers<'a> {
     Resumed(&'a Path),
     /// To whoever shows them, as they come.
     Shown(&'a mut (dyn FnMut(&str) + Send)),
-    /// Nowhere: they are counted.
-    Counted,
 }
 
 impl Vehicle {
@@ -57,7 +55,7 @@ impl Vehicle {
         let (kept, out) = match &answers {
             Answers::Resumed(out) if out.exists() => (kept_in(out)?, Some(*out)),
             Answers::Resumed(out) | Answers::File(out) => (Vec::new(), Some(*out)),
-            Answers::Shown(_) | Answers::Counted => (Vec::new(), None),
+            Answers::Shown(_) => (Vec::new(), None),
         };
         let steps = Steps::new(watch, "queries", kept.len().min(count), count);
         let most_drawn = if drawn { MOST_DRAWN } else { 0 };
@@ -71,7 +69,6 @@ impl Vehicle {
                     Ok(())
                 })
             }
-            Answers::Counted => run.all(blocks, &mut |_| Ok(())),
         }?;
         drop(steps);
         if let Some(twice) = batch.twice() {

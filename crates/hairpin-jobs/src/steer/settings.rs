@@ -13,7 +13,8 @@ use super::Pace;
 /// What drives, where, and how drives are looked for.
 #[derive(Debug, Clone, Default)]
 pub struct SteerSettings {
-    /// Vehicle: a shipped rover's name, such as `generic`, or a robot file.
+    /// Vehicle: a shipped rover's name, such as `generic`, a robot file, or a scenario, of which the robot alone is
+    /// taken.
     pub rover: String,
     /// What moves the body on the ground.
     pub kinematics: Kinematics,

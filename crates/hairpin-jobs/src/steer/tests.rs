@@ -24,6 +24,45 @@ fn a_question_is_answered_and_summed_up() {
     assert!(vehicle.remedies(&asked, &answered).nearest.is_none());
 }
 
+/// Of a scenario its robot drives, and whose ground it is is said.
+#[test]
+fn a_scenario_gives_its_robot() {
+    let asked = Question { to: [4.0, 1.0, 0.5, 0.0], ..Question::default() }.asked();
+    let length = |rover: &str, told: &Told| {
+        let settings = SteerSettings { rover: rover.into(), ..SteerSettings::default() };
+        let vehicle = Vehicle::new(&settings, told).unwrap();
+        let answered = vehicle.answer(&asked);
+        assert_eq!(answered.status, Status::Ok, "{rover}");
+        answered.drive.unwrap().1.length
+    };
+    let silent = Told::default();
+    let alone = length("rocky8", &silent);
+    assert!(silent.0.into_inner().unwrap().is_empty());
+    let place = tempfile::tempdir().unwrap();
+    let own = place.path().join("own.toml");
+    fs::write(&own, "kind = \"rover\"\nname = \"own\"\n[limits]\ncurvature_1_m = 0.5\n").unwrap();
+    let scenario = place.path().join("scenario.toml");
+    for (robot, name, same) in [("\"rocky8\"", "rocky8", true), ("\"own.toml\"", "own", false)] {
+        fs::write(&scenario, format!("hairpin = 1\nrobot = {robot}\n[world]\nterrain = {{ file = \"no.tif\" }}\n"))
+            .unwrap();
+        let told = Told::default();
+        assert_eq!(length(&scenario.display().to_string(), &told) == alone, same, "{robot}");
+        let told = told.0.into_inner().unwrap().join("\n");
+        assert!(told.contains(&format!("the robot alone is taken, `{name}`: on level ground")), "{told}");
+    }
+    assert_eq!(length("demo-rover", &Told::default()), alone);
+    for (text, words) in [
+        ("hairpin = 1\n[task]\nlength = 3\n", "`robot` is missing"),
+        ("hairpin = 1\nrobot = \"anafi\"\n", "no rover"),
+        ("hairpin = 1\nrobot = \"none.toml\"\n", "none.toml"),
+    ] {
+        fs::write(&scenario, text).unwrap();
+        let settings = SteerSettings { rover: scenario.display().to_string(), ..SteerSettings::default() };
+        let refused = Vehicle::new(&settings, &Unwatched).map(|_| ()).unwrap_err().to_string();
+        assert!(refused.contains(words), "{text}: {refused}");
+    }
+}
+
 #[test]
 fn frames_ask_the_same_question() {
     let enu = Question { from: Some([1.0, 2.0, 0.3, 0.1]), to: [5.0, 3.0, 0.8, 0.0], ..Question::default() }.asked();
@@ -62,7 +101,7 @@ fn ids_that_stand_twice_are_told_with_both_lines() {
     let told = |text: &str| {
         fs::write(&path, text).unwrap();
         let told = Told::default();
-        let batch = generic().answer_file(&path, Answers::Counted, false, &told).unwrap();
+        let batch = generic().answer_file(&path, Answers::Shown(&mut |_| {}), false, &told).unwrap();
         (batch.queries, told.0.into_inner().unwrap().join("\n"))
     };
     let head = "id,x,y,yaw,k0,kf\na,4,1,0.5,0,0\nb,4,1,0.4,0,0\n";
@@ -307,7 +346,7 @@ fn rows_beyond_what_can_be_planned_are_told_and_queries_are_kept() {
     let path = place.path().join("q.csv");
     let text = "id,x,y,yaw,k0,kf,frame\na,4,1,0.5,0,0,\nb,1e9,1,0,0,0,\nc,4,-2e7,0,0,0,ned\n";
     fs::write(&path, text).unwrap();
-    let batch = generic().answer_file(&path, Answers::Counted, false, &Unwatched).unwrap();
+    let batch = generic().answer_file(&path, Answers::Shown(&mut |_| {}), false, &Unwatched).unwrap();
     let told: Vec<String> = batch.wrong.iter().map(|(line, wrong)| format!("{line}: {wrong}")).collect();
     assert_eq!(batch.ended(Status::Invalid), 2);
     assert_eq!(

@@ -13,7 +13,7 @@ use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Planar;
 use hairpin::trajectory::start_table::StartTable;
 use hairpin::world::terrain::{ElevationMap, KeepOuts, Terrain};
-use hairpin_formats::scenario::{rover_for, shadowed};
+use hairpin_formats::scenario::{means_scenario, rover_for, shadowed};
 use hairpin_formats::steering::{Asked, Status};
 use hairpin_formats::terrain::MapFile;
 
@@ -52,6 +52,16 @@ impl Vehicle {
         shadowed(&settings.rover).iter().for_each(|note| watch.warn(note));
         let mut rover = rover_for(&settings.rover)?;
         rover.kinematics = settings.kinematics;
+        if means_scenario(&settings.rover) {
+            let ground = match settings.terrain {
+                Some(_) => "--terrain is its ground",
+                None => "on level ground, where --terrain gives no other",
+            };
+            watch.warn(&format!(
+                "{}: of a scenario the robot alone is taken, `{}`: {ground}",
+                settings.rover, rover.name
+            ));
+        }
         if settings.turns && !rover.limits.turns_in_place {
             return Err(Problem::input(format!(
                 "--turns: `{}` cannot turn in place (limits.turns_in_place)",

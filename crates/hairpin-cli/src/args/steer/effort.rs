@@ -31,7 +31,7 @@ pub(crate) struct Effort {
 
 #[derive(Debug, Args)]
 pub(crate) struct StartTable {
-    /// Vehicle: a shipped rover's name, such as generic, or a robot file
+    /// Vehicle: a shipped rover's name, such as generic, a robot file, or a scenario with one
     pub(crate) rover: String,
     /// Where the table goes, 180 kB
     #[arg(long, value_name = "FILE")]

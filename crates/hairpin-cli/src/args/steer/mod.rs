@@ -17,6 +17,9 @@ pub(crate) use keep_out::KeepOutFlags;
 pub(crate) use names::SteerFrame;
 use names::{SteerControl, SteerCost, SteerKinematics};
 
+/// What asks one question.
+const ONE: [&str; 2] = ["from", "to"];
+
 /// Every answer is replayed by an integration of its own; `ok` means that the replay ends in the goal within 1 cm,
 /// 0.01 rad and 0.01 1/m and keeps the vehicle's curvature and curvature rate.
 ///
@@ -25,7 +28,7 @@ use names::{SteerControl, SteerCost, SteerKinematics};
 /// + … + a5 s^5.
 #[derive(Debug, Args)]
 pub(crate) struct Steer {
-    /// Vehicle: a shipped rover's name, such as generic, or a robot file
+    /// Vehicle: a shipped rover's name, such as generic, a robot file, or a scenario, of which the robot alone is taken
     pub(crate) rover: String,
     /// Start in the map: X,Y,YAW or X,Y,YAW,CURVATURE; the origin if not given
     #[arg(long, value_name = "STATE", allow_hyphen_values = true, conflicts_with = "queries")]
@@ -66,11 +69,11 @@ pub(crate) struct Steer {
     /// File of queries
     #[arg(long, value_name = "Q.csv")]
     pub(crate) queries: Option<PathBuf>,
-    /// Where the answers to --queries go; stdout if not given
-    #[arg(long, value_name = "R.csv", requires = "queries")]
+    /// Where the answers to --queries go; stdout if not given, with --json as `answers` of its object
+    #[arg(long, value_name = "R.csv", requires = "queries", conflicts_with_all = ONE)]
     pub(crate) out: Option<PathBuf>,
     /// Go on behind the answers that --out has, of a run with the same arguments that was stopped
-    #[arg(long, requires = "out")]
+    #[arg(long, requires = "out", conflicts_with_all = ONE)]
     pub(crate) resume: bool,
     /// Elevation map to drive on
     #[arg(long, value_name = "DEM")]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin_formats::quote::shortened;
-use hairpin_formats::steering::{Status, Wrong};
+use hairpin_formats::steering::{Status, Wrong, objects};
 use hairpin_jobs::steer::{Answers, Batch, Vehicle};
 use hairpin_jobs::{Problem, Watch};
 use serde_json::json;
@@ -16,11 +16,13 @@ use crate::exit::{DONE, WRONG_INPUT};
 const MOST_TOLD: usize = 10;
 
 pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Watch) -> Result<u8, Problem> {
+    let mut rows = String::new();
+    let mut keep = |text: &str| rows.push_str(text);
     let answers = match &steer.out {
         Some(out) if steer.resume => Answers::Resumed(out),
         Some(out) => Answers::File(out),
         // One object on stdout is all that --json says.
-        None if steer.json => Answers::Counted,
+        None if steer.json => Answers::Shown(&mut keep),
         None => Answers::Shown(&mut console::say_text),
     };
     let batch = vehicle.answer_file(path, answers, steer.plot.is_some(), watch)?;
@@ -28,12 +30,12 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, path: &Path, watch: &dyn Wat
         batch.draw(plot)?;
     }
     let code = if batch.nothing_asked() { WRONG_INPUT } else { DONE };
-    tell(steer, path, &batch, code);
+    tell(steer, path, (&batch, &rows), code);
     Ok(code)
 }
 
-/// Counts on stdout if the table is in a file; wrong rows on stderr.
-fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
+/// Counts on stdout if the table is in a file, or with its `rows` in an object; wrong rows on stderr.
+fn tell(steer: &Steer, path: &Path, (batch, rows): (&Batch, &str), code: u8) {
     let told =
         |(line, wrong): &(u64, Wrong)| shortened(&format!("{}, line {line}: {wrong}", path.display())).into_owned();
     let wrong: Vec<String> = batch.wrong.iter().map(told).collect();
@@ -48,6 +50,9 @@ fn tell(steer: &Steer, path: &Path, batch: &Batch, code: u8) {
             object[status.to_string()] = batch.ended(status).into();
         }
         object["wrong"] = wrong.into();
+        if steer.out.is_none() {
+            object["answers"] = objects(rows).into();
+        }
         console::say(&object.to_string());
     } else if steer.out.is_some() {
         let counts: Vec<String> = Status::ALL

@@ -117,6 +117,27 @@ fn flies_every_mission_and_tells_when_waypoints_were_reached() {
     }
 }
 
+/// Windows' shells put it before what they pass on.
+#[test]
+fn a_stream_may_begin_with_a_byte_order_mark_and_no_other_line_may() {
+    let folder = tempfile::tempdir().unwrap();
+    let command = |body: &str, from: &str, to: &str| {
+        let command = python(folder.path(), body);
+        let file = folder.path().join("executor.py");
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.contains(from));
+        fs::write(&file, text.replace(from, to)).unwrap();
+        command
+    };
+    let marked = "if m[\"type\"] == \"hello\": sys.stdout.buffer.write(b'\\xef\\xbb\\xbf'); \
+                  say(type=\"ready\", protocol=1, name=\"test\")";
+    let plain = "if m[\"type\"] == \"hello\": say(type=\"ready\", protocol=1, name=\"test\")";
+    let flown = fly(&command("good(m)", plain, marked), limits(), 1, 2);
+    assert!(flown.iter().all(Result::is_ok), "{flown:?}");
+    let found = failure("sys.stdout.buffer.write(b'\\xef\\xbb\\xbf'); pose(0, [1, 1, 1])");
+    assert!(found.contains("line 2 of its stdout is no message: it begins with a byte order mark"), "{found}");
+}
+
 #[test]
 fn the_mission_says_all_that_the_protocol_promises() {
     let folder = tempfile::tempdir().unwrap();

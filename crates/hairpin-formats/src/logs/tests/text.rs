@@ -73,6 +73,9 @@ fn headers_of_others_are_read_by_their_units() {
     assert_eq!(read.notes.len(), 3, "{:?}", read.notes);
     assert_eq!(read.motions[0].no_heights.as_deref(), Some("no column of z; columns that are not read: mode"));
 
+    let tabs = read_bytes(rover.replace(';', "\t").as_bytes(), "rover.log").unwrap();
+    assert_eq!(tabs.motions[0].samples, read.motions[0].samples);
+
     let arm = "t_s,q2_deg,q1_rad\n0,180,0.5\n0.1,90,0.25\n";
     let read = read_bytes(arm.as_bytes(), "arm.csv").unwrap();
     let [joints] = &read.joints[..] else { panic!("{read:?}") };
@@ -120,6 +123,16 @@ fn what_is_wrong_is_told_with_its_line() {
             "t,x_m,y_m,z_ft\n",
             "a.csv",
             ", line 1: column `z_ft`: `ft` is no unit that is read, must be one of `z_m`, `z_cm`, `z_mm`",
+        ),
+        (
+            "t,x [ft],y [ft],z [m]\n",
+            "a.csv",
+            ", line 1: column `x [ft]`: `ft` is no unit that is read, must be one of `x_m`, `x_cm`, `x_mm`",
+        ),
+        (
+            "t,x [],y [],z []\n",
+            "a.csv",
+            ", line 1: column `x []`: its unit is not in its name, must be one of `x_m`, `x_cm`, `x_mm`",
         ),
         (
             "t,x_ft,y_ft,z_m\n",

@@ -94,7 +94,8 @@ fn unit(name: &str, base: &str, kind: Kind) -> Unit {
     match (plain.strip_prefix(base), bracket) {
         (Some(""), None | Some("")) if kind == Kind::None => Unit::Scale(1.0),
         (Some(""), None) => Unit::Untold,
-        (Some(""), Some(bracket)) => known(bracket).map_or(Unit::Untold, Unit::Scale),
+        (Some(""), Some("")) => Unit::Untold,
+        (Some(""), Some(bracket)) => known(bracket).map_or_else(|| Unit::Unread(bracket.into()), Unit::Scale),
         (Some(rest), None) => match rest.strip_prefix('_').map(|unit| (unit, known(unit))) {
             Some((_, Some(scale))) => Unit::Scale(scale),
             Some((unit, None)) if kind == Kind::Length && OTHER_LENGTHS.contains(&unit) => Unit::Unread(unit.into()),

@@ -19,10 +19,8 @@ const FINITE: &str = "a finite number";
 const DEVIATION: &str = "a finite number, 0 or more";
 
 pub(in super::super) fn read_csv(text: &str, name: &str) -> Result<Logged, Fault> {
-    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    let delimiter = if first.contains(';') && !first.contains(',') { b';' } else { b',' };
     // A byte order mark and blank lines before the header are the table's to skip; `#` before the header is EuRoC's.
-    let table = Table::of(text, Cut { delimiter, comment: None });
+    let table = Table::of(text, Cut::told_by(text));
     let columns = Columns::of(&table.names)?;
     let width = table.names.len();
     let mut reading = Reading::of(columns)?;

@@ -181,6 +181,9 @@ impl ArmSetup {
                 found.bound.map_or("not known".into(), |bound| (bound as f64 * graph.unit).to_string())
             ),
             Found::NotFound => "none of the wanted cost was found in time".into(),
+            Found::Infeasible | Found::Found if graph.points() == 1 => {
+                "the cloud has one point, and a program goes from one to another at least".into()
+            }
             Found::Infeasible | Found::Found if graph.costs.iter().all(Option::is_none) => {
                 "no move from one point of the cloud to another is possible".into()
             }
