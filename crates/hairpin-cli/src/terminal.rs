@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use hairpin::campaign::digits;
 use hairpin_jobs::{Seen, Watch};
 use indicatif::ProgressBar;
 
@@ -30,10 +31,13 @@ struct Runs {
     violations: usize,
     /// The largest deviation, m.
     worst: Option<f64>,
+    /// Whether it is told in millimetres.
+    in_mm: bool,
 }
 
 impl Runs {
-    fn add(&mut self, Seen { deviation, violates }: Seen) {
+    fn add(&mut self, Seen { deviation, violates, in_mm }: Seen) {
+        self.in_mm = in_mm;
         self.flown += 1;
         self.violations += usize::from(violates);
         self.worst = self.worst.into_iter().chain(deviation).reduce(f64::max);
@@ -44,10 +48,9 @@ impl Runs {
         if self.flown == 0 {
             return String::new();
         }
-        // Arms stray by millimetres.
-        let worst = self.worst.map_or(String::new(), |worst| match worst < 0.0995 {
-            true => format!(", worst {:.2} mm", 1e3 * worst),
-            false => format!(", worst {worst:.2} m"),
+        let worst = self.worst.map_or(String::new(), |worst| match self.in_mm {
+            true => format!(", worst {} mm", digits::number(Some(1e3 * worst))),
+            false => format!(", worst {} m", digits::number(Some(worst))),
         });
         let violations = if self.violations == 1 { "violation" } else { "violations" };
         format!(", {} flown, {} {violations}{worst}", self.flown, self.violations)
@@ -139,13 +142,19 @@ mod tests {
     fn a_line_says_how_far_it_is_and_what_was_seen() {
         let mut runs = Runs::default();
         assert_eq!(line("generate", (0, 0, 20), runs, Duration::ZERO), "generate: 0/20");
-        runs.add(Seen { deviation: Some(0.3), violates: false });
-        runs.add(Seen { deviation: Some(4.651), violates: true });
-        runs.add(Seen { deviation: None, violates: false });
+        runs.add(Seen { deviation: Some(0.3), violates: false, in_mm: false });
+        runs.add(Seen { deviation: Some(4.651), violates: true, in_mm: false });
+        runs.add(Seen { deviation: None, violates: false, in_mm: false });
         // 3 of 7 in 6 s: the other 4 take 8 s.
         assert_eq!(
             line("execute", (2, 5, 9), runs, Duration::from_secs(6)),
             "execute: 5/9, 3 flown, 1 violation, worst 4.65 m, about 8 s left"
         );
+        // The unit is that of the verdict, however little it is.
+        for (in_mm, words) in [(false, "worst 0.00120 m"), (true, "worst 1.20 mm")] {
+            let mut runs = Runs::default();
+            runs.add(Seen { deviation: Some(0.0012), violates: false, in_mm });
+            assert!(runs.in_words().ends_with(words), "{}", runs.in_words());
+        }
     }
 }

@@ -31,6 +31,12 @@ pub enum CostsError {
         /// The file.
         path: PathBuf,
     },
+    /// Its first line names columns.
+    #[error("{}, line 1 looks like a header: a table of costs has none; needed: N lines of N costs", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+    },
     /// A line is longer or shorter than the table has lines.
     #[error("{}, line {line}: {found} cells, must be {expected}, as many as there are lines", path.display())]
     Width {
@@ -83,6 +89,7 @@ impl CostsError {
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Width { line, .. } | Self::Value { line, .. } | Self::Overflow { line, .. } => Some(*line),
+            Self::Header { .. } => Some(1),
             Self::Unreadable { .. } | Self::Empty { .. } => None,
         }
     }
@@ -99,7 +106,7 @@ impl CostsError {
                 );
                 Some(([*line, *column], bound))
             }
-            Self::Unreadable { .. } | Self::Empty { .. } | Self::Width { .. } => None,
+            Self::Unreadable { .. } | Self::Empty { .. } | Self::Header { .. } | Self::Width { .. } => None,
         }
     }
 }
@@ -233,6 +240,11 @@ fn parse(path: &Path, text: &str, least: usize) -> Result<Costs, CostsError> {
     let points = rows.last().map_or(0, |last| last.line);
     if points == 0 {
         return Err(CostsError::Empty { path: path.into() });
+    }
+    // No cost is a word; words stand on no diagonal either.
+    let is_word = |cell: &str| cell.contains(char::is_alphabetic) && cell.parse::<f64>().is_err();
+    if rows.first().is_some_and(|first| first.len() > 1 && first.cells().skip(1).all(is_word)) {
+        return Err(CostsError::Header { path: path.into() });
     }
     let width = |line: usize, found: usize| CostsError::Width { path: path.into(), line, found, expected: points };
     if let Some(line) = (1..).zip(&rows).find_map(|(line, row)| (row.line != line).then_some(line)) {
@@ -406,6 +418,8 @@ mod tests {
             ("0,inf\n1,0\n", "line 1, column 2: `inf`"),
             ("0,1\n1 2,0\n", "line 2, column 1: `1 2`"),
             ("x,1\n1,0\n", "line 1, column 1: `x`"),
+            ("a,b,c\n0,1,2\n1,0,2\n1,2,0\n", "line 1 looks like a header"),
+            ("from,a,b,c\na,0,1,2\nb,1,0,2\nc,1,2,0\n", "line 1 looks like a header"),
             ("0,.\n1,0\n", "line 1, column 2: `.`"),
             ("0,12345678901\n0.000000001,0\n", "`12345678901` × 10^9"),
             ("0,1e30\n1,0\n", "`1e30` × 10^0"),

@@ -77,6 +77,8 @@ pub struct Seen {
     pub deviation: Option<f64>,
     /// Whether it violates the specification.
     pub violates: bool,
+    /// Whether its verdict is told in millimetres, as an arm's is.
+    pub in_mm: bool,
 }
 
 /// The steps of a job as its watch is told of them, until this is dropped.

@@ -57,8 +57,8 @@ pub(crate) fn execute(py: Python<'_>, flights: Flights, means: Means, waiting: W
 #[pyfunction]
 pub(crate) fn judge(py: Python<'_>, folder: PathBuf, sets: Vec<Set>, waiting: Waiting) -> PyResult<Bound<'_, PyAny>> {
     let said = waiting.wait(py, |watch| {
-        let Judged { work, cases, tally, judgement, told } = &hairpin_jobs::judge::judge(&folder, &sets)?;
-        told.iter().for_each(|line| watch.warn(line));
+        let Judged { work, cases, tally, judgement, told, kept } = &hairpin_jobs::judge::judge(&folder, &sets)?;
+        told.iter().chain(kept).for_each(|line| watch.warn(line));
         let answer = Answer {
             work,
             cases,

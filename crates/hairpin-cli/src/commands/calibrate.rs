@@ -83,7 +83,7 @@ fn tell(found: &Calibrated) {
     console::say("[spec]");
     for one in given {
         let share = digits::percent(one.broken_by.map(|cases| cases as f64 / one.cases.max(1) as f64));
-        let ends = one.interval.unwrap_or_default().map(|end| digits::with_digits(end, one.digits()));
+        let ends = one.interval.unwrap_or_default().map(|end| digits::with_digits(end, one.digits));
         console::say(&format!(
             "# {share} of {} random feasible cases break {}, which lies between {} and {} (95 %)",
             one.cases, one.field, ends[0], ends[1]

@@ -16,8 +16,9 @@ pub(crate) fn run(asked: &Judge, watch: &dyn Watch) -> Result<u8, Problem> {
         return judge_log::run(asked, against, watch);
     }
     junit::check(asked.junit.path())?;
-    let Judged { work, cases, tally, judgement, told } = &judge(&asked.path, &settings::split(&asked.sets)?)?;
+    let Judged { work, cases, tally, judgement, told, kept } = &judge(&asked.path, &settings::split(&asked.sets)?)?;
     told.iter().for_each(|line| console::warn(&format!("Warning: {line}")));
+    kept.iter().for_each(|line| console::warn(line));
     junit::keep(asked.junit.path(), work)?;
     let (verdict, junit) = (&judgement.verdict, asked.junit.path());
     let answer = Answer { work, cases, tally, judgement, verdict, replayed: &[], spent: None, junit, reported: false };

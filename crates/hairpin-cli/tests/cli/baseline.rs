@@ -102,6 +102,9 @@ fn they_change_nothing_that_is_counted() {
     // What was measured from another reference does not stand beside what is.
     let (code, out, error) = run(here, &["judge", "with", "--set", "spec.deviation.max_m=40"]);
     assert!(code == 0 && out.contains("random feasible ones") && !error.contains("Warning"), "{out}{error}");
+    let kept = "scenario.toml has spec.deviation.max_m as it is given now: later judgements go by it";
+    assert!(error.contains(kept), "{error}");
+    assert!(!run(here, &["judge", "with"]).2.contains("as it is given now"));
     let (_, out, error) = run(here, &["judge", "with", "--set", "spec.deviation.from=leg"]);
     assert!(error.contains("measured from another reference") && !out.contains("random feasible"), "{out}{error}");
     assert!(!here.join("with/baseline.parquet").exists());

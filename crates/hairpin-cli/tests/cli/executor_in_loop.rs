@@ -200,6 +200,18 @@ fn a_program_that_flies_nothing_ends_the_search() {
         assert!(error.contains("EXECUTOR FAILED: ") && error.contains(words), "{error}");
         assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
     }
+    // It ends after as many executions as a pool for all cases has, and those of the graph under way, whatever graphs
+    // there are still.
+    let grown = r#"{ method = "beam", waypoints = 40, cases = 2, executions = 8 }"#;
+    for (search, score, most) in
+        [(IN_LOOP, "high-velocity-90", 3 * 24), (grown, "executed", 2 * 8), (ADAPTIVE, "high-velocity-90", 42)]
+    {
+        fs::write(here.join("q.toml"), scenario(search, score, "--sick error --always")).unwrap();
+        let (code, said, error) = run(here, &["stress", "q.toml", "--out", "a", "--force", "--threads", "1"]);
+        assert!(code == 4 && error.contains("executions in the loop came to a flight"), "{said}{error}");
+        let told = error.split(" executions in the loop failed").next().unwrap().rsplit(' ').next().unwrap();
+        assert!(told.parse::<u64>().is_ok_and(|all| (1..=most + 30).contains(&all)), "{search}: {error}");
+    }
     // With a program that flies it goes on.
     fs::write(here.join("q.toml"), scenario(IN_LOOP, "high-velocity-90", "")).unwrap();
     json(here, &["stress", "q.toml", "--out", "b"]);

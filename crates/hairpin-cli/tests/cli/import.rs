@@ -33,6 +33,12 @@ fn findings_are_told_by_line_and_exit_code() {
         ),
         ("ConfL\\Off;\nMoveJ p10,v100,fine,tool0;\nMoveL away,v100,fine,tool0;", 1, "line 10: UNREACHABLE p10→away: "),
         ("MoveL p10,v100,fine,tool0;\nMoveC p10,p10,v100,fine,tool0;", 1, "NOT EXECUTABLE line 9 (to p10): "),
+        // Before it is out of reach an elbow's singularity is not excluded.
+        (
+            "MoveL [[2000,0,500],[0.2588190451,0,0.9659258263,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;",
+            1,
+            "line 8: UNREACHABLE home→(in place): out of reach at 100 % of the move",
+        ),
         (
             "VelSet 50,800;\nMoveAbsJ far,v200,fine,tool0;",
             5,
@@ -44,6 +50,37 @@ fn findings_are_told_by_line_and_exit_code() {
         let (found, out, error) = run(folder.path(), &["import", &file, "--check"]);
         assert!(found == code && out.contains(words), "{body}: {found}\n{out}{error}");
         assert!(out.contains("irb120") && out.contains("obstacles are not looked at"), "{out}");
+    }
+}
+
+/// Numbers that no move carries are held to their bounds as those are that moves carry.
+#[test]
+fn what_no_controller_takes_is_told_in_every_language() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = |body: &str| format!("def t():\n  set_tcp(p[0,0,0,0,0,0])\n  {body}\nend\nt()\n");
+    let home = "[0,0,0,0,0.5236,0]";
+    let src = |line: &str| {
+        format!("DEF t ( )\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n{line}\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 30,A6 0}}\nEND\n")
+    };
+    for (name, text, words) in [
+        ("t.script", script(&format!("movej({home}, v=-1.05)")), "NOT EXECUTABLE line 3: v = -1.05: must be"),
+        ("t.script", script(&format!("movej({home}, a=0, v=0)")), "FAIL: 2 findings in 1 moves"),
+        ("t.src", src("BAS (#VEL_PTP,150)"), "NOT EXECUTABLE line 4: BAS (#VEL_PTP) = 150: must be"),
+        ("t.src", src("$VEL.CP=0"), "NOT EXECUTABLE line 4: $VEL.CP = 0: must be"),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+        let (code, out, error) = run(folder.path(), &["import", name, "--check"]);
+        assert!(code == 1 && out.contains(words), "{words}: {code}\n{out}{error}");
+    }
+    fs::write(folder.path().join("u.src"), src("PTP XH")).unwrap();
+    fs::write(folder.path().join("u.dat"), "DEFDAT t\n$VEL.CP=0\nENDDAT\n").unwrap();
+    let (code, out, _) = run(folder.path(), &["import", "u.src", "--check"]);
+    assert!(code == 5 && out.contains("u.dat line 2: NOT UNDERSTOOD `$VEL` is not followed"), "{out}");
+    let (twice, once) = (format!("{}t()\n", script(&format!("movej({home})"))), script(&format!("movej({home})")));
+    for (text, moves) in [(once, 1), (twice, 2)] {
+        fs::write(folder.path().join("t.script"), text).unwrap();
+        let object = json(folder.path(), &["import", "t.script", "--check"]);
+        assert_eq!((object["exit_code"].as_i64(), object["moves"].as_i64()), (Some(0), Some(moves)));
     }
 }
 

@@ -52,14 +52,6 @@ pub(super) fn first_word(statement: &str) -> &str {
 
 /// Kinds of positions.
 pub(super) const POSITIONS: [&str; 6] = ["E6POS", "POS", "FRAME", "E6AXIS", "AXIS", "E3POS"];
-/// Kinds of data that may be declared without DECL.
-const KINDS: [&str; 5] = ["INT", "REAL", "BOOL", "CHAR", "STRUC"];
-
-pub(super) fn is_declaration(statement: &str) -> bool {
-    let word = first_word(statement).to_ascii_uppercase();
-    let global = word == "GLOBAL" && name_of(statement).is_none();
-    word == "DECL" || global || POSITIONS.contains(&word.as_str()) || KINDS.contains(&word.as_str()) || word == "EXT"
-}
 
 /// `DEF name ( )`: its name.
 pub(super) fn name_of(statement: &str) -> Option<String> {

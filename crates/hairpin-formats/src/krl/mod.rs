@@ -6,6 +6,7 @@
 mod data;
 mod lines;
 mod moves;
+mod phrases;
 mod read;
 mod state;
 mod write;

@@ -1,14 +1,15 @@
 //! Programs read from KRL, line by line.
 
-use hairpin::trajectory::program::{PoseTarget, Tool};
+use hairpin::trajectory::program::{Bound, PoseTarget, Tool};
 use thiserror::Error;
 
 use super::data::{Position, frame, load, number, position};
-use super::lines::{POSITIONS, first_word, is_declaration, name_of, without_comment};
+use super::lines::{POSITIONS, first_word, name_of, without_comment};
+use super::phrases::{self, is_declaration, may_be_harmless};
 use super::state::{Reader, named};
 use super::{CONVENTIONS, JOINT_MOVES};
 use crate::banner::NOTICE;
-use crate::listing::{Class, Declared, File, Module, Part, Unmodelled, calls, decode};
+use crate::listing::{Class, Declared, File, Module, Part, Procedure, Unmodelled, decode};
 
 /// Why a file is no program.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -25,117 +26,47 @@ pub enum NoProgram {
 pub fn read(src: File<'_>, dat: Option<File<'_>>) -> Result<Module, NoProgram> {
     let mut reader = Reader::default();
     let text = decode(src.bytes);
-    let count = text.matches('\n').count() + 1;
+    let lines: Vec<&str> = text.split('\n').collect();
+    let statements: Vec<&str> = lines.iter().map(|line| without_comment(line)).collect();
+    let defined = statements.iter().position(|statement| name_of(statement).is_some()).ok_or(NoProgram::Absent)?;
+    let is_end = |statement: &&str| first_word(statement).eq_ignore_ascii_case("END");
+    let ended = statements[defined..].iter().position(is_end).map(|behind| defined + behind);
     reader.reading.parts.push(Part { name: src.name.into(), first_line: 1 });
     if let Some(dat) = dat {
-        reader.reading.parts.push(Part { name: dat.name.into(), first_line: count + 1 });
-        for (index, line) in decode(dat.bytes).split('\n').enumerate() {
-            reader.data(count + 1 + index, without_comment(line));
-        }
+        reader.reading.parts.push(Part { name: dat.name.into(), first_line: lines.len() + 1 });
+        reader.data_file(lines.len() + 1, &decode(dat.bytes));
     }
+    let numbered = |from: usize, to: usize| {
+        let all = statements[from..to].iter().enumerate().map(move |(index, statement)| (from + index + 1, *statement));
+        all.filter(|(_, statement)| !statement.is_empty())
+    };
+    for (line, statement) in numbered(0, defined) {
+        reader.not_followed(line, format!("`{}` stands before DEF", first_word(statement).escape_default()));
+    }
+    reader.framed(defined + 1, statements[defined]);
+    reader.reading.program.name = name_of(statements[defined]).unwrap_or_default();
+    let within = ended.unwrap_or(statements.len());
     // Declarations stand before what is executed, wherever they stand.
-    for (index, line) in text.split('\n').enumerate() {
-        let statement = without_comment(line);
-        if is_declaration(statement) {
-            reader.data(index + 1, statement);
-        }
+    for (line, statement) in numbered(defined + 1, within).filter(|(_, statement)| is_declaration(statement)) {
+        reader.data(line, statement);
     }
-    let mut state = Where::Before;
-    let mut defined = None;
-    for (index, line) in text.split('\n').enumerate() {
-        let number = index + 1;
-        if state == Where::Head {
-            match line.trim().strip_prefix(';') {
-                Some(comment) => {
-                    reader.head(comment);
-                    continue;
-                }
-                None => state = Where::Within,
-            }
-        }
-        let statement = without_comment(line);
+    let comments = lines[defined + 1..within].iter().map_while(|line| line.trim().strip_prefix(';'));
+    comments.for_each(|comment| reader.head(comment));
+    for (line, statement) in numbered(defined + 1, within).filter(|(_, statement)| !is_declaration(statement)) {
         let word = first_word(statement).to_ascii_uppercase();
-        match (word.as_str(), state) {
-            _ if statement.is_empty() => {}
-            ("DEF" | "GLOBAL", Where::Before) if defined.is_none() && name_of(statement).is_some() => {
-                defined = Some(number);
-                reader.reading.program.name = name_of(statement).unwrap_or_default();
-                state = Where::Head;
-            }
-            ("END", Where::Within) => state = Where::After,
-            (_, Where::Within) if !is_declaration(statement) => reader.statement(number, &word, statement),
-            (_, Where::After) => reader.reading.mark(number, Class::Unreached, "another routine"),
-            _ => {}
-        }
+        reader.statement(line, &word, statement);
     }
-    let line = defined.ok_or(NoProgram::Absent)?;
-    if state != Where::After {
-        reader.reading.cut_short(&text, "END");
+    match ended {
+        Some(ended) => {
+            reader.framed(ended + 1, statements[ended]);
+            reader.others(numbered(ended + 1, statements.len()));
+        }
+        None => reader.reading.cut_short(&text, "END"),
     }
     let program = &mut reader.reading.program;
     program.procedure = program.name.clone();
-    Ok(reader.reading.done(line))
-}
-
-/// Where the lines of a `.src` stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Where {
-    Before,
-    /// Comments right below DEF.
-    Head,
-    Within,
-    /// Behind END.
-    After,
-}
-
-/// Statements that neither move the arm nor change how it moves.
-const HARMLESS: [&str; 11] =
-    ["WAIT", "HALT", "CONTINUE", "PULSE", "SIGNAL", "ANOUT", "ANIN", "DIGIN", "MSGNOTIFY", "CWRITE", "SWRITE"];
-
-/// System data that has nothing to do with motion.
-const HARMLESS_DATA: [&str; 6] = ["$OUT", "$ADVANCE", "$ANOUT", "$TIMER", "$FLAG", "$CYCFLAG"];
-
-/// Functions that give a value and do nothing, and words that may stand before brackets.
-const VALUES: [&str; 32] = [
-    "ABS",
-    "ACOS",
-    "AND",
-    "ATAN2",
-    "B_AND",
-    "B_EXOR",
-    "B_NOT",
-    "B_OR",
-    "COS",
-    "DELAY",
-    "EXOR",
-    "FOR",
-    "FORWARD",
-    "INVERSE",
-    "MAXIMUM",
-    "MINIMUM",
-    "NOT",
-    "ON",
-    "OR",
-    "ROUND",
-    "SEC",
-    "SIN",
-    "SQRT",
-    "STRADD",
-    "STRCLEAR",
-    "STRCOMP",
-    "STRCOPY",
-    "STRDECLLEN",
-    "STRFIND",
-    "STRLEN",
-    "TAN",
-    "VARSTATE",
-];
-
-/// What a statement calls that is not known to give a value alone.
-fn called<'s>(word: &str, statement: &'s str) -> Option<&'s str> {
-    // Behind the statement's own word, and behind system data, brackets are its arguments.
-    let is_quiet = |name: &&str| [word].iter().chain(&VALUES).any(|known| name.eq_ignore_ascii_case(known));
-    calls(statement).into_iter().find(|name| !is_quiet(name))
+    let procedure = Procedure { name: program.name.clone(), line: defined + 1, executed: true };
+    Ok(reader.reading.done(vec![procedure]))
 }
 
 impl Reader {
@@ -146,10 +77,69 @@ impl Reader {
         }
     }
 
+    fn not_followed(&mut self, line: usize, what: String) {
+        self.reading.doubt(line, (None, what));
+    }
+
+    /// A line that begins or ends a routine or a file of data: nothing stands behind it.
+    fn framed(&mut self, line: usize, statement: &str) {
+        if let Err(what) = phrases::frame(statement) {
+            self.not_followed(line, what);
+        }
+    }
+
+    /// What stands behind the routine that is followed: others.
+    fn others<'s>(&mut self, statements: impl Iterator<Item = (usize, &'s str)>) {
+        let mut inside = false;
+        for (line, statement) in statements {
+            let mut words = statement.split(|c: char| c.is_whitespace() || c == '(');
+            let first = words.next().unwrap_or_default().to_ascii_uppercase();
+            let word = if first == "GLOBAL" { words.next().unwrap_or_default().to_ascii_uppercase() } else { first };
+            inside |= ["DEF", "DEFFCT"].contains(&word.as_str());
+            match inside {
+                true => self.reading.mark(line, Class::Unreached, "another routine"),
+                false => self.not_followed(line, format!("`{}` stands in no routine", word.escape_default())),
+            }
+            inside &= !["END", "ENDFCT"].contains(&word.as_str());
+        }
+    }
+
+    /// A `.dat` whose first line counts as `first`.
+    fn data_file(&mut self, first: usize, text: &str) {
+        let (mut begun, mut ended) = (false, false);
+        for (index, line) in text.split('\n').enumerate() {
+            let (line, statement) = (first + index, without_comment(line));
+            let word = first_word(statement).to_ascii_uppercase();
+            match word.as_str() {
+                _ if statement.is_empty() => {}
+                "DEFDAT" if !begun => {
+                    begun = true;
+                    self.framed(line, statement);
+                }
+                "ENDDAT" if begun && !ended => {
+                    ended = true;
+                    self.framed(line, statement);
+                }
+                _ if !begun || ended => {
+                    self.not_followed(line, format!("`{}` stands beside DEFDAT and ENDDAT", word.escape_default()));
+                }
+                _ if is_declaration(statement) => self.data(line, statement),
+                _ => match phrases::element(statement) {
+                    Ok(()) => self.reading.mark(line, Class::Harmless, ""),
+                    Err(what) => self.not_followed(line, what),
+                },
+            }
+        }
+        if !ended {
+            let last = text.trim_end().matches('\n').count();
+            self.reading.mistake(first + last, "the file ends before ENDDAT: it was cut short".into());
+        }
+    }
+
     /// `DECL E6POS Xp0={…}`.
     fn data(&mut self, line: usize, statement: &str) {
-        if !is_declaration(statement) {
-            return;
+        if let Err(what) = phrases::declaration(statement) {
+            return self.not_followed(line, what);
         }
         let mut words: Vec<&str> = statement.split('=').next().unwrap_or_default().split_whitespace().collect();
         words.retain(|word| !["DECL", "GLOBAL", "CONST"].iter().any(|before| word.eq_ignore_ascii_case(before)));
@@ -173,7 +163,10 @@ impl Reader {
             let name = named.unwrap_or_else(|| (*name).into());
             self.reading.targets.push(Declared { line, name, target: Ok(target) });
         }
-        self.positions.insert(name.to_ascii_uppercase(), value);
+        let twice = self.positions.insert(name.to_ascii_uppercase(), value).is_some();
+        if twice {
+            self.positions.insert(name.to_ascii_uppercase(), Err("is declared twice".into()));
+        }
     }
 
     fn statement(&mut self, line: usize, word: &str, statement: &str) {
@@ -188,32 +181,46 @@ impl Reader {
                 self.reading.doubt(line, doubt);
             }
             "TRIGGER" => self.reading.doubt(line, (Some(Unmodelled::Triggers), "TRIGGER is not followed".into())),
-            "INTERRUPT" => {
+            // A global one; other declarations are none of the statements.
+            "INTERRUPT" | "GLOBAL" => {
                 self.reading.doubt(line, (Some(Unmodelled::Interrupts), "INTERRUPT is not followed".into()));
             }
             "BAS" => self.basics(line, statement),
+            _ if may_be_harmless(word) => match phrases::harmless(statement) {
+                Ok(()) => self.reading.mark(line, Class::Harmless, ""),
+                Err(what) => self.not_followed(line, what),
+            },
             _ if word.starts_with('$') && statement.contains('=') => self.set(line, statement),
-            _ if HARMLESS.contains(&word) => self.aside(line, word, statement),
-            _ => self.reading.doubt(line, (None, format!("`{}` is not followed", word.escape_default()))),
-        }
-    }
-
-    /// What has nothing to do with motion, unless something in it is called that has.
-    fn aside(&mut self, line: usize, word: &str, statement: &str) {
-        match called(word, statement) {
-            None => self.reading.mark(line, Class::Harmless, ""),
-            Some(name) => self.reading.doubt(line, (None, format!("`{}` is not followed", name.escape_default()))),
+            _ => self.not_followed(line, format!("`{}` is not followed", word.escape_default())),
         }
     }
 
     /// `BAS (#INITMOV,0)`, `BAS (#VEL_PTP,30)`.
     fn basics(&mut self, line: usize, statement: &str) {
-        let inside = statement.split_once('(').map_or("", |(_, inside)| inside);
-        let what = inside.split([',', ')']).next().unwrap_or_default().trim().to_ascii_uppercase();
-        match what.as_str() {
-            "#INITMOV" | "#VEL_PTP" | "#ACC_PTP" => self.reading.mark(line, Class::Understood, ""),
-            _ => self.reading.doubt(line, (Some(Unmodelled::Speeds), format!("BAS ({what}) is not followed"))),
+        let (what, value) = match phrases::basics(statement) {
+            Ok(said) => said,
+            Err(what) => return self.not_followed(line, what),
+        };
+        let field = match what.as_str() {
+            "INITMOV" => return self.reading.mark(line, Class::Understood, ""),
+            "VEL_PTP" => "BAS (#VEL_PTP)",
+            "ACC_PTP" => "BAS (#ACC_PTP)",
+            _ => {
+                let doubt = (Some(Unmodelled::Speeds), format!("BAS (#{what}) is not followed"));
+                return self.reading.doubt(line, doubt);
+            }
+        };
+        match self.rate((line, field), &value, Bound::PERCENT) {
+            Ok(_) => self.reading.mark(line, Class::Understood, ""),
+            Err(what) => self.not_followed(line, format!("{field} {what}")),
         }
+    }
+
+    /// A number that controllers hold to a bound; nothing where it is beyond, which is told with its line.
+    fn rate(&mut self, at: (usize, &'static str), text: &str, bound: Bound) -> Result<Option<f64>, String> {
+        let value = number(text).ok_or("is no number that is known")?;
+        self.reading.hold(at.0, at.1, value, bound);
+        Ok(bound.holds(value).then_some(value))
     }
 
     fn carry(&mut self, load: Tool) {
@@ -230,10 +237,17 @@ impl Reader {
         let set = match name.as_str() {
             "$TOOL" => frame(value).map(|tcp| self.tool = Some(self.add_tool(tcp))),
             "$BASE" => frame(value).map(|base| self.base = Some(self.add_base(base))),
-            "$VEL.CP" => above_zero(value).map(|speed| self.speed = Some(speed)),
-            "$VEL.ORI1" => above_zero(value).map(|speed| self.turning = Some(speed)),
-            "$VEL.ORI2" => above_zero(value).map(drop),
-            "$APO.CDIS" => above_zero(value).map(|near| self.near = Some(near / 1000.0)),
+            // What no controller takes has been told: moves need not tell it again.
+            "$VEL.CP" => self
+                .rate((line, "$VEL.CP"), value, Bound::SPEED)
+                .map(|speed| self.speed = Some(speed.unwrap_or(f64::INFINITY))),
+            "$VEL.ORI1" => {
+                self.rate((line, "$VEL.ORI1"), value, Bound::TURNING).map(|speed| self.turning = speed.or(self.turning))
+            }
+            "$VEL.ORI2" => self.rate((line, "$VEL.ORI2"), value, Bound::TURNING).map(drop),
+            "$APO.CDIS" => self
+                .rate((line, "$APO.CDIS"), value, Bound::NOT_NEGATIVE)
+                .map(|near| self.near = Some(near.unwrap_or(0.0) / 1000.0)),
             "$LOAD" => match load(value) {
                 // What is carried from the beginning on is the tool's.
                 Ok(carried) if self.reading.program.moves.is_empty() => {
@@ -245,9 +259,6 @@ impl Reader {
                     return self.reading.doubt(line, doubt);
                 }
             },
-            _ if HARMLESS_DATA.iter().any(|known| name.starts_with(known)) => {
-                return self.aside(line, "", statement);
-            }
             _ if ["$VEL", "$ACC", "$OV_PRO"].iter().any(|known| name.starts_with(known)) => {
                 let doubt = (Some(Unmodelled::Speeds), format!("{} is not followed", name.escape_default()));
                 return self.reading.doubt(line, doubt);
@@ -259,8 +270,4 @@ impl Reader {
             Err(what) => self.reading.doubt(line, (None, format!("{name} {what}"))),
         }
     }
-}
-
-fn above_zero(text: &str) -> Result<f64, String> {
-    number(text).filter(|value| *value >= 0.0).ok_or_else(|| "is no number that is known".into())
 }

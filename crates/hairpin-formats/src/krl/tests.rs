@@ -241,3 +241,144 @@ fn what_is_not_followed_is_named_by_line() {
     assert!(bare.lines[&2].what.contains("$TOOL and $BASE are not both set"));
     assert_eq!(read(File { name: "m.src", bytes: b"hello" }, None), Err(NoProgram::Absent));
 }
+
+const AT: &str = "PTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}";
+const FRAMES: &str = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n";
+
+/// What stands behind a harmless word, a declaration or a frame is read over by nobody.
+#[test]
+fn statements_are_understood_to_their_end() {
+    let far = "PTP {A1 170,A2 -90,A3 90,A4 0,A5 30,A6 0}";
+    let of = |body: &str| read_text(&format!("DEF m ( )\n{FRAMES}{AT}\n{body}\n{AT}\nEND\n"));
+    for body in [
+        &format!("HALT {far}")[..],
+        &format!("WAIT SEC 1 {far}"),
+        &format!("WAIT FOR $IN[1] {far}"),
+        &format!("$OUT[1]=TRUE {far}"),
+        "CONTINUE $TOOL={X 0,Y 0,Z 900,A 0,B 0,C 0}",
+        &format!("$ADVANCE=3 {far}"),
+        &format!("PULSE ($OUT[1],TRUE,0.5) {far}"),
+        &format!("ANOUT ON x=1+$VEL_ACT DELAY=0.1 {far}"),
+        &format!("ANOUT OFF x {far}"),
+        &format!("MsgNotify(\"a\") {far}"),
+        "CWRITE($CMD,STAT,MODE,\"RUN /R1/FAR()\")",
+        &format!("BAS (#VEL_PTP,30) {far}"),
+        &format!("BAS (#INITMOV,0) {far}"),
+        "$OUT[far()]=TRUE",
+        "$TIMER_OF_MINE=3",
+        "WAIT",
+        "WAIT SEC",
+        "WAIT FOR ($IN[1]",
+        "GLOBAL INTERRUPT DECL 3 WHEN $IN[1]==TRUE DO far ( )",
+    ] {
+        let read = of(body);
+        assert_eq!((read.unclear_line, read.certain), (Some(5), 1), "{body}: {:?}", read.lines);
+        assert_eq!(read.program.moves.len(), 2, "{body}");
+    }
+    // Declarations are read before anything is executed.
+    for body in [
+        &format!("DECL INT i {far}")[..],
+        &format!("SIGNAL s $OUT[1] {far}"),
+        "INT i=far()",
+        "DECL FRAME $BASE={X 2000}",
+    ] {
+        let read = of(body);
+        assert_eq!((read.unclear_line, read.certain), (Some(5), 0), "{body}: {:?}", read.lines);
+    }
+    for body in [
+        "HALT",
+        "CONTINUE",
+        "WAIT SEC 0.5*(1+2)",
+        "WAIT FOR ($IN[1]==TRUE) AND NOT $IN[2] OR (x.y[2]<>#OPEN)",
+        "$OUT[2+1]=$IN[1] EXOR FALSE",
+        "$ADVANCE=3",
+        "$TIMER[1]=-1.5E3",
+        "PULSE($OUT[1],TRUE,0.5)",
+        "ANOUT ON x=0.5*$VEL_ACT-0.1 DELAY=0.1 MINIMUM=0.3",
+        "DIGIN OFF",
+        "SWRITE(text[],STATE,OFFSET,\"%d; PTP\",n)",
+        "DECL INT i,j[3]",
+        "DECL CHAR text[20]",
+        "GLOBAL CONST REAL r=-1.5",
+        "STRUC GRIP INT a,b,BOOL c",
+        "ENUM COLOUR RED,GREEN",
+        "SIGNAL s $OUT[1] TO $OUT[8]",
+        "EXT BAS (BAS_COMMAND :IN,REAL :IN )",
+        "DECL FDAT F1={TOOL_NO 1,BASE_NO 0,IPO_FRAME #BASE,POINT2[] \" \",TQ_STATE FALSE}",
+    ] {
+        let read = of(body);
+        let left = body == "DIGIN OFF";
+        assert_eq!(read.unclear_line, left.then_some(5), "{body}: {:?}", read.lines);
+    }
+    for (text, line) in [
+        (format!("$BASE=$NULLFRAME\nDEF m ( )\n{FRAMES}{AT}\nEND\n"), 1),
+        (format!("DEF m ( ) {far}\n{FRAMES}{AT}\nEND\n"), 1),
+        (format!("DEF m ( )\n{FRAMES}{AT}\nEND {far}\n"), 5),
+        (format!("DEF m ( )\n{FRAMES}{AT}\nEND\n{far}\n"), 6),
+    ] {
+        let read = read_text(&text);
+        assert_eq!(read.unclear_line, Some(line), "{text}: {:?}", read.lines);
+    }
+    // What another routine declares is its own.
+    let two = format!(
+        "DEF m ( )\nDECL AXIS XH={{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}}\n{FRAMES}PTP XH\nEND\nDEF n ( )\n\
+         DECL AXIS XH={{A1 170,A2 -90,A3 90,A4 0,A5 30,A6 0}}\nEND\n"
+    );
+    let read = read_text(&two);
+    assert_eq!(read.unclear_line, None, "{:?}", read.lines);
+    assert!(matches!(&read.program.moves[0].motion, Motion::AbsoluteJoint(to) if to.joints[0] == 0.0));
+    let twice = two.replace("END\nDEF n ( )\n", "");
+    assert_eq!(read_text(&twice).unclear_line, Some(5), "{twice}");
+    let deep = format!("WAIT FOR {}", "(".repeat(100_000));
+    assert_eq!(of(&deep).unclear_line, Some(5));
+}
+
+/// A file of data holds declarations, and nothing else.
+#[test]
+fn what_is_no_declaration_among_data_is_named() {
+    let src = format!("DEF m ( )\n{FRAMES}PTP XH\nEND\n");
+    let of = |body: &str| {
+        let dat = format!("DEFDAT m PUBLIC\nDECL E6AXIS XH={{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}}\n{body}");
+        read(File { name: "m.src", bytes: src.as_bytes() }, Some(File { name: "m.dat", bytes: dat.as_bytes() }))
+            .unwrap()
+    };
+    for body in [
+        "$BASE={X 2000,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n",
+        "XH={A1 170,A2 -90,A3 90,A4 0,A5 30,A6 0}\nENDDAT\n",
+        "DECL INT i $BASE={X 2000,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n",
+        "i[1]=5 6\nENDDAT\n",
+        "ENDDAT $BASE={X 2000}\n",
+        "DECL INT i\n",
+    ] {
+        let read = of(body);
+        let line = read.unclear_line.map(|line| read.told(line));
+        assert_eq!((line.as_deref(), read.certain), (Some("m.dat line 3"), 0), "{body}");
+    }
+    let read = of(";FOLD\nDECL INT i[3]\ni[1]=5\nDECL LDAT L1={VEL 2.0,APO_MODE #CDIS}\nENDDAT\n");
+    assert_eq!((read.unclear_line, read.certain), (None, 1), "{:?}", read.lines);
+}
+
+#[test]
+fn rates_are_held_to_what_controllers_take() {
+    let of = |line: &str| read_text(&format!("DEF m ( )\n{FRAMES}{line}\n{AT}\nEND\n"));
+    for (line, words) in [
+        ("BAS (#VEL_PTP,0)", "line 4: BAS (#VEL_PTP) = 0: must be more than 0 % and at most 100 %"),
+        ("BAS(#VEL_PTP,150)", "BAS (#VEL_PTP) = 150: must be"),
+        ("BAS (#ACC_PTP,-5)", "BAS (#ACC_PTP) = -5: must be"),
+        ("$VEL.CP=0", "$VEL.CP = 0: must be a number, more than 0 m/s"),
+        ("$VEL.CP=-1", "$VEL.CP = -1: must be"),
+        ("$VEL.ORI1=0", "$VEL.ORI1 = 0: must be a number, more than 0 °/s"),
+        ("$VEL.ORI2=-3", "$VEL.ORI2 = -3: must be"),
+        ("$APO.CDIS=-5", "$APO.CDIS = -5: must be a number from 0 to 10000"),
+    ] {
+        let read = of(line);
+        assert_eq!((read.unclear_line, read.certain), (None, 1), "{line}: {:?}", read.lines);
+        let told: Vec<String> = read.refused.iter().map(ToString::to_string).collect();
+        assert!(told.len() == 1 && told[0].contains(words), "{line}: {told:?}");
+        assert!(read.whole().unwrap_err().contains(words), "{line}");
+    }
+    for line in ["BAS (#VEL_PTP,30)", "BAS (#ACC_PTP,100)", "$VEL.CP=0.25", "$APO.CDIS=0"] {
+        assert_eq!(of(line).refused.len(), 0, "{line}");
+    }
+    assert_eq!(of("BAS (#VEL_PTP,v)").unclear_line, Some(4));
+}

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use hairpin::trajectory::program::{PoseTarget, Program};
+use hairpin::trajectory::program::{PoseTarget, Program, ProgramError};
 
 use super::line::{At, Class, Line};
 
@@ -70,6 +70,8 @@ pub struct Module {
     pub lines: BTreeMap<usize, Line>,
     /// What could not be understood.
     pub mistakes: Vec<Found>,
+    /// Numbers that no move carries and no controller takes, on the way that is certain; of lines counted through.
+    pub refused: Vec<ProgramError>,
     /// All procedures.
     pub procedures: Vec<Procedure>,
     /// All targets that are declared.
@@ -106,13 +108,14 @@ impl Module {
     /// The program, if all of it is certain.
     ///
     /// # Errors
-    /// The first line that is not.
+    /// The first line that is not, or that no controller takes.
     pub fn whole(self) -> Result<Program, String> {
         let unclear = self.unclear_line.map(|line| {
             let why = self.lines.get(&line).map(|line| line.what.as_str()).filter(|what| !what.is_empty());
             format!("{} is not understood: {}", self.told(line), why.unwrap_or("it changes motion"))
         });
         let mistake = self.mistakes.first().map(|found| format!("{}: {}", self.told(found.at.line), found.what));
-        unclear.or(mistake).map_or(Ok(self.program), Err)
+        let refused = self.refused.first().map(ToString::to_string);
+        unclear.or(mistake).or(refused).map_or(Ok(self.program), Err)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use hairpin::trajectory::program::{External, Move, Program};
+use hairpin::trajectory::program::{Bound, External, Move, Place, Program, ProgramError};
 
 use super::line::{At, Class, Line};
 use super::module::{Declared, Found, Module, Part, Procedure};
@@ -21,6 +21,7 @@ pub(crate) struct Reading {
     lines: BTreeMap<usize, Line>,
     unclear: Option<(usize, usize)>,
     mistakes: Vec<Found>,
+    refused: Vec<ProgramError>,
 }
 
 impl Reading {
@@ -41,6 +42,14 @@ impl Reading {
         }
         if class == Class::ChangesMotion && self.unclear.is_none() {
             self.unclear = Some((self.program.moves.len(), number));
+        }
+    }
+
+    /// Holds a number that no move carries against what controllers take, where it is certain that they come to it.
+    pub(crate) fn hold(&mut self, line: usize, field: &'static str, value: f64, bound: Bound) {
+        if self.unclear.is_none() {
+            let at = Place { index: self.program.moves.len(), line: Some(line), name: None };
+            self.refused.extend(bound.refuse(at, field, value));
         }
     }
 
@@ -70,19 +79,19 @@ impl Reading {
     }
 
     /// All of it, read.
-    pub(crate) fn done(self, procedure_line: usize) -> Module {
+    pub(crate) fn done(self, procedures: Vec<Procedure>) -> Module {
         let (certain, unclear_line) = match self.unclear {
             Some((moves, line)) => (moves, Some(line)),
             None => (self.program.moves.len(), None),
         };
-        let procedure = Procedure { name: self.program.procedure.clone(), line: procedure_line, executed: true };
         Module {
             certain,
             unclear_line,
             header: self.header,
             lines: self.lines,
             mistakes: self.mistakes,
-            procedures: vec![procedure],
+            refused: self.refused,
+            procedures,
             targets: self.targets,
             parts: self.parts,
             program: self.program,

@@ -171,6 +171,17 @@ const WRITES: [&str; 23] = [
 /// Endings of moves that do something else at their end: outputs, or a procedure in the middle of the corner.
 const ENDINGS: [&str; 5] = ["", "do", "ao", "go", "sync"];
 
+/// How many arguments without a backslash a move has at most behind those of its path; `name` in lower case.
+pub(super) fn beside(name: &str) -> usize {
+    match name {
+        "moveabsj" => 0,
+        _ if name.ends_with("sync") => 1,
+        // A signal and its value.
+        _ if ["do", "ao", "go"].iter().any(|ending| name.ends_with(ending)) => 2,
+        _ => 0,
+    }
+}
+
 /// What the instruction does; `None` for names that are not ABB's. `name` in lower case.
 pub(super) fn effect(name: &str) -> Option<Effect> {
     if let Some(kind) = move_kind(name) {

@@ -193,6 +193,7 @@ fn read_here(files: &[File<'_>], options: &Options<'_>) -> Result<Module, (usize
         unclear_line,
         header,
         lines,
+        refused: Vec::new(),
         mistakes: mistakes.into_iter().map(|mistake| Found { at: mistake.at, what: mistake.what }).collect(),
         targets,
         parts,

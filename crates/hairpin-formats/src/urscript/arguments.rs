@@ -1,9 +1,11 @@
 //! What is handed to functions of URScript.
 
+use std::collections::BTreeMap;
+
 use hairpin::math::rotation::from_rotation_vector;
 use nalgebra::{Isometry3, Translation3, Vector3};
 
-/// Arguments of a call at most.
+/// Numbers of a list at most.
 const MOST: usize = 64;
 
 /// A value as it is written.
@@ -18,50 +20,53 @@ pub(super) enum Value {
     Other(String),
 }
 
-/// Arguments of a call: by place, then by name.
+/// Arguments of a call by their names, however they were given.
 #[derive(Debug, Default)]
-pub(super) struct Arguments {
-    placed: Vec<Value>,
-    named: Vec<(String, Value)>,
-}
+pub(super) struct Arguments<'n>(BTreeMap<&'n str, Value>);
 
-impl Arguments {
-    /// What stands between the brackets of a call.
-    pub(super) fn of(text: &str) -> Result<Self, String> {
+impl<'n> Arguments<'n> {
+    /// What stands between the brackets of a call that takes arguments of these `names`, in their order.
+    ///
+    /// # Errors
+    /// One that is not among them, that is given twice or is empty; one without a name behind one that has.
+    pub(super) fn of(text: &str, names: &[&'n str]) -> Result<Self, String> {
         let mut all = Self::default();
-        for part in split(text).into_iter().filter(|part| !part.is_empty()) {
-            let name = part.split_once('=').filter(|(name, _)| is_name(name.trim()));
-            match name {
-                Some((name, written)) => all.named.push((name.trim().into(), value(written.trim())?)),
-                None => all.placed.push(value(part)?),
+        if text.trim().is_empty() {
+            return Ok(all);
+        }
+        let mut by_name = false;
+        for (place, part) in split(text).into_iter().enumerate() {
+            let (name, written) = match part.split_once('=').filter(|(name, _)| is_name(name.trim())) {
+                Some((name, written)) => {
+                    by_name = true;
+                    let known = names.iter().find(|known| **known == name.trim());
+                    (known.ok_or_else(|| format!("{} is not followed", name.trim()))?, written)
+                }
+                None if by_name => return Err(format!("argument {} has no name, and one before it has", place + 1)),
+                None => (names.get(place).ok_or_else(|| format!("argument {} is not followed", place + 1))?, part),
+            };
+            if written.trim().is_empty() {
+                return Err(format!("{name} is empty"));
             }
-            if all.placed.len() + all.named.len() > MOST {
-                return Err(format!("more than {MOST} arguments"));
+            if all.0.insert(name, value(written.trim())?).is_some() {
+                return Err(format!("{name} is given twice"));
             }
         }
         Ok(all)
     }
 
-    /// The argument at that place, or of that name.
-    pub(super) fn get(&self, place: usize, name: &str) -> Option<&Value> {
-        let named = self.named.iter().find(|(known, _)| known == name).map(|(_, value)| value);
-        named.or_else(|| self.placed.get(place))
+    /// The argument of that name.
+    pub(super) fn get(&self, name: &str) -> Option<&Value> {
+        self.0.get(name)
     }
 
     /// A number; `None` where it is not given.
-    pub(super) fn number(&self, place: usize, name: &str) -> Result<Option<f64>, String> {
-        match self.get(place, name) {
+    pub(super) fn number(&self, name: &str) -> Result<Option<f64>, String> {
+        match self.get(name) {
             None => Ok(None),
             Some(Value::Number(number)) => Ok(Some(*number)),
             Some(_) => Err(format!("{name} is no number that is known")),
         }
-    }
-
-    /// The first argument that is none of these, by its name or beyond the last of them.
-    pub(super) fn unknown(&self, known: &[&str]) -> Option<String> {
-        let named = self.named.iter().map(|(name, _)| name).find(|name| !known.contains(&name.as_str()));
-        let beyond = || (self.placed.len() > known.len()).then(|| format!("argument {}", known.len() + 1));
-        named.cloned().or_else(beyond)
     }
 }
 

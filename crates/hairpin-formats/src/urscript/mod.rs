@@ -1,9 +1,12 @@
 //! URScript of Universal Robots, out and in: metres, radians, rotation vectors, poses in the base.
 //!
-//! What is written reads back to the same moves. Of other programs the moves up to the first line that says more are
-//! certain.
+//! What is written reads back to the same moves. Of other programs what the file calls is followed, and the moves up to
+//! the first line that says more are certain.
 
 mod arguments;
+mod blocks;
+mod moves;
+mod names;
 mod read;
 mod write;
 

@@ -1,13 +1,22 @@
-//! Programs read from URScript, line by line.
+//! Programs read from URScript: what the file calls, statement by statement.
 
-use hairpin::trajectory::program::{JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Speed, Tool, WorkObject, Zone};
-use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
+
+use hairpin::trajectory::program::{Tool, WorkObject};
 use thiserror::Error;
 
 use super::CONVENTIONS;
-use super::arguments::{Arguments, Value};
+use super::blocks::{Blocks, Part as Line, call};
+use super::names::{HARMLESS, is_quiet, not_followed};
 use crate::banner::NOTICE;
-use crate::listing::{Class, Doubt, File, Module, Part, Reading, Unmodelled, calls, decode};
+use crate::listing::{Class, File, Module, Part, Procedure, Reading, calls, decode};
+
+/// Functions within functions at most.
+const MOST_DEPTH: usize = 250;
+/// Statements at most.
+const MOST_STEPS: usize = 1_000_000;
+/// Moves at most.
+const MOST_MOVES: usize = 100_000;
 
 /// Why a file is no program.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -17,147 +26,86 @@ pub enum NoProgram {
     Absent,
 }
 
-/// Functions that neither move the arm nor change how it moves.
-const HARMLESS: [&str; 14] = [
-    "popup",
-    "set_analog_out",
-    "set_configurable_digital_out",
-    "set_digital_out",
-    "set_standard_analog_out",
-    "set_standard_digital_out",
-    "set_tool_digital_out",
-    "sleep",
-    "socket_close",
-    "socket_open",
-    "socket_send_string",
-    "sync",
-    "textmsg",
-    "write_output_boolean_register",
-];
-
-/// Functions that give a value and do nothing, beside [`READING`], and words that may stand before brackets.
-const VALUES: [&str; 41] = [
-    "abs",
-    "acos",
-    "and",
-    "asin",
-    "atan",
-    "atan2",
-    "binary_list_to_integer",
-    "ceil",
-    "cos",
-    "d2r",
-    "floor",
-    "force",
-    "integer_to_binary_list",
-    "interpolate_pose",
-    "inv",
-    "length",
-    "log",
-    "norm",
-    "normalize",
-    "not",
-    "or",
-    "point_dist",
-    "pose_add",
-    "pose_dist",
-    "pose_inv",
-    "pose_sub",
-    "pose_trans",
-    "pow",
-    "r2d",
-    "random",
-    "rotvec2rpy",
-    "rpy2rotvec",
-    "sin",
-    "size",
-    "socket_get_var",
-    "sqrt",
-    "tan",
-    "time",
-    "transpose",
-    "wrench_trans",
-    "xor",
-];
-
-/// What the names of functions begin with that read.
-const READING: [&str; 7] = ["get_", "is_", "modbus_get_", "read_", "socket_read_", "str_", "to_"];
-
-/// Functions that change motion in ways that no model here has, by what their names begin with.
-const CHANGES: [(Unmodelled, &[&str]); 8] = [
-    (Unmodelled::Conveyors, &["track_conveyor", "stop_conveyor", "set_conveyor", "conveyor_"]),
-    (Unmodelled::ForceControl, &["force_mode", "end_force_mode", "screw_driving", "tool_contact", "zero_ftsensor"]),
-    (
-        Unmodelled::Guidance,
-        &["servo", "speed", "freedrive", "end_freedrive", "teach_mode", "end_teach_mode", "path_offset"],
-    ),
-    (Unmodelled::Interpolation, &["movep", "optimove"]),
-    (Unmodelled::Payload, &["set_payload", "set_target_payload", "set_gravity"]),
-    (Unmodelled::Restarts, &["stopj", "stopl", "undo"]),
-    (Unmodelled::Displacements, &["set_tcp", "set_base", "pose_"]),
-    (Unmodelled::ExternalAxes, &["axis_group"]),
-];
-
-/// Reads a program: the first function that the file defines.
+/// Reads a program: the functions that the file calls, as often as they are called; where it calls none, the first that
+/// it defines.
+///
+/// Bounds: 250 functions within each other, 10⁶ statements, 10⁵ moves.
 ///
 /// # Errors
 /// [`NoProgram`]; all else that is not followed is told by line, and the moves before it are certain.
 pub fn read(file: File<'_>) -> Result<Module, NoProgram> {
     let text = decode(file.bytes);
-    let mut reader = Reader::default();
+    let blocks = Blocks::of(&text);
+    if blocks.functions.is_empty() {
+        return Err(NoProgram::Absent);
+    }
+    let mut reader = Reader::of(&blocks);
     reader.reading.parts.push(Part { name: file.name.into(), first_line: 1 });
     reader.reading.program.work_objects.push(WorkObject::base());
-    let mut defined: Option<(usize, String)> = None;
-    let (mut depth, mut within) = (0_usize, false);
-    for (index, line) in text.split('\n').enumerate() {
-        let number = index + 1;
-        if defined.is_none() && line.starts_with('#') {
-            reader.head(line);
-        }
-        let statement = without_comment(line);
-        let outside = depth == 0;
-        if statement == "end" {
-            depth = depth.saturating_sub(1);
-            within &= depth > 0;
-            continue;
-        }
-        depth += usize::from(begins_block(statement));
-        match (name_of(statement), &defined) {
-            _ if statement.is_empty() => {}
-            (Some(name), None) if outside => {
-                defined = Some((number, name));
-                within = true;
-            }
-            _ if within => reader.statement(number, statement),
-            _ if !outside || statement.starts_with("def ") => {
-                reader.reading.mark(number, Class::Unreached, "another function");
-            }
-            // The call of the function that was read.
-            (None, Some((_, name))) if statement.strip_suffix("()") == Some(name) => {
-                reader.reading.mark(number, Class::Understood, "");
-            }
-            _ => reader.reading.doubt(number, not_followed(statement)),
-        }
+    blocks.head.iter().for_each(|line| reader.head(line));
+    for (line, what) in &blocks.mistakes {
+        reader.reading.mistake(*line, what.clone());
     }
-    let (line, name) = defined.ok_or(NoProgram::Absent)?;
-    if depth > 0 {
+    let main = reader.run_all();
+    if blocks.is_cut {
         reader.reading.cut_short(&text, "end");
     }
-    reader.reading.program.name.clone_from(&name);
-    reader.reading.program.procedure = name;
-    Ok(reader.reading.done(line))
+    reader.leave_out();
+    let name = &blocks.functions[main].name;
+    reader.reading.program.name.clone_from(name);
+    reader.reading.program.procedure.clone_from(name);
+    let executed = reader.executed.iter().chain([&main]).collect::<BTreeSet<_>>().into_iter();
+    let procedures = executed.map(|index| {
+        let function = &blocks.functions[*index];
+        Procedure { name: function.name.clone(), line: function.line, executed: true }
+    });
+    let procedures = procedures.collect();
+    Ok(reader.reading.done(procedures))
 }
 
-#[derive(Debug, Default)]
-struct Reader {
-    reading: Reading,
-    /// Index of the tool that is set.
-    tool: Option<usize>,
+#[derive(Debug)]
+pub(super) struct Reader<'b> {
+    pub(super) reading: Reading,
+    /// The tool that is set.
+    pub(super) carried: Option<Tool>,
+    /// Its index, where a move had it.
+    pub(super) tool: Option<usize>,
     /// Whether the line before set it: what it weighs may follow.
-    fresh: bool,
+    pub(super) fresh: bool,
+    blocks: &'b Blocks,
+    /// Functions by what they are defined in and by name: the first, and whether it is the only one.
+    known: BTreeMap<Option<usize>, BTreeMap<&'b str, (usize, bool)>>,
+    /// Functions whose definition was passed.
+    declared: BTreeSet<usize>,
+    executed: BTreeSet<usize>,
+    depth: usize,
+    steps: usize,
+    /// Whether a bound was passed: nothing is followed any more.
+    ended: bool,
 }
 
-impl Reader {
+impl<'b> Reader<'b> {
+    fn of(blocks: &'b Blocks) -> Self {
+        let mut known: BTreeMap<_, BTreeMap<&str, (usize, bool)>> = BTreeMap::new();
+        for (index, function) in blocks.functions.iter().enumerate() {
+            let there = known.entry(function.within).or_default();
+            there.entry(&function.name).and_modify(|(_, is_one)| *is_one = false).or_insert((index, true));
+        }
+        Self {
+            reading: Reading::default(),
+            carried: None,
+            tool: None,
+            fresh: false,
+            blocks,
+            known,
+            declared: BTreeSet::new(),
+            executed: BTreeSet::new(),
+            depth: 0,
+            steps: 0,
+            ended: false,
+        }
+    }
+
     fn head(&mut self, line: &str) {
         let comment = line.trim_start_matches('#');
         let comment = comment.strip_prefix(' ').unwrap_or(comment).trim_end();
@@ -166,12 +114,79 @@ impl Reader {
         }
     }
 
-    fn statement(&mut self, line: usize, statement: &str) {
+    /// Follows what stands in no function, or the first function where nothing is called there: the function that the
+    /// program is called by.
+    fn run_all(&mut self) -> usize {
+        let blocks = self.blocks;
+        let mut main = None;
+        for part in &blocks.top {
+            match part {
+                _ if self.ended => break,
+                Line::Function(index) => {
+                    self.declared.insert(*index);
+                }
+                Line::Statement { line, inside: true, .. } => {
+                    self.reading.mark(*line, Class::Unreached, "in a block that is not followed");
+                }
+                Line::Statement { line, text, .. } => match call(text).and_then(|(name, _)| self.find(name, None)) {
+                    Some((found, _)) => {
+                        main = main.or(Some(found));
+                        self.statement(*line, text, None);
+                    }
+                    // What is set here is set for whom nobody knows.
+                    None => self.reading.doubt(*line, not_followed(text)),
+                },
+            }
+        }
+        main.unwrap_or_else(|| {
+            self.executed.insert(0);
+            self.run(&blocks.functions[0].body, Some(0));
+            let other = blocks.functions.iter().skip(1).find(|function| function.within.is_none());
+            if let Some(other) = other {
+                let what = format!("nothing says whether `{}` is called", other.name.escape_default());
+                self.reading.doubt(other.line, (None, what));
+            }
+            0
+        })
+    }
+
+    /// The function that `name` is in the function `of`, and whether it is the only one there.
+    fn find(&self, name: &str, of: Option<usize>) -> Option<(usize, bool)> {
+        let mut scope = of;
+        loop {
+            let found = self.known.get(&scope).and_then(|there| there.get(name));
+            if found.is_some() || scope.is_none() {
+                return found.copied();
+            }
+            scope = scope.and_then(|index| self.blocks.functions[index].within);
+        }
+    }
+
+    fn run(&mut self, body: &'b [Line], of: Option<usize>) {
+        for part in body {
+            match part {
+                _ if self.ended => return,
+                Line::Function(index) => {
+                    self.declared.insert(*index);
+                }
+                Line::Statement { line, text, .. } => self.statement(*line, text, of),
+            }
+        }
+    }
+
+    fn statement(&mut self, line: usize, statement: &str, of: Option<usize>) {
         let fresh = std::mem::take(&mut self.fresh);
-        let call = statement.split_once('(').and_then(|(name, rest)| Some((name.trim(), rest.strip_suffix(')')?)));
-        let Some((name, inside)) = call else { return self.reading.doubt(line, not_followed(statement)) };
-        if let Some(within) = calls(inside).into_iter().find(|within| !is_quiet(within)) {
+        self.steps += 1;
+        if self.steps > MOST_STEPS || self.reading.program.moves.len() >= MOST_MOVES {
+            return self.end(line, format!("more than {MOST_STEPS} statements or {MOST_MOVES} moves"));
+        }
+        let Some((name, inside)) = call(statement) else { return self.reading.doubt(line, not_followed(statement)) };
+        let is_followed = |within: &&str| !is_quiet(within) || self.find(within, of).is_some();
+        if let Some(within) = calls(inside).into_iter().find(is_followed) {
             return self.reading.doubt(line, not_followed(within));
+        }
+        if let Some((index, is_one)) = self.find(name, of) {
+            return self.call(line, index, is_one, inside);
         }
         let done = match name {
             "set_tcp" => self.set_tcp(line, inside),
@@ -191,176 +206,49 @@ impl Reader {
         }
     }
 
-    fn set_tcp(&mut self, line: usize, inside: &str) -> Result<(), String> {
-        let arguments = Arguments::of(inside)?;
-        let Some(Value::Pose(tcp)) = arguments.get(0, "pose") else { return Err("expected a pose, p[…]".into()) };
-        if let Some(unknown) = arguments.unknown(&["pose", "tcp_name"]) {
-            return Err(format!("{unknown} is not followed"));
-        }
-        let tools = &mut self.reading.program.tools;
-        tools.push(Tool { name: format!("tool{}", tools.len() + 1), declare: true, tcp: *tcp, ..Tool::flange() });
-        self.tool = Some(tools.len() - 1);
-        self.fresh = true;
-        self.reading.mark(line, Class::Understood, "");
-        Ok(())
-    }
-
-    /// What the tool that was set just now weighs.
-    fn weigh(&mut self, line: usize, inside: &str) -> Result<(), String> {
-        let arguments = Arguments::of(inside)?;
-        let mass = arguments.number(0, "m")?.ok_or("expected a mass")?;
-        let centre = match arguments.get(1, "cog") {
-            Some(Value::List(centre)) => <[f64; 3]>::try_from(centre.as_slice()).ok(),
-            _ => None,
-        };
-        let centre = centre.ok_or("expected a centre of gravity, [x, y, z]")?;
-        let (axes, moments) = match arguments.get(2, "inertia") {
-            None => (UnitQuaternion::identity(), [0.0; 3]),
-            Some(Value::List(six)) => principal(six)?,
-            Some(_) => return Err("expected moments of inertia, [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]".into()),
-        };
-        if let Some(unknown) = arguments.unknown(&["m", "cog", "inertia"]) {
-            return Err(format!("{unknown} is not followed"));
-        }
-        if let Some(tool) = self.tool.and_then(|index| self.reading.program.tools.get_mut(index)) {
-            (tool.mass, tool.centre_of_gravity) = (mass, Vector3::from(centre));
-            (tool.axes_of_inertia, tool.inertia) = (axes, moments);
-        }
-        self.reading.mark(line, Class::Understood, "");
-        Ok(())
-    }
-
-    fn go(&mut self, line: usize, name: &str, inside: &str) -> Result<(), String> {
-        let arguments = Arguments::of(inside)?;
-        let mut doubts: Vec<Doubt> = Vec::new();
-        let known: &[&str] = match name {
-            "movec" => &["pose_via", "pose_to", "a", "v", "r", "mode"],
-            "movej" => &["q", "a", "v", "t", "r"],
-            _ => &["pose", "a", "v", "t", "r"],
-        };
-        if let Some(unknown) = arguments.unknown(known) {
-            doubts.push((None, format!("{unknown} is not followed")));
-        }
-        let pose = |place: usize, name: &str| match arguments.get(place, name) {
-            Some(Value::Pose(pose)) => Ok(PoseTarget::unnamed(*pose)),
-            _ => Err("expected a pose, p[…]".to_owned()),
-        };
-        let motion = match (name, arguments.get(0, "q")) {
-            ("movej", Some(Value::List(joints))) => {
-                let six = <[f64; 6]>::try_from(joints.as_slice());
-                let joints = six.map_err(|_| format!("expected 6 angles, found {}", joints.len()))?;
-                Motion::AbsoluteJoint(JointTarget { name: None, joints, external: NO_EXTERNAL })
+    /// Follows a function of the file's own.
+    fn call(&mut self, line: usize, index: usize, is_one: bool, inside: &str) {
+        let blocks = self.blocks;
+        let function = &blocks.functions[index];
+        let name = function.name.escape_default();
+        let why = match () {
+            () if !is_one => Some(format!("`{name}` is defined twice")),
+            () if !self.declared.contains(&index) => Some(format!("`{name}` is called before it is defined")),
+            () if function.takes || !inside.trim().is_empty() => {
+                Some(format!("`{name}` is not followed: it has arguments"))
             }
-            ("movej", _) => Motion::Joint(pose(0, "q").map_err(|_| "expected [6 angles] or a pose, p[…]".to_owned())?),
-            ("movec", _) => Motion::Circular { via: pose(0, "pose_via")?, to: pose(1, "pose_to")? },
-            _ => Motion::Linear(pose(0, "pose")?),
+            () if self.depth >= MOST_DEPTH => {
+                return self.end(line, format!("`{name}` is called in more than {MOST_DEPTH} others"));
+            }
+            () => None,
         };
-        let circular = name == "movec";
-        let at = if circular { 2 } else { 1 };
-        arguments.number(at, "a")?;
-        let speed = arguments.number(at + 1, "v")?;
-        let duration = if circular { None } else { arguments.number(3, "t")?.filter(|t| *t > 0.0) };
-        let radius = arguments.number(4, "r")?.unwrap_or(0.0);
-        if circular && arguments.number(5, "mode")?.is_some_and(|mode| mode != 0.0) {
-            doubts.push((Some(Unmodelled::Interpolation), "mode 1: the orientation turns with the arc".into()));
+        if let Some(why) = why {
+            return self.reading.doubt(line, (None, why));
         }
-        if self.tool.is_none() {
-            doubts.push((None, "the tool's centre point is not set in this file".into()));
+        self.reading.mark(line, Class::Understood, "");
+        self.executed.insert(index);
+        self.depth += 1;
+        self.run(&function.body, Some(index));
+        self.depth -= 1;
+    }
+
+    /// Nothing is followed from here on.
+    fn end(&mut self, line: usize, what: String) {
+        self.ended = true;
+        self.reading.doubt(line, (None, what));
+    }
+
+    /// Marks the lines of functions that nothing called.
+    fn leave_out(&mut self) {
+        for (index, function) in self.blocks.functions.iter().enumerate() {
+            if self.executed.contains(&index) {
+                continue;
+            }
+            for part in &function.body {
+                if let Line::Statement { line, .. } = part {
+                    self.reading.mark(*line, Class::Unreached, "another function");
+                }
+            }
         }
-        let tool = self.tool.unwrap_or_else(|| {
-            self.reading.program.tools.push(Tool::flange());
-            self.reading.program.tools.len() - 1
-        });
-        self.tool = Some(tool);
-        let zone = Zone {
-            name: None,
-            fine: false,
-            tcp: radius,
-            path_orientation: radius,
-            path_external: radius,
-            ..Zone::stop()
-        };
-        let zone = if radius > 0.0 { zone } else { Zone::stop() };
-        // The speed of joint moves is the leading axis', none of the tool's.
-        let speed = if name == "movej" { None } else { speed };
-        let speed = speed_of(speed);
-        let m = Move { tool, duration, configuration_demanded: false, ..Move::new(motion, speed, zone) };
-        self.reading.go(line, m, doubts);
-        Ok(())
     }
-}
-
-/// Whether a call amid others neither moves the arm nor changes how it moves.
-fn is_quiet(name: &str) -> bool {
-    VALUES.contains(&name) || HARMLESS.contains(&name) || READING.iter().any(|begin| name.starts_with(begin))
-}
-
-/// As fast as the arm can, but for the tool's centre point.
-fn speed_of(tcp: Option<f64>) -> Speed {
-    let fast = Speed::predefined("vmax").unwrap_or(Speed {
-        name: None,
-        tcp: f64::INFINITY,
-        orientation: 1e3,
-        linear_external: 0.0,
-        rotating_external: 0.0,
-    });
-    match tcp {
-        Some(tcp) => Speed { name: None, tcp, ..fast },
-        None => fast,
-    }
-}
-
-/// Why a statement is not followed.
-fn not_followed(statement: &str) -> Doubt {
-    let end = statement.find(|c: char| !(c.is_alphanumeric() || c == '_'));
-    let name = &statement[..end.unwrap_or(statement.len())];
-    let known = CHANGES.iter().find(|(_, begins)| begins.iter().any(|begin| name.starts_with(begin)));
-    (known.map(|(what, _)| *what), format!("`{}` is not followed", name.escape_default()))
-}
-
-/// The line without its comment and blanks; a `#` between quotes begins none.
-fn without_comment(line: &str) -> &str {
-    let mut quoted = false;
-    let end = line.char_indices().find(|(_, c)| {
-        quoted ^= *c == '"';
-        *c == '#' && !quoted
-    });
-    line[..end.map_or(line.len(), |(at, _)| at)].trim()
-}
-
-/// Whether an `end` belongs to it.
-fn begins_block(statement: &str) -> bool {
-    let word = statement.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
-    statement.ends_with(':') && ["def", "for", "if", "sec", "thread", "while"].contains(&word)
-}
-
-/// `def name():`: its name.
-fn name_of(statement: &str) -> Option<String> {
-    let name = statement.strip_prefix("def ")?.split('(').next()?.trim();
-    name.starts_with(char::is_alphabetic).then(|| name.to_owned())
-}
-
-/// What moments may be below 0 by, as a share of the largest: they are written with so many digits.
-const WRITTEN: f64 = 1e-6;
-
-/// `flange_from_axes` and the principal moments of inertia, of Ixx, Iyy, Izz, Ixy, Ixz, Iyz; kg m².
-fn principal(six: &[f64]) -> Result<(UnitQuaternion<f64>, [f64; 3]), String> {
-    let &[xx, yy, zz, xy, xz, yz] = six else {
-        return Err(format!("expected six moments of inertia, found {}", six.len()));
-    };
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    let (axes, moments) = if [xy, xz, yz] == [0.0; 3] {
-        (UnitQuaternion::identity(), Vector3::new(xx, yy, zz))
-    } else {
-        let SymmetricEigen { mut eigenvectors, eigenvalues } = SymmetricEigen::new(tensor);
-        if eigenvectors.determinant() < 0.0 {
-            eigenvectors.column_mut(2).neg_mut();
-        }
-        (UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(eigenvectors)), eigenvalues)
-    };
-    let least = moments.min();
-    if least < -WRITTEN * moments.max() {
-        return Err(format!("a moment of inertia is {least} kg m², and no body has one below 0"));
-    }
-    Ok((axes, moments.map(|moment| moment.max(0.0)).into()))
 }

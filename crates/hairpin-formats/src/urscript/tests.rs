@@ -1,6 +1,7 @@
 //! Programs written, read by a reader of the tests' own, and read back.
 
 use hairpin::math::rotation::from_rotation_vector;
+use hairpin::robot::arm::{Arm, ArmDescription};
 use hairpin::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
 };
@@ -60,7 +61,7 @@ fn calls(text: &str) -> Vec<Call> {
 #[test]
 fn poses_speeds_and_corners_are_those_of_the_program() {
     let program = program();
-    let text = text(&program, &Settings::default(), &["gap 0.3 %".into()]).unwrap();
+    let text = text(&program, &Settings::default(), None, &["gap 0.3 %".into()]).unwrap();
     assert!(text.starts_with("# gap 0.3 %\n# This is a test program") && text.ends_with("\nend\nheavy_run()\n"));
     let calls = calls(&text);
     let names: Vec<_> = calls.iter().map(|(name, ..)| name.as_str()).collect();
@@ -81,7 +82,8 @@ fn poses_speeds_and_corners_are_those_of_the_program() {
         (named(4, "v"), named(4, "t"), named(5, "v"), named(6, "v")),
         (Some(0.15), Some(2.5), Some(1.0), Some(1.0))
     );
-    // The first corner comes from a posture, the third is cut to half of 12.2 mm.
+    // The first corner comes from a posture, of which nothing is known without the arm; the third is cut to half of
+    // 12.2 mm.
     assert_eq!((named(3, "r"), named(6, "r")), (Some(0.0), Some(0.0)));
     let half = 0.5 * (0.012_f64.powi(2) + 0.01_f64.powi(2)).sqrt();
     assert!((named(4, "r").unwrap() - half).abs() < 1e-9 && (named(5, "r").unwrap() - half).abs() < 1e-9);
@@ -91,15 +93,18 @@ fn poses_speeds_and_corners_are_those_of_the_program() {
 fn what_controllers_refuse_is_not_written() {
     for name in ["end", "set_tcp"] {
         let named = Program { procedure: name.into(), ..program() };
-        assert!(matches!(text(&named, &Settings::default(), &[]), Err(UrscriptError::Name { .. })), "{name}");
+        assert!(matches!(text(&named, &Settings::default(), None, &[]), Err(UrscriptError::Name { .. })), "{name}");
     }
     let settings = Settings { acceleration: 0.0, ..Settings::default() };
-    assert!(matches!(text(&program(), &settings, &[]), Err(UrscriptError::Setting { field: "acceleration", .. })));
+    assert!(matches!(
+        text(&program(), &settings, None, &[]),
+        Err(UrscriptError::Setting { field: "acceleration", .. })
+    ));
     let mut broken = program();
     broken.moves.remove(2);
     broken.moves.remove(0);
     broken.moves.remove(0);
-    assert!(matches!(text(&broken, &Settings::default(), &[]), Err(UrscriptError::Program(_))));
+    assert!(matches!(text(&broken, &Settings::default(), None, &[]), Err(UrscriptError::Program(_))));
 }
 
 fn back(text: &str) -> Module {
@@ -109,10 +114,10 @@ fn back(text: &str) -> Module {
 #[test]
 fn what_is_written_reads_back_and_is_written_the_same() {
     let program = program();
-    let written = text(&program, &Settings::default(), &["gap 0.3 %".into()]).unwrap();
+    let written = text(&program, &Settings::default(), None, &["gap 0.3 %".into()]).unwrap();
     let read = back(&written);
     assert_eq!((read.unclear_line, read.certain, &read.mistakes[..]), (None, 5, &[][..]), "{:?}", read.lines);
-    assert_eq!(text(&read.program, &Settings::default(), &read.header).unwrap(), written);
+    assert_eq!(text(&read.program, &Settings::default(), None, &read.header).unwrap(), written);
     assert_eq!(read.program.procedure, "heavy_run");
     let (kept, _) = written.rsplit_once("\nend\n").unwrap();
     let cut = back(kept);
@@ -138,7 +143,7 @@ fn moments_of_inertia_go_along() {
     let tool = &mut program.tools[0];
     (tool.inertia, tool.axes_of_inertia) = ([0.01, 0.02, 0.005], turned(0.3, -0.8, 1.1));
     let tensor = tool.tensor_of_inertia();
-    let written = text(&program, &Settings::default(), &[]).unwrap();
+    let written = text(&program, &Settings::default(), None, &[]).unwrap();
     let six = &calls(&written)[1].1[1];
     let expected = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|place| tensor[place]);
     assert!(six.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9) && six[3].abs() > 1e-4, "{six:?} {tensor}");
@@ -213,4 +218,146 @@ fn what_is_not_followed_is_named_by_line() {
     let bare = back("def m():\n  movej([0,0,0,0,0,0])\nend\nm()\nother()\n");
     assert!(bare.lines[&2].what.contains("centre point is not set") && bare.lines[&5].class == Class::ChangesMotion);
     assert_eq!(read(File { name: "m.script", bytes: b"hello" }), Err(NoProgram::Absent));
+}
+
+/// A corner behind a move to joint angles is the programmed one: where these lead the arm says.
+#[test]
+fn corners_beside_postures_take_the_arm() {
+    let text_of = include_str!("../../../../data/robots/arm/irb120.toml");
+    let arm: Arm = toml::from_str::<ArmDescription>(text_of).unwrap().build().unwrap();
+    let program = program();
+    let radius = |arm: Option<&Arm>| {
+        let written = text(&program, &Settings::default(), arm, &[]).unwrap();
+        calls(&written)[3].2.iter().find(|(name, _)| name == "r").unwrap().1
+    };
+    assert_eq!((radius(None), radius(Some(&arm))), (0.0, 0.01));
+    // Cut to half of the way from there.
+    let mut near = program.clone();
+    let Motion::AbsoluteJoint(home) = &program.moves[0].motion else { panic!("it begins at a posture") };
+    let at_home = arm.forward(&home.joints) * program.tools[0].tcp;
+    let there = program.work_objects[0].base_from_object().inverse() * Translation3::new(0.0, 0.0, 0.004) * at_home;
+    near.moves[1].motion = Motion::Joint(PoseTarget::unnamed(there));
+    let written = text(&near, &Settings::default(), Some(&arm), &[]).unwrap();
+    let cut = calls(&written)[3].2.iter().find(|(name, _)| name == "r").unwrap().1;
+    assert!((cut - 0.002).abs() < 1e-8, "{cut}");
+}
+
+const GO: &str = "movel(p[0.4,0,0.3,0,3.1,0], a=1.2, v=0.2)";
+
+/// A function is executed as often as it is called, wherever that is.
+#[test]
+fn functions_are_followed_as_often_as_they_are_called() {
+    let tool = "set_tcp(p[0,0,0.1,0,0,0])";
+    for (text, moves, name) in [
+        (format!("def t():\n  {tool}\n  {GO}\n  {GO}\nend\nt()\nt()\n"), 4, "t"),
+        (format!("def s():\n  {GO}\nend\ndef t():\n  {tool}\n  s()\n  {GO}\n  s()\nend\nt()\n"), 3, "t"),
+        (format!("def t():\n  {tool}\n  def s():\n    {GO}\n  end\n  s()\n  s()\nend\nt()\n"), 2, "t"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\ndef u():\n  t()\n  t()\nend\nu()\nu()\n"), 4, "u"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\ndef u():\n  {GO}\nend\nu()\nt()\n"), 2, "u"),
+        // Of the file's own is what it calls, whatever URScript has under that name.
+        (format!("def sleep():\n  {GO}\nend\ndef t():\n  {tool}\n  sleep()\nend\nt()\n"), 1, "t"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\n"), 1, "t"),
+    ] {
+        let read = back(&text);
+        assert_eq!((read.program.moves.len(), read.program.procedure.as_str()), (moves, name), "{text}");
+        // Only where the tool is not set yet something is not certain.
+        let is_open = text.ends_with("u()\nt()\n");
+        assert_eq!(read.unclear_line.is_some(), is_open, "{text}: {:?}", read.lines);
+    }
+    // A tool that is set again is the same.
+    let twice = back(&format!("def t():\n  {tool}\n  {GO}\nend\nt()\nt()\n"));
+    assert_eq!(twice.program.moves.iter().map(|m| m.line).collect::<Vec<_>>(), [Some(3), Some(3)]);
+    assert_eq!(twice.program.tools.len(), 1);
+}
+
+#[test]
+fn calls_that_are_not_followed_are_named() {
+    let tool = "set_tcp(p[0,0,0.1,0,0,0])";
+    for (text, line, certain, words) in [
+        (format!("def s(x):\n  {GO}\nend\ndef t():\n  {tool}\n  {GO}\n  s(1)\nend\nt()\n"), 7, 1, "it has arguments"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\nt(1)\n"), 5, 0, "it has arguments"),
+        (format!("def t():\n  {tool}\n  {GO}\n  s()\nend\nt()\ndef s():\n  {GO}\nend\n"), 4, 1, "before it is defined"),
+        (format!("def t():\n  {tool}\n  {GO}\n  t()\nend\nt()\n"), 4, 250, "in more than 250 others"),
+        (
+            format!("def s():\n  {GO}\nend\ndef s():\n  {GO}\nend\ndef t():\n  {tool}\n  {GO}\n  s()\nend\nt()\n"),
+            10,
+            1,
+            "defined twice",
+        ),
+        (format!("def t():\n  {tool}\n  {GO}\n  sleep(s())\nend\ndef s():\n  {GO}\nend\nt()\n"), 4, 1, "`s`"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\ndef u():\n  {GO}\nend\n"), 5, 1, "nothing says whether `u`"),
+        (format!("def t(): {GO}\n  {tool}\n  {GO}\nend\nt()\n"), 1, 0, "a colon alone"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\nt() t()\n"), 5, 0, "`t` is not followed"),
+        (format!("def t():\n  {tool}\n  {GO}\nend\nt()\nend\n"), 6, 0, "ends nothing"),
+    ] {
+        let read = back(&text);
+        assert_eq!((read.unclear_line, read.certain), (Some(line), certain), "{text}: {:?}", read.lines);
+        assert!(read.lines[&line].what.contains(words), "{text}: {:?}", read.lines[&line]);
+    }
+    // What doubles at each of forty levels ends somewhere.
+    let mut many = format!("def f0():\n  {GO}\nend\n");
+    for k in 1..40 {
+        many += &format!("def f{k}():\n  f{0}()\n  f{0}()\nend\n", k - 1);
+    }
+    let read = back(&format!("{many}def t():\n  {tool}\n  f39()\nend\nt()\n"));
+    assert!(read.unclear_line.is_some() && read.certain == 100_000, "{}", read.certain);
+}
+
+/// What stands behind a statement's brackets is no part of it.
+#[test]
+fn statements_are_understood_to_their_end() {
+    for body in [
+        "sleep(1) halt",
+        "sleep(1) (2)",
+        "sync() x = p[0,0,0,0,0,0]",
+        "textmsg(\"a\") + textmsg(\"b\")",
+        "set_digital_out(1, True) set_tcp(p[0,0,2,0,0,0])",
+    ] {
+        let read = back(&format!("def t():\n  set_tcp(p[0,0,0.1,0,0,0])\n  {GO}\n  {body}\n  {GO}\nend\nt()\n"));
+        assert_eq!((read.unclear_line, read.certain), (Some(4), 1), "{body}: {:?}", read.lines);
+    }
+}
+
+/// A number that no controller takes is refused with its bound; what is given twice, or is none of its arguments, is
+/// not understood.
+#[test]
+fn arguments_are_held_to_what_controllers_take() {
+    let of = |body: &str| back(&format!("def t():\n  set_tcp(p[0,0,0.1,0,0,0])\n  {body}\nend\nt()\n"));
+    let (joints, pose) = ("[0,-1.5,1.5,0,1.5,0]", "p[0.4,0,0.3,0,3.1,0]");
+    for (body, words) in [
+        (format!("movej({joints}, a=1.4, v=-1.05)"), "v = -1.05: must be a number, more than 0 rad/s"),
+        (format!("movej({joints}, 1.4, 0)"), "v = 0: must be a number, more than 0 rad/s"),
+        (format!("movej({pose}, a=0)"), "a = 0: must be a number, more than 0 rad/s²"),
+        (format!("movej({joints}, a=-1.2, t=2)"), "a = -1.2: must be"),
+        (format!("movel({pose}, a=-1.2, v=0.2)"), "a = -1.2: must be a number, more than 0 m/s²"),
+        (format!("movel({pose}, v=0)"), "tcp speed = 0: must be a number, more than 0 m/s"),
+        (format!("movel({pose}, a=1.2, v=0.2, r=-1)"), "zone = -1: must be a number from 0 to 10000"),
+        (format!("movej({joints}, t=-3)"), "duration = -3: must be more than 0 s"),
+        (format!("movec({pose}, {pose}, 1, 1, -0.1)"), "zone = -0.1: must be"),
+    ] {
+        let read = of(&body);
+        assert_eq!((read.unclear_line, read.certain), (None, 1), "{body}: {:?}", read.lines);
+        let problems = read.program.problems().into_iter().filter(|one| !one.to_string().contains("circular"));
+        let told: Vec<String> = problems.chain(read.refused.clone()).map(|one| one.to_string()).collect();
+        assert!(told.len() == 1 && told[0].contains(words) && told[0].contains("line 3"), "{body}: {told:?}");
+    }
+    // A time of 0 is none, and with one nobody looks at speeds.
+    for body in [format!("movej({joints}, a=1.4, v=1.05, t=0, r=0)"), format!("movel({pose}, 0, 0, 2)")] {
+        let read = of(&body);
+        assert_eq!((read.unclear_line, read.refused.len(), read.program.problems().len()), (None, 0, 0), "{body}");
+    }
+    for (body, words) in [
+        (format!("movel({pose}, a=1.2, v=0.2, v=99)"), "v is given twice"),
+        (format!("movel(p[2,0,0.5,0,2.6,0], pose={pose})"), "pose is given twice"),
+        (format!("movel({pose}, 1.2, a=1)"), "a is given twice"),
+        (format!("movel({pose}, a=1.2, q=9)"), "q is not followed"),
+        (format!("movel({pose}, a=1.2, 0.2)"), "has no name"),
+        (format!("movel({pose}, , 0.2)"), "a is empty"),
+        ("set_tcp(p[0,0,0,0,0,0], pose=p[0,0,1,0,0,0])".into(), "pose is given twice"),
+    ] {
+        let read = of(&body);
+        assert!(read.unclear_line == Some(3) && read.lines[&3].what.contains(words), "{body}: {:?}", read.lines);
+    }
+    // Behind what is not understood nothing is certain, numbers neither.
+    assert_eq!(of(&format!("if True:\n  end\n  movej({joints}, v=-1)")).refused.len(), 0);
 }

@@ -1,6 +1,7 @@
 //! Programs written as URScript.
 
 use hairpin::math::rotation::rotation_vector;
+use hairpin::robot::arm::Arm;
 use hairpin::trajectory::program::{Motion, Move, PoseTarget, Program, ProgramError, Tool};
 use nalgebra::Isometry3;
 use thiserror::Error;
@@ -91,12 +92,18 @@ pub fn slower(program: &Program, settings: &Settings) -> Vec<String> {
     capped::names(program, settings.most_speed)
 }
 
-/// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, and to none
-/// where a segment's length takes the arm's kinematics: blends that overlap stop the robot.
+/// The program as a function and its call. Corners are cut to half of the shorter neighbouring segment, as blends that
+/// overlap stop the robot: where one leads from or to a posture its length takes the `arm`, without which there is no
+/// corner.
 ///
 /// # Errors
 /// [`UrscriptError`].
-pub fn text(program: &Program, settings: &Settings, header: &[String]) -> Result<String, UrscriptError> {
+pub fn text(
+    program: &Program,
+    settings: &Settings,
+    arm: Option<&Arm>,
+    header: &[String],
+) -> Result<String, UrscriptError> {
     if let Some(problem) = program.problems().into_iter().next() {
         return Err(problem.into());
     }
@@ -130,7 +137,7 @@ pub fn text(program: &Program, settings: &Settings, header: &[String]) -> Result
             let centre = [centre.x, centre.y, centre.z].map(metres).join(",");
             lines.push(format!("  set_target_payload({}, [{centre}]{})", decimal(carried.mass, 6), moments(carried)));
         }
-        lines.push(format!("  {}", go(program, index, m, settings)));
+        lines.push(format!("  {}", go((program, arm), index, m, settings)));
     }
     lines.extend(["end".into(), format!("{name}()"), String::new()]);
     Ok(lines.join("\n"))
@@ -147,11 +154,11 @@ fn moments(tool: &Tool) -> String {
     format!(", [{}]", six.join(","))
 }
 
-fn go(program: &Program, index: usize, m: &Move, settings: &Settings) -> String {
+fn go((program, arm): (&Program, Option<&Arm>), index: usize, m: &Move, settings: &Settings) -> String {
     let base = program.work_objects[m.work_object].base_from_object();
     let at = |target: &PoseTarget| pose(&(base * target.pose));
     let duration = m.duration.map_or(String::new(), |t| format!(", t={}", decimal(t, 6)));
-    let radius = metres(blend(program, index, m));
+    let radius = metres(blend(program, arm, index));
     let line = (settings.acceleration, m.speed.tcp.min(settings.most_speed));
     let joint = (settings.joint_acceleration, settings.joint_speed);
     let rates = |(a, v): (f64, f64)| format!("a={}, v={}", decimal(a, 6), decimal(v, 6));
@@ -167,19 +174,24 @@ fn go(program: &Program, index: usize, m: &Move, settings: &Settings) -> String 
     }
 }
 
-/// The corner's radius, m.
-fn blend(program: &Program, index: usize, m: &Move) -> f64 {
-    if m.zone.fine {
+/// The corner's radius at the end of move number `index`, m.
+fn blend(program: &Program, arm: Option<&Arm>, index: usize) -> f64 {
+    let zone = &program.moves[index].zone;
+    if zone.fine {
         return 0.0;
     }
     let place = |index: Option<usize>| {
         let m = index.and_then(|index| program.moves.get(index))?;
         let base = program.work_objects[m.work_object].base_from_object();
-        m.motion.end().map(|end| (base * end.pose).translation.vector)
+        let pose = match &m.motion {
+            Motion::AbsoluteJoint(to) => arm?.forward(&to.joints) * program.tools[m.tool].tcp,
+            _ => base * m.motion.end()?.pose,
+        };
+        Some(pose.translation.vector)
     };
     match (place(index.checked_sub(1)), place(Some(index)), place(Some(index + 1))) {
         (Some(before), Some(here), Some(after)) => {
-            m.zone.tcp.min(0.5 * (here - before).norm()).min(0.5 * (after - here).norm())
+            zone.tcp.min(0.5 * (here - before).norm()).min(0.5 * (after - here).norm())
         }
         _ => 0.0,
     }

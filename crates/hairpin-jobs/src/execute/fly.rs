@@ -90,6 +90,11 @@ pub(super) fn fly(work: &Work, missing: &[Job], there: Landing, watch: &dyn Watc
     Ok(())
 }
 
+/// Whether verdicts are told in millimetres: the limits are.
+pub(super) fn in_mm(setup: &Setup) -> bool {
+    setup.scenario.head().limits.iter().any(|limit| limit.ends_with("_mm"))
+}
+
 /// What `run` came to, where it was measured as it landed.
 fn seen(setup: &Setup, case: &Case, run: &Run) -> Seen {
     let measured = run.full_rate.as_ref();
@@ -97,6 +102,7 @@ fn seen(setup: &Setup, case: &Case, run: &Run) -> Seen {
     Seen {
         deviation: measured.map(|measured| measured.measures.max_deviation),
         violates: judged.is_some_and(|judged| judged.status == Status::Fail),
+        in_mm: in_mm(setup),
     }
 }
 

@@ -11,7 +11,7 @@ use hairpin::trajectory::Flight;
 use hairpin_formats::executor::{Greeting, InLoop};
 use rayon::ThreadPoolBuilder;
 
-use super::fly::{command_of, processes, while_wanted};
+use super::fly::{command_of, in_mm, processes, while_wanted};
 use crate::program::Executing;
 use crate::rounds::Rounds;
 use crate::{Problem, Seen, Watch};
@@ -30,6 +30,8 @@ struct Seeing<'a> {
     rounds: Option<&'a Rounds>,
     stop: &'a (dyn Fn() -> bool + Sync),
     heard: &'a Heard,
+    /// Whether verdicts are told in millimetres.
+    in_mm: bool,
 }
 
 /// What came of the executions that a search asked for, as far as no tally has it: those of work that was stopped and
@@ -55,7 +57,7 @@ impl Executor for Seeing<'_> {
     }
 
     fn measured(&self, measures: &Measures, violates: bool) {
-        self.watch.seen(Seen { deviation: Some(measures.max_deviation), violates });
+        self.watch.seen(Seen { deviation: Some(measures.max_deviation), violates, in_mm: self.in_mm });
     }
 
     fn ended(&self, outcome: Result<(), &str>) {
@@ -89,7 +91,7 @@ pub(crate) fn in_the_loop(
     search: impl FnOnce(Asked) -> Tally + Send,
 ) -> Result<(Tally, Option<Problem>), Problem> {
     let apart = || rounds.is_some_and(Rounds::is_in_trouble);
-    let heard = &Heard::default();
+    let (heard, in_mm) = (&Heard::default(), in_mm(setup));
     // What others have flown was not flown in vain, and whoever stopped it did not ask. That its time is over says
     // nothing for who executed, and came to no flight in it.
     let goes_on = || watch.stopped() || rounds.is_some_and(Rounds::any_flown);
@@ -99,7 +101,7 @@ pub(crate) fn in_the_loop(
         let trouble = || steers.and_then(|(_, code)| code.trouble());
         let stop = || stopped() || trouble().is_some() || apart();
         // The limit of a search's time is none of who steers: what was found is executed after it.
-        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop, heard };
+        let executor = &Seeing { executor: &OwnSimulator, watch, rounds, stop: &stop, heard, in_mm };
         let found = while_wanted(setup, watch, || search(Asked { executor, stop: &stop }));
         let last = heard.last();
         tell(&found, last.as_deref(), "", watch);
@@ -110,7 +112,7 @@ pub(crate) fn in_the_loop(
     let may = |now: &Greeting| executing.may(now) && rounds.is_none_or(|rounds| rounds.may(now));
     let program = InLoop::new(&command, limits, processes, stopped).only_if(&may);
     let stop = || stopped() || program.trouble().is_some() || program.is_unwanted() || apart();
-    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop, heard };
+    let executor = &Seeing { executor: &program, watch, rounds, stop: &stop, heard, in_mm };
     let asked = Asked { executor, stop: &stop };
     let found = if processes > rayon::current_num_threads() {
         let threads = ThreadPoolBuilder::new().num_threads(processes).build().map_err(Problem::input)?;

@@ -144,7 +144,8 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     let arm = arm_of(work)?;
     Ok(match language {
         Language::Urscript => {
-            let text = urscript::text(&arm.with_angles(program)?, &urscript::Settings::default(), &header);
+            let (settings, known) = (urscript::Settings::default(), Some(&arm.station.arm));
+            let text = urscript::text(&arm.with_angles(program)?, &settings, known, &header);
             vec![(format!("{id}.script"), text.map_err(|error| error.to_string())?)]
         }
         Language::JointTrajectory => {

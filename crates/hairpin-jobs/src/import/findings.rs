@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use hairpin::campaign::digits::grouped;
 use hairpin::feasibility::program::Finding;
+use hairpin::trajectory::program::ProgramError;
 use hairpin_formats::listing::Module;
 
 use super::follow::Follow;
@@ -37,14 +38,16 @@ pub struct MoveFinding {
     pub last: Option<String>,
 }
 
-/// File, line, targets and kind of a finding, and what it rests on.
-type What = (Option<String>, Option<usize>, [Option<String>; 2], &'static str, [bool; 2]);
+/// File, line, targets and kind of a finding, what it rests on, and which number it is of.
+type What = (Option<String>, Option<usize>, [Option<String>; 2], &'static str, [bool; 2], String);
 
 impl MoveFinding {
     /// What is the same when it comes again.
     fn what(&self) -> What {
         let ends = [self.from.clone(), self.to.clone()];
-        (self.file.clone(), self.line, ends, self.kind, [self.estimated, self.open])
+        // Several numbers of one line are several findings: they differ before the value.
+        let field = self.reason.split(" = ").next().filter(|_| self.kind == "program").unwrap_or_default();
+        (self.file.clone(), self.line, ends, self.kind, [self.estimated, self.open], field.into())
     }
 
     /// It in words, with how often it was found.
@@ -97,11 +100,23 @@ pub(super) fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFi
     let several = module.parts.len() > 1;
     let at = |file: &Option<String>| file.as_ref().filter(|_| several).map_or(String::new(), |file| format!("{file} "));
     let mut found: Vec<(usize, MoveFinding)> = Vec::new();
-    for problem in certain.problems() {
+    // Lines of what no move carries are still counted through all files.
+    let refused = module.refused.iter().map(|problem| {
+        let mut problem = problem.clone();
+        let line = problem.place().and_then(|place| place.line).map(|line| module.place(line));
+        if let ProgramError::Value { at, .. } = &mut problem {
+            at.line = line.map(|(_, line)| line);
+        }
+        (problem, line.and_then(|(part, _)| Some(part?.name.clone())))
+    });
+    let carried = certain.problems().into_iter().map(|problem| {
+        let file = problem.place().and_then(|place| file_of(place.index));
+        (problem, file)
+    });
+    for (problem, file) in carried.chain(refused) {
         let place = problem.place();
         let index = place.map_or(0, |place| place.index);
         let from = index.checked_sub(1).and_then(|before| certain.moves.get(before));
-        let file = place.and_then(|place| file_of(place.index));
         let told = at(&file);
         let finding = MoveFinding {
             file,

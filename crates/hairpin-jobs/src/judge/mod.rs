@@ -73,6 +73,8 @@ pub struct Judged {
     pub judgement: Judgement,
     /// What its user has to know beside that, in sentences.
     pub told: Vec<String>,
+    /// Which keys of the folder's scenario were changed, in a sentence; `None` where none was.
+    pub kept: Option<String>,
 }
 
 /// Judges the executed campaign in `folder`, with other values for the keys of `spec` in `sets`.
@@ -102,7 +104,12 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
         told.extend(missing(&work, &tally, &judgement.results)?);
     }
     told.extend(measured_anew(&judgement, cases.len()));
-    Ok(Judged { work, cases, tally, judgement, told })
+    let keys: Vec<&str> = sets.iter().map(|(key, _)| key.as_str()).collect();
+    let kept = (!sets.is_empty()).then(|| {
+        let file = work.folder.file("scenario.toml");
+        format!("{} has {} as it is given now: later judgements go by it", file.display(), keys.join(", "))
+    });
+    Ok(Judged { work, cases, tally, judgement, told, kept })
 }
 
 /// What was done for cases that were executed with another reference of deviations; `None` where there are none.

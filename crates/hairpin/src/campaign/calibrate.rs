@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value};
 
-use super::digits::{digits_within, signed_digits, with_digits};
+use super::digits::{rounded_up, signed_digits};
 use super::impossible::of_program;
 use super::judge::measures_of;
 use super::scenario::Asked;
@@ -78,8 +78,13 @@ pub struct Outcome {
 pub struct Proposal {
     /// The key.
     pub field: &'static str,
-    /// The limit, in the key's unit; `None` where there is none.
+    /// The limit, in the key's unit, rounded to where no more cases break it: upper limits up, lower ones down; `None`
+    /// where there is none.
     pub value: Option<f64>,
+    /// Digits that it is told with: three, or as many as keep it within its interval.
+    ///
+    /// What many cases come to alike, at a ceiling of the robot's say, has an interval narrower than three digits.
+    pub digits: usize,
     /// Its 95 % interval, in the key's unit.
     pub interval: Option<[f64; 2]>,
     /// Cases that it follows from.
@@ -147,6 +152,7 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
         let none = |reason: String| Proposal {
             field: key.key,
             value: None,
+            digits: 0,
             interval: None,
             cases,
             broken_by: None,
@@ -185,9 +191,13 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
             ));
         }
         let ends = if key.least { [high, low] } else { [low, high] };
+        // Turned so that larger is worse: rounded up fewer break it, never more.
+        let (told, digits) = rounded_up(key.factor * value, key.factor * high);
+        let broken_by = values.iter().filter(|worst| **worst > told / key.factor).count();
         Proposal {
             field: key.key,
-            value: Some(scale * value),
+            value: Some(if key.least { -told } else { told }),
+            digits,
             interval: Some(ends.map(|end| scale * end)),
             cases,
             broken_by: Some(broken_by),
@@ -197,21 +207,7 @@ pub fn propose(setup: &Setup, outcomes: &[Outcome], broken: f64) -> Vec<Proposal
     keys(setup).iter().enumerate().map(propose).collect()
 }
 
-impl Proposal {
-    /// Digits that the limit and its interval are told with: three, or as many as keep the limit within the interval.
-    ///
-    /// What many cases come to alike, at a ceiling of the robot's say, has an interval narrower than three digits, and
-    /// rounded to these most cases would break the limit, or none.
-    pub fn digits(&self) -> usize {
-        let ends = self.interval.map(|[a, b]| [a.min(b), a.max(b)]);
-        digits_within(self.value.unwrap_or_default(), ends.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]))
-    }
-}
-
-/// The scenario's `[spec]` with the proposed limits in it, to the digits of [`Proposal::digits`]: the value of each of
-/// its keys.
-///
-/// Rounded to the nearest, so that the share that breaks a limit may differ by what lies within half a digit.
+/// The scenario's `[spec]` with the proposed limits in it: the value of each of its keys.
 pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     let mut spec = match setup.scenario.section("spec") {
         Some(Value::Object(spec)) => spec,
@@ -220,12 +216,9 @@ pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     for proposal in proposals {
         let Some(value) = proposal.value else { continue };
         let path: Vec<&str> = proposal.field.split('.').skip(1).collect();
-        let ([table, key], Ok(rounded)) = (path.as_slice(), with_digits(value, proposal.digits()).parse::<f64>())
-        else {
-            continue;
-        };
+        let [table, key] = path.as_slice() else { continue };
         let table = spec.entry(*table).or_insert_with(|| Value::Object(Map::new()));
-        if let (Value::Object(table), Some(number)) = (table, serde_json::Number::from_f64(rounded)) {
+        if let (Value::Object(table), Some(number)) = (table, serde_json::Number::from_f64(value)) {
             table.insert((*key).to_owned(), Value::Number(number));
         }
     }
@@ -258,7 +251,7 @@ mod tests {
     fn outcomes(count: usize, badly: usize) -> Vec<Outcome> {
         let one = |i: usize| {
             let ended_badly = i < badly;
-            let worst = vec![Some(if ended_badly { f64::INFINITY } else { 0.01 * i as f64 })];
+            let worst = vec![Some(if ended_badly { f64::INFINITY } else { i as f64 / 100.0 })];
             Outcome { worst, ended_badly, left_world: false }
         };
         (0..count).map(one).collect()
@@ -278,6 +271,27 @@ mod tests {
             json!(spec(&setup, &found)),
             json!({ "deviation": { "max_m": 1.89, "from": "path", "corner_m": 1.0 } })
         );
+    }
+
+    /// Rounded down, a limit is broken by more than it promises.
+    #[test]
+    fn a_limit_is_rounded_so_that_no_more_break_it() {
+        let worst = |i: usize| 2.0737 + 0.005 * (i as f64 - 189.0);
+        let of = |asked: Value, sign: f64| {
+            let one = |i| Outcome { worst: vec![Some(sign + worst(i))], ended_badly: false, left_world: false };
+            let setup = setup(asked);
+            let found = propose(&setup, &(0..200).map(one).collect::<Vec<_>>(), 0.05).remove(0);
+            let told = found.value.unwrap();
+            (told, found.broken_by.unwrap(), json!(spec(&setup, &[found])))
+        };
+        // One of the ten beyond it is within the rounded one.
+        let (told, broken_by, spec) = of(json!({ "deviation": { "max_m": 9.0 } }), 0.0);
+        assert_eq!((told, broken_by, (0..200).filter(|i| worst(*i) > 2.08).count()), (2.08, 9, 9));
+        assert_eq!(spec["deviation"]["max_m"], 2.08);
+        // Where less is worse, values are turned: −2.9263 is a clearance of 2.9263 m.
+        let (told, broken_by, spec) = of(json!({ "clearance": { "min_m": 0.5 } }), -5.0);
+        assert_eq!((told, broken_by), (2.92, 9));
+        assert_eq!(spec["clearance"]["min_m"], 2.92);
     }
 
     /// Accelerations at a robot's ceiling lie closer together than three digits tell.
@@ -311,7 +325,7 @@ mod tests {
         let few = proposed(&|i| if i < 198 { 0.05 } else { 0.06 });
         assert!(few.reason.unwrap().starts_with("198 of 200 cases come to the same 0.0500, and 2 to worse"));
         // A handful that is the same about the limit: seven break it, not ten.
-        let some = proposed(&|i| if (185..193).contains(&i) { 1.9 } else { 0.01 * i as f64 });
+        let some = proposed(&|i| if (185..193).contains(&i) { 1.9 } else { i as f64 / 100.0 });
         assert_eq!((some.value, some.broken_by), (Some(1.9), Some(7)));
     }
 

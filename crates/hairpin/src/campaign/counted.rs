@@ -15,16 +15,23 @@ pub(super) struct Counted<'a> {
     executor: &'a dyn Executor,
     cancelled: &'a (dyn Fn() -> bool + Sync),
     failures: Mutex<Failures>,
+    /// Whether one came to a flight.
+    flown: AtomicBool,
 }
 
 impl<'a> Counted<'a> {
     pub(super) fn new(executor: &'a dyn Executor, cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
-        Self { executor, cancelled, failures: Mutex::default() }
+        Self { executor, cancelled, failures: Mutex::default(), flown: AtomicBool::new(false) }
     }
 
     /// What failed since it was last asked.
     pub(super) fn take(&self) -> Failures {
         std::mem::take(&mut *self.failures.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Whether any execution came to a flight.
+    pub(super) fn any_flown(&self) -> bool {
+        self.flown.load(Ordering::Relaxed)
     }
 
     fn count(&self, why: Option<&str>) {
@@ -63,10 +70,10 @@ impl Executor for Counted<'_> {
     }
 
     fn ended(&self, outcome: Result<(), &str>) {
-        if let Err(why) = outcome
-            && !(self.cancelled)()
-        {
-            self.count(Some(why));
+        match outcome {
+            Ok(()) => self.flown.store(true, Ordering::Relaxed),
+            Err(_) if (self.cancelled)() => {}
+            Err(why) => self.count(Some(why)),
         }
         self.executor.ended(outcome);
     }

@@ -42,17 +42,28 @@ pub fn with_digits(value: f64, digits: usize) -> String {
     sign.to_owned() + &first_digits(value.abs(), digits)
 }
 
-/// How many digits of `value`, three at least, tell a number that lies between `low` and `high` as it does.
-pub fn digits_within(value: f64, [low, high]: [f64; 2]) -> usize {
-    let lies_within =
-        |digits: &usize| with_digits(value, *digits).parse().is_ok_and(|told: f64| (low..=high).contains(&told));
-    (FEW..ALL).find(lies_within).unwrap_or(ALL)
+/// `value` rounded up to as few digits as leave it at most `high`, three at least, and how many these are.
+///
+/// Up to the next of its last digit's places: never below `value`.
+pub fn rounded_up(value: f64, high: f64) -> (f64, usize) {
+    let up = |digits: usize| {
+        let decimals = decimals_for(value.abs(), digits);
+        let told = |value: f64| format!("{value:.decimals$}").parse::<f64>().ok();
+        let nearest = told(value)?;
+        let up = if nearest >= value { nearest } else { told(nearest + libm::pow(10.0, -(decimals as f64)))? };
+        (up >= value && up <= high).then_some((up, digits))
+    };
+    (FEW..ALL).find_map(up).unwrap_or((value, ALL))
 }
 
 fn first_digits(value: f64, digits: usize) -> String {
+    format!("{value:.decimals$}", decimals = decimals_for(value, digits))
+}
+
+/// How many decimals show the first `digits` digits of `value` ≥ 0.
+fn decimals_for(value: f64, digits: usize) -> usize {
     let first = if value > 0.0 { libm::log10(value).floor() } else { digits as f64 };
-    let decimals = (digits as f64 - 1.0 - first).clamp(0.0, 9.0 + digits as f64) as usize;
-    format!("{value:.decimals$}")
+    (digits as f64 - 1.0 - first).clamp(0.0, 9.0 + digits as f64) as usize
 }
 
 /// A share from 0 to 1 as `31 %`; below 10 % with one decimal.
@@ -106,11 +117,11 @@ mod tests {
         assert_eq!(percent(Some(0.31)), "31 %");
         assert_eq!([0.0, 0.012345, 3.3333, -98765.4].map(signed_digits), ["0", "0.0123", "3.33", "-98765"]);
         assert_eq!(with_digits(9.893_779_44, 8), "9.8937794");
-        assert_eq!(
-            (digits_within(1.89, [1.83, 1.96]), digits_within(9.893_779_44, [9.893_779_2, 9.893_779_6])),
-            (3, 8)
-        );
-        assert_eq!(digits_within(-9.893_779_44, [-9.893_779_6, -9.893_779_2]), 8);
+        assert_eq!(rounded_up(2.0737, 2.2), (2.08, 3));
+        assert_eq!((rounded_up(1.89, 1.96), rounded_up(-2.0737, -1.9)), ((1.89, 3), (-2.07, 3)));
+        // Three digits would be beyond the interval.
+        assert_eq!(rounded_up(9.893_779_44, 9.893_779_6), (9.893_779_5, 8));
+        assert_eq!(rounded_up(2.0737, 2.0739), (2.0737, 5));
         assert_eq!(percent(Some(0.015)), "1.5 %");
     }
 }

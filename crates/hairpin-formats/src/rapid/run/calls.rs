@@ -1,5 +1,6 @@
 //! Calls of the file's own routines.
 
+use super::motion::repeated;
 use super::{DEEPEST, Flow, Frame, Machine, twice};
 use crate::listing::{At, Class};
 use crate::rapid::kinds::DataKind;
@@ -78,6 +79,17 @@ impl<'a> Machine<'a> {
     }
 
     fn bind<'b>(&mut self, routine: &Routine, arguments: &'b [Argument], at: At) -> Result<Bound<'b>, String> {
+        if let Some(name) = repeated(arguments) {
+            return Err(format!("`\\{name}` of `{}` is given twice", routine.name));
+        }
+        let optional = |name: &str| routine.parameters.iter().any(|known| known.optional && known.name == name);
+        let unknown = arguments.iter().find_map(|argument| match argument {
+            Argument::Named { name, .. } | Argument::IfGiven { name, .. } if !optional(name) => Some(name),
+            _ => None,
+        });
+        if let Some(unknown) = unknown {
+            return Err(format!("`{}` has no `\\{unknown}`", routine.name));
+        }
         let mut bound = Bound { frame: Frame::default(), back: Vec::new() };
         let mut placed = arguments.iter().filter_map(|argument| match argument {
             Argument::Placed(value) => Some(value),

@@ -1,12 +1,12 @@
 //! Moves, and what about them is not modelled.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use hairpin::trajectory::program::{Motion, Move, Speed, Zone};
 
 use super::Machine;
 use crate::listing::{At, Class, Doubt, Unmodelled, beside};
-use crate::rapid::instructions::MoveKind;
+use crate::rapid::instructions::{self, MoveKind};
 use crate::rapid::kinds::DataKind;
 use crate::rapid::predefined;
 use crate::rapid::syntax::{Argument, Expression, Path};
@@ -39,9 +39,19 @@ impl Doubts {
 }
 
 impl Machine<'_> {
-    /// Executes a move, with a procedure in the middle of its corner where it is one that `calls`.
-    pub(super) fn go(&mut self, kind: MoveKind, calls: bool, arguments: &[Argument], at: At) {
+    /// Executes a move, with a procedure in the middle of its corner where the instruction, `name` in lower case, is
+    /// one that calls.
+    pub(super) fn go(&mut self, kind: MoveKind, name: &str, arguments: &[Argument], at: At) {
         let (placed, named) = self.sort(arguments);
+        let calls = name.ends_with("sync");
+        let most = least(kind) + instructions::beside(name);
+        if placed.len() > most {
+            let what = format!("takes {most} arguments without a backslash at most, found {}", placed.len());
+            return self.mark(at, Class::ChangesMotion, what);
+        }
+        if let Some(name) = repeated(arguments) {
+            return self.mark(at, Class::ChangesMotion, format!("\\{name} is given twice"));
+        }
         match self.movement(kind, &placed, &named, at) {
             Ok((m, mut doubts)) => {
                 // Of what the path does not need, calls alone matter: outputs and their values, `\Inpos`.
@@ -274,6 +284,16 @@ impl Machine<'_> {
         }
         (placed, named)
     }
+}
+
+/// An optional argument that stands there twice.
+pub(super) fn repeated(arguments: &[Argument]) -> Option<&str> {
+    let mut names = BTreeSet::new();
+    let named = arguments.iter().filter_map(|argument| match argument {
+        Argument::Placed(_) => None,
+        Argument::Named { name, .. } | Argument::IfGiven { name, .. } => Some(name.as_str()),
+    });
+    named.into_iter().find(|name| !names.insert(*name))
 }
 
 /// How many arguments without a backslash a move has at least.

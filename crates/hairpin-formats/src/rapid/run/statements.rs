@@ -83,7 +83,7 @@ impl Machine<'_> {
             return if on { Flow::Next } else { Flow::End };
         }
         match instructions::effect(&lower) {
-            Some(Effect::Move(kind)) => self.go(kind, lower.ends_with("sync"), arguments, at),
+            Some(Effect::Move(kind)) => self.go(kind, &lower, arguments, at),
             Some(Effect::Followed) => self.follow(&lower, arguments, at),
             Some(Effect::Harmless) => {
                 self.mark(at, Class::Harmless, "");

@@ -141,3 +141,19 @@ fn what_is_looked_at_stays_known() {
         assert_eq!(place(&module.program.moves[0]), [1_000, 0, 0], "{body}");
     }
 }
+
+/// What no instruction takes, or takes once, is not left aside.
+#[test]
+fn arguments_beyond_those_of_a_move_are_not_understood() {
+    for (body, words) in [
+        ("MoveL p,v5,fine,tool0,wobj0;", "takes 4 arguments without a backslash at most, found 5"),
+        ("MoveLDO p,v5,fine,tool0,do1,1,2;", "takes 6 arguments"),
+        ("MoveL p,v5\\V:=10\\V:=900,fine,tool0;", "\\v is given twice"),
+        ("said\\by:=1\\by:=2;", "is given twice"),
+        ("said\\far:=1;", "has no `\\far`"),
+    ] {
+        let module = of(body);
+        assert_eq!((module.unclear_line, module.certain), (Some(BODY), 0), "{body}: {:?}", module.lines);
+        assert!(module.lines[&BODY].what.contains(words), "{body}: {:?}", module.lines[&BODY]);
+    }
+}

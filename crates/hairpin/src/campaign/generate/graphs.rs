@@ -71,6 +71,6 @@ impl<'a> Graphs<'a> {
         let partial = executed.then(|| Partials { execute: &part, resumes: trials.resumes() });
         let executions = Executions { execute: &execute, duration: &duration, furnish: &furnish, partial };
         let outcome = self.solver.solve(graph, executions, wanted, stop);
-        Outcome { failures: counted.take(), ..outcome }
+        Outcome { failures: counted.take(), flown: counted.any_flown(), ..outcome }
     }
 }

@@ -175,6 +175,9 @@ fn search_units(
             if collector.cases as u64 >= wanted {
                 break;
             }
+            if collector.is_in_vain() {
+                break 'units;
+            }
         }
         batch = batch_after(batch, (stop.clock)() - begun, least);
         // One search gives its best so far where it is stopped.
@@ -214,8 +217,9 @@ fn drawn_case(nominal: &Graphs, case: u64, stop: &Stop) -> Outcome {
         let executions = setup.scenario.searched_executions() / search.cases;
         let pool = worst::pool(&graphs, 1, [executions, case * GRAPHS_OF_A_CASE], &Answers::default(), stop);
         let (graphs, expansions, failures) = (pool.drawn, pool.curve.executions, pool.failures());
-        let plans = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
+        let plans: Vec<_> = pool.plans.into_iter().map(|drawn| (drawn.graph, drawn.plan)).collect();
         return Outcome {
+            flown: !plans.is_empty(),
             plans,
             graphs,
             expansions,
@@ -248,13 +252,24 @@ struct Collector<'a> {
     seen: HashSet<[u8; 16]>,
     /// Whether repetitions are dropped.
     drops: bool,
+    /// Whether any execution came to a flight.
+    flown: bool,
 }
 
 impl<'a> Collector<'a> {
     fn new(setup: &'a Setup, executor: &'a dyn Executor, known: &Known) -> Self {
         let seen = known.cases.iter().map(|case| fingerprint(met(&case.waypoints, case.program()))).collect();
         let tally = Tally { stopped: false, ..known.tally.clone() };
-        Self { setup, executor, tally, cases: known.cases.len(), seen, drops: true }
+        // What was found before had been flown.
+        let (cases, flown) = (known.cases.len(), known.tally.solved > 0);
+        Self { setup, executor, tally, cases, seen, drops: true, flown }
+    }
+
+    /// Whether as many executions as one pool for all cases has failed, and none else was: whoever fails so often flies
+    /// nothing in other graphs either.
+    fn is_in_vain(&self) -> bool {
+        let failed = self.tally.failures.failed;
+        failed > 0 && failed >= self.setup.scenario.search().pooled_executions() && !self.flown
     }
 
     /// `number` is the case's, where units are cases; else cases are numbered as they come. Repetitions are told by a
@@ -275,6 +290,7 @@ impl<'a> Collector<'a> {
         }
         self.tally.curves.extend(outcome.curves);
         self.tally.failures.add(outcome.failures);
+        self.flown |= outcome.flown;
         for (graph, plan) in outcome.plans {
             if self.cases as u64 >= wanted {
                 break;

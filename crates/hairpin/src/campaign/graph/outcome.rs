@@ -30,6 +30,8 @@ pub(in crate::campaign) struct Outcome {
     pub(in crate::campaign) curves: Vec<Curve>,
     /// Executions that failed.
     pub(in crate::campaign) failures: Failures,
+    /// Whether any came to a flight.
+    pub(in crate::campaign) flown: bool,
     /// Why there is no plan.
     pub(in crate::campaign) reason: Option<String>,
     /// As in [`Answer`]: the graph is to be searched again.
@@ -57,6 +59,7 @@ impl Outcome {
                 .into_iter()
                 .collect(),
             failures: Failures::default(),
+            flown: false,
             reason: answer.reason.or(refused),
             stopped: answer.stopped,
         }
@@ -72,6 +75,7 @@ impl Outcome {
         self.duplicates += other.duplicates;
         self.curves.extend(other.curves);
         self.failures.add(other.failures);
+        self.flown |= other.flown;
         self.reason = other.reason;
         self.stopped |= other.stopped;
     }

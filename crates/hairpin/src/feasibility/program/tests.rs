@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use super::{Surroundings, check};
 use crate::feasibility::reachability::Refusal;
-use crate::feasibility::reachability::joint::FollowSettings;
+use crate::feasibility::reachability::joint::{FollowSettings, Motion as Way, follow};
 use crate::robot::arm::{Arm, ArmDescription, Joints, Kinematics, Singularity};
 use crate::trajectory::program::{
     JointTarget, Motion, Move, NO_EXTERNAL, PoseTarget, Program, Speed, Tool, WorkObject, Zone,
@@ -134,9 +134,14 @@ fn a_limit_on_the_way_is_found_where_it_is() {
 fn reach_and_singularities_are_found() {
     let arm = arm();
     let start = at(&arm, [0.0, 0.0, 0.0, 0.0, 60.0, 0.0], "a");
-    let found =
-        faults(&arm, &program(vec![Motion::Joint(start.clone()), Motion::Linear(shifted(&start, 0.8, 0.0, 0.0))]));
-    let [(2, Refusal::Singular { margin, at: share, .. })] = found[..] else { panic!("{found:?}") };
+    let away = shifted(&start, 0.8, 0.0, 0.0);
+    let out = faults(&arm, &program(vec![Motion::Joint(start.clone()), Motion::Linear(away.clone())]));
+    assert_eq!(out, [(2, Refusal::OutOfReach { at: 1.0 })]);
+    let in_base = |target: &PoseTarget| object().base_from_object() * target.pose;
+    let carried = crate::robot::arm::Tool { tcp: tool().tcp, ..crate::robot::arm::Tool::flange() };
+    let (way, from) = (Way::linear(&in_base(&start), &in_base(&away)), rad([0.0, 0.0, 0.0, 0.0, 60.0, 0.0]));
+    let stopped = follow(&arm, &carried, None, &way, &from, &settings(), &mut 0);
+    let Err(Refusal::Singular { margin, at: share, .. }) = stopped else { panic!("{stopped:?}") };
     // The wrist's centre leaves the sphere of the stretched arm about the shoulder: |w + s·d|² = (c2 + √(a2² + c3²))².
     let wrist = arm.forward(&rad([0.0, 0.0, 0.0, 0.0, 60.0, 0.0])) * Point3::new(0.0, 0.0, -0.072)
         - Point3::new(0.0, 0.0, 0.29);
@@ -146,6 +151,21 @@ fn reach_and_singularities_are_found() {
     assert!(margin.of == Singularity::Elbow && share < leaves && leaves - share < 2e-3, "{margin:?} {share} {leaves}");
     let far = faults(&arm, &program(vec![Motion::Joint(shifted(&start, 3.0, 0.0, 0.0))]));
     assert_eq!(far, [(1, Refusal::OutOfReach { at: 1.0 })]);
+    // Whatever is undecided on a straight way: it has no end.
+    for (x, from) in [(1.5, 30.0), (0.9, 30.0), (1.5, 0.0)] {
+        let start = at(&arm, [0.0, 0.0, 0.0, 0.0, from, 0.0], "a");
+        let far = shifted(&start, x, 0.0, 0.0);
+        let via = shifted(&start, 0.5 * x, 0.2, 0.0);
+        for motion in [Motion::Linear(far.clone()), Motion::Circular { via, to: far }] {
+            let asked = program(vec![Motion::Joint(start.clone()), motion]);
+            let found = check(&arm, &asked, 3, &Surroundings::default(), &settings()).findings;
+            let far: Vec<_> = found.iter().filter(|finding| finding.index == 2).collect();
+            assert!(
+                matches!(&far[..], [only] if !only.open && only.in_words(&[]).contains("UNREACHABLE")),
+                "{found:?}"
+            );
+        }
+    }
     // Axis 5 goes from 20° through 0° to −20°.
     let (a, b) = (at(&arm, [0.0, 0.0, 0.0, 0.0, 20.0, 0.0], "a"), at(&arm, [0.0, 0.0, 0.0, 0.0, -20.0, 0.0], "b"));
     let found = faults(&arm, &program(vec![Motion::Joint(a), Motion::Linear(b)]));

@@ -250,8 +250,16 @@ impl Walk<'_> {
                 self.assumed |= unknown;
                 self.turn(index, m, q);
             }
-            Err((refusal, fit)) => self.refuse(index, m, refusal, to.configuration, fit),
+            Err((refusal, fit)) => {
+                let assumed = self.assumed && self.unmet(m, to).is_none();
+                self.refuse_as(index, m, (refusal, assumed), to.configuration, fit);
+            }
         }
+    }
+
+    /// Why no posture at all has the target, where that is certain: it is so wherever the arm comes from.
+    fn unmet(&self, m: &Move, to: &PoseTarget) -> Option<Refusal> {
+        self.choose(m, to, None).err().map(|(refusal, _)| refusal).filter(|refusal| !refusal.is_open())
     }
 
     /// Takes the tool along the way, and looks at where that arrives if a configuration is demanded.
@@ -271,6 +279,12 @@ impl Walk<'_> {
             }
             Err(refusal) => {
                 let tried = to.configuration.unwrap_or(self.arm.configuration(start).numbers());
+                // What is not decided on the way decides nothing where the way has no end.
+                if self.is_open(m, &refusal)
+                    && let Some(unmet) = self.unmet(m, to)
+                {
+                    return self.refuse_as(index, m, (unmet, false), Some(tried), None);
+                }
                 let fit = self.remedy(m, way, start);
                 self.refuse(index, m, refusal, Some(tried), fit);
             }
@@ -292,11 +306,29 @@ impl Walk<'_> {
         Some(Fit { configuration: self.arm.configuration(&best.end).numbers(), margin: best.limit_margin })
     }
 
+    /// Whether the refusal says nothing for certain of where the arm stands.
+    fn is_open(&self, m: &Move, refusal: &Refusal) -> bool {
+        let worth = Worth::of(self.arm, &self.tools[m.tool].tool, refusal);
+        self.assumed || refusal.is_open() || matches!(worth, Worth::Undecidable(_))
+    }
+
     /// Writes a finding down.
     fn record(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
+        self.record_as(index, m, (refusal, self.assumed), tried, fit);
+    }
+
+    /// Writes a finding down that rests on where the arm is `assumed` to stand, or does not.
+    fn record_as(
+        &mut self,
+        index: usize,
+        m: &Move,
+        (refusal, assumed): (Refusal, bool),
+        tried: Option<[i32; 4]>,
+        fit: Option<Fit>,
+    ) {
         let to = m.motion.name().map(Into::into);
         let worth = Worth::of(self.arm, &self.tools[m.tool].tool, &refusal);
-        let unknown = self.assumed || refusal.is_open();
+        let unknown = assumed || refusal.is_open();
         let (estimated, open) = (worth.in_words(self.arm), unknown || matches!(worth, Worth::Undecidable(_)));
         let (line, from) = (m.line, self.from.clone());
         self.checked.findings.push(Finding { index, line, from, to, refusal, tried, fit, estimated, open });
@@ -304,7 +336,12 @@ impl Walk<'_> {
 
     /// Writes a finding down and moves on to the target, in its configuration if there is such a posture.
     fn refuse(&mut self, index: usize, m: &Move, refusal: Refusal, tried: Option<[i32; 4]>, fit: Option<Fit>) {
-        self.record(index, m, refusal, tried, fit);
+        self.refuse_as(index, m, (refusal, self.assumed), tried, fit);
+    }
+
+    /// The same of a finding that rests on where the arm is assumed to stand, or does not.
+    fn refuse_as(&mut self, index: usize, m: &Move, found: (Refusal, bool), tried: Option<[i32; 4]>, fit: Option<Fit>) {
+        self.record_as(index, m, found, tried, fit);
         let at = m.motion.end().and_then(|to| {
             let demanded = to.configuration.filter(|_| m.configuration_demanded);
             self.assumed |= demanded.is_some() && !self.arm.knows_configurations();

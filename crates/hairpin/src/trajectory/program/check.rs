@@ -132,8 +132,53 @@ const MOST_ARC_DEG: f64 = 240.0;
 /// Larger numbers are another unit or a slip: m, m/s, rad, rad/s alike.
 const LARGEST: f64 = 1e4;
 const POSITION: &str = "a finite number, at most 10 km";
-const NOT_NEGATIVE: &str = "a number from 0 to 10000";
 const UNIT: &str = "of square 1 within 0.00001";
+
+/// What a number of a program must be for a controller to take it.
+///
+/// One for all languages: of numbers that moves carry ([`Program::problems`]), and of those that a language says beside
+/// them. Comparisons are such that NaN holds nowhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    /// Whether 0 is too little.
+    above: bool,
+    most: f64,
+    /// In words.
+    words: &'static str,
+}
+
+impl Bound {
+    /// Speed of the tool's centre point, m/s; infinite: as fast as the arm can.
+    pub const SPEED: Self = Self::above("a number, more than 0 m/s", f64::INFINITY);
+    /// Speed of axes, rad/s.
+    pub const JOINT_SPEED: Self = Self::above("a number, more than 0 rad/s", LARGEST);
+    /// Speed of reorientation, °/s.
+    pub const TURNING: Self = Self::above("a number, more than 0 °/s", f64::MAX);
+    /// Acceleration of the tool's centre point, m/s².
+    pub const ACCELERATION: Self = Self::above("a number, more than 0 m/s²", f64::MAX);
+    /// Acceleration of axes, rad/s².
+    pub const JOINT_ACCELERATION: Self = Self::above("a number, more than 0 rad/s²", f64::MAX);
+    /// What a move is to take, s.
+    pub const DURATION: Self = Self::above("more than 0 s and at most 10000 s", LARGEST);
+    /// A share of what axes can.
+    pub const PERCENT: Self = Self::above("more than 0 % and at most 100 %", 100.0);
+    /// Radii of corners, masses, speeds of what need not move.
+    pub const NOT_NEGATIVE: Self = Self { above: false, most: LARGEST, words: "a number from 0 to 10000" };
+
+    const fn above(words: &'static str, most: f64) -> Self {
+        Self { above: true, most, words }
+    }
+
+    /// Whether a controller takes `value`.
+    pub fn holds(self, value: f64) -> bool {
+        (if self.above { value > 0.0 } else { value >= 0.0 }) && value <= self.most
+    }
+
+    /// What is wrong with `value`; `None` where it holds.
+    pub fn refuse(self, at: Place, field: &'static str, value: f64) -> Option<ProgramError> {
+        (!self.holds(value)).then_some(ProgramError::Value { at, field, value, bound: self.words })
+    }
+}
 
 impl Program {
     /// The program itself, if it can be executed.
@@ -175,7 +220,8 @@ impl Program {
             let (length, square) = (largest(&tool.tcp), tool.tcp.rotation.norm_squared());
             hold(length <= LARGEST, &tool.name, "position of the tool's centre point", length, POSITION);
             hold((square - 1.0).abs() <= 1e-5, &tool.name, "|q|²", square, UNIT);
-            hold((0.0..=LARGEST).contains(&tool.mass), &tool.name, "mass", tool.mass, NOT_NEGATIVE);
+            let mass = Bound::NOT_NEGATIVE;
+            hold(mass.holds(tool.mass), &tool.name, "mass", tool.mass, mass.words);
         }
         for object in &self.work_objects {
             for frame in [&object.user, &object.object] {
@@ -220,7 +266,7 @@ impl Check<'_> {
             }
         };
         let (speed, zone) = (&self.m.speed, &self.m.zone);
-        hold(speed.tcp > 0.0, "tcp speed", speed.tcp, "a number, more than 0 m/s");
+        hold(Bound::SPEED.holds(speed.tcp), "tcp speed", speed.tcp, Bound::SPEED.words);
         for (field, value) in [
             ("orientation speed", speed.orientation),
             ("speed of linear external axes", speed.linear_external),
@@ -232,10 +278,10 @@ impl Check<'_> {
             ("zone of linear external axes", zone.linear_external),
             ("zone of rotating external axes", zone.rotating_external),
         ] {
-            hold((0.0..=LARGEST).contains(&value), field, value, NOT_NEGATIVE);
+            hold(Bound::NOT_NEGATIVE.holds(value), field, value, Bound::NOT_NEGATIVE.words);
         }
         if let Some(duration) = self.m.duration {
-            hold(duration > 0.0 && duration <= LARGEST, "duration", duration, "more than 0 s and at most 10000 s");
+            hold(Bound::DURATION.holds(duration), "duration", duration, Bound::DURATION.words);
         }
         let mut external = |external: &External| {
             for value in external.iter().flatten() {

@@ -19,7 +19,7 @@ mod zone;
 mod tests;
 
 pub use arc::Arc;
-pub use check::{Place, ProgramError};
+pub use check::{Bound, Place, ProgramError};
 pub use digits::{DECIMALS, QUATERNION_DECIMALS};
 pub use frames::{Tool, WorkObject, unit_quaternion};
 pub use speed::Speed;
