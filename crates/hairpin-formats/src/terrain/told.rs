@@ -21,11 +21,11 @@ pub struct Told {
     pub epsg: Option<u32>,
     /// What the plane is called.
     pub name: String,
-    /// How long a metre of the ground is on the plane at the map's middle; `None` where its projection is not known, and
-    /// where it has none: its metres are then taken for the ground's.
+    /// How long a metre of the ground is on the plane at the map's middle; `None` where its projection is not known,
+    /// and where it has none: its metres are then taken for the ground's.
     pub scale: Option<Scale>,
-    /// What the file's plane of the Earth is called where its projection is not known; `None` of a yard's own plane too,
-    /// whose metres are the ground's.
+    /// What the file's plane of the Earth is called where its projection is not known; `None` of a yard's own plane
+    /// too, whose metres are the ground's.
     pub unknown_plane: Option<String>,
     /// Taken off the file's coordinates, m: the map's x is the easting less the first, its y the northing less the
     /// second.

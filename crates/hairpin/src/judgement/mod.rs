@@ -15,8 +15,8 @@
 //!
 //! Nothing here asks how a motion came about: the judge gets obstacles as a distance function and a reference as
 //! points, so that what judges our simulator judges hardware. Larger is worse, but for clearances and margins. Maxima
-//! are over samples; what may hide between them is bounded by how fast the robot can be (`between`, `swiftness`), which a log
-//! needs and a simulation does not.
+//! are over samples; what may hide between them is bounded by how fast the robot can be (`between`, `swiftness`), which
+//! a log needs and a simulation does not.
 
 mod apart;
 mod assign;
