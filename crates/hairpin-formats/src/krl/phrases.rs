@@ -78,7 +78,12 @@ pub(super) fn harmless(statement: &str) -> Result<(), String> {
         _ if HARMLESS_DATA.contains(&word.as_str()) => {
             phrase.indices(0)?;
             phrase.expects("=")?;
+            let value = phrase.rest.trim();
             phrase.expression(0)?;
+            // Without a move in advance nothing is blended.
+            if word == "$ADVANCE" && !["1", "2", "3", "4", "5"].contains(&value) {
+                return Err(format!("`$ADVANCE={}` is not followed, must be 1 to 5", value.escape_default()));
+            }
         }
         _ => return Err(phrase.left()),
     }

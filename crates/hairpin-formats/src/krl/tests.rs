@@ -257,6 +257,8 @@ fn statements_are_understood_to_their_end() {
         &format!("$OUT[1]=TRUE {far}"),
         "CONTINUE $TOOL={X 0,Y 0,Z 900,A 0,B 0,C 0}",
         &format!("$ADVANCE=3 {far}"),
+        "$ADVANCE=0",
+        "$ADVANCE=n",
         &format!("PULSE ($OUT[1],TRUE,0.5) {far}"),
         &format!("ANOUT ON x=1+$VEL_ACT DELAY=0.1 {far}"),
         &format!("ANOUT OFF x {far}"),
