@@ -18,11 +18,13 @@ pub(crate) fn run(asked: &Judge, watch: &dyn Watch) -> Result<u8, Problem> {
     junit::check(asked.junit.path())?;
     let Judged { work, cases, tally, judgement, told, kept } = &judge(&asked.path, &settings::split(&asked.sets)?)?;
     told.iter().for_each(|line| console::warn(&format!("Warning: {line}")));
-    kept.iter().for_each(|line| console::warn(line));
     junit::keep(asked.junit.path(), work)?;
     let (verdict, junit) = (&judgement.verdict, asked.junit.path());
     let answer = Answer { work, cases, tally, judgement, verdict, replayed: &[], spent: None, junit, reported: false };
-    Ok(answer.say(asked.json))
+    let code = answer.say(asked.json);
+    // Of the folder, not of the verdict, which comes first.
+    kept.iter().for_each(|line| console::warn(line));
+    Ok(code)
 }
 
 /// What logs are judged against; `None` where a campaign's folder is judged.
