@@ -161,6 +161,10 @@ impl<N: Copy, R: Reach<N>> Reach<OpenNode<N>> for OpenEnd<R> {
             _ => Some(duration),
         }
     }
+
+    fn is_known_at_once(&self) -> bool {
+        self.inner.is_known_at_once()
+    }
 }
 
 /// A score that leaves the leg to the sink out.

@@ -75,19 +75,24 @@ fn by_dynamic_program<N: Copy + Eq + Ord + Hash, O: Additive>(question: &Questio
         aggregate: search.aggregate,
         ..ExactSettings::default()
     };
-    let Some(possible) = question.possible_graph() else { return Answer::stopped() };
-    let (outcome, legs) = match exact_proven(&possible, question.reach, &question.score, &settings) {
-        Some(outcome) => (outcome, possible.legs()),
+    let mut proven = None;
+    // Of a score that sees durations, and of legs that are all known at once, there is nothing to be proven later.
+    if question.score.is_timeless() && !question.reach.is_known_at_once() {
+        let Some(possible) = question.possible_graph() else { return Answer::stopped() };
+        let outcome = exact_proven(&possible, question.reach, &question.score, &settings);
+        proven = outcome.map(|outcome| (outcome, format!("{} legs that may be", possible.legs())));
+    }
+    let (outcome, legs) = match proven {
+        Some(proven) => proven,
         None => {
-            drop(possible);
             let Some(graph) = question.leg_graph() else { return Answer::stopped() };
-            (exact(&graph, &question.score, &settings), graph.legs())
+            (exact(&graph, &question.score, &settings), format!("{} feasible legs", graph.legs()))
         }
     };
     let proven_empty = outcome.found.is_empty() && outcome.bound.is_none();
     let reason = match (outcome.found.is_empty(), proven_empty) {
         (false, _) => None,
-        (true, true) => Some(format!("none among the {legs} legs that may be of the last graph")),
+        (true, true) => Some(format!("none among the {legs} of the last graph")),
         (true, false) => Some("none without revisits was found within the search's budget".into()),
     };
     Answer { proven_empty, expansions: outcome.expansions, reason, ..question.answer(outcome.found, outcome.bound) }

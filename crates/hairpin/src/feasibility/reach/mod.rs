@@ -143,6 +143,11 @@ pub trait Reach<N> {
         Some(duration)
     }
 
+    /// Whether [`Self::possible`] gives the feasible legs alone: nothing is gained by proving them later.
+    fn is_known_at_once(&self) -> bool {
+        true
+    }
+
     /// How `from` is entered, where all nodes of its state stand at one waypoint and have the same legs but for `turn`
     /// and `slope_in`, which follow from the waypoint before; `None` where legs are each node's own.
     ///
@@ -164,6 +169,10 @@ impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
 
     fn proven(&self, from: &N, to: &N, duration: f64) -> Option<f64> {
         (**self).proven(from, to, duration)
+    }
+
+    fn is_known_at_once(&self) -> bool {
+        (**self).is_known_at_once()
     }
 
     fn entry(&self, from: &N) -> Option<Entry> {

@@ -69,6 +69,10 @@ impl<N> Reach<N> for Until<'_, N> {
         if self.goes_on() { self.inner.proven(from, to, duration) } else { None }
     }
 
+    fn is_known_at_once(&self) -> bool {
+        self.inner.is_known_at_once()
+    }
+
     fn entry(&self, from: &N) -> Option<Entry> {
         self.inner.entry(from)
     }

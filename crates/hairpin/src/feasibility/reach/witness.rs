@@ -277,6 +277,10 @@ impl Reach<WitnessNode> for Roadmap<'_> {
         self.states.proven(from, to)
     }
 
+    fn is_known_at_once(&self) -> bool {
+        false
+    }
+
     fn entry(&self, from: &WitnessNode) -> Option<Entry> {
         Some(Entry { state: self.states.number(from), previous: from.previous })
     }
