@@ -93,6 +93,14 @@ pub struct LoggedMotion {
     pub no_heights: Option<String>,
 }
 
+impl LoggedMotion {
+    /// A motion of which no more is told than its samples.
+    pub fn of(name: &str, source: Source, samples: Vec<Sample>) -> Self {
+        let (resets, invalid, unfit, told_to_m, no_heights) = Default::default();
+        Self { name: name.into(), source, samples, resets, invalid, unfit, told_to_m, no_heights }
+    }
+}
+
 /// A body at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {

@@ -6,7 +6,7 @@ use super::log::{LoggedMotion, Reset, Source};
 
 /// The positions of what was `chosen`, from when on (s) which, of `own` by their numbers, all of which are there; each
 /// change is a jump of unknown size.
-pub(super) fn by_turns(name: String, chosen: &[(f64, u32)], own: &BTreeMap<u32, &LoggedMotion>) -> LoggedMotion {
+pub(super) fn by_turns(name: &str, chosen: &[(f64, u32)], own: &BTreeMap<u32, &LoggedMotion>) -> LoggedMotion {
     let changes = chosen.iter().skip(1).map(|(t_s, _)| *t_s);
     // What was before the first word is the first one's.
     let begins = std::iter::once(f64::NEG_INFINITY).chain(changes.clone());
@@ -21,5 +21,5 @@ pub(super) fn by_turns(name: String, chosen: &[(f64, u32)], own: &BTreeMap<u32, 
     }
     resets.extend(changes.map(|t_s| Reset { t_s, by_m: None }));
     resets.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-    LoggedMotion { name, source: Source::Estimate, samples, resets, invalid, unfit, told_to_m: None, no_heights: None }
+    LoggedMotion { resets, invalid, unfit, ..LoggedMotion::of(name, Source::Estimate, samples) }
 }

@@ -1,6 +1,6 @@
 //! How well each sample of a log knows its place, and in which steps it tells that.
 
-use hairpin::judgement::{Resolution, Step};
+use hairpin::judgement::{Resolution, Step, TELLING};
 use hairpin_formats::logs::{LoggedMotion, Sample};
 
 /// Horizontal and vertical standard deviation of each sample, m, and what is to be told of it; none of a log that tells
@@ -22,9 +22,6 @@ pub(super) fn accuracies(samples: &[Sample]) -> (Vec<Option<[f64; 2]>>, Option<S
     (all, (untold > 0).then_some(note))
 }
 
-/// Rows that tell in which step they are written.
-const ENOUGH: usize = 20;
-
 /// The steps in which the log tells its numbers, in its own frame: turned into the world's they are as long and no
 /// longer to be seen.
 pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
@@ -34,7 +31,7 @@ pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
     let velocities = motion.samples.iter().all(|sample| sample.v_m_s.is_some());
     let place = of(&|sample, axis| sample.p_m[axis]);
     Resolution {
-        place: match motion.told_to_m.filter(|_| motion.samples.len() >= ENOUGH) {
+        place: match motion.told_to_m.filter(|_| motion.samples.len() >= TELLING) {
             Some(digit) => place.written_to(digit),
             None => place,
         },

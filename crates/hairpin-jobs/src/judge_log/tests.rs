@@ -46,25 +46,12 @@ fn samples(rate: f64, off: f64) -> Vec<Sample> {
     (0..=(8.0 * rate) as usize).map(of).collect()
 }
 
-fn motion(name: &str, source: Source, samples: Vec<Sample>) -> LoggedMotion {
-    LoggedMotion {
-        told_to_m: None,
-        name: name.into(),
-        source,
-        samples,
-        resets: Vec::new(),
-        invalid: Vec::new(),
-        unfit: None,
-        no_heights: None,
-    }
-}
-
 fn log(rate: f64, off: f64) -> Logged {
     Logged {
         format: "PX4 ULog",
         clock: Clock::SinceBoot,
         frame: LogFrame::Enu(None),
-        motions: vec![motion("vehicle_local_position", Source::Estimate, samples(rate, off))],
+        motions: vec![LoggedMotion::of("vehicle_local_position", Source::Estimate, samples(rate, off))],
         joints: Vec::new(),
         progress: Vec::new(),
         events: Vec::new(),
@@ -172,7 +159,7 @@ fn velocities_are_believed_where_they_are_those_of_the_positions() {
         };
         let samples: Vec<Sample> = (0..=500).map(of).collect();
         let mut logged = log(rate, 0.0);
-        logged.motions = vec![motion("vehicle_local_position", Source::Estimate, samples)];
+        logged.motions = vec![LoggedMotion::of("vehicle_local_position", Source::Estimate, samples)];
         let found = judged_as(&logged, |settings, here| *settings = super::tests::settings(here, limit)).unwrap();
         let found = found.found.unwrap();
         let flown = found.flown.unwrap();
@@ -305,7 +292,7 @@ fn a_log_that_does_not_know_its_place_decides_nothing() {
     assert_eq!(said(&with(0.30, [0.05, 0.05])).1, 0);
     // Motion capture goes before it.
     let mut both = with(0.65, [0.9, 0.1]);
-    both.motions.push(motion("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.41)));
+    both.motions.push(LoggedMotion::of("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.41)));
     let judged = judged_as(&both, |_, _| {}).unwrap();
     assert!(judged.verdict.sentence.contains("motion capture): 0.41 m ≤ 0.50 m"), "{}", judged.verdict.sentence);
     assert_eq!(judged.found.unwrap().source.others, ["vehicle_local_position"]);
@@ -313,7 +300,7 @@ fn a_log_that_does_not_know_its_place_decides_nothing() {
     assert!(asked.verdict.sentence.contains("EKF2 estimate): 0.65 m"), "{}", asked.verdict.sentence);
     let none = judged_as(&both, |settings, _| settings.source = Some("gps".into())).unwrap_err();
     assert!(none.contains("--source gps") && none.contains("vehicle_mocap_odometry"), "{none}");
-    both.motions.push(motion("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.0)));
+    both.motions.push(LoggedMotion::of("vehicle_mocap_odometry", Source::MotionCapture, samples(100.0, 0.0)));
     let two = judged_as(&both, |settings, _| settings.source = Some("vehicle_mocap_odometry".into())).unwrap_err();
     assert!(two.contains("--source vehicle_mocap_odometry: the log has several channels of that topic"), "{two}");
 }

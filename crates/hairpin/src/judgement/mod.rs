@@ -50,7 +50,7 @@ pub use measure::{deviation_of_samples, legs_of_samples, measure};
 pub use measures::{Late, LegMeasures, LegSource, Measures, Missing};
 pub use paired::{Median, SignedRank, holm, median, signed_rank};
 pub use quantile::{Quantile, exceeded_by};
-pub use resolution::{AccelerationSource, Resolution, SEEN_WITHIN_S, Step, Unresolved, is_seen};
+pub use resolution::{AccelerationSource, Resolution, SEEN_WITHIN_S, Step, TELLING, Unresolved, is_seen};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
 pub use spec::{Limits, Violation, nearest, still_since, violations};
 pub use statistics::{

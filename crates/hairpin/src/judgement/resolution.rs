@@ -24,7 +24,7 @@ pub fn is_seen(span: f64) -> bool {
 }
 
 /// So many values tell in which step they are told.
-const ENOUGH: usize = 20;
+pub const TELLING: usize = 20;
 /// The finest step that is looked for, decimals: below it a double's own rounding begins.
 const FINEST: i32 = 7;
 /// How far, in steps, a value may be off a whole number of them.
@@ -104,7 +104,7 @@ impl Step {
 
 /// 0 of values that are told exactly, or of too few.
 fn step(values: &[f64]) -> f64 {
-    if values.len() < ENOUGH {
+    if values.len() < TELLING {
         return 0.0;
     }
     let of = |decimals: i32| {

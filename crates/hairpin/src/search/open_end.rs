@@ -210,6 +210,10 @@ impl<O: Additive> Additive for OpenScore<'_, O> {
         legs.iter().map(part).map(|part| part.unwrap_or(to_sink)).collect()
     }
 
+    fn is_timeless(&self) -> bool {
+        self.objective.is_timeless()
+    }
+
     fn has_sink(&self) -> bool {
         true
     }

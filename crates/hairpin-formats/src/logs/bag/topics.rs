@@ -262,17 +262,7 @@ impl Topic {
             notes.extend(unturned.iter().map(|why| format!("{name}: {why}")));
             let unfit = unfit.or(unturned);
             let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
-            let (resets, invalid) = Default::default();
-            motions.push(LoggedMotion {
-                name: name.clone(),
-                source,
-                samples,
-                resets,
-                invalid,
-                unfit,
-                told_to_m: None,
-                no_heights: None,
-            });
+            motions.push(LoggedMotion { unfit, ..LoggedMotion::of(&name, source, samples) });
         } else {
             frame = None;
         }

@@ -69,7 +69,7 @@ impl Cores {
                     [(_, core)] => motions.remove(places[core]),
                     _ => {
                         let own = places.iter().map(|(core, place)| (*core, &motions[*place])).collect();
-                        by_turns(format!("{message}[primary]"), primary, &own)
+                        by_turns(&format!("{message}[primary]"), primary, &own)
                     }
                 };
                 notes.push(format!("{} is what the vehicle flew by (XKF4.PI)", flown.name));

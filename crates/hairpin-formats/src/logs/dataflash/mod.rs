@@ -206,16 +206,7 @@ impl Log {
             let resets = if series.source == Source::Estimate { flown.resets() } else { Vec::new() };
             let (source, unfit) = (series.source, series.unfit);
             notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
-            motions.push(LoggedMotion {
-                name,
-                source,
-                samples,
-                resets,
-                invalid: Vec::new(),
-                unfit,
-                told_to_m: None,
-                no_heights: None,
-            });
+            motions.push(LoggedMotion { resets, unfit, ..LoggedMotion::of(&name, source, samples) });
         }
         cores.settle(&mut motions, &mut notes);
         motions.sort_by_key(|motion| motion.source);

@@ -182,14 +182,9 @@ impl Reading {
 
     fn logged(self, name: &str) -> Logged {
         let motion = LoggedMotion {
-            name: name.into(),
-            source: source(name),
-            samples: self.samples,
-            resets: Vec::new(),
-            invalid: Vec::new(),
-            unfit: None,
             told_to_m: self.told_to_m,
             no_heights: self.no_heights,
+            ..LoggedMotion::of(name, source(name), self.samples)
         };
         let names = self.columns.joints.iter().map(|(number, _)| format!("joint_{number}")).collect();
         let joints = Joints {

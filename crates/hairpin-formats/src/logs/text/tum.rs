@@ -27,17 +27,7 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         let attitude = Some(attitude(qw, [qx, qy, qz], line)?);
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
-    let (resets, invalid, unfit) = Default::default();
-    let motion = LoggedMotion {
-        name: name.into(),
-        source: source(name),
-        samples,
-        resets,
-        invalid,
-        unfit,
-        told_to_m,
-        no_heights: None,
-    };
+    let motion = LoggedMotion { told_to_m, ..LoggedMotion::of(name, source(name), samples) };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

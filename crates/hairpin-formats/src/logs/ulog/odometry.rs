@@ -155,16 +155,7 @@ impl Odometry {
         let invalid = invalid.until(samples.last().map(|last| last.t_s));
         notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
-        let motion = LoggedMotion {
-            name: name.into(),
-            source,
-            samples,
-            resets,
-            invalid,
-            unfit,
-            told_to_m: None,
-            no_heights: None,
-        };
+        let motion = LoggedMotion { resets, invalid, unfit, ..LoggedMotion::of(name, source, samples) };
         ((!motion.samples.is_empty()).then_some(motion), notes)
     }
 }

@@ -206,19 +206,7 @@ impl Positions {
         let invalid = invalid.until(samples.last().map(|last| last.t_s));
         notes.extend(half(name, halves));
         notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
-        (
-            LoggedMotion {
-                name: name.into(),
-                source,
-                samples,
-                resets,
-                invalid,
-                unfit,
-                told_to_m: None,
-                no_heights: None,
-            },
-            notes,
-        )
+        (LoggedMotion { resets, invalid, unfit, ..LoggedMotion::of(name, source, samples) }, notes)
     }
 
     /// Turns PX4's plane about the reference of each time into east, north, up about `origin`.

@@ -75,7 +75,7 @@ pub(super) fn settle(chosen: &[(f64, u32)], moved: &mut Vec<(LoggedMotion, u8)>,
         _ => {
             let own: BTreeMap<u32, &LoggedMotion> =
                 places.iter().map(|(instance, at)| (*instance, &moved[*at].0)).collect();
-            (by_turns(format!("{ESTIMATE}[primary]"), chosen, &own), 0)
+            (by_turns(&format!("{ESTIMATE}[primary]"), chosen, &own), 0)
         }
     };
     notes.push(format!("{} is what the vehicle flew by ({TOPIC})", flown.0.name));

@@ -29,7 +29,7 @@ use rustc_hash::FxBuildHasher;
 
 use self::best_first::{BestFirst, Prove};
 use self::worth::Worth;
-use super::graph::{Count, LegGraph, LegScores, Scoring, Values};
+use super::graph::{LegGraph, LegScores, Scoring, Values};
 use super::objective::{Additive, Aggregate};
 use super::task::Found;
 use crate::feasibility::reach::Reach;
@@ -55,9 +55,6 @@ pub struct ExactOutcome<N> {
     pub proven: usize,
     /// Proven upper bound of the best score; `None` if it is proven that there is no trajectory.
     pub bound: Option<f64>,
-    /// Number of trajectories of this length, revisits allowed (but no way back over the leg just flown, if they are
-    /// not). Zero proves that there is none.
-    pub walks: Count,
     /// Partial trajectories expanded.
     pub expansions: u64,
 }
@@ -98,7 +95,7 @@ where
 /// The same of a graph of legs that may be ([`LegGraph::explore_possible`]) by `reach`, which is asked for the legs of
 /// what comes into question alone: what more legs could become bounds what these can.
 ///
-/// `walks` counts those over all legs that may be. `None` where that bound is too far off to come to a proof within the
+/// `None` where that bound is too far off to come to a proof within the
 /// budget, or the score depends on the durations of legs, which are not known before they are proven: legs are then
 /// better proven first.
 pub fn exact_proven<N, O, R>(
@@ -127,15 +124,16 @@ where
 
 /// Searches of one graph for several scores: what they share is done once.
 ///
-/// Several scores of one graph (all scores by hand, for a search in the loop) share its count and its trimming.
+/// Several scores of one graph (all scores by hand, for a search in the loop) share its trimming.
 ///
 /// Made once a graph: without revisits the graph is copied and trimmed unless it was already
-/// ([`LegGraph::into_without_returns`]), then counted, O(legs · length).
+/// ([`LegGraph::into_without_returns`]).
 #[derive(Debug)]
 pub struct ExactSearch<'g, 'a, N: Copy> {
     graph: Cow<'g, LegGraph<'a, N>>,
     settings: ExactSettings,
-    walks: Count,
+    /// Whether there is any trajectory, revisits allowed.
+    any: bool,
     near_start: Vec<Vec<u32>>,
 }
 
@@ -145,12 +143,9 @@ impl<'g, 'a, N: Copy> ExactSearch<'g, 'a, N> {
     /// `settings.aggregate` is not used: [`Self::best`] and [`Scored::by`] are given theirs.
     pub fn new(graph: &'g LegGraph<'a, N>, settings: ExactSettings) -> Self {
         let graph = if settings.revisits { Cow::Borrowed(graph) } else { graph.without_returns(settings.length) };
-        let walks = match settings.length {
-            0 | 1 => Count::Exact(0),
-            length => graph.counts_by_length(length)[length],
-        };
+        let any = graph.has_walk(settings.length);
         let near_start = graph.near_start(settings.length);
-        Self { graph, settings, walks, near_start }
+        Self { graph, settings, any, near_start }
     }
 
     /// The best trajectories under `objective`, by each of `aggregates`.
@@ -185,7 +180,7 @@ impl<N: Copy> Scored<'_, '_, '_, N> {
     ///
     /// One backward pass, O(legs · length) time and nodes · length doubles.
     pub fn by(&self, aggregate: Aggregate) -> Ranking<'_, N> {
-        let ExactSearch { graph, settings, walks, near_start } = self.search;
+        let ExactSearch { graph, settings, any, near_start } = self.search;
         let length = settings.length;
         let known = || match graph.values_by_turn(length, self.objective, aggregate, near_start) {
             Some(values) => (Worth::Asked(self.objective), values),
@@ -195,7 +190,7 @@ impl<N: Copy> Scored<'_, '_, '_, N> {
             }
         };
         let settings = ExactSettings { aggregate, ..settings.clone() };
-        Ranking { graph, settings, walks: *walks, known: (!walks.is_zero()).then(known) }
+        Ranking { graph, settings, known: any.then(known) }
     }
 }
 
@@ -205,7 +200,6 @@ impl<N: Copy> Scored<'_, '_, '_, N> {
 pub struct Ranking<'s, N: Copy> {
     graph: &'s LegGraph<'s, N>,
     settings: ExactSettings,
-    walks: Count,
     /// Scores of legs, and the best that is still to come after them.
     known: Option<(Worth<'s>, Values)>,
 }
@@ -216,9 +210,9 @@ impl<N: Copy> Ranking<'_, N> {
     /// At most [`ExactSettings::expansions`] expansions with proof; where that does not suffice for `count`, the beam
     /// of `width` adds what it finds, without proof, behind those that are proven.
     pub fn best(&self, count: usize) -> ExactOutcome<N> {
-        let (graph, walks, best) = (self.graph, self.walks, count.max(1));
+        let (graph, best) = (self.graph, count.max(1));
         let Some((scores, values)) = &self.known else {
-            return ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
+            return ExactOutcome { found: Vec::new(), proven: 0, bound: None, expansions: 0 };
         };
         let settings = &ExactSettings { best, ..self.settings.clone() };
         let mut search = best_first::best_first(graph, scores, values, settings, &mut |_, _, time| Some(time));
@@ -232,18 +226,18 @@ impl<N: Copy> Ranking<'_, N> {
         }
         let bound = if proven > 0 { search.found.first().map(|found| found.score) } else { search.open_bound };
         let BestFirst { found, expansions, .. } = search;
-        ExactOutcome { found, proven, bound, walks, expansions }
+        ExactOutcome { found, proven, bound, expansions }
     }
 
     /// The `count` best whose legs `prove` has; `None` where the expansions do not suffice for a proof.
     fn proven(&self, count: usize, prove: &mut Prove<'_>) -> Option<ExactOutcome<N>> {
-        let walks = self.walks;
-        let nothing = ExactOutcome { found: Vec::new(), proven: 0, bound: None, walks, expansions: 0 };
-        let Some((scores, values)) = &self.known else { return Some(nothing) };
+        let Some((scores, values)) = &self.known else {
+            return Some(ExactOutcome { found: Vec::new(), proven: 0, bound: None, expansions: 0 });
+        };
         let settings = ExactSettings { best: count.max(1), ..self.settings.clone() };
         let BestFirst { found, open_bound, expansions } =
             best_first::best_first(self.graph, scores, values, &settings, prove);
         let bound = found.first().map(|found| found.score);
-        open_bound.is_none().then_some(ExactOutcome { proven: found.len(), found, bound, expansions, ..nothing })
+        open_bound.is_none().then_some(ExactOutcome { proven: found.len(), found, bound, expansions })
     }
 }

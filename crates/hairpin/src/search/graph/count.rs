@@ -92,6 +92,18 @@ impl Counts {
 }
 
 impl<N: Copy> LegGraph<'_, N> {
+    /// Whether there is a trajectory of `length` waypoints, revisits allowed: a no is the proof that there is none.
+    ///
+    /// The pass over (∨, ∧): O(nodes · length) where most nodes lead on, O(legs · length) at most.
+    pub fn has_walk(&self, length: usize) -> bool {
+        let nodes = 0..self.nodes() as u32;
+        let mut layer: Vec<bool> = nodes.clone().map(|node| self.at_end(node)).collect();
+        for _ in 1..length {
+            layer = nodes.clone().map(|node| self.rows.targets(node).any(|to| layer[to as usize])).collect();
+        }
+        length > 1 && layer[0]
+    }
+
     /// Number of trajectories of every length: item ℓ counts those of ℓ waypoints, for ℓ = 0 ..= `length`. With
     /// revisits; without them it is an upper bound. Lengths beyond the one the graph was built for are undercounted.
     ///

@@ -19,6 +19,9 @@ fn counts_of_every_length_are_those_of_brute_force() {
         let counts = graph.counts_by_length(6);
         let kept = graph.counts(6);
         assert_eq!(counts.len(), 7);
+        for (length, count) in counts.iter().enumerate() {
+            assert_eq!(graph.has_walk(length), !count.is_zero(), "seed {seed}, length {length}");
+        }
         for (length, count) in counts.iter().enumerate().skip(2) {
             let all = enumerate(&task, &Score::Random { seed }, (length, true, Aggregate::Sum)).len();
             assert_eq!(*count, Count::Exact(all as u128), "seed {seed} length {length}");
