@@ -37,7 +37,7 @@ fn driven(planned: &Track, height: impl Fn(f64) -> f64) -> Logged {
         Sample { t_s: *t, p_m, attitude: None, v_m_s: None, accuracy_m: None }
     };
     let samples = planned.times().iter().zip(planned.poses()).map(of).collect();
-    let motions = vec![motion("odom.csv", Source::Untold, samples)];
+    let motions = vec![LoggedMotion::of("odom.csv", Source::Untold, samples)];
     Logged { format: "CSV", frame: LogFrame::Untold, motions, ..log(100.0, 0.0) }
 }
 

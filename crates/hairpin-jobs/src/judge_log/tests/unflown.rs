@@ -21,7 +21,7 @@ fn through(places: &[[f64; 3]]) -> Logged {
         Sample { t_s, p_m: *p_m, attitude: None, v_m_s: None, accuracy_m: None }
     };
     let samples = way.iter().enumerate().map(sample).collect();
-    Logged { format: "TUM", motions: vec![motion("a.tum", Source::Untold, samples)], ..log(100.0, 0.0) }
+    Logged { format: "TUM", motions: vec![LoggedMotion::of("a.tum", Source::Untold, samples)], ..log(100.0, 0.0) }
 }
 
 fn over(logged: &Logged, mission: &[[f64; 3]]) -> (String, u8, Found) {
@@ -290,7 +290,7 @@ fn what_is_judged_from_the_middle_cannot_pass() {
 
 /// Several topics of a bag.
 fn bag(topics: &[(&str, Source)]) -> Logged {
-    let motions = topics.iter().map(|(name, source)| motion(name, *source, samples(100.0, 0.3))).collect();
+    let motions = topics.iter().map(|(name, source)| LoggedMotion::of(name, *source, samples(100.0, 0.3))).collect();
     Logged { format: "ROS 2 MCAP", motions, ..log(100.0, 0.3) }
 }
 

@@ -85,7 +85,7 @@ fn what_is_proven_as_it_comes_off_the_queue_is_the_best_there_is() {
                 }
             }
             // To a free end likewise.
-            let (sink, loose) = (OpenEnd::new(SMALL, &points), OpenEnd::new(more, &points));
+            let (sink, loose) = (OpenEnd::new(SMALL, &points), OpenEnd::new(Loose::of(share, &points), &points));
             let start = sink.task(START).start;
             let open = LegGraph::explore(start, sink.candidates(), &sink, 6);
             let possible_open = LegGraph::explore_possible(start, loose.candidates(), &loose, 6);
