@@ -179,9 +179,14 @@
 #define HAIRPIN_UNMEASURED_ACCELERATION 2
 
 /**
- * No waypoint that was to be reached at a time was reached.
+ * A waypoint that was to be reached at a time was not reached.
  */
 #define HAIRPIN_UNMEASURED_LATE 4
+
+/**
+ * A waypoint was not reached, by `reached_s`, of a track that came to its end.
+ */
+#define HAIRPIN_UNMEASURED_WAYPOINTS 8
 
 /**
  * Samples have attitudes.

@@ -9,6 +9,7 @@ use hairpin::judgement::{
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 
+use crate::measures::{HAIRPIN_UNMEASURED_LATE, HAIRPIN_UNMEASURED_WAYPOINTS};
 use crate::refusal::{HAIRPIN_INVALID, Refused};
 use crate::track::{
     HAIRPIN_ENDED_CRASH, HAIRPIN_ENDED_DONE, HAIRPIN_ENDED_TIME, HAIRPIN_FROM_LEG, HAIRPIN_FROM_NEAREST_LEG,
@@ -31,6 +32,8 @@ pub(crate) struct Judged {
     pub(crate) limits: Limits,
     pub(crate) off: Vec<Option<f64>>,
     pub(crate) violations: Vec<Violation>,
+    /// What is open by waypoints that were not reached, a sum of HAIRPIN_UNMEASURED_...
+    pub(crate) missed: u32,
 }
 
 /// A caller's distance to obstacles.
@@ -86,7 +89,19 @@ impl Asked<'_> {
         };
         let flight = Flight { track, ended, left_world: None, reached };
         let violations = violations(&measures, &flight, &limits);
-        Ok(Judged { measures, limits, off, violations })
+        let missed = self.missed(ended, &limits);
+        Ok(Judged { measures, limits, off, violations, missed })
+    }
+
+    /// Which limits a waypoint leaves open that was not reached: its lateness has no value, and what came to its end
+    /// without it is not what was asked for.
+    fn missed(&self, ended: Ended, limits: &Limits) -> u32 {
+        let Some(reached) = self.reached else { return 0 };
+        let late = self.planned.zip(limits.late).is_some_and(|(planned, _)| {
+            planned.iter().zip(reached).skip(1).any(|(planned, at)| !planned.is_nan() && at.is_nan())
+        });
+        let passed_by = ended == Ended::Done && limits.are_given() && reached.iter().skip(1).any(|at| at.is_nan());
+        u32::from(late) * HAIRPIN_UNMEASURED_LATE + u32::from(passed_by) * HAIRPIN_UNMEASURED_WAYPOINTS
     }
 
     /// How late each waypoint was reached that was to be at a time, and the latest of them.

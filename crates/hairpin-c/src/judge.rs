@@ -66,7 +66,7 @@ pub unsafe extern "C" fn hairpin_judge(
 
             let asked = Asked { settings, waypoints, path, reached, planned };
             let judged = asked.judge(samples, off.is_wanted())?;
-            put(measures, TrackMeasures::of(&judged.measures, &judged.limits))?;
+            put(measures, TrackMeasures::of(&judged.measures, &judged.limits, judged.missed))?;
             if legs.is_wanted() {
                 legs.fill(judged.measures.legs.iter().map(TrackLeg::from))?;
             }

@@ -190,6 +190,9 @@ fn search(arcs: &Arcs, settings: &MaxLoadSettings) -> Result<Heaviest, Refused> 
             return Err(Refused::new(HAIRPIN_INVALID, format_args!("`{field}` = {value}: must be at most {bound}")));
         }
     }
+    if paths == 0 {
+        return Err(Refused::new(HAIRPIN_INVALID, format_args!("`paths` = 0: must be at least 1")));
+    }
     let limit = match time_limit_s {
         0.0 => None,
         seconds => Some(Duration::try_from_secs_f64(seconds).map_err(|_| {

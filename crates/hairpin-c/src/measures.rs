@@ -48,8 +48,10 @@ pub struct TrackMeasures {
 pub const HAIRPIN_UNMEASURED_DEVIATION: u32 = 1;
 /// There are too few samples for an acceleration.
 pub const HAIRPIN_UNMEASURED_ACCELERATION: u32 = 2;
-/// No waypoint that was to be reached at a time was reached.
+/// A waypoint that was to be reached at a time was not reached.
 pub const HAIRPIN_UNMEASURED_LATE: u32 = 4;
+/// A waypoint was not reached, by `reached_s`, of a track that came to its end.
+pub const HAIRPIN_UNMEASURED_WAYPOINTS: u32 = 8;
 
 /// What is measured of one leg. NaN: not measured.
 #[repr(C)]
@@ -87,8 +89,8 @@ pub struct TrackViolation {
 }
 
 impl TrackMeasures {
-    /// What was measured, and what of it `limits` ask for in vain.
-    pub(crate) fn of(of: &Measures, limits: &Limits) -> Self {
+    /// What was measured, and what of it `limits` ask for in vain, or is open by waypoints that were `missed`.
+    pub(crate) fn of(of: &Measures, limits: &Limits, missed: u32) -> Self {
         let open = limits.unmeasured(of).into_iter().map(|what| match what {
             "deviation" => HAIRPIN_UNMEASURED_DEVIATION,
             "acceleration" => HAIRPIN_UNMEASURED_ACCELERATION,
@@ -111,7 +113,7 @@ impl TrackMeasures {
             t_latest_s: of.latest.map_or(f64::NAN, |latest| latest.at),
             leg_latest: of.latest.map_or(0, |latest| latest.leg),
             legs_assigned: (of.leg_source == LegSource::Assigned).into(),
-            unmeasured: open.sum(),
+            unmeasured: open.fold(missed, |all, one| all | one),
         }
     }
 }

@@ -71,6 +71,7 @@ const GROUPS: &[(&str, &[&str])] = &[
             "terrain_cell_m",
             "terrain_height_m",
             "terrain_origin_m",
+            "terrain_columns",
             "terrain_epsg",
             "terrain_unit",
             "terrain_height_unit",

@@ -9,6 +9,7 @@ use hairpin::campaign::{Case, Run, Setup};
 use hairpin::judgement::Stress;
 use hairpin::math::ridge::NoFit;
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use rayon::prelude::*;
 
 use crate::Problem;
@@ -33,6 +34,7 @@ pub struct Learned {
 /// Nothing to learn from, or too little; a folder that is given twice, or of another robot or controller than the
 /// first; a file that cannot be read or written.
 pub fn learn(folders: &[PathBuf], out: &Path, stress: Stress) -> Result<Learned, Problem> {
+    refuse_own(out)?;
     let works = open_alike(folders)?;
     let Some(first) = works.first() else { return Err(Problem::input("no campaign folder is given")) };
     let arm = first.setup.has_programs();

@@ -12,6 +12,7 @@ use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::report::Motions;
 
 use crate::Problem;
@@ -41,6 +42,15 @@ pub struct Reported {
 /// A campaign that is not judged, that has not such a case, or of whose worst case the run is not to be had any more; a
 /// file that cannot be read or written.
 pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<Reported, Problem> {
+    if let Some(file) = picture {
+        refuse_own(file)?;
+        if !file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+            return Err(Problem::input(format!(
+                "--picture {}: it is an SVG; name it so, as in case.svg",
+                file.display()
+            )));
+        }
+    }
     let work = open_as_made(folder)?;
     let cases = work.folder.read_cases_without_profiles()?;
     let tally = work.folder.read_tally()?;

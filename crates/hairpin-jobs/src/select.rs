@@ -1,6 +1,7 @@
 //! A few of many cases, in a campaign folder of their own.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fs;
 use std::path::PathBuf;
 
 use hairpin::campaign::select::{self, By, Candidate, Choice, Measured};
@@ -120,7 +121,17 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
              it",
         );
     }
-    let folder = write(&work, settings, (&all, &results), &chosen)?;
+    if work.folder.has_runs() {
+        // What is not to be had is told of the folder that lacks it, and before another is made.
+        chosen.par_iter().try_for_each(|case| measured_runs(&work, case).map(drop))?;
+    }
+    let is_new = !settings.out.exists();
+    let folder = write(&work, settings, (&all, &results), &chosen).inspect_err(|_| {
+        // Half a choice would be taken for one.
+        if is_new {
+            let _ = fs::remove_dir_all(&settings.out);
+        }
+    })?;
     // What was read to choose by is not read again, and what two choices share is read once.
     let asked: BTreeSet<usize> =
         if met.judged.is_some() { [&*places, &*stressful].concat() } else { of_all.clone() }.into_iter().collect();
@@ -259,6 +270,17 @@ mod tests {
         let settings = SelectSettings { folder, cases: 1, by: By::Stress, out, if_there, consent };
         let selected = select(&settings, &Unwatched).unwrap();
         assert_eq!([selected.selected.cells, selected.most_stressful.cells, selected.all.cells], [None; 3]);
+    }
+
+    #[test]
+    fn a_choice_that_cannot_be_written_leaves_no_folder() {
+        let (place, folder) = violating();
+        fs::remove_dir_all(folder.join("executions")).unwrap();
+        let out = place.path().join("few");
+        let (if_there, consent) = (IfThere::Refuse, Consent::default());
+        let settings = SelectSettings { folder, cases: 1, by: By::Stress, out, if_there, consent };
+        let told = select(&settings, &Unwatched).unwrap_err().to_string();
+        assert!(told.contains(&settings.folder.display().to_string()) && !settings.out.exists(), "{told}");
     }
 
     #[test]

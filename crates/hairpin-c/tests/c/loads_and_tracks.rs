@@ -11,7 +11,8 @@ use hairpin_c::max_load::{
     hairpin_max_load, hairpin_max_load_defaults,
 };
 use hairpin_c::measures::{
-    HAIRPIN_UNMEASURED_DEVIATION, HAIRPIN_UNMEASURED_LATE, TrackLeg, TrackMeasures, TrackViolation,
+    HAIRPIN_UNMEASURED_DEVIATION, HAIRPIN_UNMEASURED_LATE, HAIRPIN_UNMEASURED_WAYPOINTS, TrackLeg, TrackMeasures,
+    TrackViolation,
 };
 use hairpin_c::refusal::HAIRPIN_OK;
 use hairpin_c::track::{JudgeSettings, Sample, hairpin_judge_defaults};
@@ -197,7 +198,15 @@ fn what_was_not_measured_is_within_no_limit() {
     let (reached_s, planned_s) = (reached.as_ptr(), planned.as_ptr());
     let late = JudgeSettings { reached_s, planned_s, max_late_s: 0.2, ..usual };
     let Judged { measures, violations, .. } = judge(&late);
-    assert!(violations.is_empty() && measures.unmeasured == HAIRPIN_UNMEASURED_LATE);
+    assert!(violations.is_empty());
+    assert_eq!(measures.unmeasured, HAIRPIN_UNMEASURED_LATE | HAIRPIN_UNMEASURED_WAYPOINTS);
+    // Nor is one of several kept by the others.
+    let planned = [0.0, 9.75, 20.0];
+    let Judged { measures, .. } = judge(&JudgeSettings { planned_s: planned.as_ptr(), ..late });
+    assert_eq!((measures.latest_s, measures.unmeasured), (0.0, 12));
+    let passed_by = JudgeSettings { reached_s, max_deviation_m: 5.0, ..usual };
+    let Judged { measures, violations, .. } = judge(&passed_by);
+    assert!(violations.is_empty() && measures.unmeasured == HAIRPIN_UNMEASURED_WAYPOINTS);
     // No obstacle is far enough away, and what is inside of one is not.
     let clear = JudgeSettings { min_clearance_m: 0.5, clearance: Some(nowhere), ..usual };
     let Judged { measures, violations, .. } = judge(&clear);

@@ -42,6 +42,9 @@ pub(crate) struct MapFlags {
     /// Centre of the south-west cell, m, of PNG, raw and NumPy maps
     #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true, requires = "terrain")]
     pub(crate) terrain_origin_m: Option<[f64; 2]>,
+    /// Cells along x of a raw map that is not square
+    #[arg(long, value_name = "N", requires = "terrain")]
+    pub(crate) terrain_columns: Option<usize>,
     /// EPSG code of the map's plane, where its file does not say it
     #[arg(long, value_name = "CODE", requires = "terrain")]
     pub(crate) terrain_epsg: Option<u32>,

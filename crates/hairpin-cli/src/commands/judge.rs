@@ -12,10 +12,10 @@ use crate::{console, settings};
 /// Runs the command.
 pub(crate) fn run(asked: &Judge, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
+    junit::check(asked.junit.path())?;
     if let Some(against) = against(asked)? {
         return judge_log::run(asked, against, watch);
     }
-    junit::check(asked.junit.path())?;
     let Judged { work, cases, tally, judgement, told, kept } = &judge(&asked.path, &settings::split(&asked.sets)?)?;
     told.iter().for_each(|line| console::warn(&format!("Warning: {line}")));
     junit::keep(asked.junit.path(), work)?;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::{atomic, bounds};
 use hairpin_jobs::Problem;
 use hairpin_jobs::work::Work;
@@ -15,7 +16,8 @@ pub(super) fn check(path: Option<&Path>) -> Result<(), Problem> {
         Some(path) if path.is_dir() => {
             Err(Problem::input(format!("--junit {}: this is a folder; name a file", path.display())))
         }
-        _ => Ok(()),
+        Some(path) => Ok(refuse_own(path)?),
+        None => Ok(()),
     }
 }
 

@@ -12,6 +12,7 @@ pub(super) fn georeference(flags: &MapFlags, holes: HoleRule) -> Georeference {
         cell_m: flags.terrain_cell_m,
         height_m: flags.terrain_height_m,
         origin_m: flags.terrain_origin_m,
+        columns: flags.terrain_columns,
         epsg: flags.terrain_epsg,
         unit: flags.terrain_unit.map(unit),
         height_unit: flags.terrain_height_unit.map(unit),

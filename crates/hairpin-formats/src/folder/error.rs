@@ -81,6 +81,12 @@ pub enum FolderError {
         /// The file.
         path: PathBuf,
     },
+    /// A file whose place the user chose is one that a campaign is read from.
+    #[error("{} is a campaign's own, which it is read from: name another file", path.display())]
+    Own {
+        /// The file.
+        path: PathBuf,
+    },
     /// A list of names that leads out of its folder.
     #[error("{}, line {line}: `{}` is no name below the folder: no absolute name, no `..`", path.display(), name.escape_default())]
     Listed {

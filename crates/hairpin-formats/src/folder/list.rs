@@ -21,6 +21,8 @@ use crate::scenario::read_made_by;
 const LARGEST: u64 = 1 << 20;
 /// What the copies of files that a scenario names are called, without their endings.
 const COPIES: [&str; 5] = ["terrain", "cloud", "costs", "score", "baseline"];
+/// What is written to be looked at, and never read again.
+const SHOWN: [&str; 2] = ["junit.xml", "report.html"];
 const HEAD: &str = "# What hairpin writes in this folder; whatever has another name it neither replaces nor removes.\n";
 
 /// The names in a folder that are hairpin's own.
@@ -63,6 +65,18 @@ impl List {
         let name = path.file_name().map(|name| format!("{EXPORT}/{}", name.to_string_lossy()));
         let ours = folder.and_then(Path::parent).and_then(|campaign| Self::read(campaign).ok()).flatten();
         ours.zip(name).is_some_and(|(ours, name)| ours.names(&name))
+    }
+
+    /// Whether `path`, in a campaign's folder or in one of its folders, is what that campaign is read from.
+    pub(super) fn is_read_from(path: &Path) -> bool {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        let mut folders = path.ancestors().skip(1).take(2);
+        folders.any(|folder| {
+            let name =
+                path.strip_prefix(folder).map(|name| name.to_string_lossy().replace('\\', "/")).unwrap_or_default();
+            let is_shown = SHOWN.contains(&name.as_str());
+            !is_shown && Self::read(folder).ok().flatten().is_some_and(|ours| name == LIST || ours.names(&name))
+        })
     }
 
     /// Takes `more` names in, and writes the list of the folder at `path` where it then has more than before.
@@ -136,6 +150,19 @@ fn is_below(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_campaign_is_read_from_is_no_place_for_other_files() {
+        let place = tempfile::tempdir().unwrap();
+        List::default().take_in(place.path(), &all()).unwrap();
+        for name in ["results.parquet", "scenario.toml", "runs/part-00000.parquet", "repro/0003.json", ".hairpin"] {
+            assert!(List::is_read_from(&place.path().join(name)), "{name}");
+        }
+        for name in ["junit.xml", "report.html", "mine.html", "mine/results.parquet", "runs/mine.xml"] {
+            assert!(!List::is_read_from(&place.path().join(name)), "{name}");
+        }
+        assert!(!List::is_read_from(Path::new("results.parquet")));
+    }
 
     #[test]
     fn names_lie_below_the_folder() {

@@ -89,6 +89,14 @@ use names::{
 };
 pub(crate) use names::{SCENARIO, is_of_a_motion, is_written_to};
 
+/// Refuses a place that the user chose for a file where a campaign keeps what it is read from.
+///
+/// # Errors
+/// [`FolderError::Own`].
+pub fn refuse_own(path: &Path) -> Result<(), FolderError> {
+    if List::is_read_from(path) { Err(FolderError::Own { path: path.into() }) } else { Ok(()) }
+}
+
 /// Whether `path` is what `export` wrote into a campaign's folder.
 pub(crate) fn is_exported(path: &Path) -> bool {
     List::has_exported(path)

@@ -14,6 +14,8 @@ pub use types::{Mesh, MeshError};
 /// # Errors
 /// [`MeshError`].
 pub fn read_mesh(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
+    // Some programs begin a text with its mark.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     let mesh = match ending.as_str() {
         "obj" => read_obj(&String::from_utf8_lossy(bytes))?,
@@ -40,12 +42,10 @@ fn none_of(bytes: &[u8], ending: &str) -> MeshError {
     })
 }
 
-/// Binary files may begin with `solid` too: the length decides.
+/// Binary files may begin with `solid` too: a text has no byte of 0, of which numbers are full.
 fn is_ascii_stl(bytes: &[u8]) -> bool {
-    let said = bytes.get(80..84).map(|n| u64::from(u32::from_le_bytes([n[0], n[1], n[2], n[3]])));
     let begin = bytes.trim_ascii_start().get(..5);
-    begin.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
-        && said.is_none_or(|said| 84 + 50 * said != bytes.len() as u64)
+    begin.is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !bytes.contains(&0)
 }
 
 /// 80 bytes of header, the count, then 50 bytes per triangle: normal, three corners (f32, little-endian), attributes.
@@ -58,42 +58,80 @@ fn read_binary_stl(bytes: &[u8]) -> Result<Mesh, MeshError> {
     if found < said as usize {
         return Err(MeshError::Truncated { said, found });
     }
+    // Less than a triangle fills up a block; more may be a part of the world.
+    if found > said as usize {
+        return Err(MeshError::Beyond { said, bytes: body.len() - 50 * said as usize });
+    }
     let mut welder = Welder::default();
-    for triangle in body.chunks_exact(50).take(said as usize) {
+    for triangle in body.chunks_exact(50) {
         let number = |i: usize| f64::from(f32::from_le_bytes([0, 1, 2, 3].map(|byte| triangle[12 + 4 * i + byte])));
         welder.triangle([0, 3, 6].map(|at| [number(at), number(at + 1), number(at + 2)]));
     }
     Ok(welder.mesh)
 }
 
-/// `vertex x y z`, three a facet; words in capitals are the same. Everything else is passed over.
+/// `vertex x y z`, three a facet; words in capitals are the same.
 fn read_ascii_stl(text: &str) -> Result<Mesh, MeshError> {
     let mut welder = Welder::default();
     let mut corners = Vec::with_capacity(3);
+    let last = text.lines().count();
     for (index, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();
-        if !words.next().is_some_and(|word| word.eq_ignore_ascii_case("vertex")) {
-            continue;
-        }
-        corners.push(point(words.clone(), index)?);
-        if words.count() != 3 {
-            return Err(MeshError::Line { line: index + 1, expected: "three numbers, and no more" });
-        }
-        if let [a, b, c] = corners[..] {
-            welder.triangle([a, b, c]);
-            corners.clear();
+        let line = index + 1;
+        match words.next().unwrap_or_default().to_ascii_lowercase().as_str() {
+            "vertex" => {
+                corners.push(point(words.clone(), index)?);
+                if words.count() != 3 {
+                    return Err(MeshError::Line { line, expected: "three numbers, and no more" });
+                }
+            }
+            "endloop" | "endfacet" | "end" => {
+                match corners[..] {
+                    [] => {}
+                    [a, b, c] => welder.triangle([a, b, c]),
+                    _ => return Err(MeshError::Line { line, expected: "three vertices a facet" }),
+                }
+                corners.clear();
+            }
+            "" | "#" | "solid" | "endsolid" | "facet" | "outer" | "color" => {}
+            _ => {
+                return Err(MeshError::Line {
+                    line,
+                    expected: "solid, facet, outer loop, vertex, endloop, endfacet or endsolid",
+                });
+            }
         }
     }
-    let last = text.lines().count();
-    if corners.is_empty() {
-        Ok(welder.mesh)
-    } else {
-        Err(MeshError::Line { line: last, expected: "three vertices a facet" })
-    }
+    if corners.is_empty() { Ok(welder.mesh) } else { Err(MeshError::Line { line: last, expected: "endloop" }) }
 }
 
+/// Statements of OBJ that leave its solids as they are.
+const NOTHING_SOLID: [&str; 20] = [
+    "vt",
+    "vn",
+    "vp",
+    "p",
+    "l",
+    "g",
+    "o",
+    "s",
+    "mg",
+    "usemtl",
+    "mtllib",
+    "usemap",
+    "maplib",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "version",
+];
+
 /// `v x y z` and `f a b c …` (from 1, or from the end if negative; `a/b/c` has texture and normal too); faces of more
-/// corners are cut into triangles. Words are apart by any white space. Everything else is passed over.
+/// corners are cut into triangles. Words are apart by any white space. What names, groups or paints these, points and
+/// lines are passed over.
 fn read_obj(text: &str) -> Result<Mesh, MeshError> {
     let mut mesh = Mesh::default();
     for (index, line) in text.lines().enumerate() {
@@ -114,6 +152,8 @@ fn read_obj(text: &str) -> Result<Mesh, MeshError> {
                 why,
             })?;
             mesh.triangles.extend(cut.iter().map(|triangle| triangle.map(|corner| corners[corner])));
+        } else if let Some(word) = word.filter(|word| !NOTHING_SOLID.contains(word)) {
+            return Err(MeshError::Statement { line: index + 1, word: word.into() });
         }
     }
     Ok(mesh)
@@ -236,9 +276,42 @@ mod tests {
             (&b""[..], "a.obj", "none of its 0 lines begins with f"),
             (&b"solid s\nendsolid s\n"[..], "a.stl", "none of its 2 lines begins with vertex"),
             (&empty[..], "a.stl", "its header says 0"),
+            (&b"solid s\n facet normal 0 0 1\n"[..], "a.stl", "none of its 2 lines begins with vertex"),
             (&b"solid s\nvertex 0 0 0 vertex 1 0 0\n"[..], "a.stl", "line 2: expected three numbers, and no more"),
         ] {
             assert!(none(bytes, name).contains(words), "{}", none(bytes, name));
+        }
+    }
+
+    #[test]
+    fn what_is_not_read_is_refused_whatever_stands_beside_it() {
+        let told = |bytes: &[u8], name: &str| read_mesh(bytes, name).unwrap_err().to_string();
+        // Two files in one: the second is beyond what the header of the first says.
+        let two = [binary(b""), binary(b"")].concat();
+        assert_eq!(told(&two, "a.stl"), "says 4 triangles, and 284 bytes more follow them");
+        let padded = [binary(b""), vec![0; 49]].concat();
+        assert_eq!(read_mesh(&padded, "a.stl"), read_mesh(&binary(b""), "a.stl"));
+        // What begins with `solid` is told as what it is.
+        let begins = binary(b"solid s");
+        assert_eq!(told(&begins[..150], "a.stl"), "says 4 triangles, but holds 1");
+        let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 0\nendloop\nendfacet\n";
+        let twice = format!("solid s\n{facet}{facet}endsolid s\n");
+        assert_eq!(read_mesh(twice.as_bytes(), "a.stl").unwrap().triangles.len(), 2);
+        for (from, to, words) in [
+            ("vertex 1", "vertx 1", "line 5: expected solid, facet, outer loop, vertex"),
+            ("vertex 1 0 0\n", "", "line 6: expected three vertices a facet"),
+            ("endloop", "endlop", "line 7: expected solid"),
+        ] {
+            let text = format!("solid s\n{}", facet.replace(from, to));
+            assert!(told(text.as_bytes(), "a.stl").contains(words), "{}", told(text.as_bytes(), "a.stl"));
+        }
+        let obj = "mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 0 2 0\nvn 0 0 1\nusemtl a\ns off\nf 1 2 3\n";
+        assert!(read_mesh(obj.as_bytes(), "a.obj").is_ok());
+        for word in ["call b.obj", "curv 0 1 1 2", "surf 0 1 0 1 1 2", "fo 1 2 3", "F 1 2 3"] {
+            let name = word.split(' ').next().unwrap();
+            let words = format!("line 10: {name:?} is a statement of OBJ that is not read");
+            let text = format!("{obj}{word}\n");
+            assert!(told(text.as_bytes(), "a.obj").starts_with(&words), "{}", told(text.as_bytes(), "a.obj"));
         }
     }
 

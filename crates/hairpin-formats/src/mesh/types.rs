@@ -31,6 +31,22 @@ pub enum MeshError {
         /// Whole triangles that follow.
         found: usize,
     },
+    /// An STL file goes on behind its triangles.
+    #[error("says {said} triangles, and {bytes} bytes more follow them")]
+    Beyond {
+        /// Count in the header.
+        said: u32,
+        /// What follows.
+        bytes: usize,
+    },
+    /// A statement that may be a part of the world.
+    #[error("line {line}: {word:?} is a statement of OBJ that is not read: vertices (v) and faces (f) are")]
+    Statement {
+        /// Number of the line, from 1.
+        line: usize,
+        /// Its first word.
+        word: String,
+    },
     /// A line that cannot be understood.
     #[error("line {line}: expected {expected}")]
     Line {

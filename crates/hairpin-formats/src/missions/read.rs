@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::{Environment, Scenario};
 
 use super::error::MissionError;
-use super::mission::{Frame, Mission, Whose};
+use super::mission::{Frame, Mission, Uncertain, Whose};
 use super::place::place;
 use crate::bounds::{self, MOST_BYTES, MOST_TEXT_BYTES};
 use crate::folder::{is_exported, is_of_a_motion};
@@ -135,8 +135,10 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, 
         }
         Format::Table => {
             let (waypoints, rounded) = waypoints::read(path, scenario, farthest)?;
-            let unread = waypoints::unread_columns(path)?;
-            let unread = quote::shortened(&unread.join(", ")).into_owned();
+            let (names, asking): (Vec<String>, Vec<String>) =
+                waypoints::unread_columns(path)?.into_iter().partition(|name| is_a_name(name));
+            let told = |columns: Vec<String>| quote::shortened(&columns.join(", ")).into_owned();
+            let words = |columns| format!("columns that are not followed: {}", told(columns));
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             Ok(Mission {
@@ -151,17 +153,44 @@ pub fn read(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, 
                 accept: Vec::new(),
                 whose: Whose::default(),
                 stops: Vec::new(),
-                notes: if unread.is_empty() {
-                    Vec::new()
-                } else {
-                    vec![format!("columns that are not read: {unread}")]
+                notes: match names.is_empty() {
+                    true => Vec::new(),
+                    false => vec![format!("columns that are not read: {}", told(names))],
                 },
-                uncertain: Vec::new(),
+                uncertain: match asking.is_empty() {
+                    true => Vec::new(),
+                    false => vec![Uncertain { waypoint: 0, words: words(asking) }],
+                },
                 fences: Vec::new(),
                 environment: None,
             })
         }
     }
+}
+
+/// Whether a column of a table tells waypoints apart, and asks for nothing.
+fn is_a_name(column: &str) -> bool {
+    // The last is an altitude once more, beside that above the sea, as missions are exported.
+    const NAMES: [&str; 17] = [
+        "id",
+        "index",
+        "no",
+        "nr",
+        "number",
+        "seq",
+        "row",
+        "name",
+        "label",
+        "tag",
+        "comment",
+        "note",
+        "description",
+        "waypoint",
+        "leg",
+        "case",
+        "relative_alt_m",
+    ];
+    NAMES.contains(&column.to_ascii_lowercase().as_str())
 }
 
 /// What a file is written in.

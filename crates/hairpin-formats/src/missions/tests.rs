@@ -147,6 +147,26 @@ fn radii_and_whose_it_is_are_kept() {
 }
 
 #[test]
+fn what_a_plan_says_beyond_its_keys_is_told() {
+    let read = |from: &str, to: &str| {
+        assert!(PLAN.contains(from), "{from}");
+        mission(&PLAN.replacen(from, to, 1), "a.plan", false).unwrap()
+    };
+    let beyond = |from: &str, to: &str| {
+        let of = |note: &String| note.ends_with(" is no key of a plan: no loader reads it");
+        read(from, to).notes.into_iter().filter(of).collect::<Vec<_>>()
+    };
+    assert!(beyond("\"geoFence\": {", "\"geoFence\": {").is_empty());
+    let told = beyond("\"geoFence\": {", "\"geoFence\": { \"maxAltitude\": 5,");
+    assert_eq!(told, ["geoFence.maxAltitude is no key of a plan: no loader reads it"]);
+    let told = beyond("\"autoContinue\":", "\"maxSpeed\": 3, \"autoContinue\":");
+    assert_eq!(told, ["mission.items[0].maxSpeed is no key of a plan: no loader reads it"]);
+    // A throttle in place of a speed is sent.
+    let open = read("[1, 3, -1", "[1, -1, 40").uncertain;
+    assert!(open.len() == 1 && open[0].words.ends_with("sets a throttle of 40 %, which is not followed"), "{open:?}");
+}
+
+#[test]
 fn a_fence_without_an_area_is_refused() {
     let flat = PLAN.replacen("[38.0339, -78.5076], [38.0339, -78.5082]", "[38.0334, -78.5079], [38.0334, -78.5078]", 1);
     assert!(flat != PLAN);
@@ -156,9 +176,14 @@ fn a_fence_without_an_area_is_refused() {
 
 #[test]
 fn columns_that_nobody_reads_are_named() {
-    let text = "x_m,y_m,z_m,speed_m_s,hold_s\n1,2,3,4,5\n4,5,6,7,8\n";
-    assert_eq!(mission(text, "a.csv", false).unwrap().notes, ["columns that are not read: speed_m_s, hold_s"]);
-    assert!(mission("x_m,y_m,z_m\n1,2,3\n4,5,6\n", "a.csv", false).unwrap().notes.is_empty());
+    let text = "x_m,y_m,z_m,speed_m_s,Name,hold_s\n1,2,3,4,a,5\n4,5,6,7,b,8\n";
+    let read = mission(text, "a.csv", false).unwrap();
+    assert_eq!(read.notes, ["columns that are not read: Name"]);
+    // Who asks for a speed does not mean any.
+    let [open] = &read.uncertain[..] else { panic!("{:?}", read.uncertain) };
+    assert_eq!((open.waypoint, open.words.as_str()), (0, "columns that are not followed: speed_m_s, hold_s"));
+    let plain = mission("x_m,y_m,z_m\n1,2,3\n4,5,6\n", "a.csv", false).unwrap();
+    assert!(plain.notes.is_empty() && plain.uncertain.is_empty());
 }
 
 #[test]
@@ -269,9 +294,9 @@ fn a_folder_has_missions_of_all_formats() {
     assert_eq!(names(place.path()), ["a", "b.plan", "b.waypoints", "c"]);
     assert_eq!(names(&place.path().join("b.plan")), ["b"]);
     // What a table has beside places is not followed, and that is told.
-    write("a.csv", "x_m,y_m,z_m,speed_m_s\n1,2,3,4\n4,5,6,4\n");
+    write("a.csv", "x_m,y_m,z_m,name\n1,2,3,4\n4,5,6,4\n");
     let told = read(&place.path().join("a.csv"), &scenario(false), FARTHEST_M).unwrap().notes;
-    assert_eq!(told, ["columns that are not read: speed_m_s"]);
+    assert_eq!(told, ["columns that are not read: name"]);
 }
 
 proptest! {

@@ -273,6 +273,11 @@ impl Following {
             }
             _ => return Err(item.wrong(1, "0 or 1 (speed), 2 (of climbs) or 3 (of descents)")),
         }
+        // 0 is what some planners leave there.
+        if let Some(throttle) = item.given(3).filter(|throttle| *throttle > 0.0) {
+            let words = format!("sets a throttle of {throttle} %, which is not followed");
+            self.open(format!("item {} (command 178) {words}", item.number));
+        }
         match item.given(2) {
             None | Some(-1.0) => {}
             Some(-2.0) => self.speed = None,

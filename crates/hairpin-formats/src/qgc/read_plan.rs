@@ -1,5 +1,7 @@
 //! Reads QGroundControl's `.plan`: everything that its own loader demands is demanded here.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Map, Value};
 
 use super::follow::follow;
@@ -76,10 +78,79 @@ pub fn parse(text: &str) -> Result<Plan, Wrong> {
     rally.is("version", &Value::from(2))?;
     let rally = rally.list("points")?.len();
     let (mut mission, whose) = mission(&root.table("mission")?)?;
+    // No vehicle is sent them.
+    let beyond = unknown(&root).into_iter().map(|path| format!("{path} is no key of a plan: no loader reads it"));
+    mission.notes.extend(beyond);
     if rally > 0 {
         mission.notes.push(format!("{rally} rally points are passed over"));
     }
     Ok(Plan { mission, whose, fences })
+}
+
+/// Keys that each object of a plan may have; `[]` stands for a place in a list.
+const KNOWN: [(&str, &[&str]); 8] = [
+    ("", &["fileType", "geoFence", "groundStation", "mission", "rallyPoints", "version"]),
+    ("geoFence", &["breachReturn", "circles", "polygons", "version"]),
+    ("geoFence.circles[]", &["circle", "inclusion", "version"]),
+    ("geoFence.circles[].circle", &["center", "radius"]),
+    ("geoFence.polygons[]", &["inclusion", "polygon", "version"]),
+    ("rallyPoints", &["points", "version"]),
+    (
+        "mission",
+        &[
+            "cruiseSpeed",
+            "firmwareType",
+            "globalPlanAltitudeMode",
+            "hoverSpeed",
+            "items",
+            "plannedHomePosition",
+            "vehicleType",
+            "version",
+        ],
+    ),
+    (
+        "mission.items[]",
+        &[
+            "AMSLAltAboveTerrain",
+            "Altitude",
+            "AltitudeMode",
+            "autoContinue",
+            "command",
+            "doJumpId",
+            "frame",
+            "params",
+            "type",
+        ],
+    ),
+];
+
+/// The paths of the keys that are none of a plan's, of those that differ by their places in lists the first.
+fn unknown(root: &Keys) -> Vec<String> {
+    let mut found = BTreeMap::new();
+    root.map.iter().for_each(|(key, value)| look_at(key, value, ["", ""], &mut found));
+    found.into_values().collect()
+}
+
+/// Looks at `key` of an object at a place, as [`KNOWN`] have it, and as it is told.
+fn look_at(key: &str, value: &Value, place: [&str; 2], found: &mut BTreeMap<String, String>) {
+    let Some((_, known)) = KNOWN.iter().find(|(name, _)| *name == place[0]) else { return };
+    let [kind, at] = place.map(|of| if of.is_empty() { key.to_owned() } else { format!("{of}.{key}") });
+    match known.contains(&key) {
+        true => look_through(value, [&kind, &at], found),
+        false => drop(found.entry(kind).or_insert(at)),
+    }
+}
+
+fn look_through(value: &Value, [kind, at]: [&str; 2], found: &mut BTreeMap<String, String>) {
+    match value {
+        Value::Object(map) => map.iter().for_each(|(key, value)| look_at(key, value, [kind, at], found)),
+        Value::Array(list) => {
+            for (place, value) in list.iter().enumerate() {
+                look_through(value, [&format!("{kind}[]"), &format!("{at}[{place}]")], found);
+            }
+        }
+        _ => {}
+    }
 }
 
 fn mission(keys: &Keys) -> Result<(Uploaded, Whose), Wrong> {

@@ -26,6 +26,7 @@ pub(super) fn read(
         cell_m: terrain.cell_m,
         height_m: terrain.height_m,
         origin_m: terrain.origin_m,
+        columns: terrain.columns,
         epsg: terrain.epsg,
         unit: terrain.unit,
         height_unit: terrain.height_unit,

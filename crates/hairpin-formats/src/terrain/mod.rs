@@ -159,7 +159,7 @@ fn check_given(ending: &str, given: &Georeference) -> Result<(), TerrainError> {
         ("cell_m", says_itself && given.cell_m.is_some()),
         ("height_m", says_itself && given.height_m.is_some()),
         ("origin_m", says_itself && given.origin_m.is_some()),
-        ("columns", says_itself && given.columns.is_some()),
+        ("columns", !matches!(ending, "raw" | "bin") && given.columns.is_some()),
         // Keys in metres place the others, and say what 16 bits mean.
         ("unit", !says_itself && given.unit.is_some()),
         ("height_unit", has_heights_by_key(ending) && given.height_unit.is_some()),

@@ -50,7 +50,7 @@ pub(super) fn read_raw(bytes: &[u8], georeference: &Georeference) -> Result<Rast
         || (georeference.columns.is_none() && columns * columns != cells)
     {
         let found =
-            format!("{} bytes are no rows of {columns} 16-bit heights; columns tells their number", bytes.len());
+            format!("{} bytes are no rows of {columns} 16-bit heights; `columns` tells their number", bytes.len());
         return Err(TerrainError::Broken(found));
     }
     let (columns, rows) = bounded(columns as u64, (cells / columns) as u64)?;

@@ -323,9 +323,12 @@ fn sixteen_bits_are_scaled_between_the_given_heights() {
     encoder.set_depth(png::BitDepth::Sixteen);
     encoder.set_trns(vec![0x80, 0]);
     encoder.write_header().expect("a header").write_image_data(&big_endian).expect("data");
-    let error = read_terrain(&transparent, "a.png", &given).expect_err("a transparent cell");
+    let of_png = Georeference { columns: None, ..given };
+    let error = read_terrain(&transparent, "a.png", &of_png).expect_err("a transparent cell");
     assert_eq!(error, TerrainError::Map(MapError::Holes { count: 1, row: 0, column: 1 }));
-    for (bytes, name) in [(&raw, "a.bin"), (&png, "a.png")] {
+    let told = read_terrain(&png, "a.png", &given).expect_err("it says its own").to_string();
+    assert!(told.starts_with("columns: "), "{told}");
+    for (bytes, name, given) in [(&raw, "a.bin", given), (&png, "a.png", of_png)] {
         let map = read_terrain(bytes, name, &given).expect("a map");
         assert_eq!(map.extent(), ([5.0, 6.0], [9.0, 8.0]), "{name}");
         assert_eq!((at(&map, 5.0, 8.0), at(&map, 9.0, 8.0), at(&map, 9.0, 6.0)), (-10.0, 10.0, -6.0), "{name}");

@@ -5,6 +5,7 @@ use std::path::Path;
 use hairpin::campaign::report::{self, Beside, Drawn, OtherRun, Pieces, ReportData, Shown};
 use hairpin::campaign::{Case, CaseNumber, CaseResult, Comparison};
 use hairpin::judgement::Verdict;
+use hairpin_formats::folder::refuse_own;
 
 use super::campaigns::pairs;
 use crate::Problem;
@@ -20,6 +21,7 @@ const DRAWN: usize = 200;
 /// # Errors
 /// Runs that are not to be had any more; a file that cannot be read or written.
 pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Result<(), Problem> {
+    refuse_own(file)?;
     let (before, after) = (open_as_made(a)?, open_as_made(b)?);
     let mut pairs = pairs((&before, a), (&after, b))?;
     let failing = |case: CaseNumber| compared.newly_failing.contains(&case.to_string());

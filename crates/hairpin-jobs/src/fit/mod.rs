@@ -11,6 +11,7 @@ use hairpin::math::simd::Simd;
 use hairpin::trajectory::Track;
 use hairpin_formats::atomic;
 use hairpin_formats::fitted_robot::{self, FittedNumber, four_digits};
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::scenario::{setup_for, shadowed};
 use serde_json::Value;
 
@@ -63,6 +64,7 @@ pub struct Fitted {
 /// Neither a mission nor a campaign; a robot, campaign, mission or log that cannot be read; a log that is no flight of
 /// its mission, or has the samples of one before it; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
+    refuse_own(&settings.out)?;
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
     let (setup, missions) = missions(settings, watch)?;
     let setup = setup.with_simd(settings.simd);

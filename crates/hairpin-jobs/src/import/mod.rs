@@ -9,6 +9,7 @@ mod log;
 
 use std::path::{Path, PathBuf};
 
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::listing::Module;
 use hairpin_formats::missions::Mission;
 use hairpin_formats::rapid::Frames;
@@ -127,6 +128,7 @@ fn of_programs_alone(settings: &ImportSettings, file: &Path, what: &str) -> Resu
 fn clocked(settings: &ImportSettings, file: &Path, bytes: &[u8]) -> Result<Imported, Problem> {
     let times = rapid::read_log(bytes).map_err(|error| Problem::of_file(file, error))?;
     let out = settings.out.clone().unwrap_or_else(|| file.with_file_name("arc_ms.csv"));
+    refuse_own(&out)?;
     atomic::write(&out, times.csv().as_bytes())?;
     let readings = times.arcs.values().map(|(_, count)| count).sum::<usize>();
     Ok(Imported::Clocked { out, points: times.points, moves: times.arcs.len(), readings })

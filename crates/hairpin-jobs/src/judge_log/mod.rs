@@ -40,6 +40,8 @@ mod tests;
 
 use std::path::Path;
 
+use hairpin_formats::folder::refuse_own;
+
 use crate::{Problem, Watch};
 use files::{Files, files_in};
 use told::name_in;
@@ -72,6 +74,9 @@ pub(crate) use source::{best, clock_words};
 /// tables than `spec`; a mission nothing is asked of; a single log that cannot be read, fits no case, or does not lie
 /// where its mission begins; a folder without a file; a page that cannot be written.
 pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs, Problem> {
+    if let Some(page) = &settings.page {
+        refuse_own(page)?;
+    }
     if settings.path.join("scenario.toml").is_file() {
         return Err(Problem::of_file(
             &settings.path,

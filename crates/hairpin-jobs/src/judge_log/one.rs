@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairpin::campaign::missed::Missed;
 use hairpin::campaign::{Case, Log, judge_flown, plan_followed};
-use hairpin::judgement::{Reference, Resolution, Settings, legs_of_samples};
+use hairpin::judgement::{Reference, Resolution, Settings, legs_of_samples, repeats};
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, Track};
 use hairpin_formats::logs::{self, Logged, Progress, Sample, Span};
 use hairpin_formats::velocities::disagreement;
@@ -63,6 +63,7 @@ pub(super) fn judge(
     let in_span = motion.samples.iter().filter(|sample| (span.from_s..=span.to_s).contains(&sample.t_s));
     let mut samples = in_span.map(|sample| frame.sample(sample)).collect::<Result<Vec<Sample>, Problem>>()?;
     let unlike = believe_velocities(&mut samples);
+    let repeated = leave_out_repeats(&mut samples, resolution(motion).place.all);
     let lift_m = settings.frame.offset_m[2];
     let heights = Heights::of(&against.setup, (&logged.frame, motion), lift_m).filter(|_| against.in_world);
     let unstable = heights.as_ref().map_or_else(Vec::new, |heights| heights.put(&mut samples));
@@ -114,6 +115,7 @@ pub(super) fn judge(
     }
     notes.extend(heights_told);
     notes.extend(unlike);
+    notes.extend(repeated);
     notes.extend(again_s.map(told::again));
     notes.extend(left_out.as_ref().map(LeftOut::in_words));
     let (accuracy, untold) = accuracies(&left.samples);
@@ -185,6 +187,16 @@ fn believe_velocities(samples: &mut [Sample]) -> Option<String> {
     let found = disagreement(&times, &poses, &velocities)?;
     samples.iter_mut().for_each(|sample| sample.v_m_s = None);
     Some(format!("{}: its velocities are not believed, it is judged by positions alone", found.in_words()))
+}
+
+/// Leaves out samples that repeat a place while the robot moves on, of places told in steps of `step` m, and tells so.
+fn leave_out_repeats(samples: &mut Vec<Sample>, step: f64) -> Option<String> {
+    let times: Vec<f64> = samples.iter().map(|sample| sample.t_s).collect();
+    let stale = repeats(&times, &|i, j| (samples[j].p_m - samples[i].p_m).norm(), step);
+    let (count, all) = (stale.iter().filter(|stale| **stale).count(), samples.len());
+    let mut stale = stale.iter();
+    samples.retain(|_| stale.next().is_none_or(|stale| !stale));
+    told::repeated(count, all)
 }
 
 /// Refuses a log of which no sample lies within `farthest` m of the world's origin: as of missions, it is of another

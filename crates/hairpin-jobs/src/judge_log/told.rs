@@ -135,6 +135,13 @@ fn verdict(found: &Found, how: &[&str], asked: Asked) -> (Outcome, Verdict) {
     (Outcome::Pass, within_spec(case, how, &with(best, &between.into_iter().collect::<Vec<_>>())))
 }
 
+/// That `count` of `all` samples are none.
+pub(super) fn repeated(count: usize, all: usize) -> Option<String> {
+    (count > 0).then(|| {
+        format!("{count} of {all} samples repeat the place before them while it moves on, and count as none: it is told more rarely")
+    })
+}
+
 /// That a mission is flown once more.
 pub(super) fn again(t_s: f64) -> String {
     format!(

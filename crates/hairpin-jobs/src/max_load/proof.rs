@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::{atomic, bounds};
 use serde_json::Value;
 
@@ -19,6 +20,7 @@ impl MaxLoad {
         let Some(object) = certificate::object(points, self.ends, &self.found, self.walk.as_ref()) else {
             return Err(Problem::input(format!("{}: not written, the answer is not proven", out.display())));
         };
+        refuse_own(out)?;
         Ok(atomic::write(out, certificate::sealed(object).as_bytes())?)
     }
 }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use hairpin::campaign::report::violation;
 use hairpin::campaign::{Case, CaseResult, Shrunk};
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::repro::{Repro, ShrunkFrom};
 
 use crate::consent::Wish;
@@ -53,6 +54,9 @@ impl Shrinking {
     /// No such case, or one that does not violate or is not judged; a folder that is no campaign's, whose scenario was
     /// edited, or that asks to run what its user has not allowed.
     pub fn open(settings: ShrinkSettings) -> Result<Self, Problem> {
+        if let Some(out) = &settings.out {
+            refuse_own(out)?;
+        }
         let work = open_to_change(&settings.folder, &[], &[], Some(settings.simd))?;
         let work = work.answered_by(&settings.consent.code)?;
         same_as_made(&work.folder, &work.setup, &[])?;

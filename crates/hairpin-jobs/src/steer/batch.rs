@@ -5,6 +5,7 @@ use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::steering::{self, Status, Stretch, Wrong};
 
 use crate::Problem;
@@ -45,6 +46,7 @@ impl Batch {
     /// # Errors
     /// The file cannot be written.
     pub fn draw(&self, plot: &Path) -> Result<(), Problem> {
+        refuse_own(plot)?;
         let lines: Vec<Stretch> = self.drawn.iter().flat_map(|(lines, _)| lines.iter().cloned()).collect();
         let goals: Vec<[f64; 3]> = [[0.0; 3]].into_iter().chain(self.drawn.iter().map(|(_, goal)| *goal)).collect();
         let picture = steering::svg(&lines, &goals).map_err(Problem::input)?;

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::steering::{
     self, Answer, Asked, Block, Blocks, Columns, Drive, Errors, Frame, KeptAnswer, Row, Status, Wrong,
 };
@@ -52,6 +53,7 @@ impl Run<'_> {
     /// Answers all of `blocks` into the file `out`, which appears when they are, or with those there were when it was
     /// stopped.
     pub(super) fn write_into(&self, blocks: Blocks<File>, out: &Path) -> Result<Batch, Problem> {
+        refuse_own(out)?;
         let mut came = None;
         let written = atomic::write_with(out, |file| {
             if self.kept.is_empty() {

@@ -9,6 +9,7 @@ use hairpin::robot::rover::Rover;
 use hairpin::trajectory::start_table::{NONE, StartTable};
 use hairpin_formats::atomic;
 use hairpin_formats::bounds::MOST_BYTES;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::scenario::rover_for;
 use hairpin_formats::steering::{read_start_table, start_table_bytes};
 use serde::Serialize;
@@ -39,6 +40,7 @@ pub struct MadeTable {
 /// # Errors
 /// No such vehicle; one whose limits make no table; a file that cannot be written.
 pub fn make_start_table(rover: &str, out: &Path) -> Result<MadeTable, Problem> {
+    refuse_own(out)?;
     let rover = rover_for(rover)?;
     let begun = Instant::now();
     let table = StartTable::generate(&bounds(&rover)).map_err(|error| {

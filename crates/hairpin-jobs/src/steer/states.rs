@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::steering::{Asked, path_table, wheel_table};
 
 use super::{Answered, Rows, Vehicle};
@@ -24,6 +25,7 @@ impl Vehicle {
         if wheels.is_some() && names.is_empty() {
             return Err(Problem::input(format!("--wheels: `{}` has no wheels (suspension)", self.rover.name)));
         }
+        path.into_iter().chain(wheels).try_for_each(refuse_own)?;
         if path.is_none() && wheels.is_none() {
             return Ok(());
         }

@@ -10,13 +10,15 @@ use super::Setup;
 use super::missed::radii;
 use crate::judgement::{
     JudgementError, Limits, Measures, Reference, Resolution, SEEN_WITHIN_S, Settings, Swiftness, beyond, is_seen,
-    longest_mean, look_closely, measure, most_anywhere, told, told_outward,
+    longest_mean, look_closely, measure, most_anywhere, repeats, told, told_outward,
 };
 use crate::trajectory::Track;
 
 /// Measures a track and, where a program of the user's told it, what may hide between its samples: the largest
 /// deviation and overshoot, the smallest clearance, and how long its accelerations are means over; and how near it came
 /// to each waypoint.
+///
+/// Poses that repeat a place while it moves on ([`repeats`]) are none.
 ///
 /// Of what nothing bounds how suddenly it turns (drives, boats) the straight line between two samples is looked along:
 /// the robot came from one to the other. A model's top speed is no bound of another simulator's.
@@ -30,7 +32,11 @@ pub(super) fn sampled(
     if setup.program().is_none() || setup.has_programs() {
         return measure(track, waypoints, settings);
     }
-    let settings = &Settings { resolution: Resolution::of(track), ..*settings };
+    let resolution = Resolution::of(track);
+    let settings = &Settings { resolution, ..*settings };
+    let apart = |i: usize, j: usize| (track.position(j) - track.position(i)).norm();
+    let keep: Vec<bool> = repeats(track.times(), &apart, resolution.place.all).iter().map(|stale| !stale).collect();
+    let track = &track.only(&keep);
     let mut measures = measure(track, waypoints, settings)?;
     measures.waypoints_within = radii(track, waypoints);
     let acceleration = setup.swiftness().acceleration;
@@ -242,6 +248,26 @@ mod tests {
         let limits = Limits { deviation: Some(0.5), ..Limits::default() };
         assert_eq!(hidden(&program, &Measures { max_deviation: 0.6, edge_between: None, ..sparse }, &limits), None);
         assert_eq!(judged(&setup(None), 2.5, 0.5).0.most_between, None);
+    }
+
+    /// 50 poses a second of which 5 are new.
+    #[test]
+    fn neither_is_a_pose_told_again() {
+        let program = setup(Some("sim"));
+        let limits = Limits { deviation: Some(0.5), ..Limits::default() };
+        let of = |period: f64| {
+            let times: Vec<f64> = (0..=500).map(|i| 0.02 * f64::from(i)).collect();
+            let at = |t: &f64| Isometry3::translation(3.0 + 2.0 * (t / period + 1e-9).floor() * period, 3.0, 3.0);
+            let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
+            let track = Track::new(times.clone(), times.iter().map(at).collect(), vec![leg]).unwrap();
+            let way = [Point3::new(3.0, 3.0, 3.0), Point3::new(23.0, 3.0, 3.0)];
+            let measures = sampled(&program, &track, &way, &Settings::default()).unwrap();
+            (measures.most_between.unwrap(), hidden(&program, &measures, &limits))
+        };
+        let most = judged(&program, 0.5, 0.5).0.most_between.unwrap();
+        let (held, why) = of(0.5);
+        assert!((held - most).abs() < 1e-9 && why.unwrap().contains("may hide between two of them"), "{held} {most}");
+        assert_eq!(of(0.02).1, None);
     }
 
     /// Poses in whole decimetres, and beside the leg by what that makes of it.

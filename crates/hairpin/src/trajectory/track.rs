@@ -125,6 +125,23 @@ impl Track {
         Self { ways, ..self }
     }
 
+    /// The stamps that `keep` says, with their poses and channels; places go straight from one to the next.
+    ///
+    /// # Panics
+    /// Unless it has one word a stamp.
+    pub fn only(&self, keep: &[bool]) -> Self {
+        assert_eq!(keep.len(), self.len(), "a word a stamp");
+        let which: Vec<usize> = (0..self.len()).filter(|&i| keep[i]).collect();
+        let of = |values: &[f64]| which.iter().map(|&i| values[i]).collect();
+        let channel = |channel: &Channel| Channel { name: channel.name.clone(), values: of(&channel.values) };
+        Self {
+            times: of(&self.times),
+            poses: which.iter().map(|&i| self.poses[i]).collect(),
+            channels: self.channels.iter().map(channel).collect(),
+            ways: Vec::new(),
+        }
+    }
+
     /// How the place goes from stamp `index` to the next, where that is not straight.
     pub(crate) fn way(&self, index: usize) -> Option<&Cubic> {
         self.ways.get(index)?.as_ref()

@@ -4,6 +4,7 @@ use hairpin::feasibility::steering::shooting::flat::Status as ArcStatus;
 use hairpin::feasibility::steering::shooting::solve::{Method, Solution};
 use hairpin::verification::DriveReplay;
 use hairpin_formats::atomic;
+use hairpin_formats::folder::refuse_own;
 use hairpin_formats::steering::{Asked, Frame, Piece, Status, svg};
 use hairpin_jobs::steer::{Answered, Question, Remedies, Vehicle, goal_in_the_map, in_frame, pieces, stretches};
 use hairpin_jobs::{Problem, Watch};
@@ -34,6 +35,7 @@ pub(super) fn run(steer: &Steer, vehicle: &Vehicle, to: &str, watch: &dyn Watch)
     };
     if let (Some(plot), Some((solution, _))) = (&steer.plot, &answered.drive) {
         let picture = svg(&stretches(solution, &asked), &[[0.0; 3], asked.goal]).map_err(Problem::input)?;
+        refuse_own(plot)?;
         atomic::write(plot, picture.as_bytes())?;
     }
     vehicle.write_states(&asked, &answered, [steer.path.as_deref(), steer.wheels.as_deref()], watch)?;

@@ -20,8 +20,13 @@ pub(super) fn triangles_of(geometry: &Node, named: &BTreeMap<&str, Node>) -> Res
     let mut known: BTreeMap<&str, u32> = BTreeMap::new();
     for primitive in mesh.children().filter(Node::is_element) {
         let kind = primitive.tag_name().name();
-        if !["triangles", "polylist", "polygons", "tristrips", "trifans"].contains(&kind) {
-            continue;
+        match kind {
+            "triangles" | "polylist" | "polygons" | "tristrips" | "trifans" => {}
+            "source" | "vertices" | "lines" | "linestrips" | "extra" => continue,
+            _ => {
+                let line = line(&primitive);
+                return Err(MeshError::NoCollada(format!("line {line}: <{kind}> of a mesh is not read")));
+            }
         }
         let inputs: Vec<Node> = children(&primitive, "input").collect();
         let offset = |node: &Node| node.attribute("offset").and_then(|text| text.parse::<usize>().ok()).unwrap_or(0);
@@ -98,7 +103,11 @@ fn faces(primitive: &Node, kind: &str, corners: &Corners) -> Result<Vec<Vec<u32>
     match kind {
         "triangles" => {
             let all = lists.collect::<Result<Vec<_>, _>>()?.concat();
-            Ok(all.chunks_exact(3).map(<[u32]>::to_vec).collect())
+            let faces = all.chunks_exact(3);
+            match faces.remainder() {
+                [] => Ok(faces.map(<[u32]>::to_vec).collect()),
+                _ => Err(MeshError::NoCollada(format!("<triangles>: {} corners are no whole triangles", all.len()))),
+            }
         }
         "polylist" => {
             let all = lists.collect::<Result<Vec<_>, _>>()?.concat();
@@ -111,6 +120,9 @@ fn faces(primitive: &Node, kind: &str, corners: &Corners) -> Result<Vec<Vec<u32>
                 let (face, rest) = left.split_at(count);
                 faces.push(face.to_vec());
                 left = rest;
+            }
+            if !left.is_empty() {
+                return Err(MeshError::NoCollada(format!("<vcount>: {} corners belong to no face", left.len())));
             }
             Ok(faces)
         }

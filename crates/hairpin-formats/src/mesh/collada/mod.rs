@@ -125,7 +125,12 @@ impl<'t> Scene<'t> {
         }
         for instance in children(node, "instance_controller") {
             let controller = self.meant(&instance, "url")?;
-            let Some(skin) = child(&controller, "skin") else { continue };
+            let Some(skin) = child(&controller, "skin") else {
+                let what =
+                    controller.children().find(Node::is_element).map_or("nothing", |node| node.tag_name().name());
+                let line = line(&controller);
+                return Err(MeshError::NoCollada(format!("line {line}: a controller is {what}, which is not read")));
+            };
             let bound = child(&skin, "bind_shape_matrix").map_or(Ok(Matrix4::identity()), |m| place::matrix(&m))?;
             self.part(&self.meant(&skin, "source")?, &(at * bound))?;
         }

@@ -283,6 +283,7 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("waypoints.other-units", of_waypoints, WAYPOINTS, "x_ft,y_ft,z_ft\n0,0,1\n1,0,1\n"),
         row("waypoints.twice", of_waypoints, WAYPOINTS, "x_m,y_m,z_m\n0,0,1\n0,0,1\n"),
         item_row("plan.speed", "\"command\": 178"),
+        plan_row("plan.throttle", "[1, 3, -1, 0, 0, 0, 0]", "[1, 3, 40, 0, 0, 0, 0]"),
         plan_row("plan.relative-speed", "[1, 3, -1, 0, 0, 0, 0]", "[1, 3, -1, 1, 0, 0, 0]"),
         plan_row(
             "plan.waiting-speed",
@@ -348,6 +349,9 @@ pub(crate) fn samples() -> Vec<Sample> {
             &DAE.replace("<library_geometries>", "<library_materials/><library_geometries>"),
         ),
         row("dae.broken", of_dae, DAE, &DAE.replace("<p>0 1 2</p>", "<p>0 1 9</p>")),
+        row("dae.polygons-left", of_dae, DAE, &DAE.replace("<p>0 1 2</p>", "<p>0 1 2 0</p>")),
+        row("obj.statements", of_obj, OBJ, &format!("{OBJ}call b.obj\n")),
+        row("stl.words", of_stl, STL, &STL.replace("vertex", "vertx")),
         row("obj.broken", of_obj, OBJ, &format!("{OBJ}f 1 2 9\n")),
         row(
             "executor.attitude",

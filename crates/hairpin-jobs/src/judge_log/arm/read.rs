@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
+use hairpin::judgement::{Resolution, repeats};
 use hairpin::robot::arm::{AXES, Arm, Joints};
 use hairpin::trajectory::Track;
 use hairpin_formats::controller_log::{self, ControllerLog};
@@ -11,6 +12,7 @@ use hairpin_formats::quote::shortened;
 
 use super::super::asks::Asks;
 use super::super::source::{SourceTold, clock_words};
+use super::super::told;
 use super::found::JointsTold;
 use super::names::{axes, of_columns};
 use crate::Problem;
@@ -40,7 +42,7 @@ pub(super) fn recording(
 ) -> Result<Read, Problem> {
     let refuse = |why: String| Problem::of_file(file, why);
     let station = &arm.station;
-    let (log, name, format, clock, joints, notes) = if logs::is_text(file).map_err(Problem::input)? {
+    let (log, name, format, clock, joints, mut notes) = if logs::is_text(file).map_err(Problem::input)? {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if logs::is_planned(&name) && source != Some(name.as_str()) {
             return Err(refuse(format!("by its name what was planned, and not what moved; {}", asks.topic)));
@@ -68,7 +70,9 @@ pub(super) fn recording(
     let first = if clock == Clock::File { 0.0 } else { times[0] };
     let begins_s = from_s.unwrap_or(first);
     let (from, to) = (from_s.unwrap_or(times[0]), to_s.unwrap_or(f64::INFINITY));
-    let which: Vec<usize> = (0..times.len()).filter(|i| (from..=to).contains(&times[*i])).collect();
+    let stale = repeated(&log.track);
+    notes.extend(told::repeated(stale.iter().filter(|stale| **stale).count(), stale.len()));
+    let which: Vec<usize> = (0..times.len()).filter(|&i| (from..=to).contains(&times[i]) && !stale[i]).collect();
     if which.len() < 2 {
         let (first, last) = (times[0], times[times.len() - 1]);
         return Err(refuse(format!("no two samples between --from and --to; it is from {first} to {last} s")));
@@ -92,6 +96,23 @@ pub(super) fn recording(
     let track = part(&log.track, &which, begins_s).map_err(refuse)?;
     let to_s = to_s.filter(|to| times[times.len() - 1] > *to);
     Ok(Read { log: ControllerLog { track, ..log }, source, joints, begins_s, to_s, notes })
+}
+
+/// A turn of 1 rad is as far as so many metres.
+const LEVER_M: f64 = 0.1;
+
+/// Which samples repeat the pose before them while the tool moves on.
+fn repeated(track: &Track) -> Vec<bool> {
+    let poses = track.poses();
+    let apart = |i: usize, j: usize| match poses[i] == poses[j] {
+        true => 0.0,
+        false => {
+            let moved = (poses[j].translation.vector - poses[i].translation.vector).norm();
+            // Twice the sine of half the angle.
+            moved + LEVER_M * 2.0 * poses[i].rotation.rotation_to(&poses[j].rotation).imag().norm()
+        }
+    };
+    repeats(track.times(), &apart, Resolution::of(track).place.all)
 }
 
 /// The only topic with the arm's joints, or the one that is asked for, and where the axes are in it.

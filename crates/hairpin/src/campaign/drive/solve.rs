@@ -232,7 +232,12 @@ impl<'a> DriveSolver<'a> {
         let asked = Asked { scenario: &self.setup.scenario, graph, reach, start, score, also, lookahead: 0 };
         let mut outcome = ask(asked, &|node, steps| roadmap.may_arrive(node, steps), plan);
         if outcome.plans.is_empty() && !outcome.stopped {
-            outcome.reason = Some(roadmap.tally().to_string());
+            let tally = roadmap.tally();
+            outcome.reason = Some(tally.to_string());
+            if tally.refused(LegRefusal::Unsolved) > 0 {
+                // A drive that was not found may be one.
+                outcome.proven_empty = 0;
+            }
         }
         if again {
             let legs = roadmap.into_legs();

@@ -42,8 +42,8 @@ impl Outcome {
     /// The outcome of graph number `graph`.
     pub(in crate::campaign) fn of(graph: u64, answer: Answer) -> Self {
         let all_refused = answer.plans.is_empty() && answer.refused > 0;
-        let broken = "what was found breaks a limit of whole trajectories: it takes longer than generate.limits allows, or not all \
-                      of its ground carries it; others of the graph were not looked for";
+        let broken = "what was found breaks a limit of whole trajectories: it takes longer than generate.limits allows, or, of what \
+                      drives, not all of its ground carries it; others of the graph were not looked for";
         let refused = all_refused.then(|| broken.to_owned());
         Self {
             plans: answer.plans.into_iter().map(|plan| (graph, plan)).collect(),

@@ -133,6 +133,7 @@ fn check_ground(world: &GroundSection, found: &mut Findings) {
         ("offset_m", terrain.offset_m.is_some()),
         ("origin_m", terrain.origin_m.is_some()),
         ("height_m", terrain.height_m.is_some()),
+        ("columns", terrain.columns.is_some()),
     ] {
         let fine = !given || terrain.file.is_some();
         found.require(fine, &format!("world.terrain.{key}"), "given", "left out: it is for a map's file");

@@ -66,6 +66,9 @@ pub struct TerrainSection {
     /// Centre of the south-west cell, where the file does not say it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin_m: Option<[f64; 2]>,
+    /// Cells along x of a raw file that is not square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub columns: Option<usize>,
     /// hairpin's own ground: craters | fractal | flat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub generator: Option<GeneratorName>,
