@@ -123,7 +123,7 @@ pub fn select(settings: &SelectSettings, watch: &dyn Watch) -> Result<Selected, 
     }
     if work.folder.has_runs() {
         // What is not to be had is told of the folder that lacks it, and before another is made.
-        chosen.par_iter().try_for_each(|case| measured_runs(&work, case).map(drop))?;
+        chosen.par_iter().try_for_each(|case| work.folder.read_runs(case.number).map(drop))?;
     }
     let is_new = !settings.out.exists();
     let folder = write(&work, settings, (&all, &results), &chosen).inspect_err(|_| {

@@ -11,9 +11,25 @@ use hairpin_formats::logs::is_planned;
 use super::told;
 use crate::Problem;
 
-/// Endings of what lies beside logs and is none.
-const NO_LOGS: &[&str] =
-    &["md", "json", "toml", "html", "xml", "plan", "waypoints", "params", "png", "svg", "pdf", "zip"];
+/// Endings of what lies beside logs and is none: missions, programs of arms, documents.
+const NO_LOGS: &[&str] = &[
+    "md",
+    "json",
+    "toml",
+    "html",
+    "xml",
+    "plan",
+    "waypoints",
+    "params",
+    "mod",
+    "pgf",
+    "script",
+    "src",
+    "png",
+    "svg",
+    "pdf",
+    "zip",
+];
 /// Endings of the recordings that a bag's folder holds.
 const OF_BAGS: [&str; 4] = ["mcap", "db3", "zstd", "lz4"];
 /// What ArduPilot writes beside its logs: the number of the last one.
@@ -104,11 +120,13 @@ fn is_log(path: &Path, names: &BTreeSet<String>) -> bool {
         return false;
     }
     let is_bag = |name: &String| OF_BAGS.iter().any(|ending| name.ends_with(&format!(".{ending}")));
+    // The data of a KRL module.
+    let of_module = name.strip_suffix(".dat").is_some_and(|stem| names.contains(&format!("{stem}.src")));
     let of_bag = matches!(name.as_str(), "metadata.yaml" | "metadata.yml") && names.iter().any(is_bag);
     let of_database = ["-wal", "-shm", "-journal"].iter().any(|end| {
         name.strip_suffix(end).is_some_and(|database| database.ends_with(".db3") && names.contains(database))
     });
-    !of_bag && !of_database
+    !of_module && !of_bag && !of_database
 }
 
 #[cfg(test)]
@@ -147,6 +165,9 @@ mod tests {
             "out/runs.csv",
             ".hidden/1.ulg",
             "e/notes.md",
+            "h/0000.mod",
+            "h/0000.src",
+            "h/0000.dat",
         ] {
             put(root, name);
         }

@@ -76,6 +76,8 @@ impl Bag {
                 Channel::Other(told) => others.push(told),
             }
         }
+        // Others write MCAP too.
+        let format = if topics.is_empty() && !others.is_empty() { "MCAP" } else { "ROS 2 MCAP" };
         // The frame that is told is that of the first.
         topics.sort_by(|a, b| (a.source(), &a.name).cmp(&(b.source(), &b.name)));
         if !others.is_empty() {
@@ -114,7 +116,7 @@ impl Bag {
             notes.push(format!("several topics of a motion: {}", names.join(", ")));
         }
         Ok(Logged {
-            format: "ROS 2 MCAP",
+            format,
             clock,
             frame: match frame {
                 Some((_, frame)) if !frame.is_empty() => LogFrame::Named(frame),

@@ -108,8 +108,9 @@ fn repeated(track: &Track) -> Vec<bool> {
         true => 0.0,
         false => {
             let moved = (poses[j].translation.vector - poses[i].translation.vector).norm();
-            // Twice the sine of half the angle.
-            moved + LEVER_M * 2.0 * poses[i].rotation.rotation_to(&poses[j].rotation).imag().norm()
+            // Of quaternions that are a half angle apart; both signs are one attitude.
+            let [a, b] = [i, j].map(|k| poses[k].rotation.coords);
+            moved + LEVER_M * 2.0 * (a - b).norm().min((a + b).norm())
         }
     };
     repeats(track.times(), &apart, Resolution::of(track).place.all)
