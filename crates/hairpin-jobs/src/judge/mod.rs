@@ -24,7 +24,7 @@ use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
 use crate::execute::{ToJudge, attitude_unknown, reruns_to_judge, reruns_with_motion, runs_to_judge, runs_with_motion};
-use crate::missions::{self, Compared, MissionsTold, compare, read_told, with_compared};
+use crate::missions::{self, Compared, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read, same_as_executed};

@@ -1,7 +1,7 @@
 //! What a drive on the ground claims: the vehicle, its commands' speeds, and where they are to lead.
 
+use super::held_wheels::HeldWheels;
 use super::posed::Stand;
-use super::wheels::HeldWheels;
 
 /// The vehicle, as plain numbers.
 ///

@@ -19,37 +19,10 @@ use std::f64::consts::PI;
 
 use super::course::Course;
 use super::drive::DrivePiece;
+use super::held_wheels::SteeredWheels;
 use super::peak::largest;
 use super::posed::Stand;
 use super::stand::Rest;
-
-/// Which wheels steer, and what all may do: infinite where nothing binds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeldWheels {
-    /// Which ones steer.
-    pub steered: SteeredWheels,
-    /// Largest |steer angle|, rad.
-    pub steer_rad: f64,
-    /// Largest rate of it while driving, rad/s.
-    pub steer_rate_rad_s: f64,
-    /// Largest |rolling speed|, rad/s.
-    pub speed_rad_s: f64,
-    /// Largest change of it while driving, rad/s².
-    pub acceleration_rad_s2: f64,
-}
-
-/// Which wheels steer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SteeredWheels {
-    /// The foremost and the rearmost.
-    Corners,
-    /// The foremost; what is commanded is the motion of the middle of the others.
-    Front,
-    /// All.
-    All,
-    /// None: each turns about half of this track, m.
-    Skid(f64),
-}
 
 /// The largest that wheels come to along a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -211,7 +184,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::verification::{GroundClaim, GroundVehicle, replay_ground};
+    use crate::verification::{GroundClaim, GroundVehicle, HeldWheels, replay_ground};
     use crate::world::terrain::Flat;
 
     const FREE: HeldWheels = HeldWheels {
