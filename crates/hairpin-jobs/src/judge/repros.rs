@@ -15,9 +15,9 @@ use crate::work::Work;
 
 /// Writes `repro/CASE.json` of the ten worst violations anew.
 ///
-/// Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are there
-/// to be run again. So is what stands under a case's name and is another case, of a campaign that was here before, unless
-/// it was `replayed` and passes: it gets a name of its own.
+/// Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are
+/// there to be run again. So is what stands under a case's name and is another case, of a campaign that was here
+/// before, unless it was `replayed` and passes: it gets a name of its own.
 pub(super) fn write_repros(
     work: &Work,
     cases: &[Case],

@@ -62,8 +62,8 @@ pub(super) fn tipped_over(found: &Overturned, track: &Track, measures: &Measures
     Violation { what: "tip-over".into(), value: found.at_s, limit: 0.0, unit: "s".into(), at: found.at_s, leg }
 }
 
-/// Of a vehicle whose file bounds no tilt: where its up axis points down; of what flies, and may turn over, where it does
-/// all the way. What is no vehicle has no up axis.
+/// Of a vehicle whose file bounds no tilt: where its up axis points down; of what flies, and may turn over, where it
+/// does all the way. What is no vehicle has no up axis.
 pub(super) fn upside_down(setup: &Setup, track: &Track) -> Option<Overturned> {
     let flies = setup.kind().room()?.flies;
     let bounded = setup.kind().most_tilt().is_some();

@@ -136,9 +136,9 @@ const ROUNDING: f64 = 1e-6;
 ///
 /// Per leg: joint (position, heading, curvature, direction of travel), speeds and stops, direction within bounds, |κ|,
 /// |κ′| and jumps of κ of the commands, gears and turns, speed and acceleration of driven rims, then the replay on the
-/// ground: end pose and curvature, tilt, wheel torque, what the wheels may do, `keep_out[k].clearance` from each place, between the steps of
-/// the replay too. Of a leg that cannot be replayed `stopped_after` tells after how many metres. Of the whole drive
-/// `drive.speed`, `drive.turn_rate`: the highest that are commanded.
+/// ground: end pose and curvature, tilt, wheel torque, what the wheels may do, `keep_out[k].clearance` from each
+/// place, between the steps of the replay too. Of a leg that cannot be replayed `stopped_after` tells after how many
+/// metres. Of the whole drive `drive.speed`, `drive.turn_rate`: the highest that are commanded.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,

@@ -46,8 +46,8 @@ const NONE: f64 = 1e-6;
 /// κ′ ≤ min(given, δ̇_w/(g v), (r ω̇ − (1 + |κ| d) a)/(d v²))
 /// ```
 ///
-/// g the gain of the steering at the bound of κ (m), d the distance of the farthest wheel (m), r its radius (m); of each
-/// bound of the wheels 95 %. It shapes legs; whether they keep the bounds is asked of each.
+/// g the gain of the steering at the bound of κ (m), d the distance of the farthest wheel (m), r its radius (m); of
+/// each bound of the wheels 95 %. It shapes legs; whether they keep the bounds is asked of each.
 pub(super) fn rollable(bounds: &Curvatures, rover: &Rover, speed: f64, acceleration: f64) -> Curvatures {
     let wheels = &rover.wheels;
     if !wheels.are_held() {

@@ -146,8 +146,8 @@ impl Say for DriveSetup {
         Some(self.rover.limits.tilt).filter(|tilt| tilt.is_finite())
     }
 
-    /// Ten times its limit of speed, as it may roll down a slope: the scenario's or its file's, and where neither says one
-    /// the speed that plans command.
+    /// Ten times its limit of speed, as it may roll down a slope: the scenario's or its file's, and where neither
+    /// says one the speed that plans command.
     fn ceiling(&self, _span: f64) -> Option<f64> {
         let most = self.most_speed();
         Some(BEYOND * if most.is_finite() { most } else { self.speed() })

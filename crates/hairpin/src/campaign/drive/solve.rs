@@ -73,8 +73,9 @@ impl<'a> DriveSolver<'a> {
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
     }
 
-    /// Whether the wheels can go at the commanded speed, and drives may begin at the task's start and end at its end: no leg leaves or comes to where the vehicle
-    /// cannot stand, of no graph. Headings at the end are free, so that of it only keep-outs decide.
+    /// Whether the wheels can go at the commanded speed, and drives may begin at the task's start and end at its end:
+    /// no leg leaves or comes to where the vehicle cannot stand, of no graph. Headings at the end are free, so that
+    /// of it only keep-outs decide.
     ///
     /// # Errors
     /// Why they may not, in a sentence's part.

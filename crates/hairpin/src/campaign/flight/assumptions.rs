@@ -67,8 +67,8 @@ pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>)
     }
 }
 
-/// Radius of the body and margin of the world's edges, m, where the edges, from which the body's middle keeps the margin,
-/// may lie within it.
+/// Radius of the body and margin of the world's edges, m, where the edges, from which the body's middle keeps the
+/// margin, may lie within it.
 pub(super) fn reaches_through(setup: &FlightSetup) -> Option<[f64; 2]> {
     let (radius, margin) = (setup.robot.clearance_radius, setup.scenario.world.keep_in_margin_m.unwrap_or(0.0));
     (radius > margin).then_some([radius, margin])

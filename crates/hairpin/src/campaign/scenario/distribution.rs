@@ -36,8 +36,8 @@ pub fn shapes_the_plan(key: &str) -> bool {
     key.starts_with("task.") || key.starts_with("generate.")
 }
 
-/// Runs per case: those that are `given`, or else one, and two where `vary` draws anything for runs, as run 0 is nominal.
-/// Where runs are `recorded` nothing is drawn for them.
+/// Runs per case: those that are `given`, or else one, and two where `vary` draws anything for runs, as run 0 is
+/// nominal. Where runs are `recorded` nothing is drawn for them.
 pub(in crate::campaign) fn runs(given: Option<u64>, vary: &BTreeMap<String, Distribution>, recorded: bool) -> u64 {
     let drawn = !recorded && vary.keys().any(|key| !shapes_the_plan(key));
     given.unwrap_or(if drawn { 2 } else { 1 })

@@ -155,11 +155,11 @@ impl Rover {
         gain
     }
 
-    /// The largest |κ| straight ahead at `speed` (m/s), 1/m, at which no wheel turns faster than `most` (rad/s); 0 where
-    /// they do so on a straight line.
+    /// The largest |κ| straight ahead at `speed` (m/s), 1/m, at which no wheel turns faster than `most` (rad/s); 0
+    /// where they do so on a straight line.
     ///
-    /// A wheel that steers rolls √((1 + |κ||y|)² + κ²x²) metres a metre on the outside of a bend, another 1 + |κ||y|, and
-    /// may roll R = `most` r/v.
+    /// A wheel that steers rolls √((1 + |κ||y|)² + κ²x²) metres a metre on the outside of a bend, another 1 + |κ||y|,
+    /// and may roll R = `most` r/v.
     ///
     /// ```text
     /// |κ| = (√(y² + (x² + y²)(R² − 1)) − |y|) / (x² + y²)      x = 0 for a wheel that does not steer

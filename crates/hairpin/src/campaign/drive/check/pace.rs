@@ -14,8 +14,8 @@ use crate::robot::rover::{MOST_SPEED, Rims, Rover, Suspension};
 /// | `speed_m_s` | from 1e-3 m/s to `MOST_SPEED`, and 0.99 of the rims' speed at most |
 /// | `belly_clearance_m` | [0, 10] m |
 ///
-/// They are bounds beside the robot's own: where a limit here is wider, the robot's holds. Tilt and underside are for what
-/// has a suspension.
+/// They are bounds beside the robot's own: where a limit here is wider, the robot's holds. Tilt and underside are for
+/// what has a suspension.
 pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &mut Findings) {
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),

@@ -25,8 +25,8 @@ pub struct ArmExecute {
     /// as-recorded | offset-removed: whether logs' clocks and the program's are one, or differ by what is estimated.
     #[serde(skip_serializing_if = "LogClock::is_shared")]
     pub log_clock: LogClock,
-    /// Runs per program; the noise band comes from the repeats. Run 0 is nominal, `[vary]` is drawn for the others. One if
-    /// not given, two where anything is drawn for runs.
+    /// Runs per program; the noise band comes from the repeats. Run 0 is nominal, `[vary]` is drawn for the others.
+    /// One if not given, two where anything is drawn for runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeat: Option<u64>,
     /// trapezoid | s-curve.

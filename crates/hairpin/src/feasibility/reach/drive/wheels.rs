@@ -13,15 +13,16 @@ const ROOM_OF_RATES: f64 = 0.02;
 
 /// A drive under way.
 ///
-/// Rates are those at the commanded speed, whichever way it changes: what a leg keeps it keeps at every lower speed too.
+/// Rates are those at the commanded speed, whichever way it changes: what a leg keeps it keeps at every lower speed
+/// too.
 ///
 /// ```text
 /// δ̇ = |Δδ/Δs| v      ω = |rolls| v / r      ω̇ = (|Δrolls/Δs| v² + |rolls| a) / r
 /// ```
 ///
-/// v the commanded speed (m/s), a the hardest change of it (m/s²), r the wheels' radius (m); in a turn in place v is the
-/// rate of turns, and neither rate is asked. Where the gear changes and around turns in place the vehicle stands, and
-/// its wheels may swing.
+/// v the commanded speed (m/s), a the hardest change of it (m/s²), r the wheels' radius (m); in a turn in place v is
+/// the rate of turns, and neither rate is asked. Where the gear changes and around turns in place the vehicle stands,
+/// and its wheels may swing.
 #[derive(Debug, Default)]
 pub(super) struct WheelWatch {
     /// What the wheels did a step ago, after how many metres, and in which stretch: −1 reverse, 0 in place, 1 forward.
