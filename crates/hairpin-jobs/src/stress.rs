@@ -208,7 +208,39 @@ mod tests {
         let changed = Repro::read(&repro.join("0001.json")).unwrap();
         Repro { seed: changed.seed + 1, ..changed }.write(&repro.join("0001.json")).unwrap();
         assert_eq!(with(IfThere::Resume).1, ["0001", "mine"]);
-        assert_eq!(with(IfThere::Replace).1, ["0000", "0001", "mine"]);
+        // What stood under a case's name and is another case has a name of its own now.
+        assert_eq!(with(IfThere::Replace).1, ["0000", "0001", "0001-kept", "mine"]);
+    }
+
+    /// The run that showed that a saved case still violates took it away, and the next one passed.
+    #[test]
+    fn what_still_violates_stays_where_later_runs_find_it() {
+        let place = tempfile::tempdir().unwrap();
+        let settings = small(&place);
+        let with = |most: &str, seed: &str| {
+            let sets = [("spec.deviation.max_m", most), ("seed", seed)].map(|(key, value)| (key.into(), value.into()));
+            let sets = settings.sets.iter().cloned().chain(sets).collect();
+            let stressed =
+                stress(&CampaignSettings { if_there: IfThere::Replace, sets, ..settings.clone() }, None, &Unwatched);
+            let stressed = stressed.unwrap();
+            let violate = stressed.replayed.iter().filter(|one| one.result.status == hairpin::campaign::Status::Fail);
+            (stressed.verdict.exit_code, violate.count(), stressed.replayed.len())
+        };
+        let names = || {
+            let files = std::fs::read_dir(place.path().join("out/repro")).unwrap();
+            let mut names: Vec<String> =
+                files.map(|file| file.unwrap().file_name().to_string_lossy().into_owned()).collect();
+            names.sort();
+            names
+        };
+        assert_eq!((with("0.0001", "1"), names()), ((1, 0, 0), vec!["0000.json".into(), "0001.json".to_owned()]));
+        let kept = ["0000-kept.json", "0000.json", "0001-kept.json", "0001.json"].map(str::to_owned).to_vec();
+        assert_eq!((with("0.0001", "2"), names()), ((1, 2, 2), kept.clone()));
+        // The same campaign again: what it saved of its own cases is written anew, under the same names.
+        assert_eq!((with("0.0001", "2"), names()), ((1, 4, 4), kept.clone()));
+        // Mended, all of them: the campaign's own go.
+        assert_eq!(with("50", "3"), (0, 0, 4));
+        assert_eq!((with("0.0001", "1"), names()), ((1, 2, 2), kept));
     }
 
     #[test]

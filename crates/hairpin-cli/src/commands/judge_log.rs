@@ -230,6 +230,7 @@ fn doubt(doubt: &Doubt) -> Value {
         Why::Begin { before } => json!({ "begin_not_seen": true, "left_out_s": before }),
         Why::End(after) => json!({ "end_not_seen": true, "left_out_s": after }),
         Why::Impossible(found) => json!({ "impossible": true, "way_m": found.way_m, "over_s": found.over_s }),
+        Why::Overturned(found) => json!({ "overturned": true, "throughout": found.throughout }),
         Why::Resolution(unresolved, source) => json!({
             "told_in_steps_of": unresolved.step, "of_velocities": source == AccelerationSource::Velocity,
             "over_s": unresolved.over, "unresolved_m_s2": unresolved.by,

@@ -86,7 +86,7 @@ fn in_words(verified: &Verified) {
             format!("; {} of {moves} moves of the graph followed again hold", moves - findings.len())
         }
     };
-    let unknown = verified.unknown.map_or(String::new(), |what| format!("; {what}"));
+    let unknown = verified.unknown.as_deref().map_or(String::new(), |what| format!("; {what}"));
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
     // Without a witness it is about what stands around plans, or about a graph.
     let integrated = match verified.witnesses() {

@@ -80,7 +80,7 @@ fn the_template_is_the_designs_example() {
     let read = fine("quadrotor", &[]);
     assert_eq!(robot_name(&read), "anafi");
     let read = flight(&read);
-    assert_eq!((read.seed, read.task.length, read.execute.repeat), (10, 10, 5));
+    assert_eq!((read.seed, read.task.length, read.execute.repeat), (10, 10, Some(5)));
     let search = &read.generate.search;
     assert_eq!((search.waypoints, search.width, search.cases, search.revisits), (250, 5, 20, false));
     assert_eq!(read.generate.limits.max_tilt_deg, Some(35.0));

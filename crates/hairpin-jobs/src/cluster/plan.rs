@@ -212,7 +212,7 @@ fn dealt(total: u64, places: u64, place: u64) -> Range<u64> {
 
 /// Whether a unit is a case: `[vary]` shapes its plan.
 fn is_by_case(setup: &Setup) -> bool {
-    setup.scenario.vary().keys().any(|key| hairpin::campaign::vary::shapes_the_plan(key))
+    setup.scenario.vary().keys().any(|key| hairpin::campaign::scenario::shapes_the_plan(key))
 }
 
 /// Of all that the parts are made of: the scenario as it is kept, and what it names.

@@ -1,5 +1,6 @@
 //! The verdict on the flights in a campaign folder.
 
+mod repros;
 mod suite;
 #[cfg(test)]
 mod tests;
@@ -9,29 +10,26 @@ use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::baseline::Moves;
-use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{
     self, Baseline, Case, CaseNumber, CaseResult, Grid, Influence, Reruns, RunDeviation, Setup, Status, Tally, Undone,
     vary,
 };
 use hairpin::judgement::Verdict;
 use hairpin::judgement::moves::Regression;
+use hairpin_formats::junit;
 use hairpin_formats::missions::Demands;
-use hairpin_formats::repro::Repro;
-use hairpin_formats::{atomic, junit};
 use rayon::prelude::*;
 
 use crate::baseline::{missing, read_baseline};
 use crate::budget::Part;
 use crate::differences::differences;
-use crate::execute::{
-    ToJudge, WORST, attitude_unknown, reruns_to_judge, reruns_with_motion, runs_to_judge, runs_with_motion,
-};
-use crate::missions::{self, Compared, MissionsTold, compare, read_told, with_compared};
+use crate::execute::{ToJudge, attitude_unknown, reruns_to_judge, reruns_with_motion, runs_to_judge, runs_with_motion};
+use crate::missions::{self, Compared, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
 use crate::work::{Work, keep_changes, open_to_change, open_to_read, same_as_executed};
 use crate::{Budget, Problem};
+use repros::write_repros;
 use suite::suite;
 
 /// What judging came to.
@@ -215,7 +213,7 @@ pub(crate) fn judge_cases(
     }
     let suite = suite(work, tally, &verdict, &results, (regression.as_ref(), replayed));
     junit::write(&work.folder.file("junit.xml"), &suite, &results)?;
-    write_repros(work, cases, &results, missions_told.as_ref())?;
+    write_repros(work, cases, (&results, replayed), missions_told.as_ref())?;
     work.folder.write_influences(&influences)?;
     work.folder.write_coverage(&grid.coverage(&met))?;
     Ok(Judgement {
@@ -313,35 +311,4 @@ pub(crate) fn with_moves(
     let regression = arm.regression(moves, &name);
     let regression = regression.map_err(|error| Problem::input(format!("`spec.regression`: {error}")))?;
     Ok((arm.verdict_with(verdict, moves, regression.as_ref()), regression))
-}
-
-fn write_repros(
-    work: &Work,
-    cases: &[Case],
-    results: &[CaseResult],
-    told: Option<&MissionsTold>,
-) -> Result<(), Problem> {
-    let folder = work.folder.file("repro");
-    // Only what is judged anew goes: shrunk cases, those of a larger campaign before, and files of the users' own are
-    // there to be run again.
-    for old in cases.iter().map(|case| folder.join(format!("{}.json", case.id()))) {
-        match std::fs::remove_file(&old) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(Problem::input(format!("cannot remove {}: {error}", old.display())));
-            }
-            _ => {}
-        }
-    }
-    let flown_by = work.folder.read_executor()?;
-    let violating = worst_first(results).into_iter().filter(|result| result.status == Status::Fail);
-    // Of every other `hairpin replay OUT --case` makes one.
-    for result in violating.take(WORST) {
-        atomic::make_folder(&folder)?;
-        if let Some(case) = cases.iter().find(|case| case.number == result.case) {
-            let mission = told.and_then(|told| told.asked_of(case.number)).cloned();
-            let repro = Repro { flown_by: flown_by.clone(), mission, ..Repro::of(&work.setup, case, result) };
-            repro.write(&folder.join(format!("{}.json", case.id())))?;
-        }
-    }
-    Ok(())
 }

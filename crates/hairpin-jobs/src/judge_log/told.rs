@@ -243,6 +243,7 @@ fn in_words(doubt: &Doubt, found: &Found) -> String {
             inexact(doubt, &value, met, [&why, "log more digits"])
         }
         Why::Impossible(found) => found.in_words(),
+        Why::Overturned(found) => found.in_words(),
         Why::Resolution(unresolved, source) => {
             format!("{value}, but its {}; log more digits, or velocities", unresolved.in_words(source))
         }

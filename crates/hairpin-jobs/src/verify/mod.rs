@@ -5,6 +5,7 @@ mod check;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -31,7 +32,7 @@ pub struct Verified {
     /// Cases with something placed around them that were checked, and those of them that are clear of it.
     pub surrounded: [usize; 2],
     /// What of the robot the claims rest on that is not known, or leave out.
-    pub unknown: Option<&'static str>,
+    pub unknown: Option<Cow<'static, str>>,
     /// Why there was nothing to verify, in a sentence's part; `None` where something was.
     pub nothing: Option<String>,
     /// What of the folder's scenario was edited since hairpin wrote it: what is proven is proven of what it is now.

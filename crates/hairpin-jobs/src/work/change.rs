@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use hairpin::campaign::{Scenario, Setup, vary};
+use hairpin::campaign::scenario::shapes_the_plan;
+use hairpin::campaign::{Scenario, Setup};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::scenario::check_asked;
@@ -62,7 +63,7 @@ pub(crate) fn changed(folder: &CampaignFolder, sets: &[Set]) -> Result<Setup, Pr
     check_asked(&setup.scenario, &folder.file("scenario.toml"))?;
     check_command(&setup.scenario)?;
     let plans = |scenario: &Scenario| {
-        let of_plans = scenario.vary().iter().filter(|(key, _)| vary::shapes_the_plan(key));
+        let of_plans = scenario.vary().iter().filter(|(key, _)| shapes_the_plan(key));
         of_plans.map(|(key, drawn)| (key.clone(), drawn.clone())).collect::<Vec<_>>()
     };
     if !sets.is_empty() && plans(&setup.scenario) != plans(&resolve(folder, &[])?.scenario) {

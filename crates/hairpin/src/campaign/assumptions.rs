@@ -1,7 +1,7 @@
 //! "Assumptions and limits of this run", said from the run's own settings and numbers.
 
 use super::kind::Assumptions;
-use super::scenario::SearchMethod;
+use super::scenario::{SearchMethod, shapes_the_plan};
 use super::{Case, Setup, Tally};
 
 /// The sentences of the section, in the order of the pipeline: robot, claim, search, act, verdict.
@@ -134,7 +134,8 @@ fn in_graphs(setup: &Setup, method: SearchMethod) -> &'static str {
 
 fn runs(setup: &Setup, said: &mut Vec<String>) {
     let execute = setup.scenario.executor();
-    let varied: Vec<&str> = setup.scenario.vary().keys().map(String::as_str).collect();
+    let of_runs = setup.scenario.vary().keys().filter(|key| !shapes_the_plan(key));
+    let varied: Vec<&str> = of_runs.map(String::as_str).collect();
     match (varied.is_empty(), execute.repeat) {
         (true, _) => {}
         (false, 1) => said.push(format!(

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::CaseNumber;
-use super::scenario::{KeyPath, Scenario};
+use super::scenario::{KeyPath, Scenario, shapes_the_plan};
 use super::vary;
 use crate::judgement::moves::Measured;
 use crate::judgement::rank_correlation;
@@ -57,7 +57,7 @@ pub fn influences(scenario: &Scenario, runs: &[RunDeviation]) -> Vec<Influence> 
         let told = path.to_string();
         let values = |run: &RunDeviation| -> Vec<(String, f64)> {
             let drawn = run.drawn.iter().find(|(name, _)| vary::is_same(name, key)).map(|(_, value)| value);
-            let nominal = run.run == 0 || vary::shapes_the_plan(key);
+            let nominal = run.run == 0 || shapes_the_plan(key);
             let value = drawn.or(if nominal { fallback.as_ref() } else { None });
             value.map_or_else(Vec::new, |value| numbers(&told, value))
         };

@@ -26,6 +26,7 @@ pub mod answers;
 pub mod arm;
 pub mod assumptions;
 pub mod attachments;
+pub mod attitude;
 pub mod baseline;
 pub mod boat;
 pub mod bounds;

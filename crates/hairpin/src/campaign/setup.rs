@@ -20,7 +20,7 @@ use super::case::Case;
 use super::check::check_vary;
 use super::kind::{Build, Drawing, Footing, Given, Handed, Kind, PassedOver, Programs, Returning, RobotWords, Room};
 use super::own_controller::AnyController;
-use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots};
+use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots, shapes_the_plan};
 use super::user_code::UserCode;
 use super::user_score::LegScorer;
 use super::user_target::RunMeter;
@@ -327,7 +327,7 @@ impl Setup {
 
     /// Why no run feels anything of what `[vary]` draws for it; `None` where one may, or nothing is drawn for runs.
     pub fn unfelt_draws(&self) -> Option<&'static str> {
-        let keys = self.scenario.vary().keys().filter(|key| !vary::shapes_the_plan(key));
+        let keys = self.scenario.vary().keys().filter(|key| !shapes_the_plan(key));
         let why = keys.map(|key| self.unfelt(key)).collect::<Option<Vec<_>>>()?;
         why.first().copied()
     }
@@ -437,7 +437,7 @@ impl Setup {
     }
 
     /// What of its shape a claim rests on that is not known, or leaves out, in a few words.
-    pub fn unknown_shapes(&self) -> Option<&'static str> {
+    pub fn unknown_shapes(&self) -> Option<Cow<'static, str>> {
         self.robot_words().unknown_shapes
     }
 

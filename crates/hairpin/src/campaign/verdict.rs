@@ -9,7 +9,7 @@ use super::case::{Undone, gap_word};
 use super::chance::Baseline;
 use super::digits::grouped;
 use super::gravity::Gravity;
-use super::scenario::{Asked, UNMEASURED};
+use super::scenario::{Asked, UNMEASURED, shapes_the_plan};
 use super::{Case, CaseNumber, CaseResult, Evidence, Reruns, Setup, Status, Tally};
 use crate::judgement::{self, Beside, Claim, Judged, Measures, Verdict, Violation, Worst, nearest};
 
@@ -74,10 +74,16 @@ pub fn verdict_on(
     let alone = worst.as_ref().is_none_or(|named| named.value.what == "deviation");
     let beside = baseline.map(|baseline| (flown, baseline.in_words(setup, alone)));
     let unfelt = setup.unfelt_draws().map(|why| format!("what `[vary]` draws is no draw of any run: {why}"));
+    let (undrawn, unknown) = (not_drawn(setup), setup.unknown_shapes());
     let past = tally.past_failures_in_words();
     let stopped = (tally.stopped && cut.is_none()).then(|| stopped_words(searched));
-    let passed_over: Vec<String> =
-        passed_over(setup, cases, results).into_iter().chain(unfelt).chain(stopped).chain(past).collect();
+    let passed_over: Vec<String> = passed_over(setup, cases, results)
+        .into_iter()
+        .chain(unfelt)
+        .chain(undrawn)
+        .chain(stopped)
+        .chain(past)
+        .collect();
     let repeat = setup.scenario.executor().repeat as usize;
     let carried_out = if setup.recordings().is_none() { (results.len() - undone[0]) * repeat } else { runs };
     judgement::verdict(&Judged {
@@ -106,7 +112,7 @@ pub fn verdict_on(
         claims: &claims,
         reruns: reruns.as_deref(),
         passed_over: &passed_over,
-        estimated: setup.unknown_shapes(),
+        estimated: unknown.as_deref(),
         proof: proof.as_deref(),
     })
 }
@@ -142,6 +148,13 @@ fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<
         of += measures.legs.len();
     }
     (within > 0).then(|| format!("{within} of {of} legs within corner_m of their waypoints: no deviation judged there"))
+}
+
+/// Where a case has its nominal run alone, of which nothing is drawn though `[vary]` has something for runs.
+fn not_drawn(setup: &Setup) -> Option<String> {
+    let drawn = setup.scenario.vary().keys().any(|key| !shapes_the_plan(key));
+    let alone = setup.scenario.executor().repeat == 1 && setup.recordings().is_none();
+    (drawn && alone).then(|| "`[vary]` was not drawn: execute.repeat = 1".into())
 }
 
 /// `clear: all links`, and `… within 15 mm of the path` where the judgement lets runs be farther off it: evidence

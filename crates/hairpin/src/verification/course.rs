@@ -36,8 +36,14 @@ impl Course<'_> {
     }
 
     /// Direction of travel in the body at `s`, rad.
-    fn crab(&self, s: f64) -> f64 {
+    pub(super) fn crab(&self, s: f64) -> f64 {
         self.claim.crab + self.claim.crab_rate * self.metres(s).clamp(0.0, self.drive)
+    }
+
+    /// Commanded speed at `s` (m/s), and what it changes by (m/s²).
+    pub(super) fn speed(&self, s: f64) -> [f64; 2] {
+        let metres = self.metres(s);
+        [self.claim.speed_at(metres), self.claim.gains(metres)]
     }
 
     /// κ that is commanded at `s`, 1/m.
@@ -49,7 +55,7 @@ impl Course<'_> {
     }
 
     /// κ that is steered at `s`, 1/m.
-    fn steered(&self, s: f64) -> f64 {
+    pub(super) fn steered(&self, s: f64) -> f64 {
         match &self.angles {
             Some(angles) => libm::tan(angles.at(s)) / self.vehicle.steered_axle_m,
             None => self.commanded(s),

@@ -7,6 +7,7 @@
 
 use super::stand::{Rest, joint, tilt};
 use super::stride::{Look, Pose, Stretch, Taken, foreseen};
+use super::wheels::{At, WheelExtremes};
 use crate::world::terrain::Terrain;
 
 /// What is seen of a drive along its way.
@@ -18,6 +19,8 @@ pub(super) struct Followed {
     pub(super) max_joint: f64,
     /// Largest |torque| of each wheel, N·m.
     pub(super) max_torque: f64,
+    /// What the wheels come to, where they are held to anything.
+    pub(super) wheels: WheelExtremes,
     /// Strides taken.
     pub(super) strides: usize,
     /// What they may leave out, m and rad m.
@@ -53,6 +56,9 @@ impl<T: Terrain> Stretch<'_, T> {
                 apart = self.walk([&pair[0], &pair[1]], apart, taken, followed);
             }
         }
+        if self.course.vehicle.wheels.is_some() {
+            self.add_wheels(looks, &mut followed.wheels);
+        }
         if self.course.vehicle.haul.is_none() {
             return;
         }
@@ -77,6 +83,22 @@ impl<T: Terrain> Stretch<'_, T> {
         };
         let torques = looks.iter().chain(&there).map(|look| torque(&look.rest, look.s));
         followed.max_torque = torques.fold(followed.max_torque, f64::max);
+    }
+
+    /// Adds what the wheels do at about 2000 places a drive, the body resting between its looks as they lead to.
+    fn add_wheels(&self, looks: &[Look], wheels: &mut WheelExtremes) {
+        let count = (SHOWN * self.length.abs() / self.extent).ceil().max(16.0) as usize;
+        let mut after = 0;
+        for i in 0..=count {
+            let s = self.length * i as f64 / count as f64;
+            while after + 2 < looks.len() && looks[after + 1].s.abs() < s.abs() {
+                after += 1;
+            }
+            let around = &looks[after..(after + 2).min(looks.len())];
+            let (Some(first), Some(last)) = (around.first(), around.last()) else { return };
+            let ends = [(first.s, &first.rest), (last.s, &last.rest)];
+            wheels.add(self.course, &At { s, rest: &foreseen(around, s), around: ends });
+        }
     }
 
     /// Looks from one to the other in small steps, each from the last, the first from `rest` if there is one; the last

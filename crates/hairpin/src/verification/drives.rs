@@ -5,9 +5,11 @@ use super::finding::{Collector, Finding, Proof, Worst, note};
 use super::ground::follow_ground;
 use super::ground_claim::{GroundClaim, GroundVehicle};
 use super::pace::{PaceClaim, check_speeds};
+use super::peak::largest;
 use super::place::FlatPlace;
 use super::rims::{WheelRims, rim_breaches};
 use super::way::Way;
+use super::wheels::WheelExtremes;
 use crate::world::terrain::Terrain;
 
 /// One leg of a drive as it was written.
@@ -134,9 +136,9 @@ const ROUNDING: f64 = 1e-6;
 ///
 /// Per leg: joint (position, heading, curvature, direction of travel), speeds and stops, direction within bounds, |κ|,
 /// |κ′| and jumps of κ of the commands, gears and turns, speed and acceleration of driven rims, then the replay on the
-/// ground: end pose and curvature, tilt, wheel torque, `keep_out[k].clearance` from each place, between the steps of
-/// the replay too. Of a leg that cannot be replayed `stopped_after` tells after how many metres. Of the whole drive
-/// `drive.speed`, `drive.turn_rate`: the highest that are commanded.
+/// ground: end pose and curvature, tilt, wheel torque, what the wheels may do, `keep_out[k].clearance` from each
+/// place, between the steps of the replay too. Of a leg that cannot be replayed `stopped_after` tells after how many
+/// metres. Of the whole drive `drive.speed`, `drive.turn_rate`: the highest that are commanded.
 pub fn verify_drives<T: Terrain>(
     vehicle: &GroundVehicle,
     terrain: &T,
@@ -197,6 +199,7 @@ pub fn verify_drives<T: Terrain>(
                 found.above("tilt", replay.max_tilt, kept(tolerances.most_tilt), "rad");
                 found.above("joint_angle", replay.max_joint, kept(tolerances.most_joint), "rad");
                 found.above("wheel_torque", replay.max_torque, kept(tolerances.most_torque), "N·m");
+                check_wheels(vehicle, &replay.wheels, claim.turn_rate, &mut found);
                 check_places(&way, claim.places, tolerances.clearance, &mut found);
                 note(&mut proof.position, position, number, at);
                 note(&mut proof.attitude, replay.error[2].abs(), number, at);
@@ -233,6 +236,20 @@ fn check_places(way: &Way, places: &[FlatPlace], wanted: f64, found: &mut Collec
     for (number, place) in places.iter().enumerate() {
         let distance = way.distance(place, wanted);
         found.unless(distance >= wanted, format_args!("keep_out[{number}].clearance"), distance, wanted, "m");
+    }
+}
+
+/// All wheels keep what they may do, turned in place at `turn_rate` rad/s too.
+fn check_wheels(vehicle: &GroundVehicle, met: &WheelExtremes, turn_rate: f64, found: &mut Collector) {
+    let Some(held) = &vehicle.wheels else { return };
+    let speed = largest(met.speed, met.spin * turn_rate.abs());
+    for (what, value, bound, unit) in [
+        ("steer_angle", met.steer, held.steer_rad, "rad"),
+        ("steer_rate", met.steer_rate, held.steer_rate_rad_s, "rad/s"),
+        ("wheel_speed", speed, held.speed_rad_s, "rad/s"),
+        ("wheel_acceleration", met.acceleration, held.acceleration_rad_s2, "rad/s²"),
+    ] {
+        found.above(what, value, bound * (1.0 + ROUNDING), unit);
     }
 }
 

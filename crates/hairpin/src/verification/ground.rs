@@ -6,6 +6,7 @@ use super::drive::DrivePiece;
 use super::ground_claim::{GroundClaim, GroundVehicle};
 use super::stand::{NoRest, Rest};
 use super::stride::Stretch;
+use super::wheels::WheelExtremes;
 use crate::world::terrain::{NoGround, Terrain};
 
 /// What the drive does on the ground.
@@ -23,6 +24,8 @@ pub struct GroundReplay {
     pub max_joint: f64,
     /// Largest |torque| of each wheel while driving, N·m; 0 without a haul.
     pub max_torque: f64,
+    /// What the wheels come to; zeros where nothing binds them.
+    pub wheels: WheelExtremes,
     /// Strides of the integrator, each a panel of three looks at the ground and more.
     pub steps: usize,
     /// What the strides' errors add up to, m, by what halving each changes.
@@ -141,13 +144,14 @@ pub(super) fn follow_ground<T: Terrain>(
         last_curvature = libm::tan(angle) / vehicle.steered_axle_m;
     }
     let [x, y, yaw] = [0, 1, 2].map(|i| at.0[i] - claim.end[i]);
-    let Followed { max_tilt, max_joint, max_torque, strides, left_out } = followed;
+    let Followed { max_tilt, max_joint, max_torque, wheels, strides, left_out } = followed;
     Ok(GroundReplay {
         error: [x, y, libm::atan2(libm::sin(yaw), libm::cos(yaw))],
         error_curvature: last_curvature - claim.end_curvature,
         max_tilt,
         max_joint,
         max_torque,
+        wheels,
         steps: strides,
         left_out,
     })

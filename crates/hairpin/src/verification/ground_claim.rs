@@ -1,5 +1,6 @@
 //! What a drive on the ground claims: the vehicle, its commands' speeds, and where they are to lead.
 
+use super::held_wheels::HeldWheels;
 use super::posed::Stand;
 
 /// The vehicle, as plain numbers.
@@ -28,6 +29,8 @@ pub struct GroundVehicle {
     pub exact: bool,
     /// What the wheels carry and overcome, where torques are asked for.
     pub haul: Option<Haul>,
+    /// What the wheels may do, where anything binds.
+    pub wheels: Option<HeldWheels>,
 }
 
 #[cfg(test)]
@@ -43,6 +46,7 @@ impl GroundVehicle {
         steered_axle_m: 1.0,
         exact: false,
         haul: None,
+        wheels: None,
     };
 }
 
@@ -99,6 +103,21 @@ impl GroundClaim {
     pub(super) fn metres_of(&self, time: f64) -> [f64; 2] {
         let speed = |knot: Option<&[f64; 2]>| knot.map_or(0.0, |[_, v]| *v);
         [time * speed(self.speed.first()), time * speed(self.speed.last())]
+    }
+
+    /// Commanded speed after `s` metres, m/s: v² is linear between knots; no number without any.
+    pub(super) fn speed_at(&self, s: f64) -> f64 {
+        let (Some([first, start]), Some([last, end])) = (self.speed.first(), self.speed.last()) else {
+            return f64::NAN;
+        };
+        if s <= *first {
+            return *start;
+        }
+        let around = self.speed.windows(2).find(|pair| pair[0][0] < s && s <= pair[1][0]);
+        around.filter(|_| s < *last).map_or(*end, |pair| {
+            let [[s0, v0], [s1, v1]] = [pair[0], pair[1]];
+            (v0 * v0 + (v1 * v1 - v0 * v0) * (s - s0) / (s1 - s0)).max(0.0).sqrt()
+        })
     }
 
     /// dv/dt after `s` metres, m/s²: half of what v² changes by per metre.

@@ -15,6 +15,7 @@
 //! | a flight keeps off solids | [`verify_clear`], [`verify_clear_of_surface`] | distances, Taylor sums |
 //! | a flight keeps speed and tilt | [`verify_flight_limits`] | places of each leg |
 //! | a drive ends where it should | [`replay_drive`], [`replay_ground`], [`verify_drives`] | pose, κ, v, tilt, places |
+//! | wheels steer and roll as they may | [`replay_ground`], [`verify_drives`] | angles, speeds and their rates |
 //! | two driven wheels keep up | [`rim_breaches`], [`verify_drives`] | speed and acceleration of each rim |
 //! | a drive keeps off discs | [`verify_clear_ground`] | chords and what leaves them |
 //! | an arm's program or graph holds | [`verify_arm_program`], [`verify_arm_graph`] | bounds, margins, cell, targets |
@@ -46,6 +47,7 @@ mod heaviest_bound;
 mod heaviest_choices;
 mod heaviest_claim;
 mod heaviest_triples;
+mod held_wheels;
 mod jet;
 mod knots;
 mod pace;
@@ -65,6 +67,7 @@ mod stride;
 mod twist;
 mod walk;
 mod way;
+mod wheels;
 
 #[cfg(test)]
 mod midpoint;
@@ -90,9 +93,11 @@ pub use ground_claim::{GroundClaim, GroundVehicle, Haul};
 pub use heaviest::{MOST_SEARCHED_AGAIN, PathFinding, verify_heaviest};
 pub use heaviest_claim::{CutClaim, HeaviestClaim, NextClaim, StepClaim, TreeClaim};
 pub use heaviest_triples::{MOST_TRIPLES_AGAIN, TriplesClaim, verify_triples};
+pub use held_wheels::{HeldWheels, SteeredWheels};
 pub use place::FlatPlace;
 pub use posed::Stand;
 pub use proof::{open_loop_with_lag, verify};
 pub use rims::{RimBreach, WheelRims, rim_breaches};
 pub use rows::{PlannedRow, PlannedState, RowTolerances, verify_flight_rows, verify_rows};
 pub use walk::{SplitClaim, WalkClaim, WalkStepClaim, verify_walk};
+pub use wheels::WheelExtremes;

@@ -37,6 +37,28 @@ pub enum Stand {
     },
 }
 
+impl Stand {
+    /// x and y of the wheels' centres with all joints at 0, m, and how many there are.
+    pub(super) fn wheels(&self) -> ([[f64; 2]; 6], usize) {
+        (seen_from_above(self, &Unknowns::zeros()), Posed::new(self, 0.0, &Unknowns::zeros()).count)
+    }
+
+    /// Of the wheels, m; 0 without any.
+    pub(super) fn radius(&self) -> f64 {
+        match self {
+            Self::Level => 0.0,
+            Self::FourWheel { radius, .. } | Self::RockerBogie { radius, .. } => *radius,
+        }
+    }
+}
+
+/// x and y of the wheels' centres in the body's own axes, its joints as `unknowns` have them, m.
+pub(super) fn seen_from_above(stand: &Stand, unknowns: &Unknowns) -> [[f64; 2]; 6] {
+    let mut level = *unknowns;
+    level.fixed_rows_mut::<3>(0).fill(0.0);
+    Posed::new(stand, 0.0, &level).arms.map(|arm| [arm.x, arm.y])
+}
+
 /// Heights and angles that are looked for: (z, φ, θ) and, with a rocker-bogie, (rocker, left bogie, right bogie).
 pub(super) type Unknowns = SVector<f64, 6>;
 /// Gaps of the wheels, m; those there are not stay zero.

@@ -9,7 +9,7 @@
 
 use nalgebra::Vector3;
 
-use super::posed::{Stand, Unknowns, gaps, linearised, newton, turn};
+use super::posed::{Stand, Unknowns, gaps, linearised, newton, seen_from_above, turn};
 use crate::world::terrain::{NoGround, Terrain};
 
 /// A pose at rest, kept from one place to the next.
@@ -98,6 +98,11 @@ impl Rest {
     /// θ, rad, nose down.
     pub(super) fn pitch(&self) -> f64 {
         self.unknowns[2]
+    }
+
+    /// x and y of the wheels' centres in the body's own axes, m.
+    pub(super) fn wheels(&self, stand: &Stand) -> [[f64; 2]; 6] {
+        seen_from_above(stand, &self.unknowns)
     }
 
     /// What two rests lead to at `share` of the way from the first to the last beyond it; the last, where they are no

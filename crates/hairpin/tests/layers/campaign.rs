@@ -32,7 +32,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["flight", "drive", "arm", "boat"],
     // A scenario becomes a setup: the one `match`.
     &["setup"],
-    &["missed", "impossible"],
+    &["missed", "impossible", "attitude"],
     &["callers_code", "chance", "coverage", "goals", "gravity", "hidden", "states"],
     // The jobs.
     &["mission", "judge", "rank"],

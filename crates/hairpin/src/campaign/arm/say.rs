@@ -35,9 +35,9 @@ impl Say for ArmSetup {
             estimated: arm.estimated.iter().map(String::as_str).collect(),
             has_sides: false,
             unknown_shapes: match (looked_at, words) {
-                (true, true) => Some("link shapes estimated; keep-outs in words hold for the tool alone"),
-                (true, false) => Some("link shapes estimated"),
-                (false, true) => Some("keep-outs in words hold for the tool alone"),
+                (true, true) => Some("link shapes estimated; keep-outs in words hold for the tool alone".into()),
+                (true, false) => Some("link shapes estimated".into()),
+                (false, true) => Some("keep-outs in words hold for the tool alone".into()),
                 (false, false) => None,
             },
             loops: Arm::LOOPS,

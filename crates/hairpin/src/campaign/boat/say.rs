@@ -32,7 +32,8 @@ impl Say for BoatSetup {
             caveat: &boat.caveat,
             estimated,
             has_sides: false,
-            unknown_shapes: assumptions::reaches_over(self).then_some("the hull may reach over the waters' edges"),
+            unknown_shapes: assumptions::reaches_over(self)
+                .then_some("the hull may reach over the waters' edges".into()),
             loops,
             battery: None,
         }

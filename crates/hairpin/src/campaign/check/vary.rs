@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
-use crate::campaign::vary::{Tree, apply, shapes_the_plan};
+use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario, shapes_the_plan, zip};
+use crate::campaign::vary::{Tree, apply};
 
 /// Keys that say what the campaign is, not what happens in a case.
 ///

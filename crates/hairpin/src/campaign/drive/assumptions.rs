@@ -59,6 +59,7 @@ pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
             setup.rover.wheels.torque
         ));
     }
+    wheels(setup, said);
     match generate.direction_deg.bounds() {
         [low, high] if low < high => said.push(format!(
             "Waypoints are passed in directions of travel between {low}° and {high}° of the body, each with its own; along a leg the \
@@ -92,6 +93,30 @@ pub(super) fn claim(setup: &DriveSetup, said: &mut Vec<String>) {
     if setup.map.holes() > 0 {
         said.push(format!("{} cells of the map came without data.", setup.map.holes()));
     }
+}
+
+/// What plans and proofs keep of what the wheels may do, and who does not.
+fn wheels(setup: &DriveSetup, said: &mut Vec<String>) {
+    let wheels = &setup.rover.wheels;
+    let all = [
+        ("steer angles within", wheels.steer.to_degrees(), "°"),
+        ("their rates within", wheels.steer_rate.to_degrees(), "°/s"),
+        ("rolling speeds within", wheels.speed, "rad/s"),
+        ("their changes within", wheels.acceleration, "rad/s²"),
+    ];
+    let held = all.iter().filter(|(_, bound, _)| bound.is_finite());
+    let held: Vec<String> = held.map(|(what, bound, unit)| format!("{what} {bound} {unit}")).collect();
+    if held.is_empty() {
+        return;
+    }
+    let held = held.join(", ");
+    said.push(match setup.scenario.generate.reach {
+        GroundReach::Witness => format!(
+            "Plans keep the wheels' {held}: as commanded, without slip, at the commanded speed; where the vehicle stands its wheels \
+             may swing. The simulated vehicle knows no such limits."
+        ),
+        _ => format!("The wheels' limits ({held}) are not held: straight legs have no commands."),
+    });
 }
 
 /// How fast plans are, and what they know of stops.

@@ -33,6 +33,35 @@ pub fn steerable(bounds: &Curvatures, rover: &Rover, speed: f64) -> Curvatures {
     Curvatures { most, most_rate: bounds.most_rate.min(by_axle).min(by_wheels) }
 }
 
+/// Share of the wheels' bounds that legs are shaped with: joints, ground and rounding take of it.
+const SHAPED: f64 = 0.95;
+/// Curvature (1/m) and change of it (1/m²) that are none: what is left where there is nothing left.
+const NONE: f64 = 1e-6;
+
+/// `bounds` with what the wheels of `rover` leave of them at `speed` (m/s), where that changes by `acceleration` (m/s²)
+/// at most; `bounds` themselves of wheels that nothing holds.
+///
+/// ```text
+/// κ  ≤ min(given, what the wheels can be steered to, what the fastest one can roll)
+/// κ′ ≤ min(given, δ̇_w/(g v), (r ω̇ − (1 + |κ| d) a)/(d v²))
+/// ```
+///
+/// g the gain of the steering at the bound of κ (m), d the distance of the farthest wheel (m), r its radius (m); of
+/// each bound of the wheels 95 %. It shapes legs; whether they keep the bounds is asked of each.
+pub(super) fn rollable(bounds: &Curvatures, rover: &Rover, speed: f64, acceleration: f64) -> Curvatures {
+    let wheels = &rover.wheels;
+    if !wheels.are_held() {
+        return *bounds;
+    }
+    let most = bounds.most.min(SHAPED * rover.steerable_curvature());
+    let most = most.min(rover.rollable_curvature(speed, SHAPED * wheels.speed)).max(NONE);
+    let by_joints = SHAPED * wheels.steer_rate / (rover.steering_gain(most) * speed);
+    let (reach, radius) = (rover.wheel_reach(), rover.suspension.wheels(&[0.0; 3]).2);
+    let left = SHAPED * wheels.acceleration * radius - (1.0 + most * reach) * acceleration;
+    let by_wheels = if wheels.acceleration.is_finite() { left / (reach * speed * speed) } else { f64::INFINITY };
+    Curvatures { most, most_rate: bounds.most_rate.min(by_joints).min(by_wheels).max(NONE) }
+}
+
 /// The first limit that a replayed drive breaks, by its name in answers, and by how much.
 ///
 /// The excess is in the unit that the name ends with. NaN breaks, with a NaN excess. `None`: all are kept.

@@ -51,6 +51,10 @@ pub(super) fn count(roadmap: &DriveRoadmap, points: &[Point3<f64>], length: usiz
             LegRefusal::Curvature
             | LegRefusal::Steering
             | LegRefusal::Torque
+            | LegRefusal::SteerAngle
+            | LegRefusal::SteerRate
+            | LegRefusal::WheelSpeed
+            | LegRefusal::WheelAcceleration
             | LegRefusal::Tilt
             | LegRefusal::Joint
             | LegRefusal::Belly => Stage::Limits,

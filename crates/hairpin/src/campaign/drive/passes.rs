@@ -134,7 +134,7 @@ impl Looked<'_> {
 
     /// What nothing can do on leg `leg`, or at the place that it leads to.
     ///
-    /// The first of: off the map, no data, keep-out, speed.
+    /// The first of: off the map, no data, keep-out, speed of the wheels, speed.
     ///
     /// `None`: nothing is known to be impossible. Leg 0 answers for the first waypoint too, so that each is asked about
     /// once.
@@ -160,6 +160,14 @@ impl Looked<'_> {
                 let words = format!("it lies {excess:.2} m too near to {}", nearest.keep_out.name);
                 return broken(*waypoint, None, "clearance", "m", Some(excess), words);
             }
+        }
+        let speed = self.settings_of(leg).speed;
+        if let Some([turns, most]) = self.setup.wheels_beyond(speed) {
+            let words = format!(
+                "straight ahead at {speed} m/s a wheel turns at {turns:.4} rad/s, {most} rad/s (`robot.wheels.speed_rad_s`) \
+                 is the most"
+            );
+            return broken(leg + 1, Some(leg), "wheel_speed", "rad/s", Some(turns - most), words);
         }
         let speed = self.asked.speed(leg)?;
         let most = self.setup.most_speed();
@@ -226,6 +234,10 @@ fn named(why: LegRefusal) -> (&'static str, &'static str) {
         LegRefusal::NoRest | LegRefusal::Tilt => ("slope", "°"),
         LegRefusal::Steering => ("steering rate", "rad/s"),
         LegRefusal::Torque => ("torque", "N·m"),
+        LegRefusal::SteerAngle => ("steer_angle", "rad"),
+        LegRefusal::SteerRate => ("steer_rate", "rad/s"),
+        LegRefusal::WheelSpeed => ("wheel_speed", "rad/s"),
+        LegRefusal::WheelAcceleration => ("wheel_acceleration", "rad/s²"),
         LegRefusal::Joint => ("joint", "°"),
         LegRefusal::Belly | LegRefusal::KeepOut => ("clearance", "m"),
     }

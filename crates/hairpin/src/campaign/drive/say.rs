@@ -24,7 +24,9 @@ impl Say for DriveSetup {
             caveat: &rover.caveat,
             estimated: rover.estimated.clone(),
             has_sides: true,
-            unknown_shapes: self.leaves_slopes_out.then_some("slopes of the map are not modelled: no suspension"),
+            unknown_shapes: self
+                .leaves_slopes_out
+                .then_some("slopes of the map are not modelled: no suspension".into()),
             loops: Rover::LOOPS,
             battery: None,
         }
@@ -140,9 +142,15 @@ impl Say for DriveSetup {
         Swiftness { speed: Some(self.rover.limits.speed).filter(|speed| speed.is_finite()), acceleration: None }
     }
 
-    /// Ten times its limit of speed, as it may roll down a slope.
+    fn most_tilt(&self) -> Option<f64> {
+        Some(self.rover.limits.tilt).filter(|tilt| tilt.is_finite())
+    }
+
+    /// Ten times its limit of speed, as it may roll down a slope: the scenario's or its file's, and where neither
+    /// says one the speed that plans command.
     fn ceiling(&self, _span: f64) -> Option<f64> {
-        Some(BEYOND * self.swiftness().speed?)
+        let most = self.most_speed();
+        Some(BEYOND * if most.is_finite() { most } else { self.speed() })
     }
 }
 

@@ -20,6 +20,7 @@ use crate::world::terrain::generate::{Recipe, generate};
 use crate::world::terrain::{ElevationMap, HoleRule, KeepOuts, MapError};
 
 use super::Site;
+use super::held::rollable;
 
 /// Curvature that is none, 1/m: what is left to wheels that go as fast as they can.
 ///
@@ -105,7 +106,7 @@ impl DriveSetup {
 
     /// Bounds of the commands' curvature: the scenario's or the robot's at the commanded speed, whichever is smaller.
     ///
-    /// 1/m and 1/m²; infinite where neither bounds.
+    /// 1/m and 1/m²; infinite where neither bounds. What the wheels may do is taken of it.
     pub fn bounds(&self) -> Curvatures {
         self.bounds_at(self.speed())
     }
@@ -117,10 +118,17 @@ impl DriveSetup {
             Pace::Ramp(slopes) | Pace::Trapezoid(slopes) => slopes.acceleration,
         };
         let (given, own) = (&self.scenario.generate.limits, self.rover.limits_at(speed, acceleration));
-        Curvatures {
+        let bounds = Curvatures {
             most: given.curvature_1_m.unwrap_or(f64::INFINITY).min(own.curvature.max(STRAIGHT)),
             most_rate: given.curvature_rate_1_m2.unwrap_or(f64::INFINITY).min(own.curvature_rate),
-        }
+        };
+        rollable(&bounds, &self.planner, speed, acceleration)
+    }
+
+    /// How fast the wheels turn straight ahead at `speed` (m/s), and how fast they may, rad/s, where that is less.
+    pub(super) fn wheels_beyond(&self, speed: f64) -> Option<[f64; 2]> {
+        let (turns, most) = (speed / self.planner.suspension.wheels(&[0.0; 3]).2, self.planner.wheels.speed);
+        (turns > most).then_some([turns, most])
     }
 
     /// Largest tilt of a plan, rad.

@@ -7,12 +7,12 @@
 use crate::feasibility::steering::clear::{Around, ClearedOnGround, solve_on_ground};
 use crate::feasibility::steering::shooting::rough::{self, Answer, Course, Driven, GroundCost, Settings, Steps};
 use crate::feasibility::steering::shooting::{Curvatures, Precision, Query, flat};
-use crate::robot::rover::{Kinematics, Limits, Rims, Rover, Suspension};
+use crate::robot::rover::{Kinematics, Limits, Rims, Rover, Steering, Suspension};
 use crate::trajectory::drive::{Gear, MOST_SEGMENTS, Motion, Planar, Segment, SegmentList, shortened};
 use crate::trajectory::{Direction, SpeedProfile, Timing};
 use crate::verification::{
-    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, Stand, Stopped, WheelRims,
-    replay_drive, replay_ground,
+    DriveClaim, DrivePiece, DriveReplay, GroundClaim, GroundReplay, GroundVehicle, Haul, HeldWheels, Stand,
+    SteeredWheels, Stopped, WheelRims, replay_drive, replay_ground,
 };
 use crate::world::terrain::{ElevationMap, Rationed};
 
@@ -288,7 +288,25 @@ pub(super) fn ground_vehicle(rover: &Rover) -> GroundVehicle {
         steered_axle_m: rover.response.steered_axle,
         exact: rover.kinematics == Kinematics::Exact,
         haul: haul(rover),
+        wheels: held_wheels(rover),
     }
+}
+
+/// What the wheels of `rover` may do, as the replay has it; `None` where nothing binds.
+fn held_wheels(rover: &Rover) -> Option<HeldWheels> {
+    let wheels = &rover.wheels;
+    wheels.are_held().then_some(HeldWheels {
+        steered: match wheels.steering {
+            Steering::Corner => SteeredWheels::Corners,
+            Steering::Front => SteeredWheels::Front,
+            Steering::AllWheel => SteeredWheels::All,
+            Steering::Skid => SteeredWheels::Skid(wheels.effective_track),
+        },
+        steer_rad: wheels.steer,
+        steer_rate_rad_s: wheels.steer_rate,
+        speed_rad_s: wheels.speed,
+        acceleration_rad_s2: wheels.acceleration,
+    })
 }
 
 /// Driven rims for the judge of drives.

@@ -73,13 +73,20 @@ impl<'a> DriveSolver<'a> {
         Ok(Self { setup, settings, search, stepwise, remembered: Remembered::default() })
     }
 
-    /// Whether drives may begin at the task's start and end at its end: no leg leaves or comes to where the vehicle
-    /// cannot stand, of no graph. Headings at the end are free, so that of it only keep-outs decide.
+    /// Whether the wheels can go at the commanded speed, and drives may begin at the task's start and end at its end:
+    /// no leg leaves or comes to where the vehicle cannot stand, of no graph. Headings at the end are free, so that
+    /// of it only keep-outs decide.
     ///
     /// # Errors
     /// Why they may not, in a sentence's part.
     pub(super) fn may_go(&self) -> Result<(), String> {
         let (start, end) = (self.setup.start(), self.setup.scenario.task.end_m);
+        if let (None, Some([turns, most])) = (&self.stepwise, self.setup.wheels_beyond(self.setup.speed())) {
+            return Err(format!(
+                "straight ahead at {} m/s a wheel turns at {turns:.4} rad/s, and `robot.wheels.speed_rad_s` is {most}",
+                self.setup.speed()
+            ));
+        }
         let refused = |why: LegRefusal| format!("already at `task.start` drives {}", why.says());
         let precision = match &self.stepwise {
             None => {
@@ -347,6 +354,7 @@ pub(super) fn settings(setup: &DriveSetup) -> Result<DriveSettings, String> {
             tilt: setup.tilt(),
             joint: setup.rover.limits.joint,
             clearance: generate.limits.belly_clearance_m.unwrap_or(f64::NEG_INFINITY),
+            wheels: true,
         },
         solver: setup.leg_solver(),
         flat: setup.flat_solver(),

@@ -497,11 +497,69 @@ fn a_child_of_two_has_the_beginning_of_one_and_the_rest_of_the_other() {
     assert!(solver.crossed(0, &plans[0], &plans[1], 5, &mut random).is_none(), "there is no such leg");
 }
 
+/// What the wheels of the rover among craters may do: something of what they need there.
+fn wheels() -> Value {
+    json!({ "steer_limit_deg": 60, "steer_rate_deg_s": 8, "speed_rad_s": 0.8, "acceleration_rad_s2": 0.1 })
+}
+
+/// They were held by nothing: any value gave the same drives, and the proof confirmed them.
+#[test]
+fn wheels_are_held_to_what_they_may_do() {
+    let own = ("robot.wheels", wheels());
+    let setup = setup(rover(), std::slice::from_ref(&own));
+    let solver = solver(&setup);
+    for number in 0..3 {
+        hold(&setup, &solver.draw(number, &Stop::never()).unwrap(), &format!("draw {number}"));
+    }
+    let mut value = rover();
+    value["robot"]["wheels"] = wheels();
+    for (key, narrow, told) in [
+        ("steer_limit_deg", json!(2), "steer_angle"),
+        ("steer_rate_deg_s", json!(0.05), "steer_rate"),
+        ("speed_rad_s", json!(0.45), "wheel_speed"),
+        ("acceleration_rad_s2", json!(2e-4), "wheel_acceleration"),
+    ] {
+        let found = found_under(value.clone(), 0, &[(&format!("robot.wheels.{key}"), narrow)]);
+        assert!(found.iter().any(|field| field == told), "{key}: {found:?}");
+        // Drives of a robot whose file says nothing of it are held to it as well.
+        let sides = ["steer_angle", "steer_rate", "wheel_speed", "wheel_acceleration", "curvature", "curvature_rate"];
+        assert!(found.iter().all(|field| sides.contains(&field.as_str())), "{key}: {found:?}");
+    }
+}
+
+#[test]
+fn what_the_wheels_cannot_do_is_refused_with_its_limit() {
+    let weak = setup(rover(), &[("robot.wheels", json!({ "speed_rad_s": 0.01 }))]);
+    let why = weak.kind().solver().err().unwrap();
+    assert_eq!(why, "straight ahead at 0.06 m/s a wheel turns at 0.4615 rad/s, and `robot.wheels.speed_rad_s` is 0.01");
+    // What swings its wheels too slowly finds no legs but where it may stand for it.
+    let forward = ("generate.manoeuvres", json!(["forward"]));
+    let slow = setup(rover(), &[("robot.wheels", json!({ "steer_rate_deg_s": 1e-3 })), forward]);
+    let outcome = solver(&slow).solve(0, Executions::none(), Wanted::Cases, &Stop::never());
+    assert!(outcome.plans.is_empty(), "{:?}", outcome.plans.len());
+    // Straight legs have no commands, and say so.
+    let straight = setup(rover(), &[("robot.wheels", wheels()), ("generate.reach", json!("hull"))]);
+    let mut said = Vec::new();
+    super::assumptions::claim(straight.own().unwrap(), &mut said);
+    assert!(said.iter().any(|sentence| sentence.contains("rad/s²) are not held: straight legs")), "{said:?}");
+}
+
+/// Whatever stands level breaks no limit of tilt: those were accepted, and legs over slopes of any steepness passed.
+#[test]
+fn limits_that_the_model_does_not_have_are_refused() {
+    for (key, value) in [("generate.limits.tilt_deg", json!(10)), ("generate.limits.belly_clearance_m", json!(0.1))] {
+        let told = built(car(), &[(key, value.clone())]).err().unwrap();
+        assert!(told.contains(key) && told.contains("no suspension, and its model no slopes"), "{told}");
+        assert!(built(rover(), &[(key, value)]).is_ok(), "{key}");
+    }
+}
+
 #[test]
 fn what_no_run_reads_is_not_drawn() {
     let mistakes = |key: &str, value: Value| {
         let mut scenario = rover();
         scenario["vary"] = json!({ key: { "uniform": value } });
+        scenario["robot"]["wheels"] = wheels();
         let scenario: Scenario = serde_json::from_value(scenario).unwrap();
         let found = Setup::build(scenario.into()).err().unwrap_or_default();
         found.into_iter().map(|mistake| mistake.to_string()).collect::<Vec<_>>()
@@ -510,6 +568,8 @@ fn what_no_run_reads_is_not_drawn() {
         ("robot.limits.tilt_deg", json!([20.0, 30.0]), "plans keep this limit"),
         ("robot.limits.curvature_rate_1_m2", json!([0.5, 2.0]), "plans keep this limit"),
         ("robot.mass_kg", json!([20.0, 60.0]), "nothing weighs"),
+        ("robot.wheels.steer_limit_deg", json!([20.0, 30.0]), "plans keep what the wheels may do"),
+        ("robot.wheels.speed_rad_s", json!([0.1, 1.0]), "plans keep what the wheels may do"),
     ] {
         let found = mistakes(key, range);
         assert!(found.iter().any(|told| told.contains(key) && told.contains(why)), "{key}: {found:?}");
@@ -605,7 +665,7 @@ fn slopes_that_are_not_modelled_are_named() {
     let hills = [("world.terrain", json!({ "generator": "fractal", "size_m": 40, "cell_m": 0.25 }))];
     let named = Some("slopes of the map are not modelled: no suspension");
     let (level, steep) = (setup(car(), &[]), setup(car(), &hills));
-    assert_eq!((level.unknown_shapes(), steep.unknown_shapes()), (None, named));
+    assert_eq!((level.unknown_shapes(), steep.unknown_shapes().as_deref()), (None, named));
     assert_eq!(setup(rover(), &hills[..0]).unknown_shapes(), None, "it stands on its wheels");
     let mut said = Vec::new();
     super::assumptions::claim(steep.own().unwrap(), &mut said);

@@ -45,6 +45,12 @@ pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>)
             said.push(format!("`max_tilt_deg` is not checked by reach `{}`.", generate.reach.word()));
         }
     }
+    if let Some([radius, margin]) = reaches_through(setup) {
+        said.push(format!(
+            "The middle of the body, {radius} m in radius (`clearance_radius_m`), keeps {margin} m (`keep_in_margin_m`) from the \
+             world's edges, so that it may reach through them."
+        ));
+    }
     if let Some(Timing { step_s: Some(step), .. }) = generate.timing {
         said.push(format!("Every leg is planned to take {step} s."));
     }
@@ -59,6 +65,13 @@ pub(super) fn claim(setup: &FlightSetup, cases: &[Case], said: &mut Vec<String>)
             certified.len()
         ));
     }
+}
+
+/// Radius of the body and margin of the world's edges, m, where the edges, from which the body's middle keeps the
+/// margin, may lie within it.
+pub(super) fn reaches_through(setup: &FlightSetup) -> Option<[f64; 2]> {
+    let (radius, margin) = (setup.robot.clearance_radius, setup.scenario.world.keep_in_margin_m.unwrap_or(0.0));
+    (radius > margin).then_some([radius, margin])
 }
 
 /// What `execute.noise` comes to.

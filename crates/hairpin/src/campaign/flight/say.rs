@@ -32,7 +32,9 @@ impl Say for FlightSetup {
             caveat,
             estimated,
             has_sides: true,
-            unknown_shapes: None,
+            unknown_shapes: assumptions::reaches_through(self).map(|[radius, margin]| {
+                format!("the body may reach through the world's edges: clearance_radius_m {radius} > keep_in_margin_m {margin}").into()
+            }),
             loops: Quadrotor::LOOPS,
             battery: self.battery(),
         }

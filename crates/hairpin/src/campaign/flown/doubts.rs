@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::log::Log;
 use crate::campaign::Setup;
+use crate::campaign::attitude::{Overturned, fallen, upside_down};
 use crate::campaign::impossible::{Impossible, impossible};
 use crate::judgement::{
     self, AccelerationSource, Around, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
@@ -42,6 +43,8 @@ pub enum Why {
     },
     /// When it ended is not seen: so many seconds of it were left out.
     End(f64),
+    /// Its attitudes are of another convention, or it was carried.
+    Overturned(Overturned),
     /// No robot of its file is as fast: neither its times nor its places decide anything.
     Impossible(Impossible),
 }
@@ -220,6 +223,16 @@ pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Mea
     });
     let value = violation("speed", found.speed(), found.bound_m_s, found.from_s, leg.unwrap_or(0));
     Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
+}
+
+/// That a log's up axis points down, or lies beyond the tilt of its robot's file all the way, whatever is limited.
+pub(super) fn overturned(setup: &Setup, log: &Log, limits: &Limits) -> Option<Doubt> {
+    let track = &log.flight.track;
+    let all_the_way = || fallen(setup, track).filter(|found| found.throughout);
+    let found = upside_down(setup, track).or_else(all_the_way).filter(|_| limits.are_given())?;
+    let most = setup.kind().most_tilt().unwrap_or(std::f64::consts::FRAC_PI_2);
+    let value = violation("tilt", found.tilt_rad.to_degrees(), most.to_degrees(), found.at_s, 0);
+    Some(Doubt { value: Violation { unit: "°".into(), ..value }, why: Why::Overturned(found) })
 }
 
 /// Why an acceleration within its `limit` is open: it is a mean over `span` s.

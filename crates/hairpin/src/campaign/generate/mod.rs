@@ -32,7 +32,7 @@ use rayon::prelude::*;
 use self::graphs::{GRAPHS_PER_CASE, Graphs};
 use super::answers::Answers;
 use super::graph::{Outcome, Wanted, fingerprint, met};
-use super::scenario::SearchMethod;
+use super::scenario::{SearchMethod, shapes_the_plan};
 use super::trial::executed_case;
 use super::{Case, CaseNumber, Executor, Scenario, Setup, Stop, Tally, Witness, vary};
 use crate::math::random::case_seed;
@@ -68,7 +68,7 @@ pub fn counted(scenario: &Scenario, mut known: Known) -> Known {
 
 /// Whether units of work are cases of plans of their own, not graphs.
 fn varies(scenario: &Scenario) -> bool {
-    scenario.vary().keys().any(|key| vary::shapes_the_plan(key))
+    scenario.vary().keys().any(|key| shapes_the_plan(key))
 }
 
 /// Generates cases until `generate.search.cases` are found, the graphs are used up, or `stop` says so.

@@ -17,9 +17,9 @@ use crate::campaign::counted::Counted;
 use crate::campaign::curve::Curve;
 use crate::campaign::failures::Failures;
 use crate::campaign::graph::{Plan, fingerprint, met};
-use crate::campaign::scenario::UNMEASURED;
+use crate::campaign::scenario::{UNMEASURED, shapes_the_plan};
 use crate::campaign::trial::{Sought, Trials, executed_case};
-use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness, vary};
+use crate::campaign::{Batch, Case, Setup, Stop, Tally, Witness};
 use crate::math::random::{Stream, named_seed};
 use crate::search::in_loop::Trial;
 use crate::search::worst::{Field, Ran, Worst, WorstSettings, worst};
@@ -169,7 +169,7 @@ impl Plans<'_> {
     fn choose_run(&mut self, executions: u64) -> u64 {
         let setup = self.graphs.setup;
         let runs = (setup.scenario.executor().repeat as usize).min(RUNS);
-        if runs < 2 || setup.scenario.vary().keys().all(|key| vary::shapes_the_plan(key)) {
+        if runs < 2 || setup.scenario.vary().keys().all(|key| shapes_the_plan(key)) {
             return 0;
         }
         self.run = 1;

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::along::{latest, left_out, proven, with_legs};
+use crate::campaign::attitude::{self, fallen, tipped_over};
 use crate::campaign::gravity::Gravity;
 use crate::campaign::hidden::{hidden, sampled};
 use crate::campaign::impossible::too_fast;
@@ -130,6 +131,9 @@ impl Seen<'_> {
     fn violations(&self) -> Vec<Violation> {
         let limits = &self.terms.limits;
         let mut violations = judgement::violations(self.measures, self.flight, limits);
+        let track = &self.flight.track;
+        let fell = self.own.program().and_then(|_| fallen(self.own, track)).filter(|_| !self.flight.ended.is_crash());
+        violations.splice(..0, fell.map(|fell| tipped_over(&fell, track, self.measures)));
         let Some(moves) = self.moves else { return violations };
         let ours = self.own.kind().programs().is_some_and(|programs| programs.recordings().is_none());
         if ours && limits.unfinished && self.flight.ended == Ended::Done {
@@ -149,6 +153,7 @@ impl Seen<'_> {
         let programs = own.kind().programs();
         let kept = || self.moves.filter(|_| keeps);
         too_fast(own, case, flight, limits)
+            .or_else(|| attitude::open(own, &flight.track, limits))
             .or_else(|| programs.filter(|_| limits.are_given())?.beyond(&flight.track))
             .or_else(|| self.moves?.unseen.as_ref()?.open.clone())
             .or_else(|| kept().filter(|_| limits.unfinished)?.beside(limits.deviation.is_some()))

@@ -3,6 +3,8 @@
 //! Words are parts of sentences, in lower case and without a full stop, unless they are said to be sentences. Nothing
 //! here computes a verdict.
 
+use std::borrow::Cow;
+
 use nalgebra::Point3;
 use serde::Serialize;
 use serde_json::Value;
@@ -27,7 +29,7 @@ pub(in crate::campaign) struct RobotWords<'a> {
     /// Whether its attitude has a front and a left side that people know.
     pub(in crate::campaign) has_sides: bool,
     /// What of its shape or stand a claim rests on that is not known, or leaves out, in a few words of the verdict.
-    pub(in crate::campaign) unknown_shapes: Option<&'static str>,
+    pub(in crate::campaign) unknown_shapes: Option<Cow<'static, str>>,
     /// What of ours carries out what a stranger's controller asks for.
     pub(in crate::campaign) loops: Option<&'static str>,
     /// How long it goes on a charge, where its file says so.
@@ -192,6 +194,11 @@ pub(in crate::campaign) trait Say {
     /// A mean speed, m/s, over `span` s that no robot of its file comes to, by a factor of [`BEYOND`] in what the file
     /// says and with any wind or current besides; `None` where the file bounds nothing.
     fn ceiling(&self, _span: f64) -> Option<f64> {
+        None
+    }
+
+    /// Angle of its up axis from the vertical beyond which the vehicle has fallen over, rad, where its file says one.
+    fn most_tilt(&self) -> Option<f64> {
         None
     }
 

@@ -1,5 +1,7 @@
 //! A value of `[vary]`: the distribution of a key.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -28,6 +30,18 @@ pub struct Distribution {
 /// How many standard deviations from the mean a normal draw is drawn again (2 in 10⁹): every draw lies between
 /// bounds that can be checked before anything flies.
 pub(crate) const WIDEST_SIGMA: f64 = 6.0;
+
+/// Whether a key of `[vary]` is drawn per case, when trajectories are generated, rather than per run.
+pub fn shapes_the_plan(key: &str) -> bool {
+    key.starts_with("task.") || key.starts_with("generate.")
+}
+
+/// Runs per case: those that are `given`, or else one, and two where `vary` draws anything for runs, as run 0 is
+/// nominal. Where runs are `recorded` nothing is drawn for them.
+pub(in crate::campaign) fn runs(given: Option<u64>, vary: &BTreeMap<String, Distribution>, recorded: bool) -> u64 {
+    let drawn = !recorded && vary.keys().any(|key| !shapes_the_plan(key));
+    given.unwrap_or(if drawn { 2 } else { 1 })
+}
 
 impl Distribution {
     /// Where draws of `normal` with this mean and deviation lie: within `min` and `max`, and six deviations.

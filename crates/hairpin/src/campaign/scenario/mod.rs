@@ -26,8 +26,8 @@ mod subject;
 mod terms;
 
 pub use arm::*;
-pub use distribution::Distribution;
-pub(super) use distribution::zip;
+pub use distribution::{Distribution, shapes_the_plan};
+pub(super) use distribution::{runs, zip};
 pub use drive::*;
 pub use environment::Environment;
 pub use flaky::FlakySection;

@@ -14,6 +14,7 @@ mod conditions;
 mod lengths;
 mod route;
 
+use super::scenario::shapes_the_plan;
 use super::vary;
 use super::{Case, CaseResult, Distribution, Mistake, Scenario, Setup};
 use crate::search::ddmin;
@@ -119,7 +120,7 @@ pub fn shrink(
 /// choice, so that the same run number draws it again and the plan stays the nominal robot's.
 fn pinned(scenario: &Scenario, case: &Case, result: &CaseResult) -> Result<Scenario, Mistake> {
     let mut pinned = vary::apply(scenario, &vary::draw_for_case(scenario, case.seed, case.number))?;
-    for (key, value) in result.drawn.iter().filter(|(key, _)| !vary::shapes_the_plan(key)) {
+    for (key, value) in result.drawn.iter().filter(|(key, _)| !shapes_the_plan(key)) {
         let only =
             Distribution { uniform: None, normal: None, choice: Some(vec![value.clone()]), min: None, max: None };
         // The key as the scenario writes it, or it would be drawn twice.

@@ -8,7 +8,7 @@ mod tree;
 use serde_json::Value;
 
 use super::CaseNumber;
-use super::scenario::{Distribution, KeyPath, Mistake, Scenario, zip};
+use super::scenario::{Distribution, KeyPath, Mistake, Scenario, shapes_the_plan, zip};
 use crate::math::random::{Stream, named_seed, standard_normals, stream, unit};
 
 pub(super) use tree::Tree;
@@ -53,11 +53,6 @@ pub fn settle(scenario: &Scenario, draws: &[(String, Value)]) -> Result<Scenario
     *settled.vary_mut() = scenario.vary().clone();
     settled.vary_mut().retain(|key, _| !shapes_the_plan(key));
     Ok(settled)
-}
-
-/// Whether a key is drawn per case, when trajectories are generated, rather than per run.
-pub fn shapes_the_plan(key: &str) -> bool {
-    key.starts_with("task.") || key.starts_with("generate.")
 }
 
 /// Whether two keys name the same value, in whichever way they write an index.

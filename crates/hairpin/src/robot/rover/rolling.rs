@@ -76,10 +76,7 @@ impl Rover {
         let point = self.commanded_x(&nominal[..count], &steers);
         for (i, motion) in motions[..count].iter_mut().enumerate() {
             let place = places[i];
-            let y = match self.wheels.steering {
-                Steering::Skid => place.y.signum() * 0.5 * self.wheels.effective_track,
-                Steering::Corner | Steering::Front | Steering::AllWheel => place.y,
-            };
+            let y = self.aside(place.y);
             let ahead = twist.ahead - twist.turn * y;
             let left = twist.left + twist.turn * (place.x - point);
             *motion = if steers[i] {
@@ -156,6 +153,47 @@ impl Rover {
             gain = gain.max(x.abs() / ((1.0 - nearest * y) * (1.0 - nearest * y) + nearest * nearest * x * x));
         }
         gain
+    }
+
+    /// The largest |κ| straight ahead at `speed` (m/s), 1/m, at which no wheel turns faster than `most` (rad/s); 0
+    /// where they do so on a straight line.
+    ///
+    /// A wheel that steers rolls √((1 + |κ||y|)² + κ²x²) metres a metre on the outside of a bend, another 1 + |κ||y|,
+    /// and may roll R = `most` r/v.
+    ///
+    /// ```text
+    /// |κ| = (√(y² + (x² + y²)(R² − 1)) − |y|) / (x² + y²)      x = 0 for a wheel that does not steer
+    /// ```
+    pub fn rollable_curvature(&self, speed: f64, most: f64) -> f64 {
+        let (wheels, count, radius) = self.suspension.wheels(&[0.0; 3]);
+        let ratio = most * radius / speed;
+        if ratio.is_infinite() || count == 0 {
+            return f64::INFINITY;
+        }
+        let steers = self.steers(&wheels[..count]);
+        let point = self.commanded_x(&wheels[..count], &steers);
+        let more = (ratio * ratio - 1.0).max(0.0);
+        let of = |(wheel, steers): (&Vector3<f64>, &bool)| {
+            let (x, y) = (if *steers { wheel.x - point } else { 0.0 }, self.aside(wheel.y).abs());
+            let square = x * x + y * y;
+            if square > 0.0 { (libm::sqrt(y * y + square * more) - y) / square } else { f64::INFINITY }
+        };
+        wheels[..count].iter().zip(&steers).map(of).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance of the farthest wheel from the point that is commanded, m: |d rolls/dκ| is at most that.
+    pub fn wheel_reach(&self) -> f64 {
+        let (wheels, count, _) = self.suspension.wheels(&[0.0; 3]);
+        let point = self.commanded_x(&wheels[..count], &self.steers(&wheels[..count]));
+        wheels[..count].iter().map(|wheel| libm::hypot(wheel.x - point, self.aside(wheel.y))).fold(0.0, f64::max)
+    }
+
+    /// y that a wheel turns about, m: of skidding vehicles half of the effective track.
+    fn aside(&self, y: f64) -> f64 {
+        match self.wheels.steering {
+            Steering::Skid => y.signum() * 0.5 * self.wheels.effective_track,
+            Steering::Corner | Steering::Front | Steering::AllWheel => y,
+        }
     }
 
     /// Names of the wheels in the order of [`Suspension::wheels`].
@@ -309,6 +347,25 @@ mod tests {
         let tight = rover("all-wheel", "steer_limit_deg = 95");
         let (swung, _) = tight.wheel_motions(&Twist::along(1.7, 0.0, 1.0), &[0.0; 3], Some(&before));
         assert!((swung[0].steer - 1.7 + PI).abs() < 1e-12 && swung[0].rolls < 0.0);
+    }
+
+    /// Against the wheels' own motions: on the bend that is told the fastest wheel turns as fast as it may.
+    #[test]
+    fn the_fastest_wheel_of_a_bend_is_known() {
+        for steering in ["corner", "front", "all-wheel", "skid"] {
+            let rover = rover(steering, "effective_track_m = 0.9");
+            let bend = rover.rollable_curvature(0.5, 8.0);
+            let fastest = |kappa: f64| {
+                let rolls = motions(&rover, Twist::along(0.0, kappa, 1.0));
+                rolls.iter().map(|motion| motion.rolls.abs() * 0.5 / 0.1).fold(0.0, f64::max)
+            };
+            assert!((fastest(bend) - 8.0).abs() < 1e-9 && (fastest(-bend) - 8.0).abs() < 1e-9, "{steering}: {bend}");
+            assert!(rover.rollable_curvature(0.5, 5.0) < 1e-12 && rover.rollable_curvature(0.5, 4.0) < 1e-12);
+            assert_eq!(rover.rollable_curvature(0.5, f64::INFINITY), f64::INFINITY);
+            // What rolling changes by with the bend.
+            let steepest = (fastest(bend + 1e-6) - fastest(bend)) / 1e-6 * 0.1 / 0.5;
+            assert!(steepest > 0.0 && steepest <= rover.wheel_reach() + 1e-6, "{steering}: {steepest}");
+        }
     }
 
     #[test]

@@ -107,6 +107,11 @@ impl Wheels {
         })
     }
 
+    /// Whether how the wheels move is bounded, whatever they push with.
+    pub fn are_held(&self) -> bool {
+        [self.steer, self.steer_rate, self.speed, self.acceleration].iter().any(|bound| bound.is_finite())
+    }
+
     /// Whether any bound is finite.
     pub fn bounded(&self) -> bool {
         let bounds = [self.steer, self.steer_rate, self.speed, self.acceleration, self.torque];

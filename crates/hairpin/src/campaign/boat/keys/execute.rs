@@ -19,8 +19,10 @@ pub struct BoatExecute {
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others.
-    pub repeat: u64,
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others. One if not given, two where anything is
+    /// drawn for runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<u64>,
     /// A waypoint counts as reached inside this radius.
     pub accept_m: f64,
     /// Time limit of a run; twice the planned time and a minute if not given.
@@ -61,7 +63,7 @@ impl Default for BoatExecute {
             controller: None,
             control_rate_hz: None,
             command: None,
-            repeat: 1,
+            repeat: None,
             accept_m: 1.0,
             time_limit_s: None,
             speed_m_s: None,

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use super::{BoatExecute, BoatGenerate, BoatScenario};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Steering, Subject, Terms, sections,
+    BASELINE, Distribution, Environment, Executor, Head, Keys, Named, Patience, Steering, Subject, Terms, runs,
+    sections,
 };
 
 /// A trip is given up after this multiple of its planned duration …
@@ -30,7 +31,7 @@ impl Keys for BoatScenario {
             reach: "witness",
             executor: Executor {
                 command: command.as_deref(),
-                repeat: *repeat,
+                repeat: runs(*repeat, &self.vary, false),
                 timeout: *timeout_s,
                 control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),

@@ -2,7 +2,7 @@
 
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{DriveGenerate, DriveLimits, ProfileName};
-use crate::robot::rover::{MOST_SPEED, Rims, Rover};
+use crate::robot::rover::{MOST_SPEED, Rims, Rover, Suspension};
 
 /// Limits within what is meant by them; those of speed leave driven wheels room to turn.
 ///
@@ -14,7 +14,8 @@ use crate::robot::rover::{MOST_SPEED, Rims, Rover};
 /// | `speed_m_s` | from 1e-3 m/s to `MOST_SPEED`, and 0.99 of the rims' speed at most |
 /// | `belly_clearance_m` | [0, 10] m |
 ///
-/// They are bounds beside the robot's own: where a limit here is wider, the robot's holds.
+/// They are bounds beside the robot's own: where a limit here is wider, the robot's holds. Tilt and underside are for
+/// what has a suspension.
 pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &mut Findings) {
     for (key, value, most, unit) in [
         ("curvature_1_m", limits.curvature_1_m, 1e3, " 1/m"),
@@ -35,6 +36,14 @@ pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &
              with"
             );
             found.require(speed <= most, "generate.limits.speed_m_s", speed, &bound);
+        }
+    }
+    // It stands level wherever it is: whatever the limit, nothing would ever break it.
+    let stands = rover.is_none_or(|rover| rover.suspension != Suspension::Level);
+    for (key, value) in [("tilt_deg", limits.tilt_deg), ("belly_clearance_m", limits.belly_clearance_m)] {
+        if let Some(value) = value.filter(|_| !stands) {
+            let bound = "left out: the robot has no suspension, and its model no slopes";
+            found.require(false, &format!("generate.limits.{key}"), value, bound);
         }
     }
     if let Some(clearance) = limits.belly_clearance_m {

@@ -5,6 +5,9 @@ use crate::campaign::scenario::{DriveScenario, GeneratorName, GroundDescription,
 
 /// What the plan keeps to, and the vehicle does not know.
 const OF_THE_PLAN: [&str; 3] = ["tilt_deg", "joint_deg", "curvature_rate_1_m2"];
+/// What the wheels may do, and which of them steer.
+const OF_THE_WHEELS: [&str; 5] =
+    ["steer_limit_deg", "steer_rate_deg_s", "speed_rad_s", "acceleration_rad_s2", "effective_track_m"];
 /// What makes the ground that a generator makes, and of flat ground nothing but its edge, which plans know.
 const OF_THE_GROUND: [&str; 3] = ["seed", "size_m", "cell_m"];
 /// What a vehicle of one axle needs its outline for: the disc that keep-outs are grown by.
@@ -26,6 +29,10 @@ fn unread(path: &KeyPath, keys: &DriveScenario, robot: Option<&GroundDescription
         ["robot", "limits", limit] if OF_THE_PLAN.contains(&limit) => {
             Some("plans keep this limit, and none is made anew for a run")
         }
+        ["robot", "wheels", part] if OF_THE_WHEELS.contains(&part) => {
+            Some("plans keep what the wheels may do, and none is made anew for a run")
+        }
+        ["robot", "steering"] => Some("plans ask which wheels steer, and none is made anew for a run"),
         ["robot", "speed_m_s"] => Some("plans command it, and none is made anew for a run"),
         ["robot", part] if OF_THE_OUTLINE.contains(&part) && !has_places(keys) => {
             Some("it grows keep-outs, and there are none")

@@ -314,3 +314,30 @@ fn flights_without_chance_repeat() {
         assert!(!repeats(std::slice::from_ref(&chance)), "{chance:?}");
     }
 }
+
+/// A body that is larger than the room at the world's edge leaves was told by nobody.
+#[test]
+fn a_body_that_may_reach_through_the_edges_is_named() {
+    let words = |margin: f64| {
+        let changes = [("world.keep_in_margin_m", json!(margin)), ("robot.clearance_radius_m", json!(2.0))];
+        let setup = built(&changes).expect("a scenario");
+        let mut said = Vec::new();
+        crate::campaign::flight::assumptions::claim(setup.own().expect("a flight"), &[], &mut said);
+        let told = said.iter().any(|sentence| sentence.contains("so that it may reach through them"));
+        assert_eq!(told, setup.unknown_shapes().is_some(), "{said:?}");
+        setup.unknown_shapes().map(|words| words.into_owned())
+    };
+    assert_eq!(words(2.0), None);
+    let told = "the body may reach through the world's edges: clearance_radius_m 2 > keep_in_margin_m 1.5";
+    assert_eq!(words(1.5).as_deref(), Some(told));
+}
+
+/// `[vary]` was drawn for no run where nobody said how many there are.
+#[test]
+fn what_is_drawn_for_runs_needs_two() {
+    let repeat = |changes: &[(&str, Value)]| built(changes).expect("a scenario").scenario.executor().repeat;
+    let drawn = |key: &str, range: Value| ("vary", json!({ key: { "uniform": range } }));
+    let (wind, plan) = (drawn("robot.mass_kg", json!([0.8, 0.9])), drawn("task.length", json!([9, 10])));
+    assert_eq!((repeat(&[]), repeat(std::slice::from_ref(&wind)), repeat(&[plan])), (1, 2, 1));
+    assert_eq!(repeat(&[wind, ("execute.repeat", json!(1))]), 1);
+}

@@ -25,8 +25,10 @@ pub struct ArmExecute {
     /// as-recorded | offset-removed: whether logs' clocks and the program's are one, or differ by what is estimated.
     #[serde(skip_serializing_if = "LogClock::is_shared")]
     pub log_clock: LogClock,
-    /// Runs per program; the noise band comes from the repeats.
-    pub repeat: u64,
+    /// Runs per program; the noise band comes from the repeats. Run 0 is nominal, `[vary]` is drawn for the others.
+    /// One if not given, two where anything is drawn for runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<u64>,
     /// trapezoid | s-curve.
     pub profile: TimeLawName,
     /// Time constant of the axes' servo lag, where the arm's file has none of its own (`joints.lag_s`).
@@ -55,7 +57,7 @@ impl Default for ArmExecute {
             timeout_s: None,
             logs: None,
             log_clock: LogClock::AsRecorded,
-            repeat: 1,
+            repeat: None,
             profile: TimeLawName::SCurve,
             servo_lag_s: 0.005,
             noise_mm: 0.01,

@@ -7,7 +7,7 @@ use super::{ArmControllerKind, ArmScenario, CostSection, PointsFrame, PointsSour
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
-    Steering, Subject, Terms, UserSteering, sections,
+    Steering, Subject, Terms, UserSteering, runs, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};
@@ -40,7 +40,7 @@ impl Keys for ArmScenario {
             reach: self.generate.mode.word(),
             executor: Executor {
                 command: None,
-                repeat: execute.repeat,
+                repeat: runs(execute.repeat, &self.vary, execute.logs.is_some()),
                 timeout: execute.timeout_s.unwrap_or(PATIENCE),
                 control_rate: execute.control_rate_hz,
                 processes: None,

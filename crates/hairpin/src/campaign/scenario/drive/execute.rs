@@ -19,7 +19,8 @@ pub struct DriveExecute {
     /// A program that speaks the executor protocol, as a shell would split it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others. One if not given, two where something varies.
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others. One if not given, two where anything is
+    /// drawn for runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeat: Option<u64>,
     /// A waypoint counts as reached inside this radius.

@@ -7,7 +7,7 @@ use super::{DriveExecute, DriveScenario, DriveSearch, GroundDescription, GroundR
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, Patience, Projected, Steering,
-    Subject, Terms, sections,
+    Subject, Terms, runs, sections,
 };
 use crate::judgement::Limits;
 
@@ -27,7 +27,7 @@ const LIMITS: &[&str] = &[
 ];
 
 impl Keys for DriveScenario {
-    /// Two runs a case where something is drawn and no number is given: run 0 is nominal. Deviations are from the
+    /// Deviations are from the
     /// planned path, without corners.
     fn head(&self) -> Head<'_> {
         let DriveExecute { command, repeat, timeout_s, accept_m, baseline, flaky, time_limit_s, .. } = &self.execute;
@@ -50,7 +50,7 @@ impl Keys for DriveScenario {
             reach: self.generate.reach.word(),
             executor: Executor {
                 command: command.as_deref(),
-                repeat: repeat.unwrap_or(if self.vary.is_empty() { 1 } else { 2 }),
+                repeat: runs(*repeat, &self.vary, false),
                 timeout: *timeout_s,
                 control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),

@@ -23,8 +23,10 @@ pub struct ExecuteSection {
     /// Logs flown elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub logs: Option<String>,
-    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others.
-    pub repeat: u64,
+    /// Runs per case; run 0 is nominal, `[vary]` is drawn for the others. One if not given, two where anything is
+    /// drawn for runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeat: Option<u64>,
     /// A waypoint counts as reached inside this radius.
     pub accept_m: f64,
     /// Time limit of a run; if not given 9 s per waypoint, or where that is longer twice the plan, or half as long
@@ -77,7 +79,7 @@ impl Default for ExecuteSection {
             control_rate_hz: None,
             command: None,
             logs: None,
-            repeat: 1,
+            repeat: None,
             accept_m: 1.0,
             time_limit_s: None,
             step_s: 0.001,

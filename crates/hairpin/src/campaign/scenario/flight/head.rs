@@ -7,7 +7,7 @@ use super::{ExecuteSection, FlightScenario, GenerateSection, ReachName};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     BASELINE, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience, Steering, Subject, Terms,
-    sections,
+    runs, sections,
 };
 
 /// Time per waypoint after which a flight is given up, s: what the paper's authors charged.
@@ -30,7 +30,7 @@ impl Keys for FlightScenario {
             reach: self.generate.reach.word(),
             executor: Executor {
                 command: command.as_deref(),
-                repeat: *repeat,
+                repeat: runs(*repeat, &self.vary, self.execute.logs.is_some()),
                 timeout: *timeout_s,
                 control_rate: self.execute.control_rate_hz,
                 processes: self.execute.processes.or(self.execute.workers),

@@ -13,7 +13,7 @@
 //! | `roadmap` | nodes, legs solved lazily, whole drives |
 //! | `draft` | drives of which waypoints are changed, and only the legs beside them solved again |
 //! | `ways`, `judge` | manoeuvres in turn, each solved by [`steering`](crate::feasibility::steering) |
-//! | `watch`, `looks` | limits, keep-outs and torque along the predicted motion |
+//! | `watch`, `wheels` | limits, keep-outs, torque and what wheels may do along the predicted motion |
 //! | `pace` | speeds of whole drives |
 //! | `stress`, `straight` | scores of legs, and of straight lines where there are no commands |
 //! | `through` | drives through places that somebody else chose |
@@ -33,6 +33,7 @@ mod tally;
 mod through;
 mod watch;
 mod ways;
+mod wheels;
 
 pub use clearance::ClearanceSamples;
 pub use draft::DriveDraft;

@@ -62,6 +62,8 @@ pub struct DriveLimits {
     pub joint: f64,
     /// Least height of the body's underside over the ground, m; −∞: none.
     pub clearance: f64,
+    /// Whether the wheels keep what they may do.
+    pub wheels: bool,
 }
 
 /// How a roadmap of drives is drawn and solved.
@@ -123,7 +125,7 @@ impl DriveSettings {
             directions: [0.0; 2],
             manoeuvres: Manoeuvres { forward: true, reverse: false, turn_in_place: false },
             bounds: Curvatures { most: limits.curvature, most_rate: limits.curvature_rate },
-            limits: DriveLimits { tilt: limits.tilt, joint: limits.joint, clearance: f64::NEG_INFINITY },
+            limits: DriveLimits { tilt: limits.tilt, joint: limits.joint, clearance: f64::NEG_INFINITY, wheels: true },
             pace: Pace::Constant,
             control: Control::default(),
             solver: rough::Settings::default(),

@@ -29,7 +29,8 @@ impl<'a> StraightLegs<'a> {
     /// Of the vehicle at `site`, scored as `settings` say; of their limits only the tilt that scores 1 counts.
     pub fn new(site: DriveSite<'a>, settings: &DriveSettings) -> Self {
         let mut lax = settings.clone();
-        lax.limits = DriveLimits { tilt: f64::INFINITY, joint: f64::INFINITY, clearance: f64::NEG_INFINITY };
+        lax.limits =
+            DriveLimits { tilt: f64::INFINITY, joint: f64::INFINITY, clearance: f64::NEG_INFINITY, wheels: false };
         let site = DriveSite { radius: f64::NEG_INFINITY, ..site };
         Self { site, settings: settings.clone(), lax, met: RefCell::default() }
     }

@@ -21,6 +21,14 @@ pub enum LegRefusal {
     Steering,
     /// The wheels would need more torque than they have.
     Torque,
+    /// A wheel is steered farther than its joint goes.
+    SteerAngle,
+    /// A wheel is steered faster than its joint turns.
+    SteerRate,
+    /// A wheel turns faster than it may.
+    WheelSpeed,
+    /// A wheel's speed changes faster than it may.
+    WheelAcceleration,
     /// The body tilts more than allowed.
     Tilt,
     /// A rocker or bogie turns more than allowed.
@@ -33,7 +41,7 @@ pub enum LegRefusal {
 
 impl LegRefusal {
     /// All, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 16] = [
         Self::Detour,
         Self::Unsolved,
         Self::MapEdge,
@@ -42,6 +50,10 @@ impl LegRefusal {
         Self::Curvature,
         Self::Steering,
         Self::Torque,
+        Self::SteerAngle,
+        Self::SteerRate,
+        Self::WheelSpeed,
+        Self::WheelAcceleration,
         Self::Tilt,
         Self::Joint,
         Self::Belly,
@@ -61,6 +73,10 @@ impl LegRefusal {
             Self::Curvature => "bend more than allowed",
             Self::Steering => "turn their direction of travel faster than the wheels are steered",
             Self::Torque => "need more torque than the wheels have",
+            Self::SteerAngle => "steer a wheel farther than `robot.wheels.steer_limit_deg`",
+            Self::SteerRate => "steer a wheel faster than `robot.wheels.steer_rate_deg_s`",
+            Self::WheelSpeed => "turn a wheel faster than `robot.wheels.speed_rad_s`",
+            Self::WheelAcceleration => "change a wheel's speed faster than `robot.wheels.acceleration_rad_s2`",
             Self::Tilt => "tilt more than allowed",
             Self::Joint => "turn a joint more than allowed",
             Self::Belly => "come too near to the ground with their underside",

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::settings::{DriveSettings, DriveSite};
 use super::tally::LegRefusal;
+use super::wheels::WheelWatch;
 use crate::feasibility::steering::shooting::rough::{Blocked, Cause, Driven, Steps, predict_while};
 use crate::robot::rover::{Settled, Slip, Suspension, Unsettled};
 use crate::trajectory::drive::{Motion, Planar, Segment};
@@ -75,6 +76,7 @@ pub(super) fn watch(
             room: f64::INFINITY,
             last_look: steps == CLOSER,
             beside: false,
+            wheels: WheelWatch::default(),
             refused: None,
         };
         predict_while(&course, start, motion, |driven| watcher.look(driven)).map_err(|blocked| refusal(&blocked))?;
@@ -168,6 +170,7 @@ struct Watcher<'a> {
     last_look: bool,
     /// Whether it came within a step of a keep-out.
     beside: bool,
+    wheels: WheelWatch,
     refused: Option<LegRefusal>,
 }
 
@@ -181,6 +184,10 @@ impl Watcher<'_> {
         let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (libm::sincos(settled.roll), libm::sincos(settled.pitch));
         self.refused = self.kept(at, metres, cos_roll * cos_pitch, settled).err();
         self.met.roll = self.met.roll.max(settled.roll.abs());
+        if self.refused.is_none() && self.settings.limits.wheels {
+            let direction = self.direction.at(driven.s, self.length);
+            self.refused = self.wheels.keep(self.site.rover, self.settings, direction, driven).err();
+        }
         if metres > 0.0 {
             if self.refused.is_none() && !self.pulls(driven) {
                 self.refused = Some(LegRefusal::Torque);
