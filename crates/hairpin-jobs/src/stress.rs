@@ -209,7 +209,7 @@ mod tests {
         Repro { seed: changed.seed + 1, ..changed }.write(&repro.join("0001.json")).unwrap();
         assert_eq!(with(IfThere::Resume).1, ["0001", "mine"]);
         // What stood under a case's name and is another case has a name of its own now.
-        assert_eq!(with(IfThere::Replace).1, ["0000", "0001", "0001-kept", "mine"]);
+        assert_eq!(with(IfThere::Replace).1, ["0000", "0001-kept", "0001", "mine"]);
     }
 
     /// The run that showed that a saved case still violates took it away, and the next one passed.
