@@ -128,7 +128,7 @@ pub fn write(path: &Path, suite: &Suite, results: &[CaseResult]) -> Result<(), W
 fn test_case(suite: &Suite, name: String, result: &CaseResult) -> TestCase {
     let worse = suite.regressions.get(&result.case).map_or(&[][..], Vec::as_slice);
     let violations: Vec<String> =
-        result.violations.iter().map(report::violation).chain(worse.iter().cloned()).collect();
+        result.violations.iter().map(report::violation).chain(result.elsewhere.iter().chain(worse).cloned()).collect();
     let again = suite.again.get(&name).map(|command| format!("again: {command}"));
     let below = |lines: &[String]| lines.iter().skip(1).cloned().chain(again.clone()).collect::<Vec<_>>();
     let status = match result.status {

@@ -100,13 +100,14 @@ pub(crate) fn drawn(
     Ok(drawn)
 }
 
-/// The worst run of `case`, without what the spec says of it: whether a random case violates is not counted anywhere.
+/// The worst run of `case` and the worst of each measure over all, without what the spec says of it: whether a random
+/// case violates is not counted anywhere, and what is told of it is the same by any spec of the same reference.
 fn measure(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Problem> {
     let mut result = campaign::judge(setup, case, runs)?;
     result.drawn.extend(vary::draw_for_case(&setup.scenario, case.seed, case.number));
     if result.status != Status::ExecutorFailed {
         result.status = Status::Unjudged;
     }
-    (result.violations, result.draws) = (Vec::new(), None);
+    (result.violations, result.elsewhere, result.draws) = (Vec::new(), Vec::new(), None);
     Ok(result)
 }

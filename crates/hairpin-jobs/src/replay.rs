@@ -88,6 +88,9 @@ pub fn replay_case(
     let refuse = |why: &str| Problem::input(format!("--case {case}: {why}"));
     let mut found = work.folder.read_cases_without_profiles()?.into_iter().find(|one| one.number == case);
     let found = found.as_mut().ok_or_else(|| refuse("the campaign has no such case"))?;
+    if let Some(why) = campaign::foreign_seed(&work.setup, found) {
+        return Err(Problem::of_file(&work.folder.file("results.parquet"), format!("case {case}: {why}")));
+    }
     work.folder.read_witness(found)?;
     let result = work.folder.read_results()?.into_iter().find(|result| result.case == case);
     let result = result.filter(|result| result.measures.is_some());
@@ -226,7 +229,7 @@ mod tests {
         let chosen = place.path().join("chosen");
         let settings = SelectSettings {
             folder: folder.clone(),
-            cases: 1,
+            cases: 2,
             by: By::Stress,
             out: chosen.clone(),
             if_there: IfThere::Refuse,

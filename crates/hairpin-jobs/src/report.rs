@@ -20,7 +20,7 @@ use crate::baseline::{missing, read_baseline};
 use crate::execute::{count_flown, run_with_motion, why_lost};
 use crate::judge::with_moves;
 use crate::missions::{compare, read_told, with_compared};
-use crate::work::{Work, open_as_made};
+use crate::work::{Work, no_contradiction, of_another_version, open_as_made};
 
 /// A report that was written.
 #[derive(Debug)]
@@ -58,6 +58,7 @@ pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<
     if results.len() < cases.len() {
         return Err(Problem::input(format!("not judged yet: hairpin judge {}", folder.display())));
     }
+    no_contradiction(&work.folder, &work.setup, &results)?;
     let asked: Vec<CaseNumber> = asked.iter().copied().map(CaseNumber).collect();
     if let Some(missing) = asked.iter().find(|case| !results.iter().any(|result| result.case == **case)) {
         return Err(Problem::input(format!("{} has no case {missing}: it has {}", folder.display(), results.len())));
@@ -69,7 +70,7 @@ pub fn report(folder: &Path, asked: &[usize], picture: Option<&Path>) -> Result<
         return Err(lost);
     }
     let baseline = read_baseline(&work)?;
-    let lost = missing(&work, &tally, &results)?.into_iter().collect();
+    let lost = missing(&work, &tally, &results)?.into_iter().chain(of_another_version(&work.folder)?).collect();
     let told = work.told()?;
     let verdict = campaign::verdict(&told, &cases, (&results, baseline.as_ref()), &tally);
     let moves = work.folder.read_moves()?;

@@ -128,12 +128,14 @@ pub(crate) fn compare<'py>(
     waiting: Waiting,
 ) -> PyResult<Bound<'py, PyAny>> {
     let said = waiting.wait(py, |_| {
-        let Compared { comparison, differences } = hairpin_jobs::compare::compare(&folders.0, &folders.1, tolerance_m)?;
+        let Compared { comparison, differences, told } =
+            hairpin_jobs::compare::compare(&folders.0, &folders.1, tolerance_m)?;
         let mut said = json!(comparison);
         said["verdict"] = json!(comparison.sentence());
         said["regression"] = json!(comparison.regresses());
         said["inconclusive"] = json!(comparison.inconclusive());
         said["scenario_differences"] = json!(differences);
+        said["notes"] = json!(told);
         Ok(said)
     })?;
     object(py, &said)

@@ -224,6 +224,7 @@ fn worst(result: &CaseResult, confidence: f64) -> Value {
         "run": result.run,
         "status": result.status.word(),
         "max_deviation_m": measures.map(|m| m.max_deviation),
+        "runs_max_deviation_m": result.measured().map(|m| m.max_deviation),
         "t_worst_s": measures.map(|m| m.t_worst),
         "leg_worst": measures.map(|m| m.leg_worst),
         "saturation_share": measures.and_then(|m| m.saturation_share),

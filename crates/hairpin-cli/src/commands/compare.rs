@@ -3,7 +3,7 @@
 use hairpin::campaign::Comparison;
 use hairpin::campaign::digits::number;
 use hairpin_jobs::Problem;
-use hairpin_jobs::compare::{Compared, compare, junit_text, unpaired, write_page};
+use hairpin_jobs::compare::{Compared, compare, junit_text, of_spec, unpaired, write_page};
 use hairpin_jobs::names::listed;
 use serde_json::json;
 
@@ -17,7 +17,8 @@ use crate::exit::{DONE, FINDING, INCONCLUSIVE};
 pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
     junit::check(asked.junit.as_deref())?;
     let found = compare(&asked.a, &asked.b, asked.tolerance_m)?;
-    let Compared { comparison: compared, differences } = &found;
+    let Compared { comparison: compared, differences, told } = &found;
+    told.iter().for_each(|line| console::warn(&format!("Note: {line}")));
     let of_metrics = asked.fail_on == FailOn::Regression;
     let regression = of_metrics && compared.regresses();
     let code = match (compared.inconclusive(), !compared.newly_failing.is_empty() || regression) {
@@ -26,7 +27,7 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         (false, false) => DONE,
     };
     if let Some(file) = &asked.page {
-        write_page(&asked.a, &asked.b, compared, file)?;
+        write_page(&asked.a, &asked.b, &found, file)?;
     }
     if let Some(file) = &asked.junit {
         junit::write(file, junit_text(&asked.a, &asked.b, &found, of_metrics)?.as_bytes())?;
@@ -37,6 +38,7 @@ pub(crate) fn run(asked: &Compare) -> Result<u8, Problem> {
         object["exit_code"] = json!(code);
         object["regression"] = json!(compared.regresses());
         object["scenario_differences"] = json!(differences);
+        object["notes"] = json!(told);
         console::say(&object.to_string());
     } else {
         in_words(compared, differences);
@@ -48,8 +50,8 @@ fn in_words(compared: &Comparison, differences: &[String]) {
     if !differences.is_empty() {
         console::warn(&format!("the scenarios differ in {}", listed(differences)));
     }
-    if differences.iter().any(|key| key.starts_with("spec.")) {
-        console::warn("Warning: what passes and fails is by each folder's own spec");
+    if let Some(warning) = of_spec(differences) {
+        console::warn(&format!("Warning: {warning}"));
     }
     let header =
         ["metric", "pairs", "median A", "median B", "B − A", "95 %", "rank biserial", "p", "p (Holm)", "change"];

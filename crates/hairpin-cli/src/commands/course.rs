@@ -1,6 +1,6 @@
 //! A case's deviation in two lines: evo's statistics, and its course as a row of bars.
 
-use hairpin::campaign::digits::{limit as given, number};
+use hairpin::campaign::digits::number;
 use hairpin::campaign::report::{Length, Shown};
 
 /// From nothing to the largest.
@@ -12,7 +12,7 @@ const WIDTH: usize = 48;
 /// the unit and with the digits that the verdict has.
 pub(super) fn course(shown: &Shown, length: &Length) -> Vec<String> {
     let mut lines = Vec::new();
-    let Length { unit, in_metre, limit } = *length;
+    let Length { unit, in_metre, .. } = *length;
     let result = &shown.result;
     if let Some(told) = &shown.statistics {
         let value = |name: &str, value: f64| format!("{name} {}", length.told(value));
@@ -29,10 +29,10 @@ pub(super) fn course(shown: &Shown, length: &Length) -> Vec<String> {
     }
     let times = shown.flown.as_ref().map_or(&[][..], |track| track.times());
     if let (Some(row), [first, .., last]) = (bars(times, &shown.distances), times) {
-        let limit = limit.map_or(String::new(), |limit| format!(", limit {} {unit}", given(Some(limit))));
         let span = format!("{} … {} s", number(Some(*first)), number(Some(*last)));
-        let most = length.told(shown.distances.iter().copied().fold(0.0, f64::max));
-        lines.push(format!("{row}  {span}, at most {most}{limit}"));
+        let most = shown.distances.iter().copied().fold(0.0, f64::max);
+        let limit = length.limit_beside(most).map_or(String::new(), |limit| format!(", limit {limit}"));
+        lines.push(format!("{row}  {span}, at most {}{limit}", length.told(most)));
     }
     lines
 }

@@ -98,10 +98,9 @@ pub fn object(judged: &JudgedLogs) -> Value {
 }
 
 fn log(log: &JudgedLog) -> Value {
-    let evidence = if log.program.is_some() { "hardware" } else { "flown" };
     let mut object = json!({
         "file": log.file, "verdict": log.verdict.sentence, "exit_code": log.verdict.exit_code,
-        "status": log.outcome.word(), "evidence": evidence, "aligned": false,
+        "status": log.outcome.word(), "evidence": log.evidence(), "aligned": false,
     });
     let found = log.found.as_ref().map(found_object).or_else(|| log.program.as_ref().map(program_object));
     if let (Some(Value::Object(more)), Value::Object(all)) = (found, &mut object) {

@@ -83,6 +83,10 @@ fn what_cannot_be_paired_is_told_by_name() {
     let (_, out, error) = run(here, &["compare", "a", "b"]);
     assert!(out.contains("not paired: 0003 (only in A)") && out.contains("not paired 1"), "{out}");
     assert!(error.contains("spec.deviation.max_m") && error.contains("each folder's own spec"), "{error}");
+    run(here, &["compare", "a", "b", "--page", "two.html"]);
+    let page = std::fs::read_to_string(here.join("two.html")).unwrap();
+    assert!(page.contains("keys that differ") && page.contains("The scenarios differ in "), "a page of two specs");
+    assert!(page.contains("spec.deviation.max_m") && page.contains("The specs differ: what passes and fails"));
     run(here, &[&SMALL[..], &["--seed", "99", "--out", "c"]].concat());
     refused(here, &["compare", "a", "c"], &["another seed", "--missions"]);
     // Pairs whose runs all failed say nothing, and do not pass.

@@ -127,6 +127,15 @@ fn an_arms_joints_come_to_what_the_simulation_was() {
     assert_eq!(log["status"], "fail");
     close(number(&log["measures"]["latest"]["late_s"]), latest[0] + 0.3, 0.02);
 
+    // By another clock nothing can be late.
+    let unix: Vec<Row> = ran.iter().map(|row| Row { t: row.t + 1.7e9, ..*row }).collect();
+    let by_unix = table.lines().next().unwrap().to_owned() + "\n" + &unix.iter().map(line).collect::<String>();
+    fs::write(here.join("unix.csv"), &by_unix).unwrap();
+    let words = ["unix.csv", "the log's first time = 1700000000.000 s", "another clock", "--from", "offset-removed"];
+    refused(here, &["judge", "unix.csv", "--campaign", "out", "--case", "0001"], &words);
+    let log = judged(here, "unix.csv", by_unix.as_bytes(), &["--from", "1700000000"]);
+    assert_eq!(log["status"], "pass", "{log}");
+
     // The recorder runs 0.5 s before the program does: nothing is fitted, `--from` names it, or it is taken off as
     // asked.
     let stands = (0..50).map(|i| Row { t: -0.5 + 0.01 * f64::from(i), ..ran[0] });

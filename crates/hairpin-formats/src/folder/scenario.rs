@@ -63,6 +63,14 @@ impl CampaignFolder {
         Ok(read_made_by(&self.read_scenario()?).and_then(|made_by| made_by.clear_within_mm))
     }
 
+    /// The version of hairpin that wrote the campaign's scenario, if that is written there.
+    ///
+    /// # Errors
+    /// The scenario cannot be read.
+    pub fn written_by(&self) -> Result<Option<String>, FolderError> {
+        Ok(read_made_by(&self.read_scenario()?).map(|made_by| made_by.version))
+    }
+
     /// The SIMD level at which the campaign was begun, if that is written in its scenario.
     ///
     /// # Errors

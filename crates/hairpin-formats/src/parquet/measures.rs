@@ -124,6 +124,120 @@ fn acceleration_source_word(source: AccelerationSource) -> &'static str {
     }
 }
 
+/// How columns of the worst of each measure over all runs of a case begin.
+const OF_RUNS: &str = "runs_";
+/// Of these measures there are such columns, a number each.
+const WORST_OF_RUNS: [(&str, Figure); 14] = [
+    ("max_deviation_m", |m| Some(m.max_deviation)),
+    ("mean_deviation_m", |m| Some(m.mean_deviation)),
+    ("t_worst_s", |m| Some(m.t_worst)),
+    ("max_acceleration_m_s2", |m| Some(m.max_acceleration)),
+    ("max_speed_rate_m_s2", |m| Some(m.max_speed_rate)),
+    ("total_time_s", |m| Some(m.total_time)),
+    ("max_overshoot_m", |m| Some(m.max_overshoot())),
+    ("min_clearance_m", |m| m.min_clearance),
+    ("min_tip_over_margin_deg", |m| m.min_tip_over_margin),
+    ("max_tilt_deg", |m| m.max_tilt),
+    ("saturation_share", |m| m.saturation_share),
+    ("joint_effort_rad2_s3", |m| m.joint_effort),
+    ("max_late_s", |m| m.latest.map(|late| late.by)),
+    ("t_late_s", |m| m.latest.map(|late| late.at)),
+];
+
+/// The columns of the worst of each measure over the runs of a case ([`Measures::worst_of_each`]), a row each; none
+/// where no case has several runs.
+pub(super) fn columns_of_runs(rows: &[Option<&Measures>]) -> Vec<(String, ArrayRef)> {
+    if rows.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let name = |name: &str| format!("{OF_RUNS}{name}");
+    let number =
+        |value: Figure| -> ArrayRef { Arc::new(rows.iter().map(|row| row.and_then(value)).collect::<Float64Array>()) };
+    let count = |value: fn(&Measures) -> Option<usize>| -> ArrayRef {
+        Arc::new(rows.iter().map(|row| row.and_then(value).map(|v| v as i64)).collect::<Int64Array>())
+    };
+    let flag = |value: fn(&Missing) -> bool| -> ArrayRef {
+        Arc::new(rows.iter().map(|row| row.map(|m| value(&m.missing))).collect::<BooleanArray>())
+    };
+    let numbers = WORST_OF_RUNS.into_iter().map(|(of, value)| (name(of), number(value)));
+    let counts =
+        [(name("leg_worst"), count(|m| Some(m.leg_worst))), (name("leg_late"), count(|m| Some(m.latest?.leg)))];
+    let flags = [
+        (name(NO_DEVIATION), flag(|missing| missing.deviation)),
+        (name(NO_ACCELERATION), flag(|missing| missing.acceleration)),
+    ];
+    numbers.chain(counts).chain(flags).collect()
+}
+
+/// Reads the worst of each measure over the runs of a case, beside what the worst of them measured: no run can have
+/// more than that. Tables of cases of one run, and of earlier versions, do not say.
+///
+/// # Errors
+/// Missing columns, values that no runs can have, or less than the `worst` run measured.
+pub(super) fn read_of_runs(
+    table: &Table,
+    worst: &[Option<Measures>],
+) -> Result<Vec<Option<Box<Measures>>>, TableError> {
+    let name = |name: &str| format!("{OF_RUNS}{name}");
+    let [(first, _), ..] = WORST_OF_RUNS;
+    if !table.has(&name(first)) {
+        return Ok(vec![None; table.rows()]);
+    }
+    let values = WORST_OF_RUNS.map(|(of, _)| table.optional_numbers(&name(of)));
+    let values = values.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let legs = [table.optional_counts(&name("leg_worst"))?, table.optional_counts(&name("leg_late"))?];
+    let no_deviation = flags(table, &name(NO_DEVIATION))?;
+    let no_acceleration = flags(table, &name(NO_ACCELERATION))?;
+    (0..table.rows())
+        .map(|row| {
+            let Some(max_deviation) = values[0][row] else { return Ok(None) };
+            let mut given = [None; WORST_OF_RUNS.len()];
+            given.iter_mut().zip(&values).for_each(|(value, column)| *value = column[row]);
+            let [_, mean, at, acceleration, speed_rate, time, overshoot, ..] = given;
+            let [.., min_clearance, min_tip_over_margin, max_tilt, saturation_share, joint_effort, late, late_at] =
+                given;
+            let missing = Missing { deviation: no_deviation[row], acceleration: no_acceleration[row] };
+            let found = Measures {
+                max_deviation,
+                mean_deviation: mean.unwrap_or_default(),
+                t_worst: at.unwrap_or_default(),
+                leg_worst: legs[0][row].unwrap_or_default(),
+                max_acceleration: acceleration.unwrap_or_default(),
+                max_speed_rate: speed_rate.unwrap_or_default(),
+                total_time: time.unwrap_or_default(),
+                overshoots: vec![overshoot.unwrap_or_default()],
+                min_clearance,
+                min_tip_over_margin,
+                max_tilt,
+                saturation_share,
+                joint_effort,
+                latest: late.map(|by| Late {
+                    by,
+                    at: late_at.unwrap_or_default(),
+                    leg: legs[1][row].unwrap_or_default(),
+                }),
+                missing,
+                ..Measures::default()
+            };
+            let of_one = worst[row].as_ref().map(|worst| (worst, worst.worst_of_each(worst)));
+            if let Some((worst, of_one)) = of_one {
+                let all = found.worst_of_each(worst);
+                let less = WORST_OF_RUNS
+                    .into_iter()
+                    .filter(|(of, _)| !of.starts_with("t_"))
+                    .find(|(_, value)| value(&all) != value(&found));
+                if let Some((of, value)) = less {
+                    let told = value(&found).map_or("empty".into(), |value| value.to_string());
+                    let own = value(&of_one).map_or("a number".into(), |value| value.to_string());
+                    let bound = format!("no better than {own}, what the worst run has as `{of}`");
+                    return Err(table.refuse(&name(of), row, told, bound));
+                }
+            }
+            Ok(Some(Box::new(found)))
+        })
+        .collect()
+}
+
 /// Reads what was measured; a row has all of it or nothing.
 ///
 /// # Errors

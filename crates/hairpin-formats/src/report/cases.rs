@@ -24,8 +24,11 @@ pub(super) fn section(data: &ReportData) -> String {
         _ => format!("{} of them open above; the command of the others makes a report with them.", data.shown.len()),
     };
     let (what, row) = match data.logs.is_empty() {
-        true => ("Cases, the worst first", "Each row is a case's worst run."),
-        false => ("Logs, the worst first", "Each row is a log."),
+        true => (
+            "Cases, the worst first",
+            "Each row is a case: of several runs each measure is the worst of all, the rest is of the worst run. Mean deviations are over time.",
+        ),
+        false => ("Logs, the worst first", "Each row is a log. Mean deviations are over time."),
     };
     format!(
         "<section class=\"panel\" id=\"cases\"><h2>{what}</h2><p class=\"note\">{row} {open}{more}</p>\
@@ -51,7 +54,9 @@ fn row(data: &ReportData, result: &CaseResult) -> String {
             _ => format!("<td>{}</td>", escape(cell)),
         })
         .collect();
-    let finding = result.violations.first().map_or("–".into(), violation);
+    // What is open has a reason; of an executor's message the first line tells.
+    let reason = || result.message.as_deref().and_then(|why| why.lines().next()).map_or("–".to_owned(), str::to_owned);
+    let finding = result.violations.first().map_or_else(reason, violation);
     let class = if shown.is_some() { " class=\"shown\"" } else { "" };
     let claim = data.claims.get(&result.case).map_or("–", String::as_str);
     let id = escape(&cells[0]);

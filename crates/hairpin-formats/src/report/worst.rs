@@ -184,7 +184,7 @@ fn statistics(found: Option<&Statistics>, length: &Length) -> String {
     let head: String = names.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
     let row: String = values.iter().map(|value| format!("<td>{value}</td>")).collect();
     format!(
-        "<table class=\"statistics\"><caption>deviation of this run, {unit} (sse {unit}²), over its judged samples, not aligned</caption>\
+        "<table class=\"statistics\"><caption>deviation of this run, {unit} (sse {unit}²), over its judged samples, each counting alike, not aligned</caption>\
          <thead><tr>{head}</tr></thead><tbody><tr>{row}</tr></tbody></table>",
         unit = length.unit
     )

@@ -9,7 +9,7 @@ use hairpin::campaign::{self, Case, CaseResult, Comparison};
 use crate::Problem;
 use crate::differences::differences;
 use crate::names::listed;
-use crate::work::{Work, open_as_made};
+use crate::work::{Work, no_contradiction, of_another_version, open_as_made};
 
 /// Two campaigns beside each other.
 #[derive(Debug)]
@@ -18,6 +18,8 @@ pub struct Compared {
     pub comparison: Comparison,
     /// Keys in which their scenarios differ.
     pub differences: Vec<String>,
+    /// Which of them another version of hairpin made, a sentence each.
+    pub told: Vec<String>,
 }
 
 /// Compares the judged campaigns in the folders `a` and `b` over the same cases. Deviations that differ by no more than
@@ -56,7 +58,8 @@ pub fn compare(a: &Path, b: &Path, tolerance_m: f64) -> Result<Compared, Problem
             unpaired(&comparison),
         )));
     }
-    Ok(Compared { comparison, differences })
+    let versions = [of_another_version(&before.folder)?, of_another_version(&after.folder)?];
+    Ok(Compared { comparison, differences, told: versions.into_iter().flatten().collect() })
 }
 
 /// The pairs of two campaigns, A first, in the order of B's cases.
@@ -116,6 +119,7 @@ fn judged(work: &Work, path: &Path) -> Result<Vec<(Case, CaseResult)>, Problem> 
     if cases.is_empty() {
         return Err(Problem::input(format!("{} has no case: there is nothing to compare", path.display())));
     }
+    no_contradiction(&work.folder, &work.setup, &results)?;
     let mut results: HashMap<_, _> = results.into_iter().map(|result| (result.case, result)).collect();
     let pair = |case: Case| results.remove(&case.number).map(|result| (case, result));
     Ok(cases.into_iter().filter_map(pair).collect())

@@ -80,7 +80,7 @@ fn outcome(comparison: &Comparison, [was, is]: [&CaseResult; 2], length: &Length
 fn told(result: &CaseResult, length: &Length) -> String {
     let found = result.violations.first().map(violation);
     let largest = || {
-        let m = result.measures.as_ref()?;
+        let m = result.measured()?;
         Some(format!("largest deviation {} at t={:.2} s", length.told(m.max_deviation), m.t_worst))
     };
     let other = || result.message.clone().unwrap_or_else(|| result.ended.clone());

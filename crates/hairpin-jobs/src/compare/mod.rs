@@ -6,7 +6,7 @@ mod page;
 
 pub use campaigns::{Compared, compare, unpaired};
 pub use junit::junit_text;
-pub use page::write_page;
+pub use page::{of_spec, write_page};
 
 #[cfg(test)]
 mod tests {
@@ -22,7 +22,7 @@ mod tests {
         assert_eq!((compared.comparison.pairs, compared.differences.len()), (2, 0));
         assert!(!compared.comparison.regresses() && compared.comparison.newly_failing.is_empty());
         let file = folder.with_file_name("compared.html");
-        write_page(&folder, &folder, &compared.comparison, &file).unwrap();
+        write_page(&folder, &folder, &compared, &file).unwrap();
         let page = std::fs::read_to_string(file).unwrap();
         assert!(page.contains("A, before") && page.contains("A: fail, "), "both runs of each case");
         // What failed before is known: no failure.

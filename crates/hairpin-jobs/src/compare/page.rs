@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use hairpin::campaign::report::{self, Beside, Drawn, OtherRun, Pieces, ReportData, Shown};
-use hairpin::campaign::{Case, CaseNumber, CaseResult, Comparison};
+use hairpin::campaign::{Case, CaseNumber, CaseResult};
 use hairpin::judgement::Verdict;
 use hairpin_formats::folder::refuse_own;
 
-use super::campaigns::pairs;
+use super::campaigns::{Compared, pairs};
 use crate::Problem;
 use crate::execute::{run_with_motion, why_lost};
 use crate::work::{Work, open_as_made};
@@ -20,12 +20,13 @@ const DRAWN: usize = 200;
 ///
 /// # Errors
 /// Runs that are not to be had any more; a file that cannot be read or written.
-pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Result<(), Problem> {
+pub fn write_page(a: &Path, b: &Path, found: &Compared, file: &Path) -> Result<(), Problem> {
     refuse_own(file)?;
+    let Compared { comparison: compared, differences, told: versions } = found;
     let (before, after) = (open_as_made(a)?, open_as_made(b)?);
     let mut pairs = pairs((&before, a), (&after, b))?;
     let failing = |case: CaseNumber| compared.newly_failing.contains(&case.to_string());
-    let deviation = |result: &CaseResult| result.measures.as_ref().map_or(0.0, |m| m.max_deviation);
+    let deviation = |result: &CaseResult| result.measured().map_or(0.0, |m| m.max_deviation);
     let worse = |[was, new]: &[(Case, CaseResult); 2]| deviation(&new.1) - deviation(&was.1);
     pairs.sort_by(|x, y| {
         let (p, q) = (x[1].0.number, y[1].0.number);
@@ -57,7 +58,7 @@ pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Res
         results: &results,
         tally: None,
         verdict,
-        assumptions: vec!["A and B are judged each by its own folder's spec.".into()],
+        assumptions: said(differences).into_iter().chain(versions.iter().map(|one| format!("{one}."))).collect(),
         shown: in_full,
         frame: Vec::new(),
         influences: Vec::new(),
@@ -75,7 +76,10 @@ pub fn write_page(a: &Path, b: &Path, compared: &Comparison, file: &Path) -> Res
             number("worse", compared.worse, format!("of {} pairs", compared.pairs)),
             number("better", compared.better, format!("{} unchanged", compared.unchanged)),
             number("newly passing", compared.newly_passing.len(), compared.newly_passing.join(", ")),
-        ],
+        ]
+        .into_iter()
+        .chain((!differences.is_empty()).then(|| number("keys that differ", differences.len(), differences.join(", "))))
+        .collect(),
         ..report::in_order(&data, &order)
     };
     Ok(hairpin_formats::report::write(file, &data)?)
@@ -91,4 +95,20 @@ fn full(work: &Work, case: &Case, result: &CaseResult) -> Result<Shown, Problem>
         None => run_with_motion(work, &case, result.run)?,
     };
     report::shown(&work.told()?, &case, result, planned, run.as_ref().map(Drawn::from), &[]).map_err(Problem::input)
+}
+
+/// What is told of two scenarios that differ in these keys, beside that each judges its own.
+fn said(differences: &[String]) -> Vec<String> {
+    let mut said = vec!["A and B are judged each by its own folder's spec.".to_owned()];
+    if !differences.is_empty() {
+        said.push(format!("The scenarios differ in {}.", differences.join(", ")));
+    }
+    said.extend(of_spec(differences).map(|warning| format!("{warning}.")));
+    said
+}
+
+/// What has to be known where the specs of both sides are not the same; `None` where they are.
+pub fn of_spec(differences: &[String]) -> Option<&'static str> {
+    let differ = differences.iter().any(|key| key.starts_with("spec."));
+    differ.then_some("The specs differ: what passes and fails is by each folder's own spec")
 }

@@ -68,7 +68,7 @@ pub(super) fn searched_before(work: &Work) -> Result<Option<Searched>, Problem> 
     let Some(mut results) = results.filter(|results| !results.is_empty()) else { return Ok(None) };
     for result in &mut results {
         // Measured, not judged: nothing of them is counted.
-        (result.violations, result.draws) = (Vec::new(), None);
+        (result.violations, result.elsewhere, result.draws) = (Vec::new(), Vec::new(), None);
         if result.status != Status::ExecutorFailed {
             result.status = Status::Unjudged;
         }

@@ -27,7 +27,7 @@ use crate::execute::{ToJudge, attitude_unknown, reruns_to_judge, reruns_with_mot
 use crate::missions::{self, Compared, compare, read_told, with_compared};
 use crate::saved::Replayed;
 use crate::sets::Set;
-use crate::work::{Work, keep_changes, open_to_change, open_to_read, same_as_executed};
+use crate::work::{Work, keep_changes, of_another_version, open_to_change, open_to_read, same_as_executed};
 use crate::{Budget, Problem};
 use repros::write_repros;
 use suite::suite;
@@ -84,7 +84,8 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
     same_as_executed(&work.folder, &work.setup)?;
     let cases = work.folder.read_cases()?;
     let tally = work.folder.read_tally()?;
-    let mut told = Vec::new();
+    let mut told: Vec<String> = Vec::new();
+    let version = of_another_version(&work.folder)?;
     if !sets.is_empty() {
         if work.folder.read_baseline()?.is_some() && measures_otherwise(&work.setup, &open_to_read(folder)?.setup) {
             work.folder.forget_baseline()?;
@@ -102,6 +103,7 @@ pub fn judge(folder: &Path, sets: &[Set]) -> Result<Judged, Problem> {
         told.extend(missing(&work, &tally, &judgement.results)?);
     }
     told.extend(measured_anew(&judgement, cases.len()));
+    told.extend(version);
     let keys: Vec<&str> = sets.iter().map(|(key, _)| key.as_str()).collect();
     let kept = (!sets.is_empty()).then(|| {
         let file = work.folder.file("scenario.toml");

@@ -126,6 +126,13 @@ pub struct JudgedLogs {
     pub left_out: Vec<PathBuf>,
 }
 
+impl JudgedLog {
+    /// What stands behind it: `hardware` of an arm, else `flown`.
+    pub fn evidence(&self) -> &'static str {
+        if self.program.is_some() { "hardware" } else { "flown" }
+    }
+}
+
 impl JudgedLogs {
     /// Of all logs: a violation comes first, then what is open.
     pub fn exit_code(&self) -> u8 {

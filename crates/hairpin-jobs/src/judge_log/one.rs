@@ -140,7 +140,7 @@ pub(super) fn judge(
         never_began: span.never_began.clone(),
         flown: None,
         asked: None,
-        simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
+        simulated_m: simulated.and_then(|result| Some(result.measured()?.max_deviation)),
         notes,
     };
     let whole = against.whole(case)?;

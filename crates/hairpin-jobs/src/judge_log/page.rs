@@ -54,8 +54,10 @@ pub(super) fn write(file: &Path, judged: &JudgedLogs, against: &Ready) -> Result
     });
     let mut names = Names::default();
     let logs = numbered().map(|(case, log, _)| (case, if many { names.of(&log.name) } else { case.to_string() }));
+    let evidence = numbered().map(|(case, log, _)| (case, log.evidence().to_owned()));
     let mut data = ReportData {
         logs: logs.collect(),
+        claims: evidence.collect(),
         beside: Beside { runs: beside(against), cases: "the same cases in simulation", shown: "the log" },
         facts: facts(judged, against),
         ..data
@@ -137,7 +139,7 @@ fn cards(judged: &JudgedLogs, length: &Length) -> Vec<[String; 3]> {
         return vec![card("logs within spec", format!("{} of {}", of("pass"), judged.logs.len()), note)];
     };
     let flown = only.sheet.as_ref().and_then(|sheet| sheet.shown.result.measures.as_ref());
-    let simulated = only.sheet.as_ref().and_then(|sheet| sheet.simulated.as_ref()?.measures.as_ref());
+    let simulated = only.sheet.as_ref().and_then(|sheet| sheet.simulated.as_ref()?.measured());
     let simulated = simulated.map(|simulated| simulated.max_deviation);
     // Told legs and assigned ones are not to be compared.
     let simulated = match &only.found {

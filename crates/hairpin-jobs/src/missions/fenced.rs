@@ -92,6 +92,9 @@ pub(super) fn hold(fences: &Fences, setup: &Setup, case: &Case, runs: &[Run], re
         let Ok(flight) = &run.outcome else { return };
         if result.status != Status::Fail {
             result.measures = measures_of(setup, case, run);
+            if let Some((all, own)) = result.of_runs.as_mut().zip(result.measures.as_ref()) {
+                **all = all.worst_of_each(own);
+            }
             (result.run, result.drawn, result.message) = (run.run, run.drawn.clone(), None);
             (result.ended, result.left_world) = (flight.ended.word().into(), flight.left_world);
         }

@@ -129,6 +129,7 @@ fn doubt(one: &Demands, total_time: Option<f64>, result: &mut CaseResult) {
     let open = |result: &mut CaseResult, why: String| {
         result.status = Status::Inconclusive;
         result.violations.clear();
+        result.elsewhere.clear();
         result.message = Some(why);
     };
     if !one.unmet.is_empty() && matches!(result.status, Status::Pass | Status::Fail | Status::Unjudged) {

@@ -15,6 +15,9 @@ pub(super) fn check(work: &Work, case: &Case, hold: fn(&Setup, &Case) -> campaig
         position_m: None,
         findings: vec![what],
     };
+    if let Some(why) = campaign::foreign_seed(&work.setup, case) {
+        return finding(why);
+    }
     let mut case = case.clone();
     if let Err(error) = work.folder.read_witness(&mut case) {
         return finding(error.to_string());

@@ -182,3 +182,25 @@ fn planned_motions_of_arms_are_held_to_their_programs() {
     let sets = [("task.points.count", "8"), ("generate.search.programs", "2")];
     rows_are_held_to_their_witness(&made(&place, "arm", &sets));
 }
+
+/// What a case draws and the noise of its runs follow from its seed: one of another campaign is none of this.
+#[test]
+fn a_seed_that_does_not_follow_from_the_root_is_found() {
+    let (_place, folder) = crate::testing::executed();
+    crate::judge::judge(&folder, &[]).unwrap();
+    let work = open_to_read(&folder).unwrap();
+    let (mut cases, results) = (work.folder.read_cases().unwrap(), work.folder.read_results().unwrap());
+    cases[1].seed ^= 1;
+    work.folder.write_results(&cases, &results).unwrap();
+    let verified = verify(&folder).unwrap();
+    assert_eq!((verified.checked(), verified.failed().count()), (2, 1));
+    let told = format!("{:?}", verified.failed().next());
+    assert!(told.contains("`seed` = ") && told.contains("which follows from the root seed"), "{told}");
+    let consent = crate::consent::Consent::default();
+    let simd = hairpin::math::simd::Simd::Portable;
+    let replay =
+        |case| crate::replay::replay_case((&folder, hairpin::campaign::CaseNumber(case)), simd, &consent, &Unwatched);
+    assert!(replay(0).is_ok());
+    let refused = replay(1).map(drop).unwrap_err().to_string();
+    assert!(refused.contains("results.parquet") && refused.contains("case 0001: `seed` = "), "{refused}");
+}

@@ -30,4 +30,4 @@ pub(crate) use open::{open_as_made, open_to_read_as, open_with};
 pub use place::make;
 pub(crate) use place::same_place;
 pub use settings::{CampaignSettings, IfThere};
-pub(crate) use unchanged::{PLACE, same_as_executed, same_as_made, same_level};
+pub(crate) use unchanged::{PLACE, no_contradiction, of_another_version, same_as_executed, same_as_made, same_level};

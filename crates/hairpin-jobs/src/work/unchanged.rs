@@ -1,6 +1,6 @@
 //! Whether what is in a campaign's folder is of the scenario that it has, and of these kernels.
 
-use hairpin::campaign::Setup;
+use hairpin::campaign::{CaseResult, Setup, contradiction};
 use hairpin::math::simd::Simd;
 use hairpin_formats::folder::CampaignFolder;
 use hairpin_formats::quote::shell_word;
@@ -43,6 +43,32 @@ pub(crate) fn same_as_made(folder: &CampaignFolder, setup: &Setup, beside: &[&st
             "was changed beside `spec` since its {what}: {edited}. The {kept} are of what it was. Put it back, or {anew}"
         ),
     ))
+}
+
+/// That another version of hairpin made what is in `folder`, in a sentence; `None` where this one did, or it is not
+/// told.
+pub(crate) fn of_another_version(folder: &CampaignFolder) -> Result<Option<String>, Problem> {
+    let ours = env!("CARGO_PKG_VERSION");
+    let theirs = folder.written_by()?.filter(|theirs| theirs != ours);
+    let path = folder.path().display();
+    Ok(theirs.map(|theirs| {
+        format!(
+            "{path} is of hairpin {theirs}, and this is {ours}: what was executed and measured then is that version's"
+        )
+    }))
+}
+
+/// That no result of `results` is a pass that its own measures contradict.
+///
+/// # Errors
+/// The first that does, with its limit.
+pub(crate) fn no_contradiction(folder: &CampaignFolder, setup: &Setup, results: &[CaseResult]) -> Result<(), Problem> {
+    let found = results.iter().find_map(|result| Some((result.case, contradiction(setup, result)?)));
+    found.map_or(Ok(()), |(case, broken)| {
+        let judge = format!("hairpin judge {}", shell_word(&folder.path().display().to_string()));
+        let why = format!("case {case} is `pass`, and its own measures are not: {broken}. Judge it anew: {judge}");
+        Err(Problem::of_file(&folder.file("results.parquet"), why))
+    })
 }
 
 fn execute_of(folder: &CampaignFolder) -> String {

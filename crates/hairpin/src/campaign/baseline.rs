@@ -75,9 +75,10 @@ pub struct RunUnseen {
     pub plan_share: f64,
     /// Moves with a sample on them.
     pub moves_seen: usize,
-    /// Largest distance from the path that an estimate does not exclude between samples, where that is over the limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub estimated_m: Option<f64>,
+    /// Largest distance from the path that is not excluded between samples, where that is over the limit; earlier
+    /// releases called it `estimated_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none", alias = "estimated_m")]
+    pub not_excluded_m: Option<f64>,
 }
 
 /// What earlier releases did, oldest first; the last is what new runs are held against.

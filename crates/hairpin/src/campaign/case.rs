@@ -403,6 +403,9 @@ pub struct CaseResult {
     pub run: usize,
     /// Measures of the worst run; `None` where the executor failed in every run.
     pub measures: Option<Measures>,
+    /// The worst of each measure over all runs, where several were measured: which run is the worst one depends on what
+    /// is limited, and these do not. [`Self::measured`] is what to ask.
+    pub of_runs: Option<Box<Measures>>,
     /// How the worst run ended (`done`, `time`, …, `executor-failed`).
     pub ended: String,
     /// First time outside the world in the worst run, s.
@@ -411,6 +414,9 @@ pub struct CaseResult {
     /// All limits that the worst run violates, the gravest first.
     /// Empty of a pass, and of what was not asked for.
     pub violations: Vec<Violation>,
+    /// Limits that other runs violate and the worst one does not, each by the run that breaks it most:
+    /// `run 2: deviation 1.90 m > 1.70 m at t=3.20 s`.
+    pub elsewhere: Vec<String>,
     /// Values drawn for the worst run.
     pub drawn: Vec<(String, serde_json::Value)>,
     /// Message of a failed executor.
@@ -450,14 +456,24 @@ impl CaseResult {
             status,
             run: 0,
             measures: None,
+            of_runs: None,
             ended: status.word().into(),
             left_world: None,
             violations: Vec::new(),
+            elsewhere: Vec::new(),
             drawn: Vec::new(),
             message: None,
             reruns: None,
             draws: None,
         }
+    }
+
+    /// The worst of each measure over its runs; `None` where nothing was measured.
+    ///
+    /// What is told of a case, and compared with other cases. Of one run, and in tables that do not have those of all,
+    /// what the worst run measured.
+    pub fn measured(&self) -> Option<&Measures> {
+        self.of_runs.as_deref().or(self.measures.as_ref())
     }
 
     /// The result of a case of which something was left undone: neither pass nor fail.

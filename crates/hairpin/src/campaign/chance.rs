@@ -1,7 +1,7 @@
 //! What a campaign's stress stands beside: as many numbers from cases that nobody chose, flown alike.
 //!
 //! A stress of 2.1 m says little; beside 1.2 m of random feasible missions, flown by the same controller under the
-//! same draws, it says something. Numbers are of cases' worst runs.
+//! same draws, it says something. Numbers are the worst of a case over its runs.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub struct Baseline {
     pub failed: usize,
     /// Runs of all cases.
     pub executions: usize,
-    /// What is measured, of each case its worst run.
+    /// What is measured, of each case the worst over its runs, whatever else its spec limits.
     pub stress: Stress,
     /// Whether less is worse: [`Stress::is_turned`]. Numbers here are as they were measured.
     pub less_is_worse: bool,
@@ -172,13 +172,13 @@ fn cut_short(results: &[CaseResult]) -> BTreeMap<String, usize> {
     ways
 }
 
-/// What was measured of each case's worst run, and whether less of it is worse.
+/// The worst that was measured of each case, and whether less of it is worse.
 fn values(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = (f64, bool)> {
     let value = move |measures: &Measures| {
         let turned = stress.is_turned(measures);
         Some((stress.of(measures).filter(|value| value.is_finite())? * if turned { -1.0 } else { 1.0 }, turned))
     };
-    results.iter().filter_map(move |result| value(result.measures.as_ref()?))
+    results.iter().filter_map(move |result| value(result.measured()?))
 }
 
 #[cfg(test)]

@@ -53,6 +53,7 @@ pub struct Unpaired {
 
 /// How one metric changed over all compared pairs in which both sides have it.
 ///
+/// Of each case the worst over its runs, of that metric itself: which run is the worst one depends on the spec.
 /// Medians in the metric's own unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MetricChange {
@@ -173,7 +174,7 @@ impl Comparison {
             (Status::Pass | Status::Unjudged, Status::Pass | Status::Unjudged) | (Status::Fail, Status::Fail) => {
                 let crashed = |result: &CaseResult| result.violations.iter().any(Violation::is_crash);
                 // What was not measured is not small.
-                let deviation = |result: &CaseResult| result.measures.as_ref()?.deviation();
+                let deviation = |result: &CaseResult| result.measured()?.deviation();
                 let change = deviation(a).zip(deviation(b)).map(|(a, b)| b - a);
                 let count = match (crashed(a), crashed(b), change) {
                     (true, false, _) => &mut self.better,
@@ -237,7 +238,7 @@ fn metrics(pairs: &[(&CaseResult, &CaseResult)], tolerance: f64) -> Vec<MetricCh
 const WRITTEN: f64 = 1e-9;
 
 fn change(&(metric, value, _): &Metric, pairs: &[(&CaseResult, &CaseResult)], tolerance: f64) -> Option<MetricChange> {
-    let of = |result: &CaseResult| result.measures.as_ref().and_then(value).filter(|value| value.is_finite());
+    let of = |result: &CaseResult| result.measured().and_then(value).filter(|value| value.is_finite());
     let values: Vec<(f64, f64)> = pairs.iter().filter_map(|(a, b)| Some((of(a)?, of(b)?))).collect();
     let (a, b): (Vec<f64>, Vec<f64>) = values.iter().copied().unzip();
     let differences: Vec<f64> = values.iter().map(|(a, b)| b - a).collect();

@@ -2,8 +2,6 @@
 //!
 //! Rounding is for people only: files and JSON have all digits.
 
-use crate::judgement::decimals_of;
-
 /// `value` with two decimals below 100, one below 1000, none above, five below a hundredth; `–` for nothing. Nothing is
 /// never less than nothing: what these digits do not show has no sign.
 pub fn number(value: Option<f64>) -> String {
@@ -15,11 +13,6 @@ pub fn number(value: Option<f64>) -> String {
         Some(v) if v.abs() < 999.95 => format!("{v:.1}"),
         Some(v) => format!("{v:.0}"),
     }
-}
-
-/// A limit with the digits that it was given with, two decimals at least; `–` for none.
-pub fn limit(value: Option<f64>) -> String {
-    value.map_or("–".into(), |value| format!("{value:.decimals$}", decimals = decimals_of(value, 2)))
 }
 
 /// Digits that numbers are told with where no more are needed, and that tell any.

@@ -46,10 +46,10 @@ impl Gravity {
         }
     }
 
-    /// Of a case's worst run; nothing measured is no deviation.
+    /// Of a case's worst run, with the largest deviation of all; nothing measured is no deviation.
     pub(super) fn of_result(result: &CaseResult) -> Self {
         let measured = |measures: &Measures| measures.max_deviation;
-        let max_deviation = result.measures.as_ref().map_or(0.0, measured);
+        let max_deviation = result.measured().map_or(0.0, measured);
         Self::of((&result.violations, &result.ended), max_deviation, max_deviation)
     }
 

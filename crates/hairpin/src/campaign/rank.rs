@@ -38,13 +38,13 @@ impl Rank {
     }
 }
 
-/// The stress of each case that was measured, of its worst run, as it is measured.
+/// The stress of each case that was measured, the worst over its runs, as it is measured.
 pub fn stresses(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = (CaseNumber, f64)> {
     let value = move |measures: &Measures| {
         let sign = if stress.is_turned(measures) { -1.0 } else { 1.0 };
         Some(sign * stress.of(measures).filter(|value| value.is_finite())?)
     };
-    results.iter().filter_map(move |result| Some((result.case, value(result.measures.as_ref()?)?)))
+    results.iter().filter_map(move |result| Some((result.case, value(result.measured()?)?)))
 }
 
 #[cfg(test)]

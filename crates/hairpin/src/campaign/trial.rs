@@ -17,7 +17,7 @@ use super::samples::{samples_of, stresses_of};
 use super::user_target::RunFacts;
 use super::{Case, CaseNumber, Environment, Executor, Run, Setup, mission, mission_again};
 use crate::judgement::{Measures, Stress};
-use crate::math::random::named_seed;
+use crate::math::random::{case_seed, named_seed};
 use crate::search::in_loop::{self, Rank, Trial};
 use crate::search::worst::Ran;
 use crate::simulation::{Airborne, SimulationError};
@@ -32,8 +32,27 @@ fn kept_seed(setup: &Setup, executor: &dyn Executor, waypoints: &[Point3<f64>]) 
     if executor.is_ours() || !setup.scenario.executes() {
         return None;
     }
+    Some(seed_over(setup.scenario.seed(), waypoints))
+}
+
+/// The seed that follows from `waypoints`, of a campaign of that root seed.
+fn seed_over(root: u64, waypoints: &[Point3<f64>]) -> u64 {
     let [a, b, c, d, e, f, g, h, ..] = fingerprint(waypoints.iter().copied());
-    Some(named_seed(setup.scenario.seed(), "executed", u64::from_le_bytes([a, b, c, d, e, f, g, h])))
+    named_seed(root, "executed", u64::from_le_bytes([a, b, c, d, e, f, g, h]))
+}
+
+/// Why the seed of `case` is none of the campaign's; `None` where it follows from the root seed, and the case's number
+/// or, of what was executed while it was searched for, its waypoints.
+pub fn foreign_seed(setup: &Setup, case: &Case) -> Option<String> {
+    let root = setup.scenario.seed();
+    let of_number = case_seed(root, case.number.0 as u64);
+    if [of_number, seed_over(root, &case.waypoints)].contains(&case.seed) {
+        return None;
+    }
+    Some(format!(
+        "`seed` = {}: must be {of_number}, which follows from the root seed {root} and the case's number",
+        case.seed
+    ))
 }
 
 /// Case number `number` that `plan` of graph number `graph` becomes, with the seed that it was executed with.

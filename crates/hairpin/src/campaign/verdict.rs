@@ -253,7 +253,8 @@ pub(super) struct Named {
 /// By [`Gravity`]. `None` where nothing was measured, or nothing is limited and nothing violated.
 pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     let limits = setup.scenario.head().terms.limits;
-    let of_others = |measures: &Measures| if limits.deviation.is_none() { nearest(measures, &limits) } else { None };
+    let has_deviation = |measures: &Measures| limits.deviation.is_some() && measures.deviation().is_some();
+    let of_others = |measures: &Measures| if has_deviation(measures) { None } else { nearest(measures, &limits) };
     let mut worst: Option<(&CaseResult, &Measures)> = None;
     let gravity = |result: &CaseResult, measures: &Measures| {
         let within = of_others(measures).map_or(measures.max_deviation, |one| one.relative_excess());
@@ -267,7 +268,7 @@ pub(super) fn named(setup: &Setup, results: &[CaseResult]) -> Option<Named> {
     }
     let (result, measures) = worst?;
     let deviation = || {
-        limits.deviation.map(|limit| Violation {
+        limits.deviation.filter(|_| has_deviation(measures)).map(|limit| Violation {
             what: "deviation".into(),
             value: measures.max_deviation,
             limit,

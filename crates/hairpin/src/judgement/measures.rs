@@ -158,6 +158,43 @@ impl Measures {
         self.overshoots.iter().copied().fold(0.0, f64::max)
     }
 
+    /// The worst of each measure of both, each by itself: what several runs of one case come to, whichever of them is
+    /// called its worst.
+    ///
+    /// max over runs of each, min of clearance and tip-over margin. Of times and legs those of the deviation and of the
+    /// latest arrival are told; of single legs and waypoints, and of what may hide between samples, nothing is.
+    pub fn worst_of_each(&self, other: &Self) -> Self {
+        let one = |is_other: bool| if is_other { other } else { self };
+        let largest = |of: fn(&Self) -> Option<f64>| one(of(other) > of(self));
+        let least = |of: fn(&Self) -> Option<f64>| {
+            let less = of(other).is_some_and(|value| of(self).is_none_or(|so_far| value < so_far));
+            of(one(less))
+        };
+        let deviates = largest(Self::deviation);
+        let accelerates = largest(Self::acceleration);
+        Self {
+            max_deviation: deviates.max_deviation,
+            t_worst: deviates.t_worst,
+            leg_worst: deviates.leg_worst,
+            mean_deviation: largest(|of| of.deviation().map(|_| of.mean_deviation)).mean_deviation,
+            max_acceleration: accelerates.max_acceleration,
+            max_speed_rate: self.max_speed_rate.max(other.max_speed_rate),
+            total_time: self.total_time.max(other.total_time),
+            overshoots: vec![self.max_overshoot().max(other.max_overshoot())],
+            min_clearance: least(|of| of.min_clearance),
+            min_tip_over_margin: least(|of| of.min_tip_over_margin),
+            max_tilt: largest(|of| of.max_tilt).max_tilt,
+            saturation_share: largest(|of| of.saturation_share).saturation_share,
+            joint_effort: largest(|of| of.joint_effort).joint_effort,
+            latest: largest(|of| of.latest.map(|late| late.by)).latest,
+            missing: Missing {
+                deviation: self.missing.deviation && other.missing.deviation,
+                acceleration: self.missing.acceleration && other.missing.acceleration,
+            },
+            ..Self::default()
+        }
+    }
+
     /// What tells one execution from another, each measure in its own unit. What a robot has no measure of counts as 0,
     /// of all its executions alike.
     pub fn behaviour(&self) -> Vec<f64> {
@@ -170,5 +207,49 @@ impl Measures {
             self.min_clearance.unwrap_or(0.0),
             self.saturation_share.unwrap_or(0.0),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_measure_has_a_worst_run_of_its_own() {
+        let one = Measures {
+            max_deviation: 1.0,
+            t_worst: 3.0,
+            leg_worst: 2,
+            mean_deviation: 0.4,
+            max_acceleration: 9.0,
+            total_time: 20.0,
+            overshoots: vec![0.1, 0.7],
+            min_clearance: Some(0.5),
+            latest: Some(Late { by: 0.2, at: 4.0, leg: 1 }),
+            ..Measures::default()
+        };
+        let other = Measures {
+            max_deviation: 1.5,
+            t_worst: 7.0,
+            leg_worst: 4,
+            mean_deviation: 0.3,
+            max_acceleration: 4.0,
+            total_time: 22.0,
+            overshoots: vec![0.2],
+            min_clearance: Some(0.3),
+            saturation_share: Some(0.1),
+            ..Measures::default()
+        };
+        let worst = one.worst_of_each(&other);
+        assert_eq!((worst.max_deviation, worst.t_worst, worst.leg_worst, worst.mean_deviation), (1.5, 7.0, 4, 0.4));
+        assert_eq!((worst.max_acceleration, worst.total_time, worst.max_overshoot()), (9.0, 22.0, 0.7));
+        assert_eq!((worst.min_clearance, worst.saturation_share, worst.latest), (Some(0.3), Some(0.1), one.latest));
+        assert_eq!(other.worst_of_each(&one), worst);
+        // What was not measured is not small, and not large.
+        let missing = Missing { deviation: true, acceleration: false };
+        let unmeasured = Measures { missing, max_acceleration: 10.0, ..Measures::default() };
+        let worst = unmeasured.worst_of_each(&one);
+        assert_eq!((worst.deviation(), worst.max_acceleration, worst.min_clearance), (Some(1.0), 10.0, Some(0.5)));
+        assert_eq!(unmeasured.worst_of_each(&unmeasured).deviation(), None);
     }
 }

@@ -54,7 +54,7 @@ pub use quantile::{Quantile, exceeded_by};
 pub use repeats::repeats;
 pub use resolution::{AccelerationSource, Resolution, SEEN_WITHIN_S, Step, TELLING, Unresolved, is_seen};
 pub use settings::{Clearance, JudgementError, Reference, Settings};
-pub use spec::{Limits, Violation, nearest, still_since, violations};
+pub use spec::{Limits, Violation, exceeded, nearest, still_since, violations};
 pub use statistics::{
     SIGMA_95, Share, Statistics, cases_needed, mean_interval, rank_correlation, rule_of_three, share, skewness,
     student_quantile,

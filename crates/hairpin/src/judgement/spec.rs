@@ -136,6 +136,16 @@ impl Violation {
         (with_unit(value), with_unit(limit))
     }
 
+    /// `deviation 0.65 m > 0.50 m at t=12.34 s`, or of an event what happened and when.
+    pub fn in_words(&self) -> String {
+        let finding = self.event().unwrap_or_else(|| {
+            let sign = if self.is_lower_limit() { '<' } else { '>' };
+            let (what, (value, limit)) = (self.what.replace('-', " "), self.printed());
+            format!("{what} {value} {sign} {limit}")
+        });
+        format!("{finding} at t={:.2} s", self.at)
+    }
+
     /// Rank (events before measured limits) and excess over the limit relative to it.
     fn gravity(&self) -> (u8, f64) {
         let rank = match self.what.as_str() {
@@ -175,7 +185,23 @@ impl Violation {
 /// ```
 pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<Violation> {
     let mut found = events(measures, flight, limits);
-    let (end, last) = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
+    let end = (flight.track.times().last().copied().unwrap_or(0.0), last_leg(measures, flight));
+    found.extend(broken(measures, limits, end));
+    // Stable, so that equals keep their order.
+    found.sort_by(|a, b| {
+        let (a, b) = (a.gravity(), b.gravity());
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    found
+}
+
+/// The measured limits that `measures` are beyond, and by more than the recording resolves, in the order of [`Limits`]:
+/// what [`violations`] has beside what happened to the run.
+pub fn exceeded(measures: &Measures, limits: &Limits) -> Vec<Violation> {
+    broken(measures, limits, (measures.total_time, measures.legs.len().saturating_sub(1)))
+}
+
+fn broken(measures: &Measures, limits: &Limits, end: (f64, usize)) -> Vec<Violation> {
     let open = |one: &Violation| match one.what.as_str() {
         "acceleration" => {
             measures.acceleration_unresolved.is_some_and(|unresolved| unresolved.decides(one.value, one.limit))
@@ -186,14 +212,7 @@ pub fn violations(measures: &Measures, flight: &Flight, limits: &Limits) -> Vec<
         _ => false,
     };
     let beyond = |one: &Violation| if one.is_lower_limit() { one.value < one.limit } else { one.value > one.limit };
-    let breaks = |one: &Violation| beyond(one) && !open(one);
-    found.extend(held(measures, limits, (end, last)).into_iter().filter(breaks));
-    // Stable, so that equals keep their order.
-    found.sort_by(|a, b| {
-        let (a, b) = (a.gravity(), b.gravity());
-        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
-    });
-    found
+    held(measures, limits, end).into_iter().filter(|one| beyond(one) && !open(one)).collect()
 }
 
 /// Of what `measures` have a limit for, that which comes nearest to it, broken or not, as a share of the limit; the
@@ -224,11 +243,11 @@ fn held(measures: &Measures, limits: &Limits, (end, last): (f64, usize)) -> Vec<
             found.push(Violation { what: what.into(), value, limit, unit: unit.into(), at, leg });
         }
     };
-    hold("deviation", Some(measures.max_deviation), limits.deviation, "m", measures.t_worst, measures.leg_worst);
+    hold("deviation", measures.deviation(), limits.deviation, "m", measures.t_worst, measures.leg_worst);
     let leg = largest(|leg| leg.overshoot);
     hold("overshoot", Some(measures.max_overshoot()), limits.overshoot, "m", measures.t_overshoot, leg);
     let leg = largest(|leg| leg.max_acceleration);
-    hold("acceleration", Some(measures.max_acceleration), limits.acceleration, "m/s²", measures.t_acceleration, leg);
+    hold("acceleration", measures.acceleration(), limits.acceleration, "m/s²", measures.t_acceleration, leg);
     hold("total-time", Some(measures.total_time), limits.total_time, "s", end, last);
     if let Some(late) = &measures.latest {
         hold("late", Some(late.by), limits.late, "s", late.at, late.leg);

@@ -91,9 +91,9 @@ impl Stress {
     /// Of a run; `None` where it was not measured.
     pub fn of(self, measures: &Measures) -> Option<f64> {
         match self {
-            Stress::MaxDeviation => Some(measures.max_deviation),
-            Stress::MeanDeviation => Some(measures.mean_deviation),
-            Stress::MaxAcceleration => Some(measures.max_acceleration),
+            Stress::MaxDeviation => measures.deviation(),
+            Stress::MeanDeviation => measures.deviation().map(|_| measures.mean_deviation),
+            Stress::MaxAcceleration => measures.acceleration(),
             Stress::Time => Some(measures.total_time),
             Stress::Overshoot => Some(measures.max_overshoot()),
             Stress::Saturation => measures.saturation_share,

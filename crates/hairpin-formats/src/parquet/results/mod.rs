@@ -12,6 +12,9 @@ pub use write::{write, write_counted};
 /// Confidence of the intervals of shares in the table.
 const CONFIDENCE: f64 = 0.95;
 
+/// Column: what other runs than the worst violate, of tables in which some do.
+const ELSEWHERE: &str = "violations_elsewhere";
+
 /// The status of a case that has not been judged.
 pub const GENERATED: &str = "generated";
 

@@ -8,7 +8,7 @@ use hairpin::judgement::Violation;
 use super::super::drawn;
 use super::super::measures::{self, complete_lists, same_lengths};
 use super::super::table::{Table, TableError};
-use super::{GENERATED, Row};
+use super::{ELSEWHERE, GENERATED, Row};
 
 const CERTIFIED: [&str; 3] = ["yes", "no", "unknown"];
 
@@ -100,18 +100,30 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
     let left = table.optional_numbers("left_world_s")?;
     let messages = table.optional_texts("message")?;
     let measures = measures::read(table)?;
+    let of_runs = measures::read_of_runs(table, &measures)?;
     let reruns = read_counts(table, ["reruns", "rerun_violations"])?;
     let draws = read_counts(table, ["draws", "draw_violations"])?;
     let violations = read_violations(table)?;
+    let elsewhere = read_elsewhere(table)?;
     let drawn = drawn::read(table)?;
-    let rows = measures.into_iter().zip(violations).zip(messages).zip(drawn).enumerate();
-    rows.map(|(row, (((measures, violations), message), drawn))| {
+    let measured = measures.into_iter().zip(of_runs);
+    let violated = violations.into_iter().zip(elsewhere);
+    let rows = measured.zip(violated).zip(messages).zip(drawn).enumerate();
+    rows.map(|(row, ((((measures, of_runs), (violations, elsewhere)), message), drawn))| {
         if status[row] == GENERATED {
             return Ok(None);
         }
         let bound = "generated, pass, fail, executor-failed or inconclusive";
         let status = Status::from_word(&status[row])
             .ok_or_else(|| table.refuse("status", row, format!("`{}`", status[row]), bound))?;
+        // What violates is a fail, whatever else came of the case, and nothing else is one.
+        if (status == Status::Fail) == violations.is_empty() {
+            let bound = match violations.first() {
+                Some(first) => format!("fail, as `violation_what` has {}", first.what),
+                None => "another, as `violation_what` has nothing".into(),
+            };
+            return Err(table.refuse("status", row, format!("`{}`", status.word()), bound));
+        }
         let run = runs[row].ok_or_else(|| table.refuse("run", row, "empty", "the number of the worst run"))?;
         let ended = ended[row].clone().unwrap_or_default();
         Ok(Some(CaseResult {
@@ -119,9 +131,11 @@ fn read_results(table: &Table, cases: &[Case]) -> Result<Vec<Option<CaseResult>>
             status,
             run,
             measures,
+            of_runs,
             ended,
             left_world: left[row],
             violations,
+            elsewhere,
             drawn,
             message,
             reruns: reruns[row].map(|[violated, of]| Reruns { violated, of }),
@@ -147,6 +161,14 @@ fn read_counts(table: &Table, [all, those]: [&str; 2]) -> Result<Vec<Option<[usi
         }
     };
     of.into_iter().zip(violated).enumerate().map(both).collect()
+}
+
+/// What other runs than the worst violate; tables without such, or of older versions, do not say.
+fn read_elsewhere(table: &Table) -> Result<Vec<Vec<String>>, TableError> {
+    match table.has(ELSEWHERE) {
+        true => Ok(table.text_lists(ELSEWHERE)?.into_iter().map(Option::unwrap_or_default).collect()),
+        false => Ok(vec![Vec::new(); table.rows()]),
+    }
 }
 
 fn read_violations(table: &Table) -> Result<Vec<Vec<Violation>>, TableError> {

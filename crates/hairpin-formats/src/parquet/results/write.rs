@@ -13,7 +13,7 @@ use hairpin::judgement::Violation;
 use super::super::drawn;
 use super::super::measures::{self, BETWEEN, BETWEEN_TOO};
 use super::super::table::Columns;
-use super::{CONFIDENCE, GENERATED};
+use super::{CONFIDENCE, ELSEWHERE, GENERATED};
 use crate::atomic::WriteError;
 
 /// Writes one row per case; `results` may be missing for cases that were not judged, and stands in any order.
@@ -47,6 +47,13 @@ fn columns_of(cases: &[Case], results: &[CaseResult]) -> Columns {
     push_violations(&mut columns, &rows);
     let drawn: Vec<_> = rows.iter().map(|(_, result)| result.map_or(&[][..], |r| r.drawn.as_slice())).collect();
     drawn::push(&mut columns, &drawn);
+    let of_runs: Vec<_> = rows.iter().map(|(_, result)| result.and_then(|r| r.of_runs.as_deref())).collect();
+    measures::columns_of_runs(&of_runs).into_iter().for_each(|(name, column)| columns.push(name, column));
+    if rows.iter().any(|(_, result)| result.is_some_and(|result| !result.elsewhere.is_empty())) {
+        let mut lists = ListBuilder::new(StringBuilder::new());
+        rows.iter().for_each(|(_, result)| lists.append_option(result.map(|r| r.elsewhere.iter().map(Some))));
+        columns.push(ELSEWHERE, Arc::new(lists.finish()));
+    }
     columns
 }
 

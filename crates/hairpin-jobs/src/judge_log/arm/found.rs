@@ -45,8 +45,7 @@ pub struct FoundProgram {
     pub offset: Option<(Offset, f64)>,
     /// How late it arrived at least and at most, s, leg by leg: all that samples tell of it. `None` where it did not.
     pub late_between: Vec<Option<[f64; 2]>>,
-    /// Largest distance from the path that estimated accelerations do not exclude between samples, m, where that is
-    /// over the limit and decides nothing.
+    /// Largest distance from the path that is not excluded between samples, m, where that is over the limit.
     pub not_excluded_m: Option<f64>,
     /// The largest deviation of the same case in simulation, m, where that was judged.
     pub simulated_m: Option<f64>,

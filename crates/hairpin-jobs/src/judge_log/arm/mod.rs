@@ -100,9 +100,9 @@ impl<'a> Programs<'a> {
             to_s: read.to_s,
             result,
             late_between: measured.iter().flat_map(|run| &run.moves).map(MoveMeasures::late_between).collect(),
-            not_excluded_m: measured.as_ref().and_then(|run| run.unseen.as_ref()?.estimate),
+            not_excluded_m: measured.as_ref().and_then(|run| run.unseen.as_ref()?.not_excluded),
             offset: measured.as_ref().and_then(|measured| Some((measured.offset?, measured.sample))),
-            simulated_m: simulated.and_then(|result| Some(result.measures.as_ref()?.max_deviation)),
+            simulated_m: simulated.and_then(|result| Some(result.measured()?.max_deviation)),
             notes: read.notes,
         };
         let judged = told::judged((file, &name_in(&settings.path, file)), found, &against.setup);

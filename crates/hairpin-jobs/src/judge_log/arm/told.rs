@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairpin::campaign::{Setup, Status};
-use hairpin::judgement::moves::{estimate_told, offset_told};
+use hairpin::judgement::moves::offset_told;
 use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
 
 use super::super::found::{JudgedLog, Outcome};
@@ -40,10 +40,7 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
         );
         return (Outcome::Inconclusive, inconclusive(case, how, &with(sentence)));
     }
-    let hidden = found.not_excluded_m.map(estimate_told);
-    let with_hidden =
-        |worst: String| [Some(worst), hidden.clone()].into_iter().flatten().collect::<Vec<_>>().join("; ");
-    let worst = result.measures.as_ref().map(|measures| with_hidden(worst(measures, setup)));
+    let worst = result.measures.as_ref().map(|measures| worst(measures, setup));
     let why = || result.message.as_deref().map_or("it cannot be measured", |why| why.trim_start_matches("run 0: "));
     match (result.status, worst) {
         (Status::Pass, Some(worst)) => (Outcome::Pass, within_spec(case, how, &with(worst))),

@@ -41,7 +41,7 @@ impl ArmSetup {
             late: spec.arrival.map(|limit| limit.max_late_ms * 1e-3),
             corner,
             between: &between,
-            estimated: arm.estimated.iter().any(|key| key == ACCELERATIONS),
+            estimated: arm.estimated.iter().map(String::as_str).find(|key| *key == ACCELERATIONS),
         };
         unseen(programmed, recording, settings, &hidden, measured).ok()
     }

@@ -31,7 +31,7 @@ impl CaseMoves {
                 moves: unseen.longest.names.clone(),
                 plan_share: unseen.longest.share,
                 moves_seen: unseen.seen[0],
-                estimated_m: unseen.estimate,
+                not_excluded_m: unseen.not_excluded,
             }),
         };
         Some(Self { case: case.number, program: digest(program), moves, runs: measured.iter().map(run).collect() })

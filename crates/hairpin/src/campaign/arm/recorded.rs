@@ -3,6 +3,7 @@
 use super::ArmSetup;
 use super::execute::legs_of;
 use crate::campaign::Case;
+use crate::campaign::scenario::LogClock;
 use crate::judgement::moves::{MeasureSettings, Measured, measure_moves};
 use crate::simulation::SimulationError;
 use crate::trajectory::{ATTITUDE_UNKNOWN, Channel, Ended, Flight, PlannedPath, Track};
@@ -20,6 +21,10 @@ pub struct Shorter {
     pub name: String,
 }
 
+/// A recording begins within so many times the program's duration of where that begins, and within so many seconds.
+const FAR_BEHIND: f64 = 10.0;
+const FAR_BEHIND_S: f64 = 60.0;
+
 /// Samples of a recording that are looked at to find its program.
 ///
 /// Alignment costs samples times path: 512 tell one program from another.
@@ -34,7 +39,7 @@ impl ArmSetup {
     ///
     /// # Errors
     /// A case whose program cannot be planned; a recording that the oracle cannot align, moves that the program has
-    /// not.
+    /// not, times of another clock where arrivals are limited by them.
     pub fn recorded(
         &self,
         case: &Case,
@@ -52,6 +57,7 @@ impl ArmSetup {
                 "one of the program, counted from 0 after the start at home",
             ));
         }
+        self.is_by_the_programs_clock(&path, &recording)?;
         let measured = aligned(&path, &recording, orientation_known)?;
         let ends = recording.times().last().copied().unwrap_or(0.0);
         let short = shorter(&path, &measured, &recording);
@@ -63,6 +69,26 @@ impl ArmSetup {
         let track = Track::new(recording.times().to_vec(), recording.poses().to_vec(), channels)
             .map_err(|error| SimulationError::new("recording", error.to_string(), "a track"))?;
         Ok((Flight { track: legs_of(&track)?, ended: Ended::Done, left_world: None, reached: times }, short))
+    }
+
+    /// Refuses a recording that begins far behind all of the program where its arrivals are limited by its own clock:
+    /// one of another clock, as Unix seconds are, is late by as much as that clock shows.
+    fn is_by_the_programs_clock(&self, path: &PlannedPath, recording: &Track) -> Result<(), SimulationError> {
+        let takes = path.moves().len().checked_sub(1).map_or(0.0, |last| path.passes(last));
+        let begins = recording.times().first().copied().unwrap_or(0.0);
+        let limited = self.scenario.spec.arrival.is_some() && self.scenario.execute.log_clock == LogClock::AsRecorded;
+        let most = (FAR_BEHIND * takes).max(FAR_BEHIND_S);
+        if !limited || begins.abs() <= most {
+            return Ok(());
+        }
+        let value = format!("{begins:.3} s, of a program that takes {takes:.2} s");
+        Err(SimulationError::new(
+            "the log's first time",
+            value,
+            "within ten of its durations, or a minute, of where it begins: these times are of another clock; \
+             `judge LOG --from S` says when the program began, `execute.log_clock = \"offset-removed\"` takes an \
+             estimated offset off",
+        ))
     }
 
     /// Mean distance (m) of `recording` from the path of `case`, and whether it runs to its end: which program it is

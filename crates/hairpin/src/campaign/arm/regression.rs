@@ -6,9 +6,7 @@ use super::ArmSetup;
 use crate::campaign::baseline::{CaseMoves, Moves, RunUnseen};
 use crate::campaign::{Case, CaseNumber, RunDeviation};
 use crate::judgement::Verdict;
-use crate::judgement::moves::{
-    Band, MovesError, ProgramComparison, Regression, Release, compare, estimate_told, offset_told, trend,
-};
+use crate::judgement::moves::{Band, MovesError, ProgramComparison, Regression, Release, compare, offset_told, trend};
 
 /// Why a campaign cannot be held against its baseline.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -98,10 +96,6 @@ impl ArmSetup {
             let [first, last] = &longest.moves;
             let hides = if first == last { first.clone() } else { format!("{first} … {last}") };
             verdict.sentence += &format!("; longest gap of the logs {:.3} s ({hides})", longest.longest_gap_s);
-        }
-        let estimates = unseen.iter().filter_map(|unseen| unseen.estimated_m);
-        if let Some(most) = estimates.reduce(f64::max) {
-            verdict.sentence += &format!(", {}", estimate_told(most));
         }
         verdict
     }

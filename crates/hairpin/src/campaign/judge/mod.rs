@@ -23,8 +23,8 @@ pub(super) use self::run::{Drawn, reference, settings};
 use self::run::{JudgedRun, Planned, judge_run};
 use super::influence::RunDeviation;
 use super::scenario::Asked;
-use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status};
-use crate::judgement::Measures;
+use super::{Case, CaseResult, Draws, Mistake, Run, Setup, Status, vary};
+use crate::judgement::{self, Measures, Violation};
 
 /// The result of a case: its worst run by its gravity. A run with a violation is worse than one without, a crash is
 /// worse than any other violation, and among equals what breaks a limit by the larger share of it; of runs within spec
@@ -51,6 +51,8 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
     let (mut failed, mut unflown) = (None, None);
     let plan = Planned::default();
     let mut draws = Draws { violated: 0, of: 0 };
+    let mut of_runs: Option<Box<Measures>> = None;
+    let mut broken: Vec<(usize, Violation)> = Vec::new();
     let are_felt = setup.unfelt_draws().is_none();
     for run in runs {
         let flight = match &run.outcome {
@@ -74,6 +76,20 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
                     drawn: run.drawn.clone(),
                     moves: judged.moves.clone(),
                 });
+                of_runs = match (of_runs, &worst) {
+                    (Some(so_far), _) => Some(Box::new(so_far.worst_of_each(&judged.measures))),
+                    (None, Some((first, _))) => Some(Box::new(first.measures.worst_of_each(&judged.measures))),
+                    (None, None) => None,
+                };
+                for one in &judged.violations {
+                    match broken.iter_mut().find(|(_, so_far)| so_far.what == one.what) {
+                        Some(so_far) if one.relative_excess() > so_far.1.relative_excess() => {
+                            *so_far = (run.run, one.clone());
+                        }
+                        Some(_) => {}
+                        None => broken.push((run.run, one.clone())),
+                    }
+                }
                 if worst.as_ref().is_none_or(|(so_far, _)| judged.gravity() > so_far.gravity()) {
                     worst = Some((judged, run));
                 }
@@ -100,6 +116,12 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
             ended: judged.ended,
             left_world: judged.left_world,
             measures: Some(judged.measures),
+            of_runs,
+            elsewhere: broken
+                .iter()
+                .filter(|(_, one)| judged.violations.iter().all(|own| own.what != one.what))
+                .map(|(number, one)| format!("run {number}: {}", one.in_words()))
+                .collect(),
             violations: judged.violations,
             drawn: run.drawn.clone(),
             message,
@@ -115,6 +137,29 @@ pub fn judge_runs(setup: &Setup, case: &Case, runs: &[Run]) -> Result<(CaseResul
         },
     };
     Ok((result, deviations))
+}
+
+/// The limit that a result breaks by its own measures though it is a pass, in words: it is of another spec, or was
+/// changed since it was written. `None` of what is no pass.
+///
+/// The worst run is held to the limits that were drawn for it; the worst of each measure over all runs to the
+/// scenario's, where none is drawn.
+pub fn contradiction(setup: &Setup, result: &CaseResult) -> Option<String> {
+    let measures = result.measures.as_ref().filter(|_| result.status == Status::Pass)?;
+    let nominal = setup.scenario.head().terms.limits;
+    let drawn = match result.drawn.iter().any(|(key, _)| key.starts_with("spec.")) {
+        true => vary::apply(&setup.scenario, &result.drawn).ok()?.head().terms.limits,
+        false => nominal,
+    };
+    let of_run = judgement::exceeded(measures, &drawn);
+    let all = result.of_runs.as_deref().filter(|_| drawn == nominal);
+    let broken =
+        of_run.into_iter().chain(all.map(|all| judgement::exceeded(all, &drawn)).unwrap_or_default()).next()?;
+    let told = match setup.kind().programs() {
+        Some(programs) => programs.in_their_units(broken),
+        None => broken,
+    };
+    Some(told.in_words())
 }
 
 /// What one run measured; `None` where it was not carried out or cannot be judged.
@@ -194,5 +239,45 @@ mod tests {
         // One that says so itself is told once.
         let crashed = through_a_ball(&json!({ "deviation": { "max_m": 1.5 } }), Ended::Obstacle);
         assert_eq!(crashed.violations.iter().map(|one| one.what.as_str()).collect::<Vec<_>>(), ["crash"]);
+    }
+
+    /// One run shakes, another one strays: by what is limited the first is the worst, and the second is told all the
+    /// same.
+    #[test]
+    fn what_other_runs_break_is_told_beside_the_worst() {
+        let judged = |spec: serde_json::Value| {
+            let scenario: Scenario = serde_json::from_value(json!({
+                "hairpin": 1, "robot": quadrotor(), "world": { "size_m": [30.0, 30.0, 30.0] },
+                "task": { "start_m": [3.0, 3.0, 3.0], "end_m": [23.0, 3.0, 3.0], "length": 2 },
+                "execute": { "command": "sim", "repeat": 2 }, "spec": spec,
+            }))
+            .unwrap();
+            let setup = Setup::new(scenario).unwrap();
+            let waypoints = vec![Point3::new(3.0, 3.0, 3.0), Point3::new(23.0, 3.0, 3.0)];
+            let case = Case::bare(CaseNumber(0), 1, waypoints);
+            let run = |(run, amplitude, pulse): (usize, f64, f64)| {
+                let times: Vec<f64> = (0..=500).map(|i| f64::from(i) / 50.0).collect();
+                let aside = |t: f64| amplitude * (pulse * t).sin() * (0.1 * std::f64::consts::PI * t).sin();
+                let pose = |t: &f64| Isometry3::translation(3.0 + 2.0 * t, 3.0 + aside(*t), 3.0);
+                let leg = Channel { name: "leg".into(), values: vec![0.0; times.len()] };
+                let track = Track::new(times.clone(), times.iter().map(pose).collect(), vec![leg]).unwrap();
+                let reached = vec![Some(0.0), Some(10.0)];
+                let flight = Flight { track, ended: Ended::Done, left_world: None, reached };
+                Run { case: CaseNumber(0), run, drawn: Vec::new(), outcome: Ok(flight), full_rate: None }
+            };
+            let runs: Vec<Run> = [(0, 0.05, 10.0), (1, 0.9, 0.3)].into_iter().map(run).collect();
+            judge(&setup, &case, &runs).unwrap()
+        };
+        let both = judged(json!({ "deviation": { "max_m": 0.6 }, "acceleration": { "max_m_s2": 1.0 } }));
+        let alone = judged(json!({ "deviation": { "max_m": 0.6 } }));
+        assert_eq!((both.run, alone.run), (0, 1));
+        assert_eq!(both.violations.iter().map(|one| one.what.as_str()).collect::<Vec<_>>(), ["acceleration"]);
+        assert!(matches!(&both.elsewhere[..], [one] if one.starts_with("run 1: deviation 0.")), "{:?}", both.elsewhere);
+        assert_eq!(alone.elsewhere, Vec::<String>::new());
+        // What is told of the case is the same.
+        assert_eq!(both.measured(), alone.measured());
+        let (all, shaken) = (both.measured().unwrap(), both.measures.as_ref().unwrap());
+        assert!(all.max_deviation > 0.6 && shaken.max_deviation < 0.06, "{all:?}");
+        assert_eq!(all.max_acceleration, shaken.max_acceleration);
     }
 }

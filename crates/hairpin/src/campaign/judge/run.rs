@@ -16,7 +16,7 @@ use crate::campaign::scenario::{Asked, DeviationFrom, Terms};
 use crate::campaign::{Case, Mistake, Run, Setup};
 use crate::judgement::moves::Measured;
 use crate::judgement::{self, Clearance, JudgementError, LegSource, Measures, Reference, Settings, Violation};
-use crate::trajectory::{Ended, Flight, PlannedPath, Track};
+use crate::trajectory::{Ended, Flight, PlannedPath, Tolerances, Track};
 
 /// A run with what it comes to.
 pub(super) struct JudgedRun {
@@ -81,7 +81,15 @@ pub(super) fn judge_run(
         measures.latest = moves.as_ref().and_then(latest);
         let moves_of = moves.iter().flat_map(|moves| &moves.moves);
         measures.legs.iter_mut().zip(moves_of).for_each(|(leg, one)| leg.lateness = one.late());
-        let seen = Seen { own: &own, terms: &terms, case, flight, measures: &measures, moves: moves.as_ref() };
+        let seen = Seen {
+            own: &own,
+            terms: &terms,
+            case,
+            flight,
+            measures: &measures,
+            moves: moves.as_ref(),
+            within: (known.is_none() && run.full_rate.is_some()).then(|| Tolerances::default().position),
+        };
         let violations = seen.violations();
         JudgedRun {
             open: seen.open(violations.is_empty()),
@@ -97,6 +105,9 @@ pub(super) fn judge_run(
         }
     }))
 }
+
+/// What depends on the reference of deviations, and so is measured of the rows that stand where that is another one.
+const OF_ROWS: [&str; 2] = ["deviation", "overshoot"];
 
 /// The measures of the rows that stand, by legs that the run or its way along the planned path tells.
 fn of_rows(
@@ -124,6 +135,9 @@ struct Seen<'a> {
     measures: &'a Measures,
     /// Of programs.
     moves: Option<&'a Measured>,
+    /// How far its deviations and overshoots may be from those of all rows, m, where they are measured of the rows that
+    /// were kept; `None` where all rows were measured.
+    within: Option<f64>,
 }
 
 impl Seen<'_> {
@@ -131,6 +145,7 @@ impl Seen<'_> {
     fn violations(&self) -> Vec<Violation> {
         let limits = &self.terms.limits;
         let mut violations = judgement::violations(self.measures, self.flight, limits);
+        violations.retain(|one| !OF_ROWS.contains(&one.what.as_str()) || !self.is_open(one.value, one.limit));
         let track = &self.flight.track;
         let fell = self.own.program().and_then(|_| fallen(self.own, track)).filter(|_| !self.flight.ended.is_crash());
         violations.splice(..0, fell.map(|fell| tipped_over(&fell, track, self.measures)));
@@ -143,6 +158,37 @@ impl Seen<'_> {
             proven(&mut violations, unseen.late_proven, moves);
         }
         violations
+    }
+
+    /// Whether it is as near to its limit as rows that were left out may have moved it, m.
+    fn is_open(&self, value: f64, limit: f64) -> bool {
+        self.within.is_some_and(|within| (value - limit).abs() <= within)
+    }
+
+    /// What rows that were left out leave open; arms are told in their units.
+    fn of_kept_rows(&self) -> Option<String> {
+        let (measures, limits) = (self.measures, &self.terms.limits);
+        let values = [
+            (measures.deviation(), limits.deviation),
+            (Some(measures.max_overshoot()).filter(|_| limits.overshoot.is_some()), limits.overshoot),
+        ];
+        let open = |(what, (value, limit)): (&str, (Option<f64>, Option<f64>))| {
+            let (value, limit) = (value?, limit?);
+            self.is_open(value, limit).then(|| (what.to_owned(), value, limit))
+        };
+        let (what, value, limit) = OF_ROWS.into_iter().zip(values).find_map(open)?;
+        let side = if value > limit { ">" } else { "≤" };
+        let measured = Violation { what: what.clone(), value, limit, unit: "m".into(), at: 0.0, leg: 0 };
+        let told = match self.own.kind().programs() {
+            Some(programs) => programs.in_their_units(measured),
+            None => measured,
+        };
+        let (value, limit) = told.printed();
+        Some(format!(
+            "{what} {value} {side} {limit}, but it is measured of the rows that are kept, within {:.1} mm of what was \
+             flown; `hairpin execute OUT --out DIR` measures all of them",
+            1e3 * self.within?
+        ))
     }
 
     /// Why it decides nothing, whatever it violates or leaves out, the gravest reason first; much of that only where
@@ -159,6 +205,7 @@ impl Seen<'_> {
             .or_else(|| kept().filter(|_| limits.unfinished)?.beside(limits.deviation.is_some()))
             .or_else(|| kept().filter(|_| limits.late.is_some())?.unarrived())
             .or_else(|| missed(own, flight, measures, limits).filter(|_| keeps))
+            .or_else(|| self.of_kept_rows())
             .or_else(|| hidden(own, measures, limits))
             .or_else(|| limits.open(measures))
     }

@@ -314,7 +314,9 @@ pub fn shown(
             .filter(|_| setup.kind().robot_words().has_sides)
             .map(|(track, measures)| worst_attitude(track, measures)),
         score: case.score,
-        environment: case.environment.as_ref().map_or_else(Vec::new, Environment::words),
+        environment: (case.environment.iter().flat_map(Environment::words))
+            .chain(result.elsewhere.iter().map(|one| format!("violated in {one}")))
+            .collect(),
         obstacles: own_obstacles(setup, case),
         planned: setup.kind().posed(case, planned),
         flown,
@@ -337,7 +339,12 @@ fn moment(result: &CaseResult, length: &Length) -> Option<Moment> {
     }
     let measures = result.measures.as_ref()?;
     let mark = length.told(measures.max_deviation);
-    let told = format!("largest deviation {mark} at t={:.2} s", measures.t_worst);
+    // Another run may deviate more than the one that is shown, which is the worst by what is limited.
+    let whose = match result.measured().is_some_and(|all| all.max_deviation > measures.max_deviation) {
+        true => format!(" of run {}", result.run),
+        false => String::new(),
+    };
+    let told = format!("largest deviation{whose} {mark} at t={:.2} s", measures.t_worst);
     Some(Moment { at: measures.t_worst, told, mark })
 }
 

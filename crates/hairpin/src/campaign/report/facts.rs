@@ -3,7 +3,7 @@
 use super::data::{Metric, Pieces, worst_first};
 use super::length::length;
 use super::text::leg;
-use crate::campaign::digits::{self, grouped};
+use crate::campaign::digits::grouped;
 use crate::campaign::kind::{Facts, word};
 use crate::campaign::scenario::{Asked, SearchMethod};
 use crate::campaign::verdict::{Named, named};
@@ -34,10 +34,8 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
     if let Some((worst, measures)) = largest_deviation(pieces.results)
         && named(pieces.setup, pieces.results).is_none_or(|named| named.value.what != "deviation")
     {
-        let limit = pieces.setup.scenario.deviation_limit();
-        let limit = limit.map_or("no limit set".into(), |metres| {
-            format!("limit {} {}", digits::limit(Some(told.in_metre * metres)), told.unit)
-        });
+        let limit = told.limit_beside(measures.max_deviation);
+        let limit = limit.map_or("no limit set".into(), |limit| format!("limit {limit}"));
         let place = format!("case {}, t = {:.2} s, {limit}", worst.case, measures.t_worst);
         numbers.push(of("largest deviation", told.told(measures.max_deviation), place));
     }
@@ -95,7 +93,8 @@ fn origin(setup: &Setup, tally: &Tally) -> String {
 
 /// Of equals the case of the smallest number.
 fn largest_deviation(results: &[CaseResult]) -> Option<(&CaseResult, &Measures)> {
-    let measured = results.iter().filter_map(|result| result.measures.as_ref().map(|m| (result, m)));
+    let measured = results.iter().filter_map(|result| result.measured().map(|m| (result, m)));
+    let measured = measured.filter(|(_, measures)| measures.deviation().is_some());
     measured.max_by(|a, b| a.1.max_deviation.total_cmp(&b.1.max_deviation).then(b.0.case.cmp(&a.0.case)))
 }
 
@@ -142,15 +141,15 @@ pub(super) fn facts(pieces: &Pieces) -> Vec<[String; 2]> {
     ]
 }
 
-/// Measures that no case has are left out. Limits are in the metric's unit: ms of the latest arrival, else as the
-/// specification has them.
+/// Of each case the worst over its runs; measures that no case has are left out. Limits are in the metric's unit: ms of
+/// the latest arrival, else as the specification has them.
 pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
     let limits = pieces.setup.scenario.head().terms.limits;
     let told = length(pieces.setup);
     let ordered = worst_first(pieces.results);
     let metric = |name, unit, limit: Option<f64>, of: fn(&Measures) -> Option<f64>| {
         let (unit, factor) = if unit == "m" { (told.unit, told.in_metre) } else { (unit, 1.0) };
-        let value = |result: &CaseResult| Some(factor * result.measures.as_ref().and_then(of)?);
+        let value = |result: &CaseResult| Some(factor * result.measured().and_then(of)?);
         Metric {
             name,
             unit,
@@ -161,10 +160,10 @@ pub(super) fn metrics(pieces: &Pieces) -> Vec<Metric> {
         }
     };
     let all = vec![
-        metric("max deviation", "m", limits.deviation, |m| Some(m.max_deviation)),
-        metric("mean deviation", "m", None, |m| Some(m.mean_deviation)),
+        metric("max deviation", "m", limits.deviation, Measures::deviation),
+        metric("mean deviation", "m", None, |m| m.deviation().map(|_| m.mean_deviation)),
         metric("overshoot", "m", limits.overshoot, |m| Some(m.max_overshoot())),
-        metric("acceleration", "m/s²", limits.acceleration, |m| Some(m.max_acceleration)),
+        metric("acceleration", "m/s²", limits.acceleration, Measures::acceleration),
         metric("total time", "s", limits.total_time, |m| Some(m.total_time)),
         metric("clearance", "m", limits.clearance, |m| m.min_clearance),
         metric("tip-over margin", "°", limits.tip_over_margin, |m| m.min_tip_over_margin),

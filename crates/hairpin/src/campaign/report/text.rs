@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::length::Length;
 use crate::campaign::CaseResult;
 use crate::campaign::digits::{number, percent};
-use crate::judgement::Violation;
+use crate::judgement::{Measures, Violation};
 
 /// `nose up 12°, left side down 8°`: how far the body's forward and left axes point above or below the horizon, which
 /// needs no convention of signs; `upside down` is said too. The body is forward, left, up.
@@ -35,12 +35,7 @@ pub fn leg(leg: usize) -> String {
 /// `deviation 0.65 m > 0.50 m at t=12.34 s`; events (`crash`, `left-world`, `stalled`, `unfinished`) say what happened
 /// instead.
 pub fn violation(violation: &Violation) -> String {
-    let finding = violation.event().unwrap_or_else(|| {
-        let sign = if violation.is_lower_limit() { '<' } else { '>' };
-        let (what, (value, limit)) = (violation.what.replace('-', " "), violation.printed());
-        format!("{what} {value} {sign} {limit}")
-    });
-    format!("{finding} at t={:.2} s", violation.at)
+    violation.in_words()
 }
 
 /// Headers of the table of cases, in the terminal and in the report.
@@ -69,23 +64,22 @@ pub fn columns_in(length: &Length) -> [String; 11] {
 /// One row of the table of cases, under [`columns_in`].
 ///
 /// Lengths have the digits of their limit, as in the verdict. What was not measured is a dash. Cases are numbered with
-/// four digits, saturation is a share in percent.
+/// four digits, saturation is a share in percent. Of several runs each measure is the worst of all.
 pub fn cells_in(length: &Length, result: &CaseResult) -> [String; 11] {
-    let of = |value: fn(&crate::judgement::Measures) -> f64| number(result.measures.as_ref().map(value));
-    let long = |value: fn(&crate::judgement::Measures) -> f64| {
-        result.measures.as_ref().map_or("–".into(), |measures| length.number(value(measures)))
-    };
+    let measured = result.measured();
+    let deviating = measured.filter(|measures| measures.deviation().is_some());
+    let long = |value: Option<f64>| value.map_or("–".into(), |value| length.number(value));
     [
         result.case.to_string(),
         result.status.word().into(),
-        long(|m| m.max_deviation),
-        result.measures.as_ref().map_or("–".into(), |m| format!("{:.2}", m.t_worst)),
-        result.measures.as_ref().map_or("–".into(), |m| leg(m.leg_worst)),
-        long(|m| m.mean_deviation),
-        long(|m| m.max_overshoot()),
-        of(|m| m.max_acceleration),
-        percent(result.measures.as_ref().and_then(|m| m.saturation_share)),
-        of(|m| m.total_time),
+        long(deviating.map(|m| m.max_deviation)),
+        deviating.map_or("–".into(), |m| format!("{:.2}", m.t_worst)),
+        deviating.map_or("–".into(), |m| leg(m.leg_worst)),
+        long(deviating.map(|m| m.mean_deviation)),
+        long(measured.map(Measures::max_overshoot)),
+        number(measured.and_then(Measures::acceleration)),
+        percent(measured.and_then(|m| m.saturation_share)),
+        number(measured.map(|m| m.total_time)),
         result.ended.clone(),
     ]
 }

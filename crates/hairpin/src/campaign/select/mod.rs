@@ -10,7 +10,7 @@
 //! | coverage | cells that are met | at least 1 − 1/e of the best |
 //!
 //! What ended badly is worse than all that ended well, in the order of reports; where stress is weighed it counts as
-//! much as the largest.
+//! much as the largest. Of what ended well the largest deviation counts alone, whatever limits were broken.
 
 mod greedy;
 
@@ -60,7 +60,7 @@ impl By {
 pub struct Candidate {
     /// Its number.
     pub case: CaseNumber,
-    /// Its largest deviation, m, or where it was not executed its score.
+    /// Its largest deviation over all runs, m, or where it was not executed its score.
     ///
     /// Executed cases without measures count by their score as well.
     pub stress: f64,
@@ -79,7 +79,7 @@ impl Candidate {
     ///
     /// `case` has at least one waypoint.
     pub fn new(case: &Case, result: Option<&CaseResult>, cells: BTreeSet<usize>) -> Self {
-        let measures = result.and_then(|result| result.measures.as_ref());
+        let measures = result.and_then(CaseResult::measured);
         Self {
             case: case.number,
             stress: measures.map_or(case.score, |measures| measures.max_deviation),
@@ -100,7 +100,8 @@ impl Candidate {
     /// Greater is worse.
     fn against(&self, other: &Self) -> Ordering {
         let by_runs = match (&self.standing, &other.standing) {
-            (Some(one), Some(other)) => one.against(other),
+            (Some(one), Some(other)) if one.ended_badly() && other.ended_badly() => one.against(other),
+            (Some(one), Some(other)) => one.ended_badly().cmp(&other.ended_badly()),
             (one, other) => one.is_some().cmp(&other.is_some()),
         };
         by_runs.then(self.stress.total_cmp(&other.stress))

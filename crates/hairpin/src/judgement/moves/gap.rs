@@ -31,9 +31,8 @@ pub struct Unseen {
     /// The move whose arrival is the latest of those that are late wherever between two samples they were; `None`
     /// where none is proven to be late.
     pub late_proven: Option<usize>,
-    /// Largest distance from the path that an estimate does not exclude between samples, where it is over the limit and
-    /// decides nothing, m.
-    pub estimate: Option<f64>,
+    /// Largest distance from the path that is not excluded between samples, where it is over the limit, m.
+    pub not_excluded: Option<f64>,
 }
 
 impl fmt::Display for Gap {

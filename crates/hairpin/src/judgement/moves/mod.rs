@@ -36,7 +36,7 @@ pub use compare::{Band, Comparison, Metric, MoveComparison, Outcome, Release, co
 pub use gap::{Gap, Unseen};
 pub use measure::{Clock, MeasureSettings, Measured, MoveMeasures, Offset, measure_moves};
 pub use regression::{ProgramComparison, Regression};
-pub use told::{estimate_told, offset_told};
+pub use told::offset_told;
 pub use trend::{Trend, trend};
 pub use unseen::{Between, Hidden, unseen};
 

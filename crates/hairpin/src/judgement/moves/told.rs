@@ -2,11 +2,6 @@
 
 use super::measure::Offset;
 
-/// What estimated accelerations do not exclude between samples, m beside the path.
-pub fn estimate_told(most: f64) -> String {
-    format!("{:.0} mm beside the path not excluded between samples by estimated accelerations", 1e3 * most)
-}
-
 /// The largest of runs' offsets, each with the time between samples (s): one that was taken off, or one that every
 /// arrival of its run shares and that is told because it was not.
 ///

@@ -2,10 +2,9 @@
 //!
 //! A motion with |ẍ| ≤ a that is known a time h apart stays within a·h²/8 of its chord: so far off the path it may
 //! have been, though no sample says so. Where what was measured is within its limit and what may be hidden is not,
-//! nothing is known. Where a is only an estimate it clears and never condemns: a gap does that is over five times the
-//! median interval and takes the end of a move with it, or a tenth of one, and so do whole moves of which there is no
-//! sample. When it arrived is known to the interval of two samples, whatever bounds the motion: a limit within that is
-//! open.
+//! nothing is known, whether a is the arm's or an estimate: an estimate that is too large is mended by the arm's own
+//! number, and one that is passed over would pass what nobody saw. When it arrived is known to the interval of two
+//! samples, whatever bounds the motion: a limit within that is open.
 //!
 //! Data flow: plan and recording are aligned (`align`) → gaps, ends, moves without samples, what was left out → each
 //! is held against the limits with what it may hide → [`Unseen`]: what is told always, and what leaves the verdict
@@ -50,15 +49,14 @@ pub struct Hidden<'a> {
     pub corner: f64,
     /// What may have been between samples.
     pub between: &'a dyn Between,
-    /// Whether that rests on estimates.
-    pub estimated: bool,
+    /// The key whose absence makes that rest on estimates; `None` where it does not.
+    pub estimated: Option<&'a str>,
 }
 
 /// A gap is longer than so many median intervals.
 /// An even clock that stutters has none.
 const OUTLYING: f64 = 5.0;
-/// Share of a move, or of the plan, that may go unseen.
-/// Less cannot hide a move that would be judged by itself.
+/// Share of the first move that a log may begin behind.
 const LEAST_SHARE: f64 = 0.1;
 /// Points of a chord that are looked at.
 const POINTS: usize = 32;
@@ -116,33 +114,18 @@ impl Look<'_> {
         let longest = self.gap(longest);
         let unseen = self.moves_unseen();
         let mut open = self.ends();
-        let mut estimate = None;
+        let mut not_excluded = None;
         if let Some(limit) = self.hidden.path {
             let over = intervals.filter_map(|i| Some((i, self.beyond(i, limit)?)));
-            let over: Vec<(usize, f64)> = over.collect();
-            let gravest =
-                |all: &mut dyn Iterator<Item = &(usize, f64)>| all.max_by(|a, b| a.1.total_cmp(&b.1)).copied();
-            let decides = match self.hidden.estimated {
-                false => gravest(&mut over.iter()),
-                true => gravest(&mut over.iter().filter(|(i, _)| self.is_outlying(*i))),
-            };
-            open = open.or_else(|| decides.map(|(i, most)| self.told(i, most, limit)));
-            let share: f64 = unseen.iter().map(|index| self.planned_share(*index)).sum();
-            if !over.is_empty() && share > LEAST_SHARE {
-                open = open.or_else(|| Some(self.told_unseen(&unseen, share)));
+            if let Some((i, most)) = over.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                open = open.or_else(|| Some(self.told(i, most, limit)));
+                not_excluded = Some(most);
             }
-            estimate = gravest(&mut over.iter()).map(|(_, most)| most);
         }
         let (late_open, late_proven) = self.late(&measured.moves);
         let open = open.or(late_open).or_else(|| self.left_out());
         let moves = self.path.moves().len();
-        Unseen {
-            longest,
-            seen: [moves - unseen.len(), moves],
-            late_proven,
-            estimate: estimate.filter(|_| open.is_none()),
-            open,
-        }
+        Unseen { longest, seen: [moves - unseen.len(), moves], late_proven, not_excluded, open }
     }
 
     /// The interval after sample `i`.
@@ -179,20 +162,6 @@ impl Look<'_> {
         }
     }
 
-    /// Whether the interval is a gap that takes the end of a move, or a tenth of one.
-    fn is_outlying(&self, i: usize) -> bool {
-        if self.seconds(i) <= OUTLYING * self.usual {
-            return false;
-        }
-        let (a, b) = (self.progress[i], self.progress[i + 1]);
-        let mut before = 0.0;
-        self.way.ends.iter().zip(&self.targets).any(|(end, target)| {
-            let of_move = (end.min(b) - a.max(before)) / (end - before).max(f64::MIN_POSITIVE);
-            before = *end;
-            (a < *target && *target <= b) || of_move >= LEAST_SHARE
-        })
-    }
-
     /// How far off the path the arm may have been between two samples, m, where that is beyond the limit.
     ///
     /// The larger of both samples' deviations and those of 32 points of the chord, plus what bulges out of it, the
@@ -216,7 +185,10 @@ impl Look<'_> {
     /// In mm, with what the bound rests on.
     fn told(&self, i: usize, most: f64, limit: f64) -> String {
         let gap = self.gap(i);
-        let estimated = if self.hidden.estimated { ", estimated" } else { "" };
+        let estimated = self
+            .hidden
+            .estimated
+            .map_or(String::new(), |key| format!(", estimated: `{key}` in its file decides, or more samples a second"));
         format!(
             "{gap}: {:.2} mm off the path are not excluded there (a_max h²/8 of the arm's joints{estimated}), the limit is {:.2} mm",
             MILLI * most,
@@ -231,24 +203,6 @@ impl Look<'_> {
             seen[self.way.owner(*along)] = true;
         }
         seen.iter().enumerate().filter(|(_, seen)| !**seen).map(|(index, _)| index).collect()
-    }
-
-    /// 0 … 1 of the plan's time.
-    fn planned_share(&self, index: usize) -> f64 {
-        let before = index.checked_sub(1).map_or(0.0, |before| self.path.passes(before));
-        (self.path.passes(index) - before) / self.whole()
-    }
-
-    fn told_unseen(&self, unseen: &[usize], share: f64) -> String {
-        let name = |index: usize| self.path.moves()[index].name.as_str();
-        format!(
-            "no sample on {} of {} moves, {:.0} % of the plan, the first of them {} (samples are {:.3} s apart)",
-            unseen.len(),
-            self.path.moves().len(),
-            100.0 * share,
-            name(unseen[0]),
-            self.usual
-        )
     }
 
     /// What is missing before the first sample and after the last.
