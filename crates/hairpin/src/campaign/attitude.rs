@@ -46,9 +46,18 @@ fn beyond(track: &Track, most: f64) -> Option<Overturned> {
     Some(Overturned { at_s: track.times()[first], tilt_rad: tilt(first), throughout })
 }
 
+/// The same of a motion whose rows may have been left out: then it is the moment of the largest tilt, and nobody knows
+/// for how long.
+fn seen(track: &Track, measures: &Measures, most: f64) -> Option<Overturned> {
+    beyond(track, most).or_else(|| {
+        let tilt_rad = measures.max_tilt?.to_radians();
+        (tilt_rad > most).then_some(Overturned { at_s: measures.t_tilt, tilt_rad, throughout: false })
+    })
+}
+
 /// Of a vehicle that stands on the ground: where it is beyond the tilt of its robot's file.
-pub(super) fn fallen(setup: &Setup, track: &Track) -> Option<Overturned> {
-    beyond(track, setup.kind().most_tilt()? + ROOM)
+pub(super) fn fallen(setup: &Setup, track: &Track, measures: &Measures) -> Option<Overturned> {
+    seen(track, measures, setup.kind().most_tilt()? + ROOM)
 }
 
 /// That it has tipped over, as a violation; on the leg of `measures` that its time is in.
@@ -64,17 +73,17 @@ pub(super) fn tipped_over(found: &Overturned, track: &Track, measures: &Measures
 
 /// Of a vehicle whose file bounds no tilt: where its up axis points down; of what flies, and may turn over, where it
 /// does all the way. What is no vehicle has no up axis.
-pub(super) fn upside_down(setup: &Setup, track: &Track) -> Option<Overturned> {
+pub(super) fn upside_down(setup: &Setup, track: &Track, measures: &Measures) -> Option<Overturned> {
     let flies = setup.kind().room()?.flies;
     let bounded = setup.kind().most_tilt().is_some();
-    let found = beyond(track, std::f64::consts::FRAC_PI_2).filter(|found| found.throughout || !flies);
+    let found = seen(track, measures, std::f64::consts::FRAC_PI_2).filter(|found| found.throughout || !flies);
     found.filter(|_| !bounded)
 }
 
 /// Why the run of a program of the user's decides nothing, where anything is asked.
-pub(super) fn open(setup: &Setup, track: &Track, limits: &Limits) -> Option<String> {
+pub(super) fn open(setup: &Setup, track: &Track, measures: &Measures, limits: &Limits) -> Option<String> {
     setup.program().filter(|_| limits.are_given())?;
-    upside_down(setup, track).map(|found| found.in_words())
+    upside_down(setup, track, measures).map(|found| found.in_words())
 }
 
 #[cfg(test)]

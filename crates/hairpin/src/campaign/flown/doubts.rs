@@ -226,10 +226,10 @@ pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Mea
 }
 
 /// That a log's up axis points down, or lies beyond the tilt of its robot's file all the way, whatever is limited.
-pub(super) fn overturned(setup: &Setup, log: &Log, limits: &Limits) -> Option<Doubt> {
+pub(super) fn overturned(setup: &Setup, log: &Log, limits: &Limits, measures: &Measures) -> Option<Doubt> {
     let track = &log.flight.track;
-    let all_the_way = || fallen(setup, track).filter(|found| found.throughout);
-    let found = upside_down(setup, track).or_else(all_the_way).filter(|_| limits.are_given())?;
+    let all_the_way = || fallen(setup, track, measures).filter(|found| found.throughout);
+    let found = upside_down(setup, track, measures).or_else(all_the_way).filter(|_| limits.are_given())?;
     let most = setup.kind().most_tilt().unwrap_or(std::f64::consts::FRAC_PI_2);
     let value = violation("tilt", found.tilt_rad.to_degrees(), most.to_degrees(), found.at_s, 0);
     Some(Doubt { value: Violation { unit: "°".into(), ..value }, why: Why::Overturned(found) })

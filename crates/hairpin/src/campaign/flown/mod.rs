@@ -112,9 +112,9 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let clear_by = terms.limits.clearance.or(no_contact);
     let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let mut doubts: Vec<Doubt> = too_fast(setup, log, &terms.limits, &measures).into_iter().collect();
-    doubts.extend(overturned(setup, log, &terms.limits));
+    doubts.extend(overturned(setup, log, &terms.limits, &measures));
     // All the way it is another convention of quaternions rather than a vehicle that fell.
-    let fell = fallen(setup, &log.flight.track).filter(|fell| !fell.throughout);
+    let fell = fallen(setup, &log.flight.track, &measures).filter(|fell| !fell.throughout);
     broken.splice(..0, fell.map(|fell| tipped_over(&fell, &log.flight.track, &measures)));
     for (what, doubt) in [
         ("deviation", looked.deviation(&measures, terms.limits.deviation)),

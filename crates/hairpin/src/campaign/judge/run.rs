@@ -147,7 +147,11 @@ impl Seen<'_> {
         let mut violations = judgement::violations(self.measures, self.flight, limits);
         violations.retain(|one| !OF_ROWS.contains(&one.what.as_str()) || !self.is_open(one.value, one.limit));
         let track = &self.flight.track;
-        let fell = self.own.program().and_then(|_| fallen(self.own, track)).filter(|_| !self.flight.ended.is_crash());
+        let fell = self
+            .own
+            .program()
+            .and_then(|_| fallen(self.own, track, self.measures))
+            .filter(|_| !self.flight.ended.is_crash());
         violations.splice(..0, fell.map(|fell| tipped_over(&fell, track, self.measures)));
         let Some(moves) = self.moves else { return violations };
         let ours = self.own.kind().programs().is_some_and(|programs| programs.recordings().is_none());
@@ -199,7 +203,7 @@ impl Seen<'_> {
         let programs = own.kind().programs();
         let kept = || self.moves.filter(|_| keeps);
         too_fast(own, case, flight, limits)
-            .or_else(|| attitude::open(own, &flight.track, limits))
+            .or_else(|| attitude::open(own, &flight.track, measures, limits))
             .or_else(|| programs.filter(|_| limits.are_given())?.beyond(&flight.track))
             .or_else(|| self.moves?.unseen.as_ref()?.open.clone())
             .or_else(|| kept().filter(|_| limits.unfinished)?.beside(limits.deviation.is_some()))
