@@ -154,7 +154,7 @@ fn passed_over(setup: &Setup, cases: &[Case], results: &[CaseResult]) -> Option<
 fn not_drawn(setup: &Setup) -> Option<String> {
     let drawn = setup.scenario.vary().keys().any(|key| !shapes_the_plan(key));
     let alone = setup.scenario.executor().repeat == 1 && setup.recordings().is_none();
-    (drawn && alone).then(|| "`[vary]` was not drawn: execute.repeat = 1".into())
+    (drawn && alone).then(|| "nothing of `vary` was drawn: execute.repeat = 1".into())
 }
 
 /// `clear: all links`, and `… within 15 mm of the path` where the judgement lets runs be farther off it: evidence
