@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::report::worst_first;
 use hairpin::campaign::{Case, CaseResult, Setup, Status};
 use hairpin_formats::atomic;
+use hairpin_formats::bounds::{self, MOST_BYTES};
 use hairpin_formats::repro::Repro;
 
 use crate::Problem;
@@ -80,12 +81,12 @@ fn keep(file: &Path, folder: &Path, case: &str) -> Result<(), Problem> {
         1 => format!("{case}-kept.json"),
         _ => format!("{case}-kept-{number}.json"),
     });
-    let told = std::fs::read(file).map_err(|error| refused("read", file, &error))?;
+    let told = bounds::read(file, MOST_BYTES).map_err(|error| refused("read", file, &error))?;
     for there in names.map(|name: String| -> PathBuf { folder.join(name) }) {
         if !there.exists() {
             return std::fs::rename(file, &there).map_err(|error| refused("rename", file, &error));
         }
-        if std::fs::read(&there).is_ok_and(|kept| kept == told) {
+        if bounds::read(&there, MOST_BYTES).is_ok_and(|kept| kept == told) {
             return std::fs::remove_file(file).map_err(|error| refused("remove", file, &error));
         }
     }

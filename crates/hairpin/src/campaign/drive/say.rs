@@ -9,12 +9,25 @@ use crate::campaign::kind::{
     Assumptions, Axis, BEYOND, Drawing, Facts, Footing, FrameWords, Handed, Motion, RobotWords, Room, Say,
     reached_within, word,
 };
+use crate::campaign::scenario::DriveLimits;
 use crate::campaign::{Case, Tally};
 use crate::judgement::{Clearance, Swiftness};
 use crate::robot::rover::Rover;
 use crate::simulation::Controlled;
 use crate::trajectory::Track;
 use crate::world::terrain::{ElevationMap, Terrain};
+
+/// What of slopes is not modelled of what stands level wherever it is, and which of the `limits` that are given nothing
+/// would ever break.
+fn slopes_left_out(limits: &DriveLimits) -> String {
+    let given = [
+        ("generate.limits.tilt_deg", limits.tilt_deg),
+        ("generate.limits.belly_clearance_m", limits.belly_clearance_m),
+    ];
+    let given: Vec<&str> = given.into_iter().filter_map(|(key, value)| value.map(|_| key)).collect();
+    let limits = if given.is_empty() { String::new() } else { format!(", nor {} held", given.join(" and ")) };
+    format!("slopes of the map are not modelled{limits}: no suspension")
+}
 
 impl Say for DriveSetup {
     fn robot_words(&self) -> RobotWords<'_> {
@@ -24,9 +37,7 @@ impl Say for DriveSetup {
             caveat: &rover.caveat,
             estimated: rover.estimated.clone(),
             has_sides: true,
-            unknown_shapes: self
-                .leaves_slopes_out
-                .then_some("slopes of the map are not modelled: no suspension".into()),
+            unknown_shapes: self.leaves_slopes_out.then(|| slopes_left_out(&self.scenario.generate.limits)),
             loops: Rover::LOOPS,
             battery: None,
         }

@@ -2,7 +2,7 @@
 
 use crate::campaign::check::Findings;
 use crate::campaign::scenario::{DriveGenerate, DriveLimits, ProfileName};
-use crate::robot::rover::{MOST_SPEED, Rims, Rover, Suspension};
+use crate::robot::rover::{MOST_SPEED, Rims, Rover};
 
 /// Limits within what is meant by them; those of speed leave driven wheels room to turn.
 ///
@@ -36,14 +36,6 @@ pub(super) fn check_limits(limits: &DriveLimits, rover: Option<&Rover>, found: &
              with"
             );
             found.require(speed <= most, "generate.limits.speed_m_s", speed, &bound);
-        }
-    }
-    // It stands level wherever it is: whatever the limit, nothing would ever break it.
-    let stands = rover.is_none_or(|rover| rover.suspension != Suspension::Level);
-    for (key, value) in [("tilt_deg", limits.tilt_deg), ("belly_clearance_m", limits.belly_clearance_m)] {
-        if let Some(value) = value.filter(|_| !stands) {
-            let bound = "left out: the robot has no suspension, and its model no slopes";
-            found.require(false, &format!("generate.limits.{key}"), value, bound);
         }
     }
     if let Some(clearance) = limits.belly_clearance_m {
