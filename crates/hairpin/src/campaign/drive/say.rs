@@ -37,7 +37,7 @@ impl Say for DriveSetup {
             caveat: &rover.caveat,
             estimated: rover.estimated.clone(),
             has_sides: true,
-            unknown_shapes: self.leaves_slopes_out.then(|| slopes_left_out(&self.scenario.generate.limits)),
+            unknown_shapes: self.leaves_slopes_out.then(|| slopes_left_out(&self.scenario.generate.limits).into()),
             loops: Rover::LOOPS,
             battery: None,
         }
