@@ -550,7 +550,7 @@ fn limits_that_the_model_does_not_have_are_named() {
     let hills = ("world.terrain", json!({ "generator": "fractal", "size_m": 40, "cell_m": 0.25 }));
     let limits = [("generate.limits.tilt_deg", json!(10)), ("generate.limits.belly_clearance_m", json!(0.1))];
     let told = |setup: Setup| setup.unknown_shapes();
-    let all = [&[hills.clone()], &limits[..]].concat();
+    let all = [std::slice::from_ref(&hills), &limits[..]].concat();
     let words = "slopes of the map are not modelled, nor generate.limits.tilt_deg and generate.limits.belly_clearance_m held: \
                  no suspension";
     assert_eq!(told(setup(car(), &all)).as_deref(), Some(words));
