@@ -3,7 +3,7 @@
 use hairpin::campaign::report::{Drawn, Moment, Shown, shown};
 use hairpin::campaign::{Case, CaseResult, Log, Run};
 use hairpin::judgement::finding;
-use hairpin::trajectory::{Channel, Track};
+use hairpin::trajectory::Track;
 use nalgebra::Vector3;
 
 use super::against::Ready;
@@ -74,7 +74,7 @@ fn sheet(case: &Case, result: CaseResult, run: Drawn, begins: f64, against: &Rea
         others.push(Run { run: 1 + run.run, outcome, ..run });
     }
     let shown = shown(&against.setup, case, &result, later(&planned)?, Some(run), &others).map_err(Problem::input)?;
-    Ok(Sheet { case: case.clone(), shown: thinned(shown)?, simulated, notes })
+    Ok(Sheet { case: case.clone(), shown: thinned(shown), simulated, notes })
 }
 
 /// How the judged part ended.
@@ -105,8 +105,8 @@ fn moment(found: &Found) -> Option<Moment> {
 }
 
 /// With fewer samples, so that many logs have room; both ends, the worst and the moment stay.
-fn thinned(mut shown: Shown) -> Result<Shown, Problem> {
-    let Some(track) = shown.flown.take() else { return Ok(shown) };
+fn thinned(mut shown: Shown) -> Shown {
+    let Some(track) = shown.flown.take() else { return shown };
     let count = track.len();
     let worst = (0..count).max_by(|a, b| shown.distances[*a].total_cmp(&shown.distances[*b]));
     let moment = shown.moment.as_ref().map(|moment| track.times().partition_point(|t| *t < moment.at));
@@ -115,10 +115,7 @@ fn thinned(mut shown: Shown) -> Result<Shown, Problem> {
     kept.sort_unstable();
     kept.dedup();
     let of = |values: &[f64]| kept.iter().map(|i| values[*i]).collect::<Vec<f64>>();
-    let channels =
-        track.channels().iter().map(|channel| Channel { name: channel.name.clone(), values: of(&channel.values) });
-    let poses = kept.iter().map(|i| track.poses()[*i]).collect();
-    let flown = Track::new(of(track.times()), poses, channels.collect()).map_err(Problem::input)?;
+    let flown = track.only(&kept);
     (shown.distances, shown.judged) = (of(&shown.distances), kept.iter().map(|i| shown.judged[*i]).collect());
-    Ok(Shown { flown: Some(flown), ..shown })
+    Shown { flown: Some(flown), ..shown }
 }

@@ -62,12 +62,8 @@ pub(super) fn fallen(setup: &Setup, track: &Track, measures: &Measures) -> Optio
 
 /// That it has tipped over, as a violation; on the leg of `measures` that its time is in.
 pub(super) fn tipped_over(found: &Overturned, track: &Track, measures: &Measures) -> Violation {
-    let mut past = track.times().first().copied().unwrap_or_default();
-    let leg = measures.legs.iter().position(|leg| {
-        past += leg.time;
-        past > found.at_s
-    });
-    let leg = leg.unwrap_or(measures.legs.len().saturating_sub(1));
+    let begins = track.times().first().copied().unwrap_or_default();
+    let leg = measures.leg_after(found.at_s - begins).unwrap_or(measures.legs.len().saturating_sub(1));
     Violation { what: "tip-over".into(), value: found.at_s, limit: 0.0, unit: "s".into(), at: found.at_s, leg }
 }
 

@@ -4,6 +4,8 @@
 //! Bounded as what hides in a log is ([`look_closely`], [`most_anywhere`]). Our own simulators sample as their
 //! integration goes, and nothing is asked of them.
 
+use std::borrow::Cow;
+
 use nalgebra::Point3;
 
 use super::Setup;
@@ -35,8 +37,9 @@ pub(super) fn sampled(
     let resolution = Resolution::of(track);
     let settings = &Settings { resolution, ..*settings };
     let apart = |i: usize, j: usize| (track.position(j) - track.position(i)).norm();
-    let keep: Vec<bool> = repeats(track.times(), &apart, resolution.place.all).iter().map(|stale| !stale).collect();
-    let track = &track.only(&keep);
+    let stale = repeats(track.times(), &apart, resolution.place.all);
+    let new: Vec<usize> = (0..track.len()).filter(|&i| !stale[i]).collect();
+    let track = &if new.len() < track.len() { Cow::Owned(track.only(&new)) } else { Cow::Borrowed(track) };
     let mut measures = measure(track, waypoints, settings)?;
     measures.waypoints_within = radii(track, waypoints);
     let acceleration = setup.swiftness().acceleration;

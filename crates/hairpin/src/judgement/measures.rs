@@ -195,6 +195,15 @@ impl Measures {
         }
     }
 
+    /// The leg that a motion is on `elapsed` (s) after it began; `None` behind the last.
+    pub fn leg_after(&self, elapsed: f64) -> Option<usize> {
+        let mut past = 0.0;
+        self.legs.iter().position(|leg| {
+            past += leg.time;
+            past > elapsed
+        })
+    }
+
     /// What tells one execution from another, each measure in its own unit. What a robot has no measure of counts as 0,
     /// of all its executions alike.
     pub fn behaviour(&self) -> Vec<f64> {

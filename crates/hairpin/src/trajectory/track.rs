@@ -125,13 +125,12 @@ impl Track {
         Self { ways, ..self }
     }
 
-    /// The stamps that `keep` says, with their poses and channels; places go straight from one to the next.
+    /// The stamps `which`, by their indices in rising order, with their poses and channels; places go straight from one
+    /// to the next.
     ///
     /// # Panics
-    /// Unless it has one word a stamp.
-    pub fn only(&self, keep: &[bool]) -> Self {
-        assert_eq!(keep.len(), self.len(), "a word a stamp");
-        let which: Vec<usize> = (0..self.len()).filter(|&i| keep[i]).collect();
+    /// If there is no such stamp.
+    pub fn only(&self, which: &[usize]) -> Self {
         let of = |values: &[f64]| which.iter().map(|&i| values[i]).collect();
         let channel = |channel: &Channel| Channel { name: channel.name.clone(), values: of(&channel.values) };
         Self {

@@ -9,7 +9,9 @@ use hairpin::trajectory::Track;
 use hairpin_formats::controller_log::{self, ControllerLog};
 use hairpin_formats::logs::{self, Clock, Logged, Source};
 use hairpin_formats::quote::shortened;
+use nalgebra::Vector3;
 
+use super::super::aside::placed;
 use super::super::asks::Asks;
 use super::super::source::{SourceTold, clock_words};
 use super::super::told;
@@ -93,7 +95,9 @@ pub(super) fn recording(
         samples: times.len(),
         rate_hz: 1.0 / spans[spans.len() / 2],
     };
-    let track = part(&log.track, &which, begins_s).map_err(refuse)?;
+    // Times are counted from where it begins.
+    let track = placed(&log.track.only(&which), Vector3::zeros(), -begins_s);
+    let track = track.map_err(|problem| refuse(problem.to_string()))?;
     let to_s = to_s.filter(|to| times[times.len() - 1] > *to);
     Ok(Read { log: ControllerLog { track, ..log }, source, joints, begins_s, to_s, notes })
 }
@@ -155,16 +159,4 @@ fn chosen<'a>(
         (0, _) => Err(why),
         _ => Err(format!("several topics have this arm's joints: {}; {}", names(), asks.topic)),
     }
-}
-
-/// The samples `which`, times counted from `begins`.
-fn part(track: &Track, which: &[usize], begins: f64) -> Result<Track, String> {
-    let of = |values: &[f64]| which.iter().map(|i| values[*i]).collect::<Vec<f64>>();
-    let times = which.iter().map(|i| track.times()[*i] - begins).collect();
-    let poses = which.iter().map(|i| track.poses()[*i]).collect();
-    let channels = track
-        .channels()
-        .iter()
-        .map(|channel| hairpin::trajectory::Channel { name: channel.name.clone(), values: of(&channel.values) });
-    Track::new(times, poses, channels.collect()).map_err(|error| error.to_string())
 }

@@ -200,9 +200,7 @@ fn check_execute(execute: &ArmExecute, found: &mut Findings) {
     let bound = "left out: the virtual controller's clock is the program's";
     let shared = execute.logs.is_some() || execute.log_clock == LogClock::AsRecorded;
     found.require(shared, "execute.log_clock", "\"offset-removed\"", bound);
-    if let Some(repeat) = execute.repeat {
-        found.count("execute.repeat", repeat, 1, 100_000);
-    }
+    found.repeat(execute.repeat);
     found.flaky(execute.flaky);
     found.baseline(execute.baseline);
     found.from("execute.servo_lag_s", execute.servo_lag_s, 0.0, 10.0, " s");

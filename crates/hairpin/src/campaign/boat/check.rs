@@ -149,9 +149,7 @@ fn check_score(keys: &BoatScenario, files: &Attachments, found: &mut Findings) {
 /// component.
 fn check_execute(execute: &BoatExecute, boat: Option<&Boat>, found: &mut Findings) {
     found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
-    if let Some(repeat) = execute.repeat {
-        found.count("execute.repeat", repeat, 1, 100_000);
-    }
+    found.repeat(execute.repeat);
     found.flaky(execute.flaky);
     found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 10_000.0, " m");

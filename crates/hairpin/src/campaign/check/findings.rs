@@ -149,6 +149,13 @@ impl Findings {
         }
     }
 
+    /// `execute.repeat`.
+    pub(in crate::campaign) fn repeat(&mut self, runs: Option<u64>) {
+        if let Some(runs) = runs {
+            self.count("execute.repeat", runs, 1, 100_000);
+        }
+    }
+
     /// `execute.flaky`.
     pub(in crate::campaign) fn flaky(&mut self, section: Option<FlakySection>) {
         if let Some(section) = section {

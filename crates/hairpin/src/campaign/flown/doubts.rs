@@ -216,11 +216,7 @@ impl Looked<'_> {
 pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Measures) -> Option<Doubt> {
     let track = &log.flight.track;
     let found = impossible(setup, track, &log.breaks, &|i| log.radius(i)).filter(|_| limits.are_given())?;
-    let mut past = 0.0;
-    let leg = measures.legs.iter().position(|leg| {
-        past += leg.time;
-        past > found.from_s - track.times()[0]
-    });
+    let leg = measures.leg_after(found.from_s - track.times()[0]);
     let value = violation("speed", found.speed(), found.bound_m_s, found.from_s, leg.unwrap_or(0));
     Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
 }

@@ -250,9 +250,7 @@ fn check_direction(generate: &DriveGenerate, rover: &Rover, found: &mut Findings
 /// vehicle with a weight.
 fn check_execute(execute: &DriveExecute, rover: Option<&Rover>, found: &mut Findings) {
     found.who(execute.controller.as_ref(), execute.control_rate_hz, execute.command.as_deref());
-    if let Some(repeat) = execute.repeat {
-        found.count("execute.repeat", repeat, 1, 100_000);
-    }
+    found.repeat(execute.repeat);
     found.flaky(execute.flaky);
     found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");

@@ -8,9 +8,7 @@ use crate::campaign::scenario::ExecuteSection;
 /// Latency ≤ 1 s and bandwidth 0.1 … 10 are for controllers of ours; of a program's gains and delays nothing is known.
 pub(super) fn check(execute: &ExecuteSection, found: &mut Findings) {
     check_who(execute, found);
-    if let Some(repeat) = execute.repeat {
-        found.count("execute.repeat", repeat, 1, 100_000);
-    }
+    found.repeat(execute.repeat);
     found.flaky(execute.flaky);
     found.baseline(execute.baseline);
     found.above("execute.accept_m", execute.accept_m, 0.0, 1000.0, " m");
