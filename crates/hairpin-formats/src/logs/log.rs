@@ -87,8 +87,8 @@ pub struct LoggedMotion {
     /// Why nothing is to be judged by it, where that is so: it is at two places at one moment, or its clock was set
     /// back.
     pub unfit: Option<String>,
-    /// What the last decimal of the finest of a text's positions is, m; `None` of what is no text.
-    pub told_to_m: Option<f64>,
+    /// How finely positions are told, where who reads them knows it.
+    pub told_to: Option<ToldTo>,
     /// Why it has no heights, where that is so: its samples are at 0 m, wherever the body was.
     pub no_heights: Option<String>,
 }
@@ -96,9 +96,19 @@ pub struct LoggedMotion {
 impl LoggedMotion {
     /// A motion of which no more is told than its samples.
     pub fn of(name: &str, source: Source, samples: Vec<Sample>) -> Self {
-        let (resets, invalid, unfit, told_to_m, no_heights) = Default::default();
-        Self { name: name.into(), source, samples, resets, invalid, unfit, told_to_m, no_heights }
+        let (resets, invalid, unfit, told_to, no_heights) = Default::default();
+        Self { name: name.into(), source, samples, resets, invalid, unfit, told_to, no_heights }
     }
+}
+
+/// How finely positions are told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ToldTo {
+    /// A text's last decimal, of the finest of its numbers, m.
+    Decimal(f64),
+    /// Steps along three axes at right angles, m; 0: exactly. Degrees have them, and metres made of degrees no longer
+    /// show them.
+    Steps([f64; 3]),
 }
 
 /// A body at a time.
@@ -141,6 +151,8 @@ pub struct Progress {
     pub t_s: f64,
     /// The item.
     pub item: u32,
+    /// How many the mission as uploaded has, where the log says it.
+    pub of: Option<u32>,
     /// The place that is flown to, in the frame of positions, where the log has it.
     pub target_m: Option<Point3<f64>>,
 }

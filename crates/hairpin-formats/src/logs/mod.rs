@@ -25,7 +25,9 @@ use std::io::Read;
 use std::path::Path;
 
 pub use error::{LogError, MOST_SAMPLES, Place};
-pub use log::{Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span};
+pub use log::{
+    Clock, Event, EventKind, Joints, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span, ToldTo,
+};
 
 pub use planned::is_planned;
 

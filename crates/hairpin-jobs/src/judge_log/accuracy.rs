@@ -1,7 +1,7 @@
 //! How well each sample of a log knows its place, and in which steps it tells that.
 
 use hairpin::judgement::{Resolution, Step, TELLING};
-use hairpin_formats::logs::{LoggedMotion, Sample};
+use hairpin_formats::logs::{LoggedMotion, Sample, ToldTo};
 
 /// Horizontal and vertical standard deviation of each sample, m, and what is to be told of it; none of a log that tells
 /// nothing of any.
@@ -31,8 +31,9 @@ pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
     let velocities = motion.samples.iter().all(|sample| sample.v_m_s.is_some());
     let place = of(&|sample, axis| sample.p_m[axis]);
     Resolution {
-        place: match motion.told_to_m.filter(|_| motion.samples.len() >= TELLING) {
-            Some(digit) => place.written_to(digit),
+        place: match motion.told_to.filter(|_| motion.samples.len() >= TELLING) {
+            Some(ToldTo::Decimal(digit)) => place.written_to(digit),
+            Some(ToldTo::Steps(steps)) => Step::along(steps),
             None => place,
         },
         velocity: if velocities { of(&|sample, axis| sample.v_m_s.map_or(0.0, |v| v[axis])) } else { Step::default() },

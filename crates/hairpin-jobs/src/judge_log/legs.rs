@@ -176,22 +176,44 @@ pub(crate) fn course(logged: &Logged, progress: &[Progress], waypoints: &[Point3
         let rises = steps.windows(2).all(|pair| pair[0].1 <= pair[1].1);
         return rises.then_some(Course { by: LegsBy::Count, steps, done_s: None });
     }
-    let mut items: Vec<u32> = progress.iter().map(|step| step.item).collect();
-    items.dedup();
-    let follow = items.windows(2).all(|pair| pair[0] < pair[1]);
-    // Take-off before and landing behind, or neither.
-    let skipped = match items.len().checked_sub(waypoints.len())? {
-        0 => 0,
-        2 => 1,
-        _ => return None,
-    };
-    if !follow {
-        return None;
-    }
-    let waypoint = |item: u32| items.iter().position(|known| *known == item)?.checked_sub(skipped);
+    let waypoint = counted(progress, waypoints.len())?;
     let told = progress.iter().filter_map(|step| Some((step.t_s, waypoint(step.item)?)));
     let (steps, behind): (Vec<_>, Vec<_>) = told.partition(|(_, waypoint)| *waypoint <= last);
     Some(Course { by: LegsBy::Count, steps, done_s: behind.first().map(|(t, _)| *t) })
+}
+
+/// Which of so many waypoints an item flies to, where it flies to one: what lies behind the last counts on. `None`: the
+/// items' numbers do not tell.
+///
+/// What a log shows need not be all that was uploaded: it may begin amid the mission, or end there. Only where it says
+/// how many items there are do their numbers tell where they stand.
+fn counted(progress: &[Progress], waypoints: usize) -> Option<impl Fn(u32) -> Option<usize>> {
+    let total = progress[0].of?;
+    let mut items: Vec<u32> = progress.iter().map(|step| step.item).collect();
+    items.dedup();
+    let follow = items.windows(2).all(|pair| pair[0] < pair[1]) && items.iter().all(|item| *item < total);
+    if !follow || progress.iter().any(|step| step.of != Some(total)) {
+        return None;
+    }
+    // Take-off before and landing behind, or neither.
+    let skipped = |count: usize| match count.checked_sub(waypoints)? {
+        0 => Some(0),
+        2 => Some(1),
+        _ => None,
+    };
+    // Commands that take no time are items as well, and nobody sees them: then only those that are seen count, and only
+    // if they are all.
+    let all_seen = items.windows(2).all(|pair| pair[1] == pair[0] + 1);
+    if let Some(skipped) = skipped(total as usize).filter(|_| all_seen) {
+        return Some(place_of((0..total).collect(), skipped));
+    }
+    let is_whole = items.first() == Some(&0) && items.last() == Some(&(total - 1));
+    let skipped = skipped(items.len()).filter(|_| is_whole)?;
+    Some(place_of(items, skipped))
+}
+
+fn place_of(items: Vec<u32>, skipped: usize) -> impl Fn(u32) -> Option<usize> {
+    move |item| items.iter().position(|known| *known == item)?.checked_sub(skipped)
 }
 
 /// Refuses a table's column `leg` that numbers other legs than those between `waypoints`, of 0 to the last; behind the
@@ -216,7 +238,8 @@ pub(super) fn check_column(logged: &Logged, waypoints: usize) -> Result<(), Stri
 
 /// Each target is the next waypoint, or a later one, that lies within `accept` of it; targets before the first and
 /// behind the last are take-off and landing. Waypoints may be passed over only where the mission never says that it
-/// flies there: then it is no mission over these.
+/// flies there: then it is no mission over these. A log that begins amid the mission, on the way to one of the others,
+/// does not tell which of them were flown to before.
 fn by_targets(progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> Option<Course> {
     let last = waypoints.len() - 1;
     let (mut steps, mut next, mut done_s): (Vec<(f64, usize)>, usize, Option<f64>) = (Vec::new(), 0, None);
@@ -231,7 +254,7 @@ fn by_targets(progress: &[Progress], waypoints: &[Point3<f64>], accept: f64) -> 
             next += 1;
         } else if next > last {
             done_s = done_s.or(Some(step.t_s));
-        } else if next > 0 {
+        } else if next > 0 || (step.item > 0 && waypoints.iter().any(near)) {
             return None;
         }
     }

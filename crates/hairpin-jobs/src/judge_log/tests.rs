@@ -7,7 +7,7 @@ use hairpin::campaign::scenario::Origin;
 use hairpin::campaign::{Case, CaseNumber};
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{
-    Clock, Event, EventKind, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span,
+    Clock, Event, EventKind, LogFrame, Logged, LoggedMotion, Progress, Reset, Sample, Source, Span, ToldTo,
 };
 use hairpin_formats::placement::Placement;
 use nalgebra::{Point3, Rotation3, Vector3};
@@ -115,22 +115,22 @@ fn what_keeps_its_limit_passes_and_what_does_not_fails() {
 /// What is within half a step of its limit, along all three axes, is open; what nothing rounded is as it is told.
 #[test]
 fn what_rounding_may_have_made_decides_nothing() {
-    let rounded = |off: f64, told_to_m: Option<f64>, limit: &str| {
+    let rounded = |off: f64, told_to: Option<ToldTo>, limit: &str| {
         let mut logged = log(100.0, off);
         for sample in &mut logged.motions[0].samples {
             sample.p_m = Point3::from(sample.p_m.coords.map(|x| (10.0 * x).round() / 10.0));
         }
-        logged.motions[0].told_to_m = told_to_m;
+        logged.motions[0].told_to = told_to;
         let limits = &[("spec.deviation.max_m", limit)];
         let verdict = judged_as(&logged, |changed, here| *changed = settings(here, limits)).unwrap().verdict;
         (verdict.sentence, verdict.exit_code)
     };
     // Of whatever the numbers themselves show, and of a text whose last decimal it is.
-    for told_to_m in [None, Some(0.1)] {
+    for told_to in [None, Some(ToldTo::Decimal(0.1)), Some(ToldTo::Steps([0.1; 3]))] {
         for (off, limit, seen) in
             [(0.54, "0.5", "0.50 m ≤ 0.50 m"), (0.56, "0.55", "0.60 m > 0.55 m"), (0.46, "0.5", "0.50 m ≤ 0.50 m")]
         {
-            let (sentence, code) = rounded(off, told_to_m, limit);
+            let (sentence, code) = rounded(off, told_to, limit);
             let why = "but its positions are told in steps that move them by up to 0.087 m";
             let seen = sentence.contains(&format!(": {seen}, {why}"));
             assert!(
@@ -138,10 +138,10 @@ fn what_rounding_may_have_made_decides_nothing() {
                 "{off}: {sentence}"
             );
         }
-        assert_eq!((rounded(0.65, told_to_m, "0.5").1, rounded(0.4, told_to_m, "0.5").1), (1, 0));
+        assert_eq!((rounded(0.65, told_to, "0.5").1, rounded(0.4, told_to, "0.5").1), (1, 0));
     }
     // A text that has three decimals tells three, whatever they are.
-    assert_eq!(rounded(0.56, Some(1e-3), "0.55").1, 1);
+    assert_eq!(rounded(0.56, Some(ToldTo::Decimal(1e-3)), "0.55").1, 1);
     assert_eq!((said(&log(100.0, 0.49)).1, said(&log(100.0, 0.51)).1), (0, 1));
 }
 
@@ -516,7 +516,7 @@ fn logs_with_a_place_on_earth_come_into_the_world_by_its_origin() {
 
 #[test]
 fn legs_are_the_missions_own_where_it_tells_them() {
-    let step = |t_s: f64, item: u32, target: Option<Point3<f64>>| Progress { t_s, item, target_m: target };
+    let step = |t_s: f64, item: u32, target: Option<Point3<f64>>| Progress { t_s, item, of: None, target_m: target };
     // Take-off, a speed item, three waypoints, landing.
     let up = Point3::new(4.0, 4.0, 2.0);
     let [a, b, c] = corners().map(Some);
@@ -535,9 +535,37 @@ fn legs_are_the_missions_own_where_it_tells_them() {
         verdict.sentence
     );
     // Without targets they are counted: take-off and landing beside the waypoints.
-    log.progress = [-9.0, -5.0, 0.0, 3.9, 7.9].iter().enumerate().map(|(i, t)| step(*t, i as u32, None)).collect();
+    let counted = |items: [u32; 5], total: u32| {
+        let step = |(item, t_s)| Progress { t_s, item, of: Some(total), target_m: None };
+        items.into_iter().zip([-9.0, -5.0, 0.0, 3.9, 7.9]).map(step).collect::<Vec<_>>()
+    };
+    log.progress = counted([0, 1, 2, 3, 4], 5);
+    let whole = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!((whole.legs_by, whole.finished), (LegsBy::Count, true));
+    let most = |found: &Found| found.flown.as_ref().unwrap().measures.max_deviation;
+    // A change of speed between two of them is none of the places.
+    log.progress = counted([0, 1, 3, 4, 5], 6);
+    assert_eq!(judged_as(&log, |_, _| {}).unwrap().found.unwrap().legs_by, LegsBy::Count);
+    // Nor are two, although there are as many items as waypoints with a take-off and a landing.
+    log.progress =
+        [(0, -5.0), (2, 0.0), (4, 3.9)].map(|(item, t_s)| Progress { t_s, item, of: Some(5), target_m: None }).to_vec();
     let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
     assert_eq!((found.legs_by, found.finished), (LegsBy::Count, true));
+    // It is what was uploaded that counts: a log may begin on the way to a waypoint, or end there.
+    log.progress = counted([0, 1, 2, 3, 4], 5).split_off(2);
+    let late = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!((late.legs_by, late.finished), (LegsBy::Count, true));
+    assert_eq!(most(&late), most(&whole));
+    for (items, total) in [([0, 1, 2, 3, 4], 9), ([1, 2, 3, 4, 5], 7), ([0, 1, 2, 4, 3], 5)] {
+        log.progress = counted(items, total);
+        assert_eq!(judged_as(&log, |_, _| {}).unwrap().found.unwrap().legs_by, LegsBy::Assigned, "{items:?}");
+    }
+    log.progress = vec![step(-5.0, 0, None), step(0.0, 1, None), step(3.9, 2, None)];
+    let untold = judged_as(&log, |_, _| {}).unwrap().found.unwrap();
+    assert_eq!(untold.legs_by, LegsBy::Assigned, "nothing says how many there are");
+    // Nor do places, where one of the waypoints comes first that is not the first.
+    log.progress = vec![step(-5.0, 3, b), step(0.0, 4, a), step(3.9, 5, b), step(7.9, 6, c)];
+    assert_eq!(judged_as(&log, |_, _| {}).unwrap().found.unwrap().legs_by, LegsBy::Assigned);
     // A mission over other waypoints tells nothing of these.
     log.progress = vec![step(0.0, 1, a), step(4.0, 2, Some(up))];
     let found = judged_as(&log, |_, _| {}).unwrap().found.unwrap();

@@ -87,6 +87,12 @@ impl Step {
         Self { moved: if digit < 1.0 { 0.5 * 3_f64.sqrt() * digit } else { 0.0 }, ..self }
     }
 
+    /// Of numbers that are rounded to these steps, along three axes at right angles.
+    pub fn along(steps: [f64; 3]) -> Self {
+        let all = steps.iter().map(|step| step * step).sum::<f64>().sqrt();
+        Self { each: steps.into_iter().fold(0.0, f64::max), all, moved: 0.5 * all }
+    }
+
     /// Of the values of three axes. One that never changes does not show its own, and counts as the coarsest that does.
     ///
     /// O(values).

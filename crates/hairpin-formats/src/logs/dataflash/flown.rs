@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::super::log::{Event, EventKind, Progress, Reset};
-use super::super::modes::{Modes, in_order};
+use super::super::modes::{Flies, Modes, in_order};
 use super::place::{between, geodetic};
 use super::stream::Message;
 use crate::frames::Geodetic;
@@ -56,8 +56,14 @@ const SUB: [(f64, &str); 7] = [
     (16.0, "POSHOLD"),
     (19.0, "MANUAL"),
 ];
-/// Modes in which what was uploaded or sent is flown.
-const FLOWN: [&str; 2] = ["AUTO", "GUIDED"];
+/// What is flown in a mode.
+fn flies(mode: &str) -> Flies {
+    match mode {
+        "AUTO" => Flies::Uploaded,
+        "GUIDED" => Flies::Sent,
+        _ => Flies::Other,
+    }
+}
 
 /// A command of a mission: when, its number, where.
 type Command = (f64, u32, Option<Geodetic>);
@@ -156,8 +162,17 @@ impl Flown {
             false => self.begun.clone(),
             true => self.written.iter().enumerate().filter_map(alone).collect(),
         };
-        let one =
-            |(t_s, item, target): Command| Progress { t_s, item, target_m: target.and_then(|target| place(&target)) };
+        // The whole mission is written at once, from its first item on; more than one was not the same throughout.
+        let whole: Vec<u32> = (0..self.written.len())
+            .filter(|index| near(*index, index.checked_sub(1)) || near(*index, Some(index + 1)))
+            .map(|index| self.written[index].1)
+            .collect();
+        let counts = whole.iter().zip(0..).all(|(item, count)| *item == count);
+        let of = u32::try_from(whole.len()).ok().filter(|count| counts && *count > 0);
+        let one = |(t_s, item, target): Command| {
+            let target_m = target.and_then(|target| place(&target));
+            Progress { t_s, item, of, target_m }
+        };
         commands.into_iter().map(one).collect()
     }
 
@@ -170,12 +185,12 @@ impl Flown {
             let name = known.map_or("other", |(_, name)| name);
             let words = known.map_or_else(|| format!("MODE {number}"), |(_, name)| format!("MODE {name}"));
             if before != Some(name) {
-                for kind in modes.change(FLOWN.contains(&name)) {
-                    self.tell(t_s, kind, words.clone());
-                }
+                modes.go(&self.events, flies(name));
+                self.tell(t_s, EventKind::OtherMode, words);
             }
             before = Some(name);
         }
+        self.events = modes.settle(self.events);
         if before.is_some() && self.modes.is_none() {
             notes.push("modes are not read: no message says which vehicle's they are".into());
         }

@@ -14,13 +14,13 @@ use super::attitude::Attitudes;
 use super::axes::{enu_attitude, enu_vector};
 use super::error::Fault;
 use super::late::set_back;
-use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source};
+use super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, Source, ToldTo};
 use super::samples::Budget;
 use super::twice::two;
 use crate::frames::Geodetic;
 use cores::Cores;
 use flown::Flown;
-use place::{between, geodetic, is_place, local, plane};
+use place::{METRES, between, geodetic, is_place, local, plane};
 use stream::{Message, each};
 
 pub(super) use stream::MAGIC;
@@ -44,9 +44,18 @@ struct Series {
     samples: Vec<(f64, Geodetic, Option<Vector3<f64>>)>,
     attitudes: Attitudes,
     unfit: Option<String>,
+    /// Of latitude and longitude, °, and altitude, m.
+    steps: Option<[f64; 3]>,
 }
 
 impl Series {
+    /// The steps in which it tells places, about the first of them.
+    fn told_to(&self) -> Option<ToldTo> {
+        let ([lat, lon, up], (_, first, _)) = (self.steps?, self.samples.first()?);
+        let [north, east] = [lat * METRES, lon * METRES * libm::cos(first.lat_deg.to_radians())];
+        Some(ToldTo::Steps([north, east, up]))
+    }
+
     /// What is wrong where it is elsewhere than at `place` with the same stamp, or its clock was set back.
     fn contradiction(&self, t_s: f64, place: &Geodetic) -> Option<String> {
         let Ok(before) = self.samples.binary_search_by(|(at, ..)| at.total_cmp(&t_s)) else {
@@ -84,12 +93,13 @@ impl Log {
         let Some(t_s) = message.time() else { return Ok(()) };
         let place = || message.numbers(["Lat", "Lng", "Alt"]).and_then(geodetic);
         let turn = || message.numbers(["Roll", "Pitch", "Yaw"]).map(attitude);
+        let steps = message.steps(["Lat", "Lng", "Alt"]);
         // Of raw GPS only a fix of three dimensions is a place.
         let fixed = || message.number("Status").is_none_or(|status| status >= 3.0);
         match &message.format.name[..] {
-            "POS" => self.push(1, "POS", Source::Estimate, t_s, place(), None)?,
+            "POS" => self.push(1, "POS", Source::Estimate, t_s, place(), None)?.steps = steps,
             "SIM" => {
-                self.push(0, "SIM", Source::GroundTruth, t_s, place(), None)?;
+                self.push(0, "SIM", Source::GroundTruth, t_s, place(), None)?.steps = steps;
                 let q = message.numbers(["Q1", "Q2", "Q3", "Q4"]).map(|[w, x, y, z]| Quaternion::new(w, x, y, z));
                 let q = q.filter(|q| (q.norm() - 1.0).abs() < 1e-2);
                 let turn = q.map(|q| enu_attitude(UnitQuaternion::from_quaternion(q))).or_else(turn);
@@ -116,12 +126,12 @@ impl Log {
                 }
             }
             "AHR2" => {
-                self.push(3, "AHR2", Source::Estimate, t_s, place(), None)?;
+                self.push(3, "AHR2", Source::Estimate, t_s, place(), None)?.steps = steps;
                 self.turn((3, "AHR2"), t_s, turn());
             }
             "GPS" | "GPS2" if fixed() => {
                 let name = message.number("I").map_or_else(|| message.format.name.clone(), |i| format!("GPS[{i}]"));
-                self.push(4, &name, Source::Untold, t_s, place(), None)?;
+                self.push(4, &name, Source::Untold, t_s, place(), None)?.steps = steps;
             }
             "ATT" => {
                 self.budget.take()?;
@@ -150,10 +160,10 @@ impl Log {
         t_s: f64,
         place: Option<Geodetic>,
         v: Option<Vector3<f64>>,
-    ) -> Result<(), Fault> {
+    ) -> Result<&mut Series, Fault> {
         let key = (rank, name.to_owned());
-        let (samples, attitudes, unfit) = Default::default();
-        let series = self.series.entry(key).or_insert(Series { source, samples, attitudes, unfit });
+        let (samples, attitudes, unfit, steps) = Default::default();
+        let series = self.series.entry(key).or_insert(Series { source, samples, attitudes, unfit, steps });
         match place {
             Some(place) if series.samples.last().is_none_or(|(last, ..)| *last < t_s) => {
                 self.budget.take()?;
@@ -166,7 +176,7 @@ impl Log {
                 }
             }
         }
-        Ok(())
+        Ok(series)
     }
 
     fn turn(&mut self, (rank, name): (u8, &str), t_s: f64, turn: Option<UnitQuaternion<f64>>) {
@@ -204,9 +214,9 @@ impl Log {
             };
             let samples = series.samples.iter().zip(turns).map(one).collect();
             let resets = if series.source == Source::Estimate { flown.resets() } else { Vec::new() };
-            let (source, unfit) = (series.source, series.unfit);
+            let (source, told_to, unfit) = (series.source, series.told_to(), series.unfit);
             notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
-            motions.push(LoggedMotion { resets, unfit, ..LoggedMotion::of(&name, source, samples) });
+            motions.push(LoggedMotion { resets, unfit, told_to, ..LoggedMotion::of(&name, source, samples) });
         }
         cores.settle(&mut motions, &mut notes);
         motions.sort_by_key(|motion| motion.source);

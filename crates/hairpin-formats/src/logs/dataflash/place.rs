@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::frames::{Cage, Geodetic};
 
 /// `LOCATION_SCALING_FACTOR`, metres of a degree of latitude: a sphere of 6378.1 km.
-const METRES: f64 = 0.011_131_884_502_145_034 * 1e7;
+pub(super) const METRES: f64 = 0.011_131_884_502_145_034 * 1e7;
 
 /// Latitude, longitude in degrees and altitude in m, where they are a place; 0, 0 is how a receiver says that it has
 /// none.

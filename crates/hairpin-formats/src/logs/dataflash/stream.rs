@@ -146,6 +146,21 @@ impl<'a> Message<'a> {
         Some(numbers)
     }
 
+    /// The steps of numbers that their letters tell: of integers and of what is made of them; 0 of all others.
+    pub(super) fn steps<const N: usize>(&self, names: [&str; N]) -> Option<[f64; N]> {
+        let mut steps = [0.0; N];
+        for (step, name) in steps.iter_mut().zip(names) {
+            let (_, letter, _) = self.format.fields.iter().find(|(field, ..)| field == name)?;
+            *step = match letter {
+                b'f' | b'd' => 0.0,
+                b'c' | b'C' | b'e' | b'E' => 1e-2,
+                b'L' => 1e-7,
+                _ => 1.0,
+            };
+        }
+        Some(steps)
+    }
+
     pub(super) fn text(&self, name: &str) -> Option<&'a str> {
         let (_, letter, place) = self.format.fields.iter().find(|(field, ..)| field == name)?;
         let of_text = matches!(letter, b'n' | b'N' | b'Z');

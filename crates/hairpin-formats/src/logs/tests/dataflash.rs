@@ -102,6 +102,15 @@ fn positions(rows: &[(u64, i32)]) -> Logged {
     parsed(&log.0)
 }
 
+/// Degrees of 10⁻⁷ are 1.1 cm, which metres made of them no longer show.
+#[test]
+fn degrees_tell_places_in_steps() {
+    let log = positions(&[(100_000, 0), (200_000, 50), (300_000, 100)]);
+    let Some(ToldTo::Steps([north, east, up])) = log.motions[0].told_to else { panic!("{:?}", log.motions[0].told_to) };
+    assert!((north - 0.011_13).abs() < 1e-5 && (east - 0.011_13 * 47.3977_f64.to_radians().cos()).abs() < 1e-5);
+    assert_eq!(up, 0.0);
+}
+
 #[test]
 fn what_is_at_two_places_with_one_stamp_is_not_fit_to_be_judged() {
     let again = positions(&[(100_000, 0), (200_000, 50), (200_000, 51), (100_000, 0), (300_000, 100)]);

@@ -41,7 +41,7 @@ fn what_hairpin_writes_is_read_as_it_was() {
     assert_eq!((csv.format, &csv.notes[..]), ("CSV", &[][..]));
     assert_poses(&csv, &track);
     assert_eq!(csv.motions[0].samples[1].v_m_s, Some(Vector3::new(2.0, -1.0, 0.0)));
-    let progress = |t_s, item| Progress { t_s, item, target_m: None };
+    let progress = |t_s, item| Progress { t_s, item, of: None, target_m: None };
     assert_eq!(csv.progress, [progress(0.0, 1), progress(0.03, 2)]);
 }
 

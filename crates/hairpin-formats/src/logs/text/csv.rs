@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::super::accuracy::both;
 use super::super::error::Fault;
-use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample};
+use super::super::log::{Clock, Joints, LogFrame, Logged, LoggedMotion, Progress, Sample, ToldTo};
 use super::super::planned::source;
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude, step};
@@ -174,7 +174,7 @@ impl Reading {
             // Leg 4 flies to waypoint 5.
             let item = leg as u32 + 1;
             if self.progress.last().is_none_or(|last| last.item != item) {
-                self.progress.push(Progress { t_s, item, target_m: None });
+                self.progress.push(Progress { t_s, item, of: None, target_m: None });
             }
         }
         Ok(())
@@ -182,7 +182,7 @@ impl Reading {
 
     fn logged(self, name: &str) -> Logged {
         let motion = LoggedMotion {
-            told_to_m: self.told_to_m,
+            told_to: self.told_to_m.map(ToldTo::Decimal),
             no_heights: self.no_heights,
             ..LoggedMotion::of(name, source(name), self.samples)
         };

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::super::error::Fault;
-use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample};
+use super::super::log::{Clock, LogFrame, Logged, LoggedMotion, Sample, ToldTo};
 use super::super::planned::source;
 use super::super::samples::Budget;
 use super::checks::{FARTHEST_M, after, attitude, step};
@@ -27,7 +27,8 @@ pub(in super::super) fn read_tum(text: &str, name: &str) -> Result<Logged, Fault
         let attitude = Some(attitude(qw, [qx, qy, qz], line)?);
         samples.push(Sample { t_s, p_m: Point3::new(x, y, z), attitude, v_m_s: None, accuracy_m: None });
     }
-    let motion = LoggedMotion { told_to_m, ..LoggedMotion::of(name, source(name), samples) };
+    let told_to = told_to_m.map(ToldTo::Decimal);
+    let motion = LoggedMotion { told_to, ..LoggedMotion::of(name, source(name), samples) };
     Ok(Logged {
         format: "TUM",
         clock: Clock::File,

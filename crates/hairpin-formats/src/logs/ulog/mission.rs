@@ -1,7 +1,7 @@
 //! What a PX4 flew when: items of the mission, modes, failsafes, fences, the ground.
 
 use super::super::log::{Event, EventKind, Progress};
-use super::super::modes::{Modes, in_order};
+use super::super::modes::{Flies, Modes, in_order};
 use super::formats::Slot;
 use super::topic::Finder;
 use crate::frames::Geodetic;
@@ -37,8 +37,14 @@ const MODES: [&str; 23] = [
     "ORBIT",
     "AUTO_VTOL_TAKEOFF",
 ];
-/// Modes in which what was uploaded or sent is flown: missions, and setpoints from outside.
-const FLOWN: [f64; 2] = [3.0, 14.0];
+/// What is flown in a mode: missions, and setpoints from outside.
+fn flies(number: f64) -> Flies {
+    match number {
+        3.0 => Flies::Uploaded,
+        14.0 => Flies::Sent,
+        _ => Flies::Other,
+    }
+}
 
 fn mode(number: f64) -> String {
     MODES.get(number as usize).map_or_else(|| format!("mode {number}"), |name| (*name).to_owned())
@@ -60,7 +66,7 @@ const FENCES: [&str; 9] = [
 /// A topic that says what is flown.
 #[derive(Debug)]
 pub(super) enum Topic {
-    Result { current: Slot, finished: Option<Slot>, item: Option<f64>, done: bool },
+    Result { current: Slot, total: Option<Slot>, finished: Option<Slot>, item: Option<[f64; 2]>, done: bool },
     Triplet { valid: Option<Slot>, place: [Slot; 3] },
     Status { mode: Slot, asked: Option<Slot>, failsafe: Option<Slot>, last: Option<f64>, failed: bool },
     Fence { flags: Vec<(&'static str, Slot, bool)> },
@@ -72,6 +78,7 @@ impl Topic {
         Ok(Some(match name {
             "mission_result" => Self::Result {
                 current: finder.needed("seq_current")?,
+                total: finder.slot("seq_total"),
                 finished: finder.slot("finished"),
                 item: None,
                 done: false,
@@ -97,10 +104,18 @@ impl Topic {
     }
 }
 
+/// From `t_s` on it flies to item `item` of so many.
+#[derive(Debug)]
+struct Item {
+    t_s: f64,
+    item: u32,
+    of: Option<u32>,
+}
+
 /// What was flown.
 #[derive(Debug, Default)]
 pub(super) struct Flown {
-    items: Vec<(f64, u32)>,
+    items: Vec<Item>,
     targets: Vec<(f64, Geodetic)>,
     events: Vec<Event>,
     modes: Modes,
@@ -117,10 +132,12 @@ impl Flown {
         let read = |slot: &Slot| slot.read(data).unwrap_or(f64::NAN);
         let is = |slot: &Slot| read(slot) == 1.0;
         match topic {
-            Topic::Result { current, finished, item, done } => {
-                let now = read(current);
-                if *item != Some(now) && now >= 0.0 && self.items.len() < MOST {
-                    self.items.push((t_s, now as u32));
+            Topic::Result { current, total, finished, item, done } => {
+                let total = total.as_ref().map_or(0.0, read);
+                let now = [read(current), total];
+                if *item != Some(now) && now[0] >= 0.0 && self.items.len() < MOST {
+                    let of = (total > 0.0).then_some(total as u32);
+                    self.items.push(Item { t_s, item: now[0] as u32, of });
                     *item = Some(now);
                 }
                 let is_done = finished.as_ref().is_some_and(is);
@@ -143,9 +160,8 @@ impl Flown {
                         Some(asked) if asked != now => format!("nav_state {}, asked for {}", mode(now), mode(asked)),
                         _ => format!("nav_state {}", mode(now)),
                     };
-                    for kind in self.modes.change(FLOWN.contains(&now)) {
-                        self.tell(t_s, kind, words.clone());
-                    }
+                    self.modes.go(&self.events, flies(now));
+                    self.tell(t_s, EventKind::OtherMode, words);
                 }
                 *last = Some(now);
                 let fails = failsafe.as_ref().is_some_and(is);
@@ -177,17 +193,17 @@ impl Flown {
 
     /// Items in the order of time, with the setpoint that was published with each.
     pub(super) fn progress(&self, place: impl Fn(&Geodetic) -> Option<nalgebra::Point3<f64>>) -> Vec<Progress> {
-        let end = |index: usize| self.items.get(index + 1).map_or(f64::INFINITY, |(next, _)| *next);
-        let one = |(index, (t_s, item)): (usize, &(f64, u32))| {
+        let end = |index: usize| self.items.get(index + 1).map_or(f64::INFINITY, |next| next.t_s);
+        let one = |(index, Item { t_s, item, of }): (usize, &Item)| {
             let from = self.targets.partition_point(|(at, _)| *at < t_s - TOGETHER);
             let target = self.targets.get(from);
             let target = target.filter(|(at, _)| *at < end(index) - TOGETHER || *at <= *t_s);
-            Progress { t_s: *t_s, item: *item, target_m: target.and_then(|(_, target)| place(target)) }
+            Progress { t_s: *t_s, item: *item, of: *of, target_m: target.and_then(|(_, target)| place(target)) }
         };
         self.items.iter().enumerate().map(one).collect()
     }
 
     pub(super) fn into_events(self) -> Vec<Event> {
-        in_order(self.events)
+        in_order(self.modes.settle(self.events))
     }
 }

@@ -60,7 +60,7 @@ fn who_ends_at_the_last_waypoint_need_not_have_been_at_the_others() {
 
 #[test]
 fn a_column_of_legs_is_no_word_that_they_were_flown() {
-    let step = |t_s: f64, item: u32| Progress { t_s, item, target_m: None };
+    let step = |t_s: f64, item: u32| Progress { t_s, item, of: None, target_m: None };
     let mut log = Logged { format: "CSV", ..through(&SQUARE) };
     log.progress = vec![step(0.0, 1), step(6.0, 2), step(10.0, 3), step(14.0, 4)];
     let (sentence, code, found) = over(&log, &SQUARE);
@@ -76,7 +76,7 @@ fn a_column_of_legs_is_no_word_that_they_were_flown() {
 
 #[test]
 fn a_column_of_other_legs_is_refused() {
-    let step = |t_s: f64, item: u32| Progress { t_s, item, target_m: None };
+    let step = |t_s: f64, item: u32| Progress { t_s, item, of: None, target_m: None };
     let with = |steps: &[(f64, u32)]| {
         let progress = steps.iter().map(|(t_s, leg)| step(*t_s, leg + 1)).collect();
         judged_as(&Logged { format: "CSV", progress, ..log(100.0, 0.3) }, |_, _| {})
@@ -93,8 +93,8 @@ fn a_column_of_other_legs_is_refused() {
 fn a_mission_state_that_stops_at_its_first_leg_is_no_whole_mission() {
     let target = |k: usize| Some(Point3::from(SQUARE[k]));
     let mut log = Logged { format: "PX4 ULog", ..through(&[SQUARE[0], [14.0, 4.0, 5.0], SQUARE[0]]) };
-    log.progress =
-        vec![Progress { t_s: 0.0, item: 1, target_m: target(0) }, Progress { t_s: 1.0, item: 2, target_m: target(1) }];
+    let step = |t_s: f64, item: u32, k: usize| Progress { t_s, item, of: None, target_m: target(k) };
+    log.progress = vec![step(0.0, 1, 0), step(1.0, 2, 1)];
     let (sentence, code, found) = over(&log, &SQUARE);
     assert_eq!((found.legs_by, found.finished, found.missed), (LegsBy::Targets, false, None));
     assert!(code == 5 && sentence.contains("the log ends, on leg 0→1 of 5 waypoints"), "{sentence}");
@@ -106,6 +106,7 @@ fn by_autopilot(flown: &[[f64; 3]], mission: &[[f64; 3]], times: &[f64]) -> Logg
     let step = |(k, t_s): (usize, &f64)| Progress {
         t_s: *t_s,
         item: k as u32,
+        of: None,
         target_m: mission.get(k).map(|place| Point3::from(*place)),
     };
     log.progress = times.iter().enumerate().map(step).collect();
