@@ -249,9 +249,25 @@ fn what_no_loader_takes_is_placed() {
     // One place alone is no trajectory.
     let one = WPL.lines().take(3).collect::<Vec<_>>().join("\n");
     assert!(mission(&one, "a.waypoints", false).unwrap_err().contains("1 waypoints, must be at least 2"));
-    let twice = WPL.replacen("38.03368000\t-78.50790000\t8.000000", "38.03364000\t-78.50784000\t6.000000", 1);
-    let twice = mission(&twice, "a.waypoints", false).unwrap_err();
-    assert!(twice.contains("line 6, params[4..7]: the place of item 3 again"), "{twice}");
+}
+
+#[test]
+fn a_wait_at_the_place_of_a_waypoint_is_its_hold() {
+    let (head, tail) = WPL.split_once("\n4\t").unwrap();
+    let again = head.lines().last().unwrap();
+    let twice = |command: &str| {
+        let again = again.replacen("3\t0\t3\t16\t0\t", command, 1);
+        mission(&format!("{head}\n{again}\n5\t{}", tail.replacen("\n5\t", "\n6\t", 1)), "a.waypoints", false)
+    };
+    let plain = mission(WPL, "a.waypoints", false).unwrap();
+    let waits = twice("4\t0\t3\t19\t7\t").unwrap();
+    assert_eq!((&waits.waypoints, waits.stops[0].hold_s), (&plain.waypoints, 7.0));
+    assert!(waits.notes.iter().any(|note| note == "item 4 is the place of item 3 again: it is held there"));
+    // Without a hold nobody knows whether it comes to rest.
+    let again = twice("4\t0\t3\t16\t0\t").unwrap();
+    assert!(again.waypoints == plain.waypoints && again.stops.is_empty());
+    let words = &again.uncertain[0].words;
+    assert!(words.starts_with("item 4 is the place of item 3 again, without a hold"), "{words}");
 }
 
 #[test]

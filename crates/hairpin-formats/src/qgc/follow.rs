@@ -168,12 +168,15 @@ impl Following {
                 self.mission.notes.push(format!("item {} is where the take-off ends", item.number));
                 *last = next;
             }
+            // A waypoint, and a wait at its place: one stop, as long as both hold.
             Some(last) if is_one_place(&last.place, &place) => {
-                return Err(Wrong::new(
-                    format!("{}params[4..7]", item.at),
-                    format!("the place of item {} again", last.item),
-                    "another place: a wait is the hold time of an item",
-                ));
+                let words = format!("item {} is the place of item {} again", item.number, last.item);
+                let held = last.hold_s.into_iter().chain(hold_s).reduce(|a, b| a + b);
+                (last.hold_s, last.accept_m) = (held, accept_m.or(last.accept_m));
+                match held {
+                    Some(_) => self.mission.notes.push(format!("{words}: it is held there")),
+                    None => self.open(format!("{words}, without a hold: whether it stops there is the autopilot's")),
+                }
             }
             _ => self.add(item, next)?,
         }
