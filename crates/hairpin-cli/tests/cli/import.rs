@@ -371,3 +371,76 @@ fn what_is_exported_is_read_back() {
     let (code, out, _) = run(place.path(), &["import", "A/export/0000.src", "--check"]);
     assert!(code == 5 && out.contains("NOT UNDERSTOOD `X") && out.contains("is not declared in this program"), "{out}");
 }
+
+/// As packages of Universal Robots have it, the controller counts from a link that is turned against the root.
+#[test]
+fn poses_of_programs_count_from_the_controllers_base() {
+    let folder = tempfile::tempdir().unwrap();
+    let joint = |k: usize, parent: &str, xyz: &str, axis: &str| {
+        format!(
+            "<joint name='j{k}' type='revolute'><parent link='{parent}'/><child link='l{k}'/><origin xyz='{xyz}'/><axis xyz='{axis}'/>\
+             <limit lower='-2.8' upper='2.8' velocity='4' effort='0'/></joint><link name='l{k}'/>\n"
+        )
+    };
+    let arm = |base: &str| {
+        let joints = [
+            joint(1, "base_link", "0 0 0.29", "0 0 1"),
+            joint(2, "l1", "0 0 0", "0 1 0"),
+            joint(3, "l2", "0 0 0.27", "0 1 0"),
+            joint(4, "l3", "0 0 0.07", "1 0 0"),
+            joint(5, "l4", "0.302 0 0", "0 1 0"),
+            joint(6, "l5", "0 0 0", "1 0 0"),
+        ];
+        let tip = "<joint name='t' type='fixed'><parent link='l6'/><child link='tool0'/>\
+            <origin xyz='0.072 0 0' rpy='0 1.5707963267948966 0'/></joint><link name='tool0'/>";
+        format!("<robot name='six'><link name='base_link'/>\n{}{tip}{base}</robot>", joints.concat())
+    };
+    let turned = "<joint name='b' type='fixed'><parent link='base_link'/><child link='base'/>\
+        <origin rpy='0 0 3.141592653589793'/></joint><link name='base'/>";
+    fs::write(folder.path().join("root.urdf"), arm("")).unwrap();
+    fs::write(folder.path().join("turned.urdf"), arm(turned)).unwrap();
+    let cell = |urdf: &str| {
+        format!(
+            "hairpin = 1\nrobot = {{ kind = \"arm\", urdf = \"{urdf}\", no_body = [0, 1, 2, 3, 4, 5, 6] }}\n[world]\n\
+             tool = {{ name = \"tool0\", declare = false, tcp_mm = [0, 0, 0], radius_mm = 10 }}\nobstacles = [{{ name = \"ball\", sphere = {{ center_mm = [350, 100, 350], radius_mm = 20 }} }}]\n\
+             [task]\npoints = [[350, -100, 400], [350, -50, 400]]\nhome_deg = [0, 0, 0, 0, 60, 0]\n[spec]\npath = {{ max_mm = 5 }}\n"
+        )
+    };
+    for name in ["root", "turned"] {
+        fs::write(folder.path().join(format!("{name}.toml")), cell(&format!("{name}.urdf"))).unwrap();
+    }
+    // Down through the ball, as the root sees it, and as half a turn about z does.
+    let script = |x: f64, y: f64, turn: &str| {
+        format!(
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0.27,0,0,0,0.9,0], a=1.4, v=1.05)\n  movel(p[{x},{y},0.4,{turn}], a=1.2, v=0.25)\n  \
+             movel(p[{x},{y},0.3,{turn}], a=1.2, v=0.25)\nend\nt()\n"
+        )
+    };
+    fs::write(folder.path().join("root.script"), script(0.35, 0.1, "0,3.141592653589793,0")).unwrap();
+    fs::write(folder.path().join("turned.script"), script(-0.35, -0.1, "3.141592653589793,0,0")).unwrap();
+    for (name, code) in [("root", 1), ("turned", 1)] {
+        let (script, cell) = (format!("{name}.script"), format!("{name}.toml"));
+        let (found, out, error) = run(folder.path(), &["import", &script, "--check", "--cell", &cell]);
+        assert!(found == code && out.contains("the tool meets ball"), "{name}: {found}\n{out}{error}");
+    }
+    // What is written of the same campaign differs by half a turn, and reads back.
+    let written = |name: &str| {
+        let (cell, out) = (format!("{name}.toml"), format!("out-{name}"));
+        for args in [vec!["generate", &cell, "--out", &out], vec!["export", &out, "--to", "urscript"]] {
+            let (code, said, error) = run(folder.path(), &args);
+            assert!(code == 0, "{name}: {said}{error}");
+        }
+        let path = folder.path().join(&out).join("export/0000.script");
+        let text = fs::read_to_string(&path).unwrap();
+        let (code, said, error) = run(folder.path(), &["import", &path.to_string_lossy(), "--check", "--cell", &cell]);
+        assert!(code == 0, "{name}: {said}{error}");
+        let first = text.lines().find_map(|line| line.split_once("movel(p[")).expect("a straight move").1.to_owned();
+        let mut numbers = first.split(',').map(|number| number.parse::<f64>().unwrap_or(f64::NAN));
+        [numbers.next().unwrap(), numbers.next().unwrap()]
+    };
+    let ([x, y], [turned_x, turned_y]) = (written("root"), written("turned"));
+    assert!(
+        x.hypot(y) > 0.3 && (x + turned_x).abs().max((y + turned_y).abs()) < 1e-6,
+        "{x}, {y}; {turned_x}, {turned_y}"
+    );
+}

@@ -239,7 +239,7 @@ impl Reader {
             "$BASE" => frame(value).map(|base| self.base = Some(self.add_base(base))),
             // What no controller takes has been told: moves need not tell it again.
             "$VEL.CP" => self
-                .rate((line, "$VEL.CP"), value, Bound::SPEED)
+                .rate((line, "$VEL.CP"), value, Bound::KRL_SPEED)
                 .map(|speed| self.speed = Some(speed.unwrap_or(f64::INFINITY))),
             "$VEL.ORI1" => {
                 self.rate((line, "$VEL.ORI1"), value, Bound::TURNING).map(|speed| self.turning = speed.or(self.turning))

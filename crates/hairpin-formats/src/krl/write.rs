@@ -90,7 +90,7 @@ pub fn files(program: &Program, settings: &Settings, header: &[String]) -> Resul
         |good: bool, field, value, bound| if good { Ok(()) } else { Err(KrlError::Setting { field, value, bound }) };
     let Settings { joint_percent, most_speed } = *settings;
     hold(joint_percent > 0.0 && joint_percent <= 100.0, "joint_percent", joint_percent, "more than 0 and at most 100")?;
-    hold(most_speed > 0.0 && most_speed <= 100.0, "most_speed", most_speed, "more than 0 m/s and at most 100")?;
+    hold(most_speed > 0.0 && most_speed <= 3.0, "most_speed", most_speed, "more than 0 m/s and at most 3")?;
     if program.moves.first().is_some_and(|m| m.motion.end().is_some()) {
         return Err(KrlError::FirstPose);
     }

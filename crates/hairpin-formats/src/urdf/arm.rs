@@ -120,6 +120,10 @@ impl Built {
                 return Err(at_attribute(&limit, "velocity", &what));
             }
         }
+        if let Some(fast) = speed.filter(|speed| *speed > UNBOUNDED.to_radians()) {
+            let (joint, most) = (joint.told(), UNBOUNDED.to_radians());
+            self.said.push(format!("speed of joint {joint}: {fast} rad/s, no arm's ({most:.0} at most): in degrees?"));
+        }
         if speed.is_none() {
             let degrees = USUAL_SPEED.to_degrees();
             self.said.push(format!("speed of joint {}, which has no <limit>: {degrees:.0}°/s", joint.told()));
@@ -272,7 +276,12 @@ impl Built {
     }
 
     /// The arm's file.
-    pub(super) fn finish(self, name: &str, flange: &Isometry3<f64>, exclude: Vec<[usize; 2]>) -> UrdfArm {
+    pub(super) fn finish(
+        self,
+        name: &str,
+        [flange, controller]: [&Isometry3<f64>; 2],
+        exclude: Vec<[usize; 2]>,
+    ) -> UrdfArm {
         let limit = |which: usize| std::array::from_fn(|axis| self.limits[axis][which].to_degrees());
         let description = ArmDescription {
             kind: ArmKind::Arm,
@@ -284,6 +293,8 @@ impl Built {
                 joints: self.joints,
                 flange_mm: mm(&flange.translation.vector),
                 flange_rpy_deg: euler(flange),
+                controller_mm: mm(&controller.translation.vector),
+                controller_rpy_deg: euler(controller),
             }),
             joints: JointsDescription {
                 lower_deg: limit(0),

@@ -43,10 +43,11 @@ impl Masses {
     /// link's.
     pub(super) fn add(&mut self, name: &str, stand: &Stand, inertial: &Node) -> Result<Option<usize>, UrdfError> {
         let link = stand.of;
-        let mass = match child(inertial, "mass") {
-            Some(node) => not_negative(&node, name, "value", "mass, kg")?,
-            None => 0.0,
+        let Some(mass) = child(inertial, "mass") else {
+            self.said.push(format!("link `{}`: its <inertial> without <mass> counts as none", told(name)));
+            return Ok(None);
         };
+        let mass = not_negative(&mass, name, "value", "mass, kg")?;
         let link_from_inertial = stand.pose * origin(inertial)?;
         let centre = link_from_inertial.translation.vector * 1e3;
         let turn = link_from_inertial.rotation.to_rotation_matrix();
@@ -56,7 +57,11 @@ impl Masses {
                 self.said.extend(of_a_body(&own, &node, name)?);
                 own
             }
-            None => Matrix3::zeros(),
+            None => {
+                let what = "its <inertial> without <inertia> is that of a point";
+                self.said.push(format!("link `{}`: {what}", told(name)));
+                Matrix3::zeros()
+            }
         };
         let own = turn.matrix() * own * turn.matrix().transpose();
         let Some(known) = self.all.iter_mut().find(|known| known.link == link) else {

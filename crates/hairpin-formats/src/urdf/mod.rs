@@ -10,6 +10,7 @@
 //! | --- | --- |
 //! | `revolute`, `continuous` between base and flange | the six axes; without `<limit>` at an estimated speed |
 //! | `fixed` | part of the link before |
+//! | a link `base`, else `base_link`, fast to the arm's base | what the controller counts poses of programs from |
 //! | other joints beside or behind the arm (a gripper's) | held at rest |
 //! | `mimic` there | where the master is; where an axis drives it, also by others, anywhere about the joint |
 //! | `<collision>`: box, sphere, capsule | exactly |
@@ -22,6 +23,7 @@
 //! | whatever is on no list (`known`), or a second time where one is read | refused with its line |
 
 mod arm;
+mod controller;
 mod element;
 mod follower;
 mod known;
@@ -80,5 +82,5 @@ pub fn read_urdf(text: &str, options: &UrdfOptions, find: &MeshFile) -> Result<U
     built.bodies(&tree, &stands, &options.no_stand_in, &mut shapes::Reader::new(find))?;
     let has_body = |link: &str| tree.links.get(link).is_some_and(|link| element::child(link, "collision").is_some());
     let exclude = pairs::left_out(&stands, (way.tip, &has_body), &options.disabled, &options.exclude)?;
-    Ok(built.finish(robot.attribute("name").unwrap_or_default(), &flange, exclude))
+    Ok(built.finish(robot.attribute("name").unwrap_or_default(), [&flange, &controller::base(&tree, &way)], exclude))
 }

@@ -2,7 +2,7 @@
 
 use roxmltree::{Document, Node};
 
-use super::element::{UrdfError, at, named};
+use super::element::{UrdfError, at, named, told};
 
 /// Pairs, at most: a robot of a thousand links has half a million.
 const MOST_PAIRS: usize = 1_000_000;
@@ -22,7 +22,8 @@ pub fn read_srdf(text: &str) -> Result<Vec<[String; 2]>, UrdfError> {
 pub(super) fn root_of<'t>(document: &'t Document<'t>) -> Result<Node<'t, 't>, UrdfError> {
     let robot = document.root_element();
     if robot.tag_name().name() != "robot" {
-        return Err(at(&robot, "the root element must be <robot>"));
+        let found = told(robot.tag_name().name());
+        return Err(at(&robot, &format!("the root element must be <robot>, and is <{found}>: it is no URDF")));
     }
     Ok(robot)
 }

@@ -468,3 +468,58 @@ fn what_a_table_says_of_links_goes_before_stand_ins_and_shapes() {
     let base = of("capsules = [{ link = 0, a_mm = [0, 0, 0], b_mm = [0, 0, 80], radius_mm = 90 }]\n");
     assert_eq!((base.links[0].hulls.len(), base.links[0].capsules.len()), (0, 1));
 }
+
+#[test]
+fn programs_count_from_the_makers_base() {
+    let counts = |text: &str| {
+        let (description, built) = arm(text);
+        let chain = description.chain.unwrap();
+        let back = built.base_from_controller;
+        assert!((back.translation.vector * 1e3 - nalgebra::Vector3::from(chain.controller_mm)).norm() < 1e-9);
+        (chain.controller_mm, chain.controller_rpy_deg)
+    };
+    // As packages of Universal Robots have it: beside the root, turned by half a turn.
+    let leaf = |name: &str, under: &str, origin: &str| {
+        let fixed = format!("<origin {origin}/>");
+        joint(&format!("to_{name}"), "fixed", under, name, &fixed)
+    };
+    let rooted = irb120().replace("'base'", "'base_link'");
+    let turned = "xyz='0 0 0' rpy='0 0 3.141592653589793'";
+    let (at, by) = counts(&rooted.replace("</robot>", &(leaf("base", "base_link", turned) + "</robot>")));
+    assert!(at == [0.0; 3] && (by[2].abs() - 180.0).abs() < 1e-9 && by[0].abs().max(by[1].abs()) < 1e-9, "{by:?}");
+    // Of one of two arms by the prefix that it has; what another arm counts from is nothing to it.
+    let lifted = "xyz='0 0 -0.3'";
+    let left = rooted.replace("'base_link'", "'left_base_link'");
+    let both = leaf("base", "left_base_link", turned) + &leaf("left_base", "left_base_link", lifted);
+    assert_eq!(counts(&left.replace("</robot>", &(both + "</robot>"))).0, [0.0, 0.0, -300.0]);
+    // On a pedestal nothing of which a controller knows.
+    let raised = rooted.replace("<origin xyz='0 0 0'/></joint>", "<origin xyz='0 0.5 0.8'/></joint>");
+    assert_eq!(counts(&raised), ([0.0, 500.0, 800.0], [0.0; 3]));
+    // What slides under the arm, or has no such name, moves nothing.
+    assert_eq!(counts(&irb120()), ([0.0; 3], [0.0; 3]));
+    let plain = raised.replace("base_link", "stand");
+    assert_eq!(counts(&plain), ([0.0; 3], [0.0; 3]));
+}
+
+/// As ROS takes it: without a mass there is none. What no arm does is told.
+#[test]
+fn masses_that_are_no_masses_and_speeds_that_no_arm_has_are_told() {
+    let link = |k: usize, inner: &str| {
+        let inertial = format!("<inertial>{inner}<inertia ixx='0.1' iyy='0.1' izz='0.1'/></inertial>");
+        (format!("<link name='link_{k}'/>"), format!("<link name='link_{k}'>{inertial}</link>"))
+    };
+    let with_masses = |third: &str| {
+        (1..=6).fold(irb120(), |text, k| {
+            let (bare, whole) = link(k, if k == 3 { third } else { "<mass value='2'/>" });
+            text.replace(&bare, &whole)
+        })
+    };
+    assert_eq!(arm(&with_masses("<mass value='2'/>")).0.masses.len(), 6);
+    let (without, _) = arm(&with_masses(""));
+    let told = |words: &str| without.estimates.iter().any(|said| said.contains(words));
+    assert!(without.masses.is_empty() && told("link `link_3`: its <inertial> without <mass> counts as none"));
+    assert!(told("link 3 (`link_3`) has no <inertial>"), "{:?}", without.estimates);
+    let (fast, _) = arm(&irb120().replacen(&format!("velocity='{}'", 250_f64.to_radians()), "velocity='250'", 1));
+    let words = "speed of joint `joint_1`: 250 rad/s, no arm's (63 at most): in degrees?";
+    assert!(fast.estimates.iter().any(|said| said == words), "{:?}", fast.estimates);
+}

@@ -18,7 +18,7 @@ pub use write::{Settings, UrscriptError, slower, text};
 
 /// What is said at the head of every program.
 const CONVENTIONS: [&str; 3] = [
-    "Poses p[x,y,z,rx,ry,rz] in the robot's base, m and rad (rotation vector); joints in rad.",
+    "Poses p[x,y,z,rx,ry,rz] in the controller's base, m and rad (rotation vector); joints in rad.",
     "Joint moves take the speed of the leading axis below, not the programmed one of the tool's centre point;",
     "to a pose they go by the inverse kinematics nearest to where the arm is.",
 ];

@@ -96,9 +96,11 @@ impl Reader<'_> {
         // The speed of joint moves is the leading axis', none of the tool's.
         let in_joints = name == "movej";
         let rates: &[(&'static str, Option<f64>, Bound)] = if in_joints {
-            &[("a", acceleration, Bound::JOINT_ACCELERATION), ("v", speed, Bound::JOINT_SPEED)]
+            &[("a", acceleration, Bound::JOINT_ACCELERATION), ("v", speed, Bound::URSCRIPT_JOINT_SPEED)]
         } else {
-            &[("a", acceleration, Bound::ACCELERATION)]
+            // One that is not above 0 no move of any language may have, and it is told of the move.
+            let fast = speed.filter(|speed| *speed > 0.0);
+            &[("a", acceleration, Bound::ACCELERATION), ("v", fast, Bound::URSCRIPT_SPEED)]
         };
         for (field, value, bound) in rates {
             value.iter().for_each(|value| self.reading.hold(line, field, *value, *bound));

@@ -325,11 +325,13 @@ fn arguments_are_held_to_what_controllers_take() {
     let of = |body: &str| back(&format!("def t():\n  set_tcp(p[0,0,0.1,0,0,0])\n  {body}\nend\nt()\n"));
     let (joints, pose) = ("[0,-1.5,1.5,0,1.5,0]", "p[0.4,0,0.3,0,3.1,0]");
     for (body, words) in [
-        (format!("movej({joints}, a=1.4, v=-1.05)"), "v = -1.05: must be a number, more than 0 rad/s"),
-        (format!("movej({joints}, 1.4, 0)"), "v = 0: must be a number, more than 0 rad/s"),
+        (format!("movej({joints}, a=1.4, v=-1.05)"), "v = -1.05: must be more than 0 rad/s and at most 10 rad/s"),
+        (format!("movej({joints}, 1.4, 0)"), "v = 0: must be more than 0 rad/s and at most 10 rad/s"),
         (format!("movej({pose}, a=0)"), "a = 0: must be a number, more than 0 rad/s²"),
         (format!("movej({joints}, a=-1.2, t=2)"), "a = -1.2: must be"),
         (format!("movel({pose}, a=-1.2, v=0.2)"), "a = -1.2: must be a number, more than 0 m/s²"),
+        (format!("movej({joints}, a=1.4, v=105)"), "v = 105: must be more than 0 rad/s and at most 10 rad/s"),
+        (format!("movel({pose}, a=1.2, v=250)"), "v = 250: must be more than 0 m/s and at most 5 m/s"),
         (format!("movel({pose}, v=0)"), "tcp speed = 0: must be a number, more than 0 m/s"),
         (format!("movel({pose}, a=1.2, v=0.2, r=-1)"), "zone = -1: must be a number from 0 to 10000"),
         (format!("movej({joints}, t=-3)"), "duration = -3: must be more than 0 s"),

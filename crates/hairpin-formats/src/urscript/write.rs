@@ -156,7 +156,14 @@ fn moments(tool: &Tool) -> String {
 
 fn go((program, arm): (&Program, Option<&Arm>), index: usize, m: &Move, settings: &Settings) -> String {
     let base = program.work_objects[m.work_object].base_from_object();
-    let at = |target: &PoseTarget| pose(&(base * target.pose));
+    // The controller's base need not be that of a URDF.
+    let controller_from_base = arm.map_or_else(Isometry3::identity, |arm| arm.base_from_controller.inverse());
+    let seen = |target: &PoseTarget| match controller_from_base == Isometry3::identity() {
+        // Rounding would change the signs of zeros.
+        true => base * target.pose,
+        false => controller_from_base * base * target.pose,
+    };
+    let at = |target: &PoseTarget| pose(&seen(target));
     let duration = m.duration.map_or(String::new(), |t| format!(", t={}", decimal(t, 6)));
     let radius = metres(blend(program, arm, index));
     let line = (settings.acceleration, m.speed.tcp.min(settings.most_speed));

@@ -8,7 +8,6 @@ use hairpin::campaign::{Case, Evidence};
 use hairpin::robot::arm::{AXES, Joints};
 use hairpin::trajectory::program::{Program, Speed};
 use hairpin_formats::{atomic, capped, joint_trajectory, krl, rapid, urscript};
-use nalgebra::Isometry3;
 
 use super::written::Written;
 use crate::Problem;
@@ -193,7 +192,7 @@ fn arm_of(work: &Work) -> Result<&ArmSetup, &'static str> {
 
 /// Whether an arm's base stands elsewhere than at the origin of its world.
 pub(super) fn stands_aside(work: &Work) -> bool {
-    arm_of(work).is_ok_and(|arm| arm.world_from_base() != Isometry3::identity())
+    arm_of(work).is_ok_and(|arm| arm.stands_aside().is_some())
 }
 
 /// The planned joints of an arm's case every 10 ms.

@@ -6,7 +6,7 @@ use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
 use hairpin::robot::arm::Arm;
 use hairpin::trajectory::program::Program;
-use hairpin_formats::scenario::arm_with;
+use hairpin_formats::scenario::{arm_with, setup_for};
 use nalgebra::Isometry3;
 
 use crate::Problem;
@@ -35,14 +35,45 @@ pub struct Follow {
     pub estimated: bool,
 }
 
-fn arm_of(setup: Option<&Setup>) -> Option<&ArmSetup> {
-    setup.and_then(|setup| setup.own::<ArmSetup>())
+fn arm_of(setup: &Setup) -> Option<&ArmSetup> {
+    setup.own::<ArmSetup>()
 }
 
-/// Where the arm's base stands in the world of its cell, where that is not at its origin.
-pub(super) fn stands(cell: Option<&Setup>) -> Option<Isometry3<f64>> {
-    let world_from_base = arm_of(cell)?.world_from_base();
-    (world_from_base != Isometry3::identity()).then_some(world_from_base)
+/// Who follows a program.
+pub(super) enum Doer {
+    Alone(Box<Arm>),
+    InCell(Box<Setup>),
+}
+
+impl Doer {
+    /// # Errors
+    /// No such arm, or a cell that is none of an arm.
+    pub(super) fn of(follower: &Follower, sets: &[Set]) -> Result<Self, Problem> {
+        match follower {
+            Follower::Robot(robot) => Ok(Self::Alone(Box::new(arm_with(robot, sets)?))),
+            Follower::Cell(cell) => Ok(Self::InCell(Box::new(setup_for(cell, sets)?))),
+        }
+    }
+
+    pub(super) fn cell(&self) -> Option<&Setup> {
+        match self {
+            Self::Alone(_) => None,
+            Self::InCell(setup) => Some(setup),
+        }
+    }
+
+    /// Where the arm's base stands in what frames of a program stand in, where that is not at its origin: the base of
+    /// the controller, or the world that it was told of.
+    pub(super) fn stands(&self, is_in_base: bool) -> Option<Isometry3<f64>> {
+        let stands = match self {
+            Self::Alone(arm) => arm.base_from_controller.inverse(),
+            Self::InCell(setup) => {
+                let arm = arm_of(setup)?;
+                if is_in_base { arm.station.arm.base_from_controller.inverse() } else { arm.world_from_base() }
+            }
+        };
+        (stands != Isometry3::identity()).then_some(stands)
+    }
 }
 
 /// The program with work objects as the base sees them: wobj0, and all user frames, stand in the world.
@@ -52,25 +83,24 @@ pub(super) fn in_base(program: &Program, world_from_base: &Isometry3<f64>) -> Pr
     seen
 }
 
-/// Follows the moves that are certain, so many of the program's, in the cell if one is given, which is `setup`.
+/// Follows the moves that are certain, so many of the program's; `follower` is what was asked for.
 pub(super) fn follow(
+    doer: Doer,
     follower: &Follower,
-    setup: Option<&Setup>,
-    sets: &[Set],
     (program, certain): (&Program, usize),
 ) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
-    let cell = match follower {
-        Follower::Robot(robot) => {
-            let arm = arm_with(robot, sets)?;
+    let setup = match doer {
+        Doer::Alone(arm) => {
             let checked = check(&arm, program, certain, &Surroundings::default(), &settings);
             let estimated = arm.has_stand_ins();
-            return Ok(Follow { arm, parts: None, words: 0, checked, estimated });
+            return Ok(Follow { arm: *arm, parts: None, words: 0, checked, estimated });
         }
-        Follower::Cell(cell) => cell,
+        Doer::InCell(setup) => setup,
     };
-    let Some(arm) = arm_of(setup) else {
-        return Err(Problem::input(format!("--cell {cell}: is no arm's")));
+    let Some(arm) = arm_of(&setup) else {
+        let (Follower::Robot(named) | Follower::Cell(named)) = follower;
+        return Err(Problem::input(format!("--cell {named}: is no arm's")));
     };
     let around = Surroundings {
         cell: Some(&arm.station.cell),

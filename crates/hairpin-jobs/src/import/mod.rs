@@ -13,12 +13,12 @@ use hairpin_formats::folder::refuse_own;
 use hairpin_formats::listing::Module;
 use hairpin_formats::missions::Mission;
 use hairpin_formats::rapid::Frames;
-use hairpin_formats::scenario::setup_for;
 use hairpin_formats::{atomic, rapid};
 
 use crate::Problem;
 use crate::check::read_anywhere;
 use crate::sets::Set;
+use follow::Doer;
 use kind::Kind;
 
 pub use findings::MoveFinding;
@@ -92,20 +92,19 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
             }
         }
     }
-    let cell = match &settings.check {
-        Some(Follower::Cell(cell)) => Some(setup_for(cell, &settings.sets)?),
-        _ => None,
-    };
-    let stands = follow::stands(cell.as_ref());
-    let frames = cell.as_ref().map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
-    let frames = stands.iter().fold(frames, Frames::in_world);
+    let doer = settings.check.as_ref().map(|follower| Doer::of(follower, &settings.sets)).transpose()?;
+    let is_in_base = files::is_in_base(&settings.files);
+    let stands = doer.as_ref().and_then(|doer| doer.stands(is_in_base));
+    let cell = doer.as_ref().and_then(Doer::cell);
+    let frames = cell.map_or_else(Frames::default, |setup| Frames::of_cell(&setup.scenario));
+    let frames = stands.iter().filter(|_| !is_in_base).fold(frames, Frames::in_world);
     let module = files::read(&settings.files, settings.procedure.as_deref(), &frames)?;
-    let program = match stands.filter(|_| !files::is_in_base(&settings.files)) {
+    let program = match stands {
         Some(stands) => follow::in_base(&module.program, &stands),
         None => module.program.clone(),
     };
-    let follow = |follower| follow::follow(follower, cell.as_ref(), &settings.sets, (&program, module.certain));
-    let followed = settings.check.as_ref().map(follow).transpose()?;
+    let follow = |(doer, follower)| follow::follow(doer, follower, (&program, module.certain));
+    let followed = doer.zip(settings.check.as_ref()).map(follow).transpose()?;
     let findings = findings::findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))
 }

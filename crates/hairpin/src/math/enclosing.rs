@@ -7,6 +7,9 @@
 //! Conservative by construction: distances to the enclosed body are bounded from below by those to the hull less the
 //! radius.
 
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashSet};
+
 use nalgebra::{Point3, Vector3};
 
 use super::convex::{farthest, gap};
@@ -35,8 +38,8 @@ const NEAR: f64 = 1e-3;
 /// more than a thousandth of the size or 64 points are taken. The radius is an upper bound of the distance of every
 /// other point from the hull ([`gap`]), so that nothing is left out, whatever the search did.
 ///
-/// Size is the largest distance from the first point. Cost: up to 64 rounds of a [`gap`] to every point that is still
-/// open, each O(points taken) a step; done once for a mesh. Deterministic.
+/// Size is the largest distance from the first point. Cost: a [`gap`] to every point, and again to those that may be
+/// the farthest as the hull grows, each O(points taken) a step; done once for a mesh. Deterministic.
 pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
     let first = points.first()?;
     let size = points.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
@@ -51,29 +54,56 @@ pub fn enclose(points: &[Point3<f64>]) -> Option<Enclosing> {
     let mut radius = 0.0_f64;
     let outside =
         |taken: &[Point3<f64>], p: &Point3<f64>| gap(|n| farthest(taken, n), |_| *p, [0.0, f64::INFINITY]).most;
-    let mut open: Vec<(f64, Point3<f64>)> = points.iter().map(|p| (f64::INFINITY, *p)).collect();
-    while !open.is_empty() {
-        for (distance, p) in &mut open {
-            *distance = outside(&taken, p);
-        }
-        // What is near stays near while the hull grows.
-        open.retain(|(distance, _)| {
-            if *distance <= near {
-                radius = radius.max(*distance);
-            }
-            *distance > near
-        });
-        let Some((far, p)) = open.iter().max_by(|(a, _), (b, _)| a.total_cmp(b)).copied() else { break };
-        if taken.len() >= MOST_POINTS {
-            radius = radius.max(far);
+    // Triangles share their corners.
+    let mut seen = HashSet::with_capacity(points.len());
+    let is_new = |index: &usize| seen.insert(<[f64; 3]>::from(points[*index].coords).map(f64::to_bits));
+    let once = (0..points.len()).rev().filter(is_new);
+    let mut open: BinaryHeap<Open> = once.map(|index| Open { most: f64::INFINITY, index }).collect();
+    while let Some(Open { index, .. }) = open.pop() {
+        let far = Open { most: outside(&taken, &points[index]), index };
+        if far.most <= near {
+            // What is near stays near while the hull grows.
+            radius = radius.max(far.most);
+        } else if open.peek().is_some_and(|next| *next > far) {
+            open.push(far);
+        } else if taken.len() < MOST_POINTS {
+            taken.push(points[index]);
+        } else {
+            radius = radius.max(far.most);
             break;
         }
-        taken.push(p);
     }
     // Bounds are of rounded numbers.
     let radius = if radius > 0.0 { radius + 1e-12 * size } else { 0.0 };
     Some(Enclosing { points: taken, radius })
 }
+
+/// A point outside, by how far it was when it was last asked for: as the hull grows it is no farther.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    most: f64,
+    index: usize,
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.most.total_cmp(&other.most).then(self.index.cmp(&other.index))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Open {}
 
 /// To the faces, edges and corners of a cube, and between them: 50.
 ///

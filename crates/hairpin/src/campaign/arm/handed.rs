@@ -17,10 +17,21 @@ use crate::trajectory::program::{JointTarget, Motion, Move, PoseTarget, Program,
 const SAME: f64 = 1e-3;
 
 impl ArmSetup {
-    /// `world_from_base`, m.
+    /// `world_from_base`, m: of the world that its controller's work objects stand in.
+    ///
+    /// The cell's, where `world.base_frame` puts the arm in one; else that of a controller which was told nothing, and
+    /// counts from what it takes for its base ([`crate::robot::arm::Arm::base_from_controller`]).
     pub fn world_from_base(&self) -> Isometry3<f64> {
+        match self.stands_aside() {
+            Some(world_from_base) => world_from_base,
+            None => self.station.arm.base_from_controller.inverse(),
+        }
+    }
+
+    /// `world_from_base`, m, where the cell puts the arm elsewhere than at its origin.
+    pub fn stands_aside(&self) -> Option<Isometry3<f64>> {
         // A station was built with it.
-        self.scenario.world_from_base().unwrap_or_else(|_| Isometry3::identity())
+        self.scenario.world_from_base().ok().filter(|base| *base != Isometry3::identity())
     }
 
     /// Whether configurations of this arm's programs mean something to a controller.

@@ -139,14 +139,15 @@ impl ArmSetup {
     /// What the virtual controller is told of `program`: its moves after the first, which starts at home, in base
     /// coordinates.
     ///
-    /// Where moves between points are in joints, those of an arm whose configurations tell no controller the turns of
-    /// its axes go to the angles that are proven and handed over: on the turn nearest to home, not to the move before.
+    /// Moves in joints of an arm whose configurations tell no controller the turns of its axes, the one from home
+    /// among them, go to the angles that are proven and handed over: on the turn nearest to home, not to the move
+    /// before.
     ///
     /// # Errors
     /// As [`Order::all_of`].
     pub(super) fn orders(&self, program: &Program) -> Result<Vec<Order>, SimulationError> {
         let mut orders = Self::as_written(program)?;
-        if self.scenario.generate.moves.kind == MoveName::Joint && !self.tells_configurations() {
+        if !self.tells_configurations() {
             for order in &mut orders {
                 let Target::Joint(pose, Some(wanted)) = &order.target else { continue };
                 if let Some(joints) = self.posture(pose, wanted) {

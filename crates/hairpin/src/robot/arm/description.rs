@@ -131,6 +131,12 @@ pub struct ChainDescription {
     /// Roll, pitch, yaw of the flange in the last link.
     #[serde(default)]
     pub flange_rpy_deg: [f64; 3],
+    /// What the controller counts from, in the base: where poses of programs stand that name no other frame.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub controller_mm: [f64; 3],
+    /// Roll, pitch, yaw of what the controller counts from, in the base.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub controller_rpy_deg: [f64; 3],
 }
 
 /// A joint where URDF puts it.
@@ -179,6 +185,10 @@ pub struct CapsuleDescription {
     /// How much larger this may be than what it is around; 0 if not given.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub larger_mm: f64,
+}
+
+fn is_origin(numbers: &[f64; 3]) -> bool {
+    *numbers == [0.0; 3]
 }
 
 fn is_zero(number: &f64) -> bool {
@@ -258,12 +268,15 @@ impl ArmDescription {
             return Err(wrong("name", "\"\"", "a name for reports"));
         }
         let mut estimated = Vec::new();
+        let mut base_from_controller = Isometry3::identity();
         let (chain, kinematics, stand_ins) = match (&self.opw, &self.chain) {
             (Some(opw), None) => {
                 let opw = opw.build()?;
                 (opw.chain(), Kinematics::Opw(opw), body::of_opw(&opw))
             }
             (None, Some(chain)) => {
+                let (at, turned) = (&chain.controller_mm, &chain.controller_rpy_deg);
+                base_from_controller = frame(["chain.controller_mm", "chain.controller_rpy_deg"], at, turned)?;
                 let chain = chain.build()?;
                 let stand_ins = body::of_chain(&chain);
                 (chain, Kinematics::Chain, stand_ins)
@@ -284,6 +297,7 @@ impl ArmDescription {
             caveat: self.caveat.clone(),
             source: self.source.clone(),
             up: Vector3::z(),
+            base_from_controller,
             chain,
             kinematics,
             limits,

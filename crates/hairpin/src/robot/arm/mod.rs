@@ -93,6 +93,8 @@ pub struct Arm {
     pub source: String,
     /// Where up is in the base frame, of length 1: along z unless the arm hangs.
     pub up: Vector3<f64>,
+    /// What the controller counts from: makers' bases are not always the root of a URDF.
+    pub base_from_controller: Isometry3<f64>,
     /// The joints one after the other.
     pub chain: Chain,
     /// How the inverse is found.

@@ -436,7 +436,15 @@ fn files_are_held_to_their_bounds() {
     assert_eq!(wrong(&|arm| arm.masses = vec![mass]), "masses");
     assert_eq!(wrong(&|arm| arm.masses = vec![mass, mass]), "masses[1].link");
     let joint = ChainJoint { xyz_mm: [0.0, 0.0, 100.0], rpy_deg: [0.0; 3], axis: [0.0, 0.0, 0.0] };
-    let chain = |joints| Some(ChainDescription { joints, flange_mm: [0.0; 3], flange_rpy_deg: [0.0; 3] });
+    let chain = |joints| {
+        Some(ChainDescription {
+            joints,
+            flange_mm: [0.0; 3],
+            flange_rpy_deg: [0.0; 3],
+            controller_mm: [0.0; 3],
+            controller_rpy_deg: [0.0; 3],
+        })
+    };
     assert_eq!(wrong(&|arm| arm.chain = chain(vec![joint; 6])), "opw");
     for (joints, field) in [(5, "chain.joints"), (6, "chain.joints[0].axis")] {
         assert_eq!(wrong(&|arm| (arm.opw, arm.chain) = (None, chain(vec![joint; joints]))), field);

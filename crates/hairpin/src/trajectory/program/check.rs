@@ -150,8 +150,12 @@ pub struct Bound {
 impl Bound {
     /// Speed of the tool's centre point, m/s; infinite: as fast as the arm can.
     pub const SPEED: Self = Self::above("a number, more than 0 m/s", f64::INFINITY);
-    /// Speed of axes, rad/s.
-    pub const JOINT_SPEED: Self = Self::above("a number, more than 0 rad/s", LARGEST);
+    /// The same in KRL, where more is an error at the statement, and mm/s are the usual slip. (KRC 4, `$VEL.CP`.)
+    pub const KRL_SPEED: Self = Self::above("more than 0 m/s and at most 3 m/s", 3.0);
+    /// The same in URScript: the most that safety settings can allow. (UR, general limits.)
+    pub const URSCRIPT_SPEED: Self = Self::above("more than 0 m/s and at most 5 m/s", 5.0);
+    /// Speed of axes in URScript, rad/s: no wrist turns faster than a turn in a second, and °/s are the usual slip.
+    pub const URSCRIPT_JOINT_SPEED: Self = Self::above("more than 0 rad/s and at most 10 rad/s", 10.0);
     /// Speed of reorientation, °/s.
     pub const TURNING: Self = Self::above("a number, more than 0 °/s", f64::MAX);
     /// Acceleration of the tool's centre point, m/s².

@@ -28,6 +28,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         caveat: String::new(),
         source: String::new(),
         up: Vector3::z(),
+        base_from_controller: Isometry3::identity(),
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(limit),

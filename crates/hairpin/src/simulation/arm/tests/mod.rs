@@ -40,6 +40,7 @@ fn arm() -> Arm {
         caveat: String::new(),
         source: String::new(),
         up: Vector3::z(),
+        base_from_controller: Isometry3::identity(),
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(|[lower, upper, speed]| JointLimit {
