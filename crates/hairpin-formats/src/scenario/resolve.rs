@@ -82,7 +82,11 @@ impl Resolver<'_> {
                     && let Some(line) = first_that_is_no_toml(&text) =>
             {
                 let message = format!("`{key}` = \"{name}\": the file is no TOML from its line {line} on");
-                self.report.complain(place, key, name, "must be a TOML file, or a shipped name", message);
+                let bound = match FOREIGN.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending)) {
+                    Some((_, what)) if key == "robot" => &format!("must be a TOML file, or a shipped name: {what}"),
+                    _ => "must be a TOML file, or a shipped name",
+                };
+                self.report.complain(place, key, name, bound, message);
                 None
             }
             Ok(text) => {
@@ -97,6 +101,20 @@ impl Resolver<'_> {
         }
     }
 }
+
+/// Models of robots in files that are not read, by their ending, and what serves instead.
+const FOREIGN: [(&str, &str); 5] = [
+    (".sdf", "models in SDF are not read; `hairpin schema robot` tells what a robot's file has, of arms a URDF serves"),
+    (
+        ".xml",
+        "models in MJCF are not read; `hairpin schema robot` tells what a robot's file has, of arms a URDF serves",
+    ),
+    (".params", PARAMETERS),
+    (".param", PARAMETERS),
+    (".parm", PARAMETERS),
+];
+const PARAMETERS: &str = "an autopilot's parameters do not tell masses, inertias and thrusts; `hairpin schema robot` tells what a robot's file \
+                          has, `hairpin fit` estimates it from logs";
 
 /// The line, from 1, from which on `text` is no TOML; `None` where all of it is.
 fn first_that_is_no_toml(text: &str) -> Option<usize> {

@@ -20,7 +20,9 @@ use super::case::Case;
 use super::check::check_vary;
 use super::kind::{Build, Drawing, Footing, Given, Handed, Kind, PassedOver, Programs, Returning, RobotWords, Room};
 use super::own_controller::AnyController;
-use super::scenario::{Environment, Mistake, Scenario, TARGET_KEY, kinds_of_robots, shapes_the_plan};
+use super::scenario::{
+    Environment, Executor, Mistake, Scenario, TARGET_KEY, TIMEOUT_S, kinds_of_robots, shapes_the_plan,
+};
 use super::user_code::UserCode;
 use super::user_score::LegScorer;
 use super::user_target::RunMeter;
@@ -352,7 +354,20 @@ impl Setup {
             value,
             why: format!("it is to be {bound}"),
         });
-        of_search.chain(of_score).chain(self.kind.passed_over()).collect()
+        of_search.chain(of_score).chain(self.of_no_program()).chain(self.kind.passed_over()).collect()
+    }
+
+    /// What is given for a program of the user's, where none is started.
+    fn of_no_program(&self) -> impl Iterator<Item = PassedOver> {
+        let Executor { command, processes, timeout, .. } = self.scenario.executor();
+        let (has_command, has_own) = (command.is_some(), self.own_controller().is_some());
+        let timeout = (!has_command && !has_own && timeout.to_bits() != TIMEOUT_S.to_bits())
+            .then(|| ("execute.timeout_s", timeout.to_string(), "no program of yours executes"));
+        let processes = processes
+            .filter(|_| !has_command)
+            .map(|count| ("execute.processes", count.to_string(), "no `execute.command` is started"));
+        let told = |(key, value, why): (&str, String, &str)| PassedOver { key: key.into(), value, why: why.into() };
+        timeout.into_iter().chain(processes).map(told)
     }
 
     /// Where its vehicle may be; `None` of what is none, as arms are.

@@ -14,3 +14,13 @@ pub fn that_differ(a: f64, b: f64, within: RangeInclusive<usize>) -> usize {
     let most = *within.end();
     within.into_iter().find(|d| format!("{a:.d$}", d = *d) != format!("{b:.d$}", d = *d)).unwrap_or(most)
 }
+
+/// What something is beyond its bound by: two decimals, or as many as tell it from nothing, nine at most.
+///
+/// ```
+/// # use hairpin::math::decimals::beyond;
+/// assert_eq!((beyond(1.234), beyond(0.000_012_3)), ("1.23".to_owned(), "0.00001".to_owned()));
+/// ```
+pub fn beyond(value: f64) -> String {
+    format!("{value:.*}", that_differ(value, 0.0, 2..=9))
+}

@@ -15,6 +15,7 @@ use crate::campaign::bounds::LONGEST_PASSAGE_S;
 use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
 use crate::feasibility::boat::{BoatEnd, BoatInfeasible, BoatJudge, BoatLimit};
 use crate::feasibility::steering::LegTiming;
+use crate::math::decimals;
 use crate::trajectory::{Profile, ProfileLeg};
 
 /// Shares of the top speed that a waypoint is passed with where none is demanded; 0: at rest.
@@ -187,11 +188,12 @@ fn proven(setup: &BoatSetup, asked: &Demands, leg: usize) -> Option<Broken> {
         });
         let outside = outside.fold(f64::NEG_INFINITY, f64::max);
         if outside > 0.0 {
-            let words = format!("it lies {outside:.2} m outside of what the edges and their margin leave");
+            let words =
+                format!("it lies {} m outside of what the edges and their margin leave", decimals::beyond(outside));
             return broken(*waypoint, None, "cage", "m", Some(outside), words);
         }
         let near = setup.boat.radius - setup.keep_out.distance(place.x, place.y);
-        let words = format!("it lies {near:.2} m too near to a place to keep out of");
+        let words = format!("it lies {} m too near to a place to keep out of", decimals::beyond(near));
         return broken(*waypoint, None, "clearance", "m", Some(near), words);
     }
     let (speed, most) = (asked.speed(leg)?, setup.scenario.generate.limits.max_speed_m_s?);

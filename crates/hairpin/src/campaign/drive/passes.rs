@@ -10,6 +10,7 @@ use super::DriveSetup;
 use super::solve::{DriveSolver, settings};
 use crate::campaign::passage::{Broken, Certainty, Demands, Passage, Passed, PassedLeg};
 use crate::feasibility::reach::drive::{DriveSettings, LegRefusal, Through, through};
+use crate::math::decimals;
 use crate::robot::rover::Suspension;
 use crate::world::terrain::Terrain;
 
@@ -148,7 +149,7 @@ impl Looked<'_> {
             let ([west, south], [east, north]) = self.setup.map.extent();
             let beyond = (west - place.x).max(place.x - east).max(south - place.y).max(place.y - north);
             if beyond > 0.0 {
-                let words = format!("it lies {beyond:.2} m off the map");
+                let words = format!("it lies {} m off the map", decimals::beyond(beyond));
                 return broken(*waypoint, None, "map", "m", Some(beyond), words);
             }
             if self.on_ground(place).is_none() {
@@ -157,7 +158,7 @@ impl Looked<'_> {
             let radius = self.setup.radius();
             if let Some(nearest) = self.setup.keep_out.nearest(place.x, place.y).filter(|near| near.distance < radius) {
                 let excess = radius - nearest.distance;
-                let words = format!("it lies {excess:.2} m too near to {}", nearest.keep_out.name);
+                let words = format!("it lies {} m too near to {}", decimals::beyond(excess), nearest.keep_out.name);
                 return broken(*waypoint, None, "clearance", "m", Some(excess), words);
             }
         }

@@ -605,6 +605,24 @@ fn vehicles_take_over_scenarios_of_their_own_kind_alone() {
     }
 }
 
+/// A limit that was drawn when a case was saved is none of the limits that it is held to now.
+#[test]
+fn what_is_drawn_of_the_spec_is_taken_over() {
+    let with = |vary: Value| -> Scenario {
+        let mut scenario = car();
+        scenario["vary"] = vary;
+        serde_json::from_value(scenario).unwrap()
+    };
+    let uniform = |low: f64, high: f64| json!({ "uniform": [low, high] });
+    let mut saved = with(json!({ "spec.deviation.max_m": uniform(1.0, 4.0), "robot.speed_tau_s": uniform(0.1, 0.3) }));
+    let now = with(json!({ "spec.clearance.min_m": uniform(0.1, 0.2), "robot.speed_tau_s": uniform(0.4, 0.5) }));
+    let (then, wanted) = (saved.vary()["robot.speed_tau_s"].clone(), now.vary()["spec.clearance.min_m"].clone());
+    saved.adopt(&*now).unwrap();
+    let drawn: Vec<_> = saved.vary().iter().collect();
+    let [robot, spec] = ["robot.speed_tau_s".to_owned(), "spec.clearance.min_m".to_owned()];
+    assert_eq!(drawn, [(&robot, &then), (&spec, &wanted)]);
+}
+
 /// Runs were the same whatever was drawn, and counted as draws.
 #[test]
 fn what_of_cars_and_plains_no_run_reads_is_not_drawn() {

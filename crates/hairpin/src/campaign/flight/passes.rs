@@ -20,6 +20,7 @@ use crate::feasibility::certify::{Certificate, Impossible, certify};
 use crate::feasibility::hold::{fastest, hold, turns_too_hard};
 use crate::feasibility::steering::{LegJudge, LegTiming};
 use crate::feasibility::{Infeasible, Limit};
+use crate::math::decimals;
 use crate::trajectory::{Profile, ProfileLeg};
 
 /// The shortest leg time that is tried where no speed is demanded, s.
@@ -168,8 +169,13 @@ impl Looked<'_> {
                 let (limit, unit, _) = named(why.limit());
                 let excess = -margin(&why);
                 let words = match why.limit() {
-                    Limit::Obstacle => format!("it lies {excess:.2} m too near to {}", self.obstacle(&why)),
-                    _ => format!("it lies {excess:.2} m outside of what the walls and their margin leave"),
+                    Limit::Obstacle => {
+                        format!("it lies {} m too near to {}", decimals::beyond(excess), self.obstacle(&why))
+                    }
+                    _ => format!(
+                        "it lies {} m outside of what the walls and their margin leave",
+                        decimals::beyond(excess)
+                    ),
                 };
                 return broken(*waypoint, None, limit, unit, excess, words);
             }
@@ -177,7 +183,7 @@ impl Looked<'_> {
         let radius = self.setup.robot.clearance_radius;
         let clear = self.setup.world.segment_distance(&points[leg], &points[leg + 1]) - radius;
         if clear < 0.0 {
-            let words = format!("its straight line comes {:.2} m too near to an obstacle", -clear);
+            let words = format!("its straight line comes {} m too near to an obstacle", decimals::beyond(-clear));
             return broken(leg + 1, Some(leg), "clearance", "m", -clear, words);
         }
         let speed = self.asked.speed(leg)?;
@@ -190,7 +196,10 @@ impl Looked<'_> {
         let before = leg.checked_sub(1).filter(|before| passed(*before) && passed(leg))?;
         let speeds = [self.asked.speed(before)?, speed];
         let excess = turns_too_hard(self.judge, [&points[before], &points[leg], &points[leg + 1]], speeds)?;
-        let words = format!("to turn there at {speed} m/s takes {excess:.2} m/s² more than thrust, tilt and drag give");
+        let words = format!(
+            "to turn there at {speed} m/s takes {} m/s² more than thrust, tilt and drag give",
+            decimals::beyond(excess)
+        );
         broken(leg, Some(leg), "thrust", "m/s²", excess, words)
     }
 

@@ -37,6 +37,9 @@ pub struct Executor<'a> {
     pub patience: Patience,
 }
 
+/// Wall-clock limit per mission of a program of the user's where the scenario names none, s.
+pub(in crate::campaign) const TIMEOUT_S: f64 = 60.0;
+
 /// Random feasible cases where the scenario does not say how many.
 pub(in crate::campaign) const BASELINE: u64 = 20;
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Distribution, GroundDescription, Keys};
+use super::{Distribution, GroundDescription, KeyPath, Keys};
 
 /// What tells one kind of scenarios from others: what `robot.kind` says.
 #[derive(Debug, Clone, Copy)]
@@ -102,6 +102,20 @@ impl Scenario {
     /// The same, for changes.
     pub fn own_mut<K: Keys>(&mut self) -> Option<&mut K> {
         (&mut **self as &mut dyn Any).downcast_mut()
+    }
+
+    /// Takes over who executes and what is within spec from `now`, as [`Keys::adopt`] does, and what is drawn of the
+    /// spec: a limit that was drawn once is none of the limits now. Other draws are what a case was found under.
+    /// `None`, and nothing is taken over: it is of another kind.
+    pub fn adopt(&mut self, now: &dyn Keys) -> Option<()> {
+        (**self).adopt(now)?;
+        let of_spec = |key: &str| {
+            KeyPath::parse(key).is_some_and(|path| path.segments().first().is_some_and(|table| table == "spec"))
+        };
+        let vary = self.vary_mut();
+        vary.retain(|key, _| !of_spec(key));
+        vary.extend(now.vary().iter().filter(|(key, _)| of_spec(key)).map(|(key, draw)| (key.clone(), draw.clone())));
+        Some(())
     }
 
     /// The same scenario with these distributions.

@@ -32,7 +32,7 @@ pub use drive::*;
 pub use environment::Environment;
 pub use flaky::FlakySection;
 pub use flight::*;
-pub(super) use head::BASELINE;
+pub(super) use head::{BASELINE, TIMEOUT_S};
 pub use head::{Executor, Head, Keys, Patience};
 pub(super) use kinds::kinds_of_robots;
 pub use kinds::{RobotKind, Scenario};

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Record, Steering};
+use crate::campaign::scenario::{FlakySection, Record, Steering, TIMEOUT_S};
 use crate::simulation::boat::BoatControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -70,7 +70,7 @@ impl Default for BoatExecute {
             external_force_n: None,
             noise: false,
             walls: false,
-            timeout_s: 60.0,
+            timeout_s: TIMEOUT_S,
             processes: None,
             workers: None,
             baseline: None,

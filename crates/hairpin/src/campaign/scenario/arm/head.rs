@@ -7,15 +7,13 @@ use super::{ArmControllerKind, ArmScenario, CostSection, PointsFrame, PointsSour
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
     ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
-    Steering, Subject, Terms, UserSteering, runs, sections,
+    Steering, Subject, TIMEOUT_S, Terms, UserSteering, runs, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};
 
 /// A point counts as reached within this distance of an arm's tool, m.
 const ARRIVED: f64 = 1e-3;
-/// Wall-clock limit of a run by a controller of the user's, s.
-const PATIENCE: f64 = 60.0;
 
 /// Keys of limits.
 const LIMITS: &[&str] = &["spec.path.max_mm", "spec.arrival.max_late_ms", "spec.regression.baseline"];
@@ -41,7 +39,7 @@ impl Keys for ArmScenario {
             executor: Executor {
                 command: None,
                 repeat: runs(execute.repeat, &self.vary, execute.logs.is_some()),
-                timeout: execute.timeout_s.unwrap_or(PATIENCE),
+                timeout: execute.timeout_s.unwrap_or(TIMEOUT_S),
                 control_rate: execute.control_rate_hz,
                 processes: None,
                 accept: ARRIVED,

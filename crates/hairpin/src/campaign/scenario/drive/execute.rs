@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Record, Steering};
+use crate::campaign::scenario::{FlakySection, Record, Steering, TIMEOUT_S};
 use crate::simulation::ground::GroundControllerKind;
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -68,7 +68,7 @@ impl Default for DriveExecute {
             latency_s: None,
             external_force_n: None,
             noise: false,
-            timeout_s: 60.0,
+            timeout_s: TIMEOUT_S,
             processes: None,
             workers: None,
             baseline: None,

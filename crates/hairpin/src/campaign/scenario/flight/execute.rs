@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::scenario::{FlakySection, Record, Steering};
+use crate::campaign::scenario::{FlakySection, Record, Steering, TIMEOUT_S};
 use crate::simulation::{ControllerKind, SegmentTimes};
 
 /// `[execute]`: a controller of ours in our simulator, or a command that speaks the executor protocol.
@@ -90,7 +90,7 @@ impl Default for ExecuteSection {
             goto_speed_m_s: None,
             bandwidth: None,
             latency_s: None,
-            timeout_s: 60.0,
+            timeout_s: TIMEOUT_S,
             processes: None,
             workers: None,
             baseline: None,
