@@ -57,5 +57,6 @@ mod steer_ground;
 mod strange_executors;
 mod terminal;
 mod unjudged;
+mod unlike_programs;
 mod urdf;
 mod user_scores;

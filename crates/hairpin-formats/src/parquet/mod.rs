@@ -8,6 +8,7 @@ pub mod drive;
 mod drive_legs;
 mod groups;
 mod guard;
+mod implausible;
 mod measures;
 pub(crate) mod part;
 pub mod part_writer;

@@ -11,14 +11,14 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, StringArray}
 use hairpin::campaign::scenario::DeviationFrom;
 use hairpin::campaign::{CaseNumber, FullRate, Run};
 use hairpin::judgement::still_since;
-use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, Ended, Flight, HEIGHTS_BY_MAP, Track};
+use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, Ended, Flight, HEIGHTS_BY_MAP, ROWS_LEFT_OUT, Track};
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::piece::Piece;
 use super::table::{Columns, Table, TableError};
-use super::{drawn, measures, possible, track};
+use super::{drawn, implausible, measures, possible, track};
 use crate::atomic::WriteError;
 
 const FACTS_KEY: &str = "hairpin.run";
@@ -135,7 +135,7 @@ impl RunFacts {
     }
 
     /// The run with no more of its motion than a judge needs who takes what was measured: when and on what leg it left
-    /// the world, stood still and ended. `None` where `ended` is no known word.
+    /// the world, stood still and ended, marked as such ([`ROWS_LEFT_OUT`]). `None` where `ended` is no known word.
     pub fn without_track(self) -> Option<Run> {
         let mut stamps: Vec<(f64, Option<usize>)> = Vec::new();
         let still = self.still_s.or(self.end_s).unwrap_or_default();
@@ -153,13 +153,13 @@ impl RunFacts {
         let mark = |is: bool, name: &str| is.then(|| channel(name, vec![1.0; stamps.len()]));
         let (level, unsaid) = (mark(self.attitude_unknown, ATTITUDE_UNKNOWN), mark(self.end_unsaid, END_UNSAID));
         let by_map = mark(self.heights_by_map, HEIGHTS_BY_MAP);
+        let left_out = mark(true, ROWS_LEFT_OUT);
         let times: Vec<f64> = stamps.iter().map(|(time, _)| *time).collect();
         // Where it was is not known, only since when it was there no longer: a kilometre away serves.
         let place = |time: &f64| Isometry3::translation(if *time < still { 1000.0 } else { 0.0 }, 0.0, 0.0);
         let poses = times.iter().map(place).collect();
-        let track =
-            Track::new(times, poses, legs.into_iter().chain(level).chain(unsaid).chain(by_map).collect()).ok()?;
-        self.with_track(track)
+        let channels = [legs, level, unsaid, by_map, left_out].into_iter().flatten().collect();
+        self.with_track(Track::new(times, poses, channels).ok()?)
     }
 }
 
@@ -268,6 +268,8 @@ pub fn write_facts(path: &Path, runs: &[RunFacts]) -> Result<(), WriteError> {
         columns.push("cells_met", Arc::new(met.finish()));
         let rows: Vec<_> = measured.iter().map(|found| found.map(|found| &found.measures)).collect();
         measures::columns(&rows).into_iter().for_each(|(name, column)| columns.push(name, column));
+        let looked: Vec<_> = measured.iter().map(|found| found.and_then(|found| found.implausible)).collect();
+        implausible::columns(&looked).into_iter().for_each(|(name, column)| columns.push(name, column));
     }
     drawn::push(&mut columns, &runs.iter().map(|run| run.drawn.as_slice()).collect::<Vec<_>>());
     columns.write(path, "runs")
@@ -343,14 +345,16 @@ fn read_full_rate(table: &Table) -> Result<Vec<Option<FullRate>>, TableError> {
     let from = table.optional_texts("measured_from")?;
     let corner = table.optional_numbers("measured_corner_m")?;
     let met = table.number_lists("cells_met")?;
-    let rows = measures::read(table)?.into_iter().zip(from).zip(met).enumerate();
-    rows.map(|(row, ((measures, from), met))| {
+    let implausible = implausible::read(table)?;
+    let rows = measures::read(table)?.into_iter().zip(from).zip(met).zip(implausible).enumerate();
+    rows.map(|(row, (((measures, from), met), implausible))| {
         let (Some(measures), Some(from)) = (measures, from) else { return Ok(None) };
         let bound = "leg, nearest-leg or path";
         let from = WORDS.into_iter().find(|word| from_word(*word) == from);
         let from = from.ok_or_else(|| table.refuse("measured_from", row, "another word", bound))?;
         let met = met.unwrap_or_default().into_iter().flatten().map(|cell| cell.max(0.0) as usize).collect();
-        Ok(Some(FullRate { from, corner: corner[row].unwrap_or_default(), measures, met }))
+        let corner = corner[row].unwrap_or_default();
+        Ok(Some(FullRate { from, corner, measures, met, implausible }))
     })
     .collect()
 }

@@ -1,7 +1,9 @@
 //! The runs of a case as the judge needs them: what was measured of them, or else their motion.
 
 use hairpin::campaign::judge::is_at_full_rate;
-use hairpin::campaign::{Case, Run};
+use hairpin::campaign::{Case, Run, Setup};
+use hairpin_formats::folder::FolderError;
+use hairpin_formats::parquet::runs::RunFacts;
 
 use super::kept::{reruns_with_motion, runs_with_motion};
 use crate::Problem;
@@ -25,6 +27,8 @@ pub(crate) fn runs_to_judge(work: &Work, case: &Case) -> Result<ToJudge, Problem
     if let Some(runs) = measured
         && are_measured(work, case, &runs)?
     {
+        let (known, kept) = (|| work.folder.facts_of(case.number), |run| work.folder.read_run(case.number, run));
+        let runs = looked_at(&work.setup, runs, &known, &kept)?;
         return Ok(ToJudge { runs, from_rows: 0, flown_anew: 0 });
     }
     let runs = runs_with_motion(work, case)?;
@@ -69,9 +73,33 @@ fn check_mission(work: &Work, case: &Case, runs: &[Run]) -> Result<(), Problem> 
 /// As [`runs_to_judge`] those that were flown again.
 pub(crate) fn reruns_to_judge(work: &Work, case: &Case) -> Result<Vec<Run>, Problem> {
     match work.folder.read_measured_reruns(case.number)? {
-        Some(runs) if are_measured(work, case, &runs)? => Ok(runs),
+        Some(runs) if are_measured(work, case, &runs)? => {
+            let known = || work.folder.rerun_facts_of(case.number);
+            looked_at(&work.setup, runs, &known, &|again| work.folder.read_rerun(case.number, again))
+        }
         _ => reruns_with_motion(work, case),
     }
+}
+
+/// `runs`, those of programs with their motion as far as it was `kept` where nobody looked for what no robot of theirs
+/// does: earlier versions did not.
+fn looked_at(
+    setup: &Setup,
+    runs: Vec<Run>,
+    known: &dyn Fn() -> Result<Vec<RunFacts>, FolderError>,
+    kept: &dyn Fn(usize) -> Result<Option<Run>, FolderError>,
+) -> Result<Vec<Run>, Problem> {
+    let is_missing = |run: &Run| run.full_rate.as_ref().is_some_and(|known| known.implausible.is_none());
+    if setup.program().is_none() || !runs.iter().any(is_missing) {
+        return Ok(runs);
+    }
+    let known = known()?;
+    let is_kept = |run: &Run| known.iter().any(|facts| facts.run == run.run && facts.is_kept());
+    let with_rows = |run: Run| match is_missing(&run) && is_kept(&run) {
+        true => Ok(kept(run.run)?.unwrap_or(run)),
+        false => Ok(run),
+    };
+    runs.into_iter().map(with_rows).collect()
 }
 
 /// Whether what was measured of `runs`, where it was, is what the scenario asks for.

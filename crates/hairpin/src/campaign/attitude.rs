@@ -4,35 +4,12 @@
 use nalgebra::Vector3;
 
 use super::Setup;
-use crate::judgement::{Limits, Measures, Violation};
+use super::implausible::Overturned;
+use crate::judgement::{Measures, Violation};
 use crate::trajectory::{ATTITUDE_UNKNOWN, Track};
 
 /// So much beyond the tilt of its file a vehicle has fallen over, rad: 5°, which an estimate or a stone may make.
 const ROOM: f64 = 0.087;
-
-/// A motion that is told with attitudes that are not its own.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Overturned {
-    /// From when on, s.
-    pub at_s: f64,
-    /// Angle of its up axis from the vertical there, rad.
-    pub tilt_rad: f64,
-    /// Whether it is so all the way.
-    pub throughout: bool,
-}
-
-impl Overturned {
-    /// `attitude: upside down (its up axis 180° from the vertical from t = 0.00 s on): …`.
-    pub fn in_words(&self) -> String {
-        let Self { at_s, tilt_rad, .. } = self;
-        let what = if *tilt_rad > std::f64::consts::FRAC_PI_2 { "upside down" } else { "fallen over" };
-        format!(
-            "attitude: {what} (its up axis {:.0}° from the vertical from t = {at_s:.2} s on): quaternions whose scalar stands \
-             first where it is read last, or of a body whose z axis points down, are read so",
-            tilt_rad.to_degrees()
-        )
-    }
-}
 
 /// The first sample of `track` whose up axis is more than `most` (rad) from the vertical; `None` where none is, or
 /// attitudes are not known.
@@ -46,40 +23,44 @@ fn beyond(track: &Track, most: f64) -> Option<Overturned> {
     Some(Overturned { at_s: track.times()[first], tilt_rad: tilt(first), throughout })
 }
 
-/// The same of a motion whose rows may have been left out: then it is the moment of the largest tilt, and nobody knows
-/// for how long.
-fn seen(track: &Track, measures: &Measures, most: f64) -> Option<Overturned> {
-    beyond(track, most).or_else(|| {
-        let tilt_rad = measures.max_tilt?.to_radians();
-        (tilt_rad > most).then_some(Overturned { at_s: measures.t_tilt, tilt_rad, throughout: false })
-    })
+/// Angle of its up axis from the vertical, rad, beyond which a vehicle of the scenario's robot is not as it should be;
+/// what is no vehicle has no up axis.
+fn most(setup: &Setup) -> Option<f64> {
+    let bounded = setup.kind().most_tilt().map(|most| most + ROOM);
+    bounded.or_else(|| setup.kind().room().map(|_| std::f64::consts::FRAC_PI_2))
 }
 
-/// Of a vehicle that stands on the ground: where it is beyond the tilt of its robot's file.
-pub(super) fn fallen(setup: &Setup, track: &Track, measures: &Measures) -> Option<Overturned> {
-    seen(track, measures, setup.kind().most_tilt()? + ROOM)
+/// Where a motion is beyond the tilt of its robot's file or, where that bounds none, has its up axis down.
+pub(super) fn overturned(setup: &Setup, track: &Track) -> Option<Overturned> {
+    beyond(track, most(setup)?)
+}
+
+/// The same of a motion of which the largest tilt alone is known, and its moment: nobody knows for how long.
+pub(super) fn by_largest(setup: &Setup, measures: &Measures) -> Option<Overturned> {
+    let tilt_rad = measures.max_tilt?.to_radians();
+    (tilt_rad > most(setup)?).then_some(Overturned { at_s: measures.t_tilt, tilt_rad, throughout: false })
+}
+
+/// `found`, of a vehicle whose file bounds its tilt: it has fallen over.
+pub(super) fn fallen(setup: &Setup, found: Option<Overturned>) -> Option<Overturned> {
+    found.filter(|_| setup.kind().most_tilt().is_some())
 }
 
 /// That it has tipped over, as a violation; on the leg of `measures` that its time is in.
 pub(super) fn tipped_over(found: &Overturned, track: &Track, measures: &Measures) -> Violation {
-    let begins = track.times().first().copied().unwrap_or_default();
+    let times = track.times();
+    let first =
+        if track.has_places() { times.first().copied() } else { times.last().map(|end| end - measures.total_time) };
+    let begins = first.unwrap_or_default();
     let leg = measures.leg_after(found.at_s - begins).unwrap_or(measures.legs.len().saturating_sub(1));
     Violation { what: "tip-over".into(), value: found.at_s, limit: 0.0, unit: "s".into(), at: found.at_s, leg }
 }
 
-/// Of a vehicle whose file bounds no tilt: where its up axis points down; of what flies, and may turn over, where it
-/// does all the way. What is no vehicle has no up axis.
-pub(super) fn upside_down(setup: &Setup, track: &Track, measures: &Measures) -> Option<Overturned> {
+/// `found`, of a vehicle whose file bounds no tilt: its up axis points down; of what flies, and may turn over, where it
+/// does all the way.
+pub(super) fn upside_down(setup: &Setup, found: Option<Overturned>) -> Option<Overturned> {
     let flies = setup.kind().room()?.flies;
-    let bounded = setup.kind().most_tilt().is_some();
-    let found = seen(track, measures, std::f64::consts::FRAC_PI_2).filter(|found| found.throughout || !flies);
-    found.filter(|_| !bounded)
-}
-
-/// Why the run of a program of the user's decides nothing, where anything is asked.
-pub(super) fn open(setup: &Setup, track: &Track, measures: &Measures, limits: &Limits) -> Option<String> {
-    setup.program().filter(|_| limits.are_given())?;
-    upside_down(setup, track, measures).map(|found| found.in_words())
+    found.filter(|found| setup.kind().most_tilt().is_none() && (found.throughout || !flies))
 }
 
 #[cfg(test)]

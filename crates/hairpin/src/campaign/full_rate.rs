@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::implausible::Implausible;
 use super::scenario::{DeviationFrom, Terms};
 use crate::judgement::{LegMeasures, LegSource, Measures, Missing};
 
@@ -18,6 +19,9 @@ pub struct FullRate {
     pub measures: Measures,
     /// The cells of the grid of motion that it met.
     pub met: BTreeSet<usize>,
+    /// What no robot of its kind does; `None` where nobody looked: of our own simulators' runs, and of what earlier
+    /// versions wrote.
+    pub implausible: Option<Implausible>,
 }
 
 impl FullRate {

@@ -6,9 +6,8 @@
 
 use nalgebra::Isometry3;
 
+use super::implausible::Impossible;
 use super::{Case, Setup};
-use crate::judgement::Limits;
-use crate::math::decimals::that_differ;
 use crate::trajectory::{Flight, Track};
 
 /// What positions come to over so long (s) is a speed; over less it may be the noise of an estimate.
@@ -32,37 +31,6 @@ impl Fastest {
     /// m/s.
     pub(super) fn speed(&self) -> f64 {
         self.way_m / self.over_s
-    }
-}
-
-/// A mean speed that is beyond any of the robot's.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impossible {
-    /// From when on, s.
-    pub from_s: f64,
-    /// In how long, s.
-    pub over_s: f64,
-    /// How far it came, m.
-    pub way_m: f64,
-    /// The most that is possible in that time, m/s.
-    pub bound_m_s: f64,
-}
-
-impl Impossible {
-    /// The mean speed, m/s.
-    pub fn speed(&self) -> f64 {
-        self.way_m / self.over_s
-    }
-
-    /// `31.02 m in 0.0157 s from t = 0.00 s on are 1975.8 m/s, and ten times what its file allows is 70.1 m/s: …`.
-    pub fn in_words(&self) -> String {
-        let Self { from_s, over_s, way_m, bound_m_s } = self;
-        let decimals = that_differ(self.speed(), *bound_m_s, 1..=6);
-        format!(
-            "{way_m:.2} m in {over_s:.4} s from t = {from_s:.2} s on are {:.decimals$} m/s, and ten times what its file \
-             allows is {bound_m_s:.decimals$} m/s: its times or its places are not this robot's",
-            self.speed()
-        )
     }
 }
 
@@ -114,14 +82,14 @@ pub(super) fn impossible(
 
 /// What of the run of a program of the user's is faster than anything of its kind. Our own simulators are not asked.
 ///
-/// Rows are not read where what was measured of a run suffices: the waypoints that it reached are places as well, each
-/// known to the radius within which it counts as reached.
+/// The waypoints that it reached are places as well, each known to the radius within which it counts as reached: of
+/// what was left out nothing else tells.
 pub(super) fn of_program(setup: &Setup, case: &Case, flight: &Flight) -> Option<Impossible> {
     setup.program()?;
     let accept = setup.scenario.executor().accept;
+    let by_rows = |track: &Track| impossible(setup, track, &[], &|_| 0.0).or_else(|| leap(setup, track));
     let by_waypoints = || impossible(setup, &of_waypoints(case, flight)?, &[], &|_| accept);
-    let track = &flight.track;
-    impossible(setup, track, &[], &|_| 0.0).or_else(|| leap(setup, track)).or_else(by_waypoints)
+    Some(&flight.track).filter(|track| track.has_places()).and_then(by_rows).or_else(by_waypoints)
 }
 
 /// The first step of a program's motion that comes a metre farther than all that is possible in its time: over a second
@@ -149,11 +117,6 @@ fn of_waypoints(case: &Case, flight: &Flight) -> Option<Track> {
     Track::new(times, poses, Vec::new()).ok()
 }
 
-/// Why such a run decides nothing, where anything is asked.
-pub(super) fn too_fast(setup: &Setup, case: &Case, flight: &Flight, limits: &Limits) -> Option<String> {
-    of_program(setup, case, flight).filter(|_| limits.are_given()).map(|impossible| impossible.in_words())
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Point3;
@@ -162,7 +125,7 @@ mod tests {
     use super::*;
     use crate::campaign::testing::quadrotor;
     use crate::campaign::{CaseNumber, CaseResult, Run, Scenario, Status, judge};
-    use crate::trajectory::Ended;
+    use crate::trajectory::{Channel, Ended, ROWS_LEFT_OUT};
 
     const WAY: [[f64; 3]; 2] = [[3.0, 3.0, 3.0], [23.0, 3.0, 3.0]];
 
@@ -221,12 +184,14 @@ mod tests {
         assert_eq!((leaping(1.5), leaping(0.0)), (None, None), "an estimate that is set right");
     }
 
-    /// What was measured suffices for the limits, and rows are not read: the waypoints tell as much.
+    /// Where rows were left out the waypoints tell as much, and what stands in their place tells nothing.
     #[test]
     fn who_reaches_waypoints_too_soon_is_found_without_rows() {
         let (setup, case) = (setup(Some("sim")), Case::bare(CaseNumber(0), 1, WAY.map(Point3::from).to_vec()));
         let at = |end: f64| {
-            let track = Track::new(Vec::new(), Vec::new(), Vec::new()).unwrap();
+            let left_out = Channel { name: ROWS_LEFT_OUT.into(), values: vec![1.0; 2] };
+            let poses = [1e9, 0.0].map(|x| Isometry3::translation(x, 0.0, 0.0)).to_vec();
+            let track = Track::new(vec![0.0, end], poses, vec![left_out]).unwrap();
             let flight = Flight { track, ended: Ended::Done, left_world: None, reached: vec![Some(0.0), Some(end)] };
             of_program(&setup, &case, &flight)
         };

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::coverage::Grid;
 use super::full_rate::FullRate;
 use super::hidden::sampled;
-use super::judge::{Drawn, reference, settings};
+use super::judge::{Drawn, look, reference, settings};
 use super::scenario::DeviationFrom;
 use super::{Case, Run, Setup};
 use crate::judgement::{Limits, Measures, Settings, deviation_of_samples};
@@ -36,7 +36,8 @@ pub fn at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Option<(FullRate, 
     let measures = sampled(&own, &flight.track, &case.waypoints, &settings).ok()?;
     let marked = marked(&flight.track, case, &measures, (&terms.limits, &settings));
     let met = Grid::of(setup).met(setup, &case.waypoints, run);
-    Some((FullRate { from: terms.from, corner: terms.corner, measures, met }, marked))
+    let implausible = look(&own, case, flight);
+    Some((FullRate { from: terms.from, corner: terms.corner, measures, met, implausible }, marked))
 }
 
 fn marked(track: &Track, case: &Case, found: &Measures, (limits, settings): (&Limits, &Settings)) -> BTreeSet<usize> {

@@ -38,4 +38,4 @@ pub use profile::{Profile, ProfileLeg};
 pub use route::Route;
 pub use speed::{SpeedError, SpeedProfile, Speeds};
 pub use timing::Timing;
-pub use track::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, HEIGHTS_BY_MAP, Track, TrackError};
+pub use track::{ATTITUDE_UNKNOWN, Channel, END_UNSAID, HEIGHTS_BY_MAP, ROWS_LEFT_OUT, Track, TrackError};

@@ -15,6 +15,9 @@ pub const END_UNSAID: &str = "end_unsaid";
 /// Name of the channel, 1 at every sample, that marks a track whose executor sent no heights: they are those of the
 /// robot on the map's ground.
 pub const HEIGHTS_BY_MAP: &str = "heights_by_map";
+/// Name of the channel, 1 at every stamp, that marks what is left of a track whose rows were left out: stamps at which
+/// something happened. Its poses tell since when it stood where it ended, and nothing else.
+pub const ROWS_LEFT_OUT: &str = "rows_left_out";
 
 /// A named column beside the poses, one value per stamp.
 ///
@@ -139,6 +142,11 @@ impl Track {
             channels: self.channels.iter().map(channel).collect(),
             ways: Vec::new(),
         }
+    }
+
+    /// Whether its poses are those of a motion: not where its rows were left out ([`ROWS_LEFT_OUT`]).
+    pub fn has_places(&self) -> bool {
+        self.channel(ROWS_LEFT_OUT).is_none()
     }
 
     /// How the place goes from stamp `index` to the next, where that is not straight.

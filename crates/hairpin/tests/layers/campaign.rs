@@ -18,6 +18,7 @@ pub(crate) const ROOMS: &[&[&str]] = &[
     &["user_code", "convoy"],
     &["vary", "user_score", "user_target", "user_controller", "baseline"],
     // What a case and its runs are.
+    &["implausible"],
     &["full_rate"],
     &["case"],
     &["clock", "learn", "influence", "passage", "placement", "own_controller"],

@@ -1,5 +1,6 @@
 //! A judge who takes what was measured finds the same events without the motion.
 
+use hairpin::campaign::implausible::{Implausible, Impossible, Overturned};
 use hairpin::judgement::{Limits, Measures, Settings, Unresolved, measure, violations};
 use nalgebra::Point3;
 
@@ -50,7 +51,8 @@ fn what_was_not_measured_is_still_not_when_it_is_read() {
         let run = run(6, None);
         let settings = Settings { corner, ..Settings::default() };
         let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &settings).unwrap();
-        let full_rate = FullRate { from: DeviationFrom::Leg, corner, measures, met: BTreeSet::new() };
+        let full_rate =
+            FullRate { from: DeviationFrom::Leg, corner, measures, met: BTreeSet::new(), implausible: None };
         RunFacts { run: usize::from(corner > 0.0), full_rate: Some(Box::new(full_rate)), ..RunFacts::of(&run) }
     };
     write_facts(&path, &[measured(0.0), measured(90.0)]).unwrap();
@@ -76,11 +78,48 @@ fn what_may_hide_is_still_known_when_it_is_read() {
         waypoints_within: vec![0.0, 0.25, 6.5],
         ..measures
     };
-    let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };
+    let full_rate =
+        FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new(), implausible: None };
     write_facts(&path, &[RunFacts { full_rate: Some(Box::new(full_rate.clone())), ..RunFacts::of(&run) }]).unwrap();
     let read = read_facts(&path).unwrap();
     let read: Vec<_> = read.values().map(|facts| &facts.full_rate.as_ref().unwrap().measures).collect();
     assert_eq!(read, [&full_rate.measures]);
+}
+
+#[test]
+fn what_no_robot_does_is_still_known_when_it_is_read() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("part-00000.parquet");
+    let waypoints = [0.0, 2.0, 40.0].map(|x| Point3::new(x, 0.0, 0.0));
+    let run = run(6, None);
+    let measures = measure(&run.outcome.as_ref().unwrap().track, &waypoints, &Settings::default()).unwrap();
+    let speed = Impossible { from_s: 1.0, over_s: 0.02, way_m: 15.0, bound_m_s: 70.1 };
+    let attitude = Overturned { at_s: 0.1, tilt_rad: 3.1, throughout: true };
+    let found = [
+        None,
+        Some(Implausible::default()),
+        Some(Implausible { speed: Some(speed), attitude: None }),
+        Some(Implausible { speed: Some(speed), attitude: Some(attitude) }),
+    ];
+    let facts = |(number, implausible): (usize, &Option<Implausible>)| {
+        let (measures, implausible) = (measures.clone(), *implausible);
+        let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new(), implausible };
+        RunFacts { run: number, full_rate: Some(Box::new(full_rate)), ..RunFacts::of(&run) }
+    };
+    let all: Vec<RunFacts> = found.iter().enumerate().map(facts).collect();
+    write_facts(&path, &all).unwrap();
+    let read = read_facts(&path).unwrap();
+    let read: Vec<_> = read.into_values().map(|facts| facts.full_rate.unwrap().implausible).collect();
+    assert_eq!(read, found);
+    // Runs that nobody looks at need no room for it.
+    write_facts(&path, &all[..1]).unwrap();
+    assert!(!Table::read(&path).unwrap().has("motion_looked_at"));
+    // A part of it is none.
+    let broken = Impossible { over_s: 0.0, ..speed };
+    let found = Some(Implausible { speed: Some(broken), attitude: None });
+    write_facts(&path, &[facts((0, &found))]).unwrap();
+    let told = read_facts(&path).unwrap_err().to_string();
+    assert!(told.contains("`too_fast_over_s`, row 0: 0, must be > 0"), "{told}");
 }
 
 #[test]
@@ -109,7 +148,8 @@ fn what_no_run_can_have_measured_is_refused() {
     let read = |change: Change<'_>| {
         let mut measures = measures.clone();
         change(&mut measures);
-        let full_rate = FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new() };
+        let full_rate =
+            FullRate { from: DeviationFrom::Leg, corner: 0.0, measures, met: BTreeSet::new(), implausible: None };
         write_facts(&path, &[RunFacts { full_rate: Some(Box::new(full_rate)), ..RunFacts::of(&run) }]).unwrap();
         read_facts(&path).map(drop)
     };

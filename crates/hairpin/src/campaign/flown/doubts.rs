@@ -4,8 +4,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::log::Log;
 use crate::campaign::Setup;
-use crate::campaign::attitude::{Overturned, fallen, upside_down};
-use crate::campaign::impossible::{Impossible, impossible};
+use crate::campaign::attitude::{fallen, upside_down};
+use crate::campaign::implausible::{Impossible, Overturned};
+use crate::campaign::impossible::impossible;
 use crate::judgement::{
     self, AccelerationSource, Around, Clearance, Close, Limits, Measures, Settings, Swiftness, Unresolved, Violation,
     beyond, is_seen, most_between, where_least,
@@ -221,11 +222,11 @@ pub(super) fn too_fast(setup: &Setup, log: &Log, limits: &Limits, measures: &Mea
     Some(Doubt { value: Violation { unit: "m/s".into(), ..value }, why: Why::Impossible(found) })
 }
 
-/// That a log's up axis points down, or lies beyond the tilt of its robot's file all the way, whatever is limited.
-pub(super) fn overturned(setup: &Setup, log: &Log, limits: &Limits, measures: &Measures) -> Option<Doubt> {
-    let track = &log.flight.track;
-    let all_the_way = || fallen(setup, track, measures).filter(|found| found.throughout);
-    let found = upside_down(setup, track, measures).or_else(all_the_way).filter(|_| limits.are_given())?;
+/// That a log's up axis points down, or lies beyond the tilt of its robot's file all the way, as it was `found`,
+/// whatever is limited.
+pub(super) fn overturned(setup: &Setup, found: Option<Overturned>, limits: &Limits) -> Option<Doubt> {
+    let all_the_way = || fallen(setup, found).filter(|found| found.throughout);
+    let found = upside_down(setup, found).or_else(all_the_way).filter(|_| limits.are_given())?;
     let most = setup.kind().most_tilt().unwrap_or(std::f64::consts::FRAC_PI_2);
     let value = violation("tilt", found.tilt_rad.to_degrees(), most.to_degrees(), found.at_s, 0);
     Some(Doubt { value: Violation { unit: "°".into(), ..value }, why: Why::Overturned(found) })

@@ -16,7 +16,7 @@ use thiserror::Error;
 use self::doubts::{Looked, mean, overturned, rounded, too_fast};
 use self::edge::left_world;
 use self::refuted::refuted;
-use super::attitude::{fallen, tipped_over};
+use super::attitude::{self, fallen, tipped_over};
 use super::judge::{reference, settings};
 use super::scenario::DeviationFrom;
 use super::{Case, Mistake, Setup};
@@ -112,9 +112,10 @@ pub fn judge_flown(setup: &Setup, case: &Case, log: &Log) -> Result<Flown, Flown
     let clear_by = terms.limits.clearance.or(no_contact);
     let mut broken = judgement::violations(&measures, &flight, &terms.limits);
     let mut doubts: Vec<Doubt> = too_fast(setup, log, &terms.limits, &measures).into_iter().collect();
-    doubts.extend(overturned(setup, log, &terms.limits, &measures));
+    let found = attitude::overturned(setup, &log.flight.track);
+    doubts.extend(overturned(setup, found, &terms.limits));
     // All the way it is another convention of quaternions rather than a vehicle that fell.
-    let fell = fallen(setup, &log.flight.track, &measures).filter(|fell| !fell.throughout);
+    let fell = fallen(setup, found).filter(|fell| !fell.throughout);
     broken.splice(..0, fell.map(|fell| tipped_over(&fell, &log.flight.track, &measures)));
     for (what, doubt) in [
         ("deviation", looked.deviation(&measures, terms.limits.deviation)),

@@ -3,6 +3,7 @@
 //! | file | does |
 //! | --- | --- |
 //! | `run` | one run: measures, violations, what it leaves open |
+//! | `looked` | what of a program's run no robot of its kind does |
 //! | `along` | what programs do along their planned paths, as legs, arrivals and violations |
 //!
 //! Data flow: run → the setup as it was drawn for it → reference of deviations (leg, nearest leg, or path) → measures
@@ -17,8 +18,10 @@
 //! | else | unjudged |
 
 mod along;
+mod looked;
 mod run;
 
+pub(super) use self::looked::look;
 pub(super) use self::run::{Drawn, reference, settings};
 use self::run::{JudgedRun, Planned, judge_run};
 use super::influence::RunDeviation;

@@ -7,10 +7,10 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::along::{latest, left_out, proven, with_legs};
-use crate::campaign::attitude::{self, fallen, tipped_over};
+use super::looked::Looked;
+use crate::campaign::attitude::tipped_over;
 use crate::campaign::gravity::Gravity;
 use crate::campaign::hidden::{hidden, sampled};
-use crate::campaign::impossible::too_fast;
 use crate::campaign::missed::missed;
 use crate::campaign::scenario::{Asked, DeviationFrom, Terms};
 use crate::campaign::{Case, Mistake, Run, Setup};
@@ -84,10 +84,10 @@ pub(super) fn judge_run(
         let seen = Seen {
             own: &own,
             terms: &terms,
-            case,
             flight,
             measures: &measures,
             moves: moves.as_ref(),
+            looked: Looked::at(&own, case, (flight, run.full_rate.as_deref()), &measures),
             within: (known.is_none() && run.full_rate.is_some()).then(|| Tolerances::default().position),
         };
         let violations = seen.violations();
@@ -130,11 +130,12 @@ struct Seen<'a> {
     /// As it was drawn for the run.
     own: &'a Setup,
     terms: &'a Terms,
-    case: &'a Case,
     flight: &'a Flight,
     measures: &'a Measures,
     /// Of programs.
     moves: Option<&'a Measured>,
+    /// What no robot of its kind does.
+    looked: Looked,
     /// How far its deviations and overshoots may be from those of all rows, m, where they are measured of the rows that
     /// were kept; `None` where all rows were measured.
     within: Option<f64>,
@@ -146,13 +147,8 @@ impl Seen<'_> {
         let limits = &self.terms.limits;
         let mut violations = judgement::violations(self.measures, self.flight, limits);
         violations.retain(|one| !OF_ROWS.contains(&one.what.as_str()) || !self.is_open(one.value, one.limit));
-        let track = &self.flight.track;
-        let fell = self
-            .own
-            .program()
-            .and_then(|_| fallen(self.own, track, self.measures))
-            .filter(|_| !self.flight.ended.is_crash());
-        violations.splice(..0, fell.map(|fell| tipped_over(&fell, track, self.measures)));
+        let fell = self.looked.fell(self.own).filter(|_| !self.flight.ended.is_crash());
+        violations.splice(..0, fell.map(|fell| tipped_over(&fell, &self.flight.track, self.measures)));
         let Some(moves) = self.moves else { return violations };
         let ours = self.own.kind().programs().is_some_and(|programs| programs.recordings().is_none());
         if ours && limits.unfinished && self.flight.ended == Ended::Done {
@@ -198,17 +194,18 @@ impl Seen<'_> {
     /// Why it decides nothing, whatever it violates or leaves out, the gravest reason first; much of that only where
     /// it `keeps` every limit, as what violates has an answer.
     fn open(&self, keeps: bool) -> Option<String> {
-        let Self { own, case, flight, measures, .. } = *self;
+        let Self { own, flight, measures, ref looked, .. } = *self;
         let limits = &self.terms.limits;
         let programs = own.kind().programs();
         let kept = || self.moves.filter(|_| keeps);
-        too_fast(own, case, flight, limits)
-            .or_else(|| attitude::open(own, &flight.track, measures, limits))
+        looked
+            .open(own, limits)
             .or_else(|| programs.filter(|_| limits.are_given())?.beyond(&flight.track))
             .or_else(|| self.moves?.unseen.as_ref()?.open.clone())
             .or_else(|| kept().filter(|_| limits.unfinished)?.beside(limits.deviation.is_some()))
             .or_else(|| kept().filter(|_| limits.late.is_some())?.unarrived())
             .or_else(|| missed(own, flight, measures, limits).filter(|_| keeps))
+            .or_else(|| looked.unseen(limits).filter(|_| keeps))
             .or_else(|| self.of_kept_rows())
             .or_else(|| hidden(own, measures, limits))
             .or_else(|| limits.open(measures))
