@@ -15,11 +15,11 @@ const READ: [(&str, &[&str], &[&str]); 18] = [
     (
         "link",
         &["name", "type"],
-        &["inertial", "collision", "visual", "material", "contact", "gazebo", "self_collision_checking"],
+        &["inertial", "collision", "visual", "material", "contact", "gazebo", "gravity", "self_collision_checking"],
     ),
     (
         "joint",
-        &["name", "type"],
+        &["name", "type", "dont_collapse"],
         &[
             "origin",
             "parent",
@@ -31,6 +31,8 @@ const READ: [(&str, &[&str], &[&str]); 18] = [
             "joint_properties",
             "calibration",
             "safety_controller",
+            "controller_gains",
+            "traits",
             "gazebo",
         ],
     ),
@@ -46,7 +48,7 @@ const READ: [(&str, &[&str], &[&str]); 18] = [
     ("mass", &["value"], &[]),
     ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], &[]),
     ("axis", &["xyz"], &[]),
-    ("limit", &["lower", "upper", "velocity", "effort", "acceleration", "deceleration", "jerk"], &[]),
+    ("limit", &["lower", "upper", "velocity", "effort", "acceleration", "deceleration", "jerk", "command_effort"], &[]),
     ("mimic", &["joint", "multiplier", "offset"], &[]),
     // Parent and child alike.
     ("parent", &["link"], &[]),
