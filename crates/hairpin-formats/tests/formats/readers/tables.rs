@@ -336,6 +336,8 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("obj.concave", of_obj, OBJ, &format!("{OBJ}v 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nf 1 4 5 6 7 3\n")),
         row("obj.crossing", of_obj, OBJ, &format!("{OBJ}v 1 1 0\nf 1 4 2 3\n")),
         row("obj.no-faces", of_obj, OBJ, "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+        row("obj.uneven", of_obj, OBJ, &format!("{OBJ}v 1 1 0.3\nf 1 2 4 3\n")),
+        row("obj.uneven-concave", of_obj, OBJ, &format!("{OBJ}v 0.2 0.2 0.3\nf 1 2 4 3\n")),
         row("stl.capitals", of_stl, STL, &STL.to_uppercase()),
         row("stl.no-facets", of_stl, STL, "solid s\nendsolid s\n"),
         row("stl.facets", of_stl, STL, &STL.replace("0 1 0\n", "0 2 0\n")),
