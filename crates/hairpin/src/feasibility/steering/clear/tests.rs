@@ -172,7 +172,9 @@ fn ways_of_one_length_stand_in_the_order_of_their_turning() {
     for ahead in [-2.0, 2.0] {
         let asked = query(ahead, 0.0, 0.0);
         let ways = super::ways::every(&asked, &BOUNDS, &choices);
-        assert!((ways[0].length - 2.0).abs() < 1e-9 && ways[0].segments.len() == 1, "{:?}", ways[0]);
+        let turns = |segment: &Segment| matches!(segment.motion, Motion::Turn { .. });
+        let first = &ways[0];
+        assert!((first.length - 2.0).abs() < 1e-9 && !first.segments.iter().any(turns), "{first:?}");
         assert!(super::ways::shortest(&asked, &BOUNDS, &choices).is_some_and(|way| way.segments.len() == 1));
     }
 }
