@@ -53,6 +53,35 @@ fn findings_are_told_by_line_and_exit_code() {
     }
 }
 
+/// ABB's controllers tell axis 3 of arms with a parallel rod against the base.
+#[test]
+fn joint_targets_of_arms_with_a_parallel_rod_are_told_as_their_controller_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/arm/irb120.toml");
+    let arm = fs::read_to_string(shipped).unwrap().replace("name = \"irb120\"", "name = \"ABB IRB 2400\"");
+    fs::write(folder.path().join("arm.toml"), arm).unwrap();
+    // Axis 3 at −60° against the upper arm, −120° against the base, which as its own angle is beyond −110°.
+    let file = module(folder.path(), "MoveAbsJ [[0,-60,-120,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v200,fine,tool0;");
+    let check = ["import", &file, "--check", "--robot", "arm.toml"];
+    for (coupled, code, words) in [
+        (None, 5, "line 7: INCONCLUSIVE home: joint angles of a type of arm whose controller tells axis 3"),
+        (Some("robot.joints.j23_coupled=true"), 0, "PASS: 0 findings in 2 moves"),
+        (Some("robot.joints.j23_coupled=false"), 1, "axis 3 at"),
+    ] {
+        let set: Vec<&str> = coupled.into_iter().flat_map(|set| ["--set", set]).collect();
+        let (found, out, error) = run(folder.path(), &[&check[..], &set].concat());
+        assert!(found == code && out.contains(words), "{found}\n{out}{error}");
+    }
+    let object = json(folder.path(), &[&check[..], &["--set", "robot.joints.j23_coupled=true"]].concat());
+    assert_eq!(object["findings"].as_array().map(Vec::len), Some(0), "{object}");
+    // Other languages have the joints' own angles.
+    let krl =
+        "DEF t( )\nBAS (#INITMOV,0)\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 0,A3 0,A4 0,A5 30,A6 0}\nEND\n";
+    fs::write(folder.path().join("t.src"), krl).unwrap();
+    let (found, out, error) = run(folder.path(), &["import", "t.src", "--check", "--robot", "arm.toml"]);
+    assert!(!out.contains("axis 3 against the base"), "{found}\n{out}{error}");
+}
+
 /// Numbers that no move carries are held to their bounds as those are that moves carry.
 #[test]
 fn what_no_controller_takes_is_told_in_every_language() {

@@ -53,6 +53,12 @@ fn maps_are_shown_with_all_that_they_say() {
         &["geographic", "gdalwarp -t_srs EPSG:32632"],
     );
     refused(folder.path(), &["show", "terrain", &fixture("lerc.tif")], &["LERC", "gdal_translate"]);
+    refused(folder.path(), &["show", "terrain", &fixture("pages.tif")], &["several full pages", "GTIFF_DIR:1:"]);
+    refused(folder.path(), &["show", "terrain", &fixture("smaller_first.tif")], &["a smaller copy", "GTIFF_DIR:2:"]);
+    fs::write(folder.path().join("km.asc"), "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n400 1\n1 1\n")
+        .unwrap();
+    fs::write(folder.path().join("km.prj"), "LOCAL_CS[\"yard\",UNIT[\"kilometre\",1000]]").unwrap();
+    refused(folder.path(), &["show", "terrain", "km.asc"], &["height_unit", "must be given"]);
     refused(folder.path(), &["show", "terrain", "/dev/zero"], &["/dev/zero", "a device"]);
     let feet = fixture("feet.tif");
     let steer = ["steer", "rocky8", "--terrain", &feet, "--from", "301045,60580,0", "--to", "301047,60580,0"];

@@ -145,6 +145,22 @@ fn hard_queries_are_all_answered_within_the_bounds() {
 }
 
 #[test]
+fn straight_back_is_one_line_in_reverse_whatever_else_is_allowed() {
+    let rows = by_query(&batch("id,x,y,yaw,k0,kf\n0,-2,0,0,0,0\n1,2,0,0,0,0\n", &["--reversals", "--turns"]));
+    for (rows, direction) in rows.iter().zip(["-1", "1"]) {
+        assert_eq!((rows.len(), rows[0]["direction"].as_str(), rows[0]["kind"].as_str()), (1, direction, "arc"));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let asked = ["steer", "generic", "--to=-2,0,0", "--reversals", "--turns", "--json"];
+    // A place to keep out of beside the way changes nothing.
+    for more in [&[][..], &["--keep-out-circle", "0.7,0,0.05"]] {
+        let (code, out, error) = run(folder.path(), &[&asked[..], more].concat());
+        let object: Value = serde_json::from_str(&out).unwrap_or_else(|why| panic!("{why}: {out}{error}"));
+        assert_eq!((code, object["segments"].as_array().unwrap().len()), (0, 1), "{object}");
+    }
+}
+
+#[test]
 fn columns_mean_what_they_say() {
     let head = "id,sx,sy,syaw,x,y,yaw,k0,kf,v0,vf,direction,frame,max_curvature,tolerance_m\n";
     let rows = batch(

@@ -6,20 +6,39 @@ mod types;
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+use polygon::Faces;
 pub use types::{Mesh, MeshError};
 
-/// Reads a mesh; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart. Coordinates of OBJ and STL are in the
-/// file's own unit, which neither says; Collada's are made metres.
+/// Reads a mesh whose surface bounds a solid; the ending of `name` tells OBJ, STL and Collada (`.dae`) apart.
+/// Coordinates of OBJ and STL are in the file's own unit, which neither says; Collada's are made metres.
+///
+/// A face that is not flat is cut so that the solid holds what any other way to cut it makes, on the side that the
+/// surface is wound to: inwards where its volume Σ a·(b × c)/6 is negative.
 ///
 /// # Errors
 /// [`MeshError`].
 pub fn read_mesh(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
+    let mesh = read(bytes, name, Faces::Outwards)?;
+    if volume(&mesh) < 0.0 { read(bytes, name, Faces::Inwards) } else { Ok(mesh) }
+}
+
+/// Reads a mesh of which convex hulls are made, as [`read_mesh`] does: faces that are not flat, not convex or cross
+/// themselves are all triangles of a corner and an edge. Its triangles are no surface.
+///
+/// # Errors
+/// [`MeshError`].
+pub fn read_mesh_of_hulls(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
+    read(bytes, name, Faces::Hulls)
+}
+
+fn read(bytes: &[u8], name: &str, faces: Faces) -> Result<Mesh, MeshError> {
     // Some programs begin a text with its mark.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let ending = name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
     let mesh = match ending.as_str() {
-        "obj" => read_obj(&String::from_utf8_lossy(bytes))?,
-        "dae" => collada::read_collada(&String::from_utf8_lossy(bytes))?,
+        "obj" => read_obj(&String::from_utf8_lossy(bytes), faces)?,
+        "dae" => collada::read_collada(&String::from_utf8_lossy(bytes), faces)?,
         "stl" if is_ascii_stl(bytes) => read_ascii_stl(&String::from_utf8_lossy(bytes))?,
         "stl" => read_binary_stl(bytes)?,
         _ => return Err(MeshError::Format),
@@ -29,6 +48,13 @@ pub fn read_mesh(bytes: &[u8], name: &str) -> Result<Mesh, MeshError> {
         None if mesh.triangles.is_empty() => Err(none_of(bytes, &ending)),
         None => Ok(mesh),
     }
+}
+
+/// Six times the volume that triangles bound, above 0 if they are wound outwards.
+fn volume(mesh: &Mesh) -> f64 {
+    let Some(origin) = mesh.vertices.first().map(|v| Vector3::from(*v)) else { return 0.0 };
+    let corner = |index: u32| Vector3::from(mesh.vertices[index as usize]) - origin;
+    mesh.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c)))).sum()
 }
 
 /// A file without triangles holds something else, or is written otherwise.
@@ -132,7 +158,7 @@ const NOTHING_SOLID: [&str; 20] = [
 /// `v x y z` and `f a b c …` (from 1, or from the end if negative; `a/b/c` has texture and normal too); faces of more
 /// corners are cut into triangles. Words are apart by any white space. What names, groups or paints these, points and
 /// lines are passed over.
-fn read_obj(text: &str) -> Result<Mesh, MeshError> {
+fn read_obj(text: &str, faces: Faces) -> Result<Mesh, MeshError> {
     let mut mesh = Mesh::default();
     for (index, line) in text.lines().enumerate() {
         let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
@@ -146,7 +172,7 @@ fn read_obj(text: &str) -> Result<Mesh, MeshError> {
                 return Err(error);
             };
             let places: Vec<[f64; 3]> = corners.iter().map(|corner| mesh.vertices[*corner as usize]).collect();
-            let cut = polygon::cut(&places).map_err(|why| MeshError::Face {
+            let cut = polygon::cut(&places, faces).map_err(|why| MeshError::Face {
                 place: format!("line {}", index + 1),
                 corners: corners.len(),
                 why,
@@ -249,6 +275,30 @@ mod tests {
         assert!((read.triangles.iter().map(twice).sum::<f64>() - 14.0).abs() < 1e-12);
         let bow = read_mesh(format!("{l}f 1 3 2 6\n").as_bytes(), "a.obj").unwrap_err();
         assert_eq!(bow.to_string(), "line 7: a face of 4 corners crosses itself");
+    }
+
+    #[test]
+    fn a_solid_with_uneven_faces_holds_both_ways_to_cut_them() {
+        // A box whose lid is lifted at one corner, wound outwards, and inwards.
+        let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1.5\nv 0 1 1\n";
+        let quads = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
+        for from in 0..4 {
+            for turned in [false, true] {
+                let mut text = corners.to_owned();
+                for mut quad in quads {
+                    quad.rotate_left(from);
+                    if turned {
+                        quad.reverse();
+                    }
+                    text += &format!("f {} {} {} {}\n", quad[0], quad[1], quad[2], quad[3]);
+                }
+                let read = read_mesh(text.as_bytes(), "a.obj").unwrap();
+                let shape = hairpin::world::Shape::mesh(&read.vertices, &read.triangles).unwrap();
+                // Over its diagonal the lid is as high as the lifted corner's share, 1.25, or flat, 1.
+                assert!(shape.signed_distance(&[0.5, 0.5, 1.2].into()) < 0.0, "{from} {turned}");
+                assert_eq!(read_mesh_of_hulls(text.as_bytes(), "a.obj").unwrap().triangles.len(), 5 * 2 + 4);
+            }
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::report::{Place, Report};
 use super::tree::{Node, NodeKind, below};
 use super::whole::{is_urdf, read_file};
-use crate::mesh::read_mesh;
+use crate::mesh::read_mesh_of_hulls;
 use crate::urdf::{NoMesh, Triangles, UrdfError, UrdfOptions, read_srdf, read_urdf};
 
 /// The key of the file.
@@ -293,6 +293,6 @@ fn mesh_of(urdf: &Path, packages: &[PathBuf], name: &str) -> Result<Triangles, N
         return Err(NoMesh::Missing(format!("{short}: meshes are read as {}", READ.join(", "))));
     }
     let bytes = read_file(found).map_err(|why| NoMesh::Broken(format!("{file}: {why}")))?;
-    let mesh = read_mesh(&bytes, &file).map_err(|error| NoMesh::Broken(format!("{file}: {error}")))?;
+    let mesh = read_mesh_of_hulls(&bytes, &file).map_err(|error| NoMesh::Broken(format!("{file}: {error}")))?;
     Ok((mesh.vertices, mesh.triangles))
 }

@@ -104,7 +104,9 @@ pub fn read_terrain(
     if !height.is_metre() {
         heights.iter_mut().for_each(|value| *value = (f64::from(*value) * height.metres) as f32);
     }
-    check_heights(&heights, grid.columns)?;
+    // Heights that are none in a unit that nobody says are a question of it.
+    let asked = height_from == Source::Taken && !height.is_metre();
+    check_heights(&heights, grid.columns).map_err(|error| if asked { TerrainError::UnitOfHeights } else { error })?;
     let in_metres = |length: f64| length * plane.metres;
     let grid = Grid { first_center: grid.first_center.map(in_metres), cell: grid.cell.map(in_metres), ..grid };
     let offset_m = match georeference.offset_m {

@@ -23,6 +23,12 @@ impl Remedy {
         format!("gdal_translate {options}{} {}", quoted(file), beside(file, "plain"))
     }
 
+    /// Takes one page of a file of several, from 1.
+    pub(super) fn page(file: &str, page: usize) -> String {
+        let source = quoted(&format!("GTIFF_DIR:{page}:{file}"));
+        format!("gdal_translate {source} {}", beside(file, "plain"))
+    }
+
     /// Makes heights in metres of depths of which one is so many `metres`, in the plane of the code, if it has one.
     pub(super) fn rise(file: &str, metres: f64, epsg: Option<u32>) -> String {
         let out = beside(file, "heights");
@@ -87,6 +93,7 @@ mod tests {
             "gdal_calc.py -A d.tif --calc='-0.3048*A' --outfile=d_heights.tif && \
              gdal_edit.py -a_srs EPSG:32632 d_heights.tif"
         );
+        assert_eq!(Remedy::page("a map.tif", 2), "gdal_translate 'GTIFF_DIR:2:a map.tif' 'a map_plain.tif'");
         assert_eq!(Remedy::rewrite("x/a.b/m", "-b 1 "), "gdal_translate -b 1 x/a.b/m x/a.b/m_plain.tif");
     }
 }

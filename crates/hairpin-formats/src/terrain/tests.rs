@@ -92,6 +92,17 @@ fn units_that_are_said_are_known_or_asked_for() {
 }
 
 #[test]
+fn heights_beyond_the_bound_in_a_unit_that_nobody_says_are_asked_for_it() {
+    let kilometres = keyed(&[400.0; 6], &[(1024, 1), (1025, 1), (3076, 9036)], "-9999");
+    let shown = Georeference { assume_heights: true, ..Georeference::default() };
+    for given in [&shown, &Georeference::default()] {
+        assert_eq!(read_terrain(&kilometres, "a.tif", given).expect_err("a question"), TerrainError::UnitOfHeights);
+    }
+    let metres = Georeference { height_unit: Some(hairpin::campaign::scenario::MapUnit::M), ..shown };
+    assert_eq!(at(&read_terrain(&kilometres, "a.tif", &metres).expect("a map"), 10_500.0, 19_500.0), 400.0);
+}
+
+#[test]
 fn depths_and_stretched_planes_come_with_the_command_that_mends_them() {
     for (keys, words) in [
         (&[(4096, 5715)][..], ["depths (VerticalCS = 5715)", "--calc='-A' --outfile=a_heights.tif"]),

@@ -302,6 +302,7 @@ impl Built {
                 speed_deg_s: limit(2),
                 acceleration_deg_s2: None,
                 lag_s: None,
+                j23_coupled: None,
             },
             // Without names, or with names that two share, they are numbered.
             joint_names: if self.names.iter().any(|name| name.trim().is_empty()) { Vec::new() } else { self.names },

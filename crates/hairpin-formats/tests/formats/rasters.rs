@@ -91,6 +91,21 @@ fn no_data_in_any_spelling_and_masks_are_holes() {
 }
 
 #[test]
+fn a_map_is_one_full_page_and_overviews_are_none() {
+    assert_hill("overviews.tif", &plain("overviews.tif"), 1.0, 1e-5);
+    for (name, words) in [
+        ("pages.tif", ["several full pages", "gdal_translate GTIFF_DIR:1:pages.tif pages_plain.tif"]),
+        (
+            "smaller_first.tif",
+            ["a smaller copy", "gdal_translate GTIFF_DIR:2:smaller_first.tif smaller_first_plain.tif"],
+        ),
+    ] {
+        let said = refused(name);
+        assert!(words.iter().all(|word| said.contains(word)), "{said}");
+    }
+}
+
+#[test]
 fn degrees_are_refused_with_the_zone_of_the_place() {
     let wanted = "gdalwarp -t_srs EPSG:32632 -r bilinear degrees.tif degrees_projected.tif";
     let said = refused("degrees.tif");

@@ -110,6 +110,7 @@ fn triangle_meshes() {
     fuzz("a.stl", &stl, |bytes| drop(mesh::read_mesh(bytes, "a.stl")));
     fuzz("a.obj", &obj, |bytes| drop(mesh::read_mesh(bytes, "a.obj")));
     fuzz("a.dae", &collada(), |bytes| drop(mesh::read_mesh(bytes, "a.dae")));
+    fuzz("a.obj", &obj, |bytes| drop(mesh::read_mesh_of_hulls(bytes, "a.obj")));
 }
 
 /// A URDF whose meshes are not there.

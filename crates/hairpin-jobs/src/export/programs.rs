@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use hairpin::campaign::arm::{ArmSetup, graph_of};
 use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Evidence};
-use hairpin::robot::arm::{AXES, Joints};
-use hairpin::trajectory::program::{Program, Speed};
+use hairpin::robot::arm::{AXES, Coupling, Joints};
+use hairpin::trajectory::program::{JointTarget, Program, Speed};
 use hairpin_formats::{atomic, capped, joint_trajectory, krl, rapid, urscript};
 
 use super::written::Written;
@@ -55,6 +55,14 @@ impl Language {
 const UNCONFIGURED: &str = "The arm has no opw: its configurations are not known, moves in joints go to joint angles, \
     ConfL and ConfJ are Off";
 
+/// What modules of arms say whose controller tells axis 3 against the base.
+const COUPLED: &str = "Joint targets have axis 3 as the controller tells it, rax_3 = axis 3 + axis 2 \
+    (joints.j23_coupled); the bounds of axis 3 were held for its own angle";
+/// Why no module is written of an arm of which nobody says how its controller tells axis 3.
+const UNSAID: &str = "of this type of arm, which has a parallel rod, controllers tell axis 3 against the base, \
+    rax_3 = axis 3 + axis 2, and nothing says whether this one does: joints.j23_coupled = true, or false, of the \
+    robot's file or the scenario's robot";
+
 /// Time between the points of joint trajectories, s.
 const SAMPLE: f64 = 0.01;
 
@@ -87,6 +95,8 @@ pub(super) fn write(work: &Work, place: &Path, cases: &[&Case], language: Langua
         }
     }
     let unconfigured = arm_of(work).is_ok_and(|arm| !arm.tells_configurations());
+    let coupled = arm_of(work).is_ok_and(is_coupled);
+    written.told.extend((coupled && language == Language::Rapid).then(|| COUPLED.into()));
     written.told.extend(language.capped(&fast));
     written.told.extend((unconfigured && language == Language::Rapid).then(|| UNCONFIGURED.into()));
     written.or_refused()
@@ -107,16 +117,20 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
     };
     let mut header = vec![format!("Evidence of every move: {}", evidence.word())];
     header.extend((!clock.configured).then(|| UNCONFIGURED.into()));
+    header.extend(is_coupled(arm).then(|| COUPLED.into()));
+    let told =
+        |target: &JointTarget| JointTarget { joints: arm.station.arm.coupling.told(&target.joints), ..target.clone() };
+    let (home, at_start) = (told(&clock.home), clock.at_start.as_ref().map(told));
     let clocked = rapid::arc_clock(&rapid::Clocking {
         name: "hairpin_clock",
         tool: &clock.tool,
         work_object: &clock.work_object,
         points: &clock.points,
         arcs: &clock.arcs,
-        home: &clock.home,
+        home: &home,
         start: clock.start,
         configured: clock.configured,
-        at_start: clock.at_start.as_ref(),
+        at_start: at_start.as_ref(),
         speed: &clock.speed,
         header: &header,
     });
@@ -125,6 +139,7 @@ pub(super) fn write_clock(work: &Work, place: &Path) -> Result<Written, Problem>
     atomic::write(&path, clocked.text.as_bytes())?;
     let mut written = Written::all(vec![path]);
     written.told.extend((!clock.configured).then(|| UNCONFIGURED.into()));
+    written.told.extend(is_coupled(arm).then(|| COUPLED.into()));
     if !clocked.left_out.is_empty() {
         let count = clocked.left_out.len();
         written.missing.push(format!(
@@ -159,8 +174,9 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }
         Language::Rapid => {
-            let program = &arm.for_controller(program);
+            let program = &arm.for_controller(program).with_joints(|q| arm.station.arm.coupling.told(q));
             header.extend((!arm.tells_configurations()).then(|| UNCONFIGURED.into()));
+            header.extend(is_coupled(arm).then(|| COUPLED.into()));
             let module = rapid::module(program, &header).map_err(|error| error.to_string())?;
             let cap = Speed::predefined(rapid::FIRST_RUN).ok_or("no speed for the first run")?;
             let slow = rapid::module(&rapid::slow(program, &cap), &header).map_err(|error| error.to_string())?;
@@ -173,9 +189,16 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
     })
 }
 
-/// A module that names `tool0` or `wobj0` moves by those of the controller.
+/// A module that names `tool0` or `wobj0` moves by those of the controller; its joint targets are the controller's.
 fn may_run(work: &Work) -> Result<(), String> {
+    if arm_of(work).is_ok_and(|arm| arm.station.arm.coupling == Coupling::Unsaid) {
+        return Err(UNSAID.into());
+    }
     work.setup.misnamed().map_or(Ok(()), Err)
+}
+
+fn is_coupled(arm: &ArmSetup) -> bool {
+    arm.station.arm.coupling == Coupling::Coupled
 }
 
 /// What an arm's joints are to do.
@@ -209,6 +232,42 @@ mod tests {
     use crate::export::{Export, ExportSettings, Format};
     use crate::max_load::{CloudAnswer, CloudSettings, search_cloud};
     use crate::work::IfThere;
+
+    /// Of arms with a parallel rod controllers tell axis 3 against the base.
+    #[test]
+    fn joint_targets_have_axis_3_as_the_controller_tells_it() {
+        let place = tempfile::tempdir().unwrap();
+        let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/robots/arm/irb120.toml");
+        let arm = std::fs::read_to_string(shipped).unwrap().replace("name = \"irb120\"", "name = \"IRB 2400\"");
+        let exported = |keys: &str, out: &str| {
+            std::fs::write(place.path().join("arm.toml"), arm.replace("[joints]\n", &format!("[joints]\n{keys}\n")))
+                .unwrap();
+            let file = place.path().join("cell.toml");
+            let text = "hairpin = 1\nrobot = \"arm.toml\"\nspec = \"none\"\n[world]\n\
+                        tool = { name = \"t1\", radius_mm = 5 }\n[task]\nhome_deg = [0, 20, -15, 0, 30, 0]\npoints = [[300, 0, 300], [300, 100, 300]]\n";
+            std::fs::write(&file, text).unwrap();
+            let settings = CloudSettings { cell: file.to_string_lossy().into_owned(), ..CloudSettings::default() };
+            let CloudAnswer::Searched(found) = search_cloud(&settings, &Unwatched).unwrap() else {
+                panic!("these points can be met")
+            };
+            let folder = place.path().join(out);
+            found.keep(&folder, IfThere::Refuse, &Unwatched).unwrap();
+            Export::open(&ExportSettings { folder, ..ExportSettings::default() }).unwrap()
+        };
+        let home = |keys: &str, out: &str| {
+            let written = exported(keys, out).write(Format::Program(Language::Rapid)).unwrap();
+            let module = written.files.iter().find(|file| file.extension().is_some_and(|ending| ending == "mod"));
+            let text = std::fs::read_to_string(module.unwrap()).unwrap();
+            (text.contains("[[0,20,5,0,30,0],"), text.contains("[[0,20,-15,0,30,0],"), text.contains("rax_3"))
+        };
+        assert_eq!(home("j23_coupled = true", "coupled"), (true, false, true));
+        assert_eq!(home("j23_coupled = false", "serial"), (false, true, false));
+        for format in [Format::Program(Language::Rapid), Format::ArcClock] {
+            let refused = exported("", if format == Format::ArcClock { "clock" } else { "unsaid" });
+            let refused = refused.write(format).map(|_| ()).unwrap_err().to_string();
+            assert!(refused.contains("joints.j23_coupled = true, or false"), "{refused}");
+        }
+    }
 
     /// Through `tool0` a controller moves the flange to where the tool's point was to go.
     #[test]

@@ -49,7 +49,7 @@ pub(super) fn read(files: &[PathBuf], procedure: Option<&str>, frames: &Frames) 
         return Err(Problem::input(format!("{} files: must be {MOST_FILES} at most", files.len())));
     }
     let endings: Vec<String> = files.iter().map(|file| ending(file)).collect();
-    let foreign = endings.iter().position(|ending| ["src", "dat", "script"].contains(&ending.as_str()));
+    let foreign = endings.iter().position(|ending| is_foreign(ending));
     match foreign {
         Some(index) => {
             let module = of_another(files, &files[index], &endings[index])?;
@@ -136,6 +136,16 @@ pub(super) fn is_program_by_name(file: &Path) -> bool {
 /// Whether the language's poses are in the arm's base: of others they are in frames of the world.
 pub(super) fn is_in_base(files: &[PathBuf]) -> bool {
     files.iter().any(|file| ending(file) == "script")
+}
+
+/// Whether files are RAPID's, whose joint targets have axis 3 as the controller tells it.
+pub(super) fn are_rapid(files: &[PathBuf]) -> bool {
+    !files.iter().any(|file| is_foreign(&ending(file)))
+}
+
+/// Whether files that end so are of another language than RAPID.
+fn is_foreign(ending: &str) -> bool {
+    ["src", "dat", "script"].contains(&ending)
 }
 
 /// Whether a file is called as RAPID's are.

@@ -9,6 +9,11 @@ use hairpin_formats::listing::Module;
 
 use super::follow::Follow;
 
+/// Said of the first joint target of an arm of which nobody says how its controller tells axis 3.
+const UNSAID: &str = "joint angles of a type of arm whose controller tells axis 3 against the base, \
+    rax_3 = axis 3 + axis 2: whether this one's does is not said, and from here on nothing is followed \
+    (joints.j23_coupled = true, or false, of the robot: --set robot.joints.j23_coupled=true)";
+
 /// What is said of one move.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MoveFinding {
@@ -159,6 +164,29 @@ pub(super) fn findings(module: &Module, followed: Option<&Follow>) -> Vec<MoveFi
             last: None,
         };
         found.push((finding.index, new));
+    }
+    if let Some(index) = followed.and_then(|followed| followed.unsaid) {
+        let file = file_of(index);
+        let m = &certain.moves[index];
+        let line = m.line.map_or(String::new(), |line| format!("line {line}: "));
+        let to = m.motion.name().map(str::to_owned);
+        let sentence = format!("{}{line}INCONCLUSIVE {}: {UNSAID}", at(&file), to.as_deref().unwrap_or("(in place)"));
+        let from = index.checked_sub(1).and_then(|before| certain.moves[before].motion.name()).map(Into::into);
+        let finding = MoveFinding {
+            file,
+            line: m.line,
+            kind: "joint-target",
+            from,
+            to,
+            reason: UNSAID.into(),
+            sentence,
+            estimated: false,
+            open: true,
+            count: 1,
+            moves: [index + 1; 2],
+            last: None,
+        };
+        found.push((index, finding));
     }
     found.sort_by_key(|(index, _)| *index);
     once(found.into_iter().map(|(_, finding)| finding))

@@ -4,8 +4,8 @@ use hairpin::campaign::Setup;
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::feasibility::program::{Checked, Surroundings, check};
 use hairpin::feasibility::reachability::joint::FollowSettings;
-use hairpin::robot::arm::Arm;
-use hairpin::trajectory::program::Program;
+use hairpin::robot::arm::{Arm, Coupling};
+use hairpin::trajectory::program::{Motion, Move, Program};
 use hairpin_formats::scenario::{arm_with, setup_for};
 use nalgebra::Isometry3;
 
@@ -33,6 +33,31 @@ pub struct Follow {
     pub checked: Checked,
     /// Whether bodies of it are estimated: what is clear of them is as well.
     pub estimated: bool,
+    /// The first move to joint angles of which it is not said whether the controller tells axis 3 against the base:
+    /// from there on nothing was followed.
+    pub unsaid: Option<usize>,
+}
+
+/// A program as its controller has it.
+pub(super) struct Told<'a> {
+    /// With work objects as the base sees them.
+    pub(super) program: &'a Program,
+    /// So many of its moves are certain.
+    pub(super) certain: usize,
+    /// Whether its joint targets are RAPID's.
+    pub(super) is_rapid: bool,
+}
+
+impl Told<'_> {
+    /// The program in the joints of `arm`, how many of its moves are certain, and the first joint target that is not.
+    fn for_arm(&self, arm: &Arm) -> (Program, usize, Option<usize>) {
+        let coupling = if self.is_rapid { arm.coupling } else { Coupling::Serial };
+        let own = self.program.with_joints(|told| coupling.own(told));
+        let joined = |m: &Move| matches!(m.motion, Motion::AbsoluteJoint(_));
+        let first = self.program.moves.iter().take(self.certain).position(joined);
+        let unsaid = first.filter(|_| coupling == Coupling::Unsaid);
+        (own, unsaid.unwrap_or(self.certain), unsaid)
+    }
 }
 
 fn arm_of(setup: &Setup) -> Option<&ArmSetup> {
@@ -83,18 +108,15 @@ pub(super) fn in_base(program: &Program, world_from_base: &Isometry3<f64>) -> Pr
     seen
 }
 
-/// Follows the moves that are certain, so many of the program's; `follower` is what was asked for.
-pub(super) fn follow(
-    doer: Doer,
-    follower: &Follower,
-    (program, certain): (&Program, usize),
-) -> Result<Follow, Problem> {
+/// Follows the moves that are certain; `follower` is what was asked for.
+pub(super) fn follow(doer: Doer, follower: &Follower, told: &Told<'_>) -> Result<Follow, Problem> {
     let settings = FollowSettings { locate: true, ..FollowSettings::default() };
     let setup = match doer {
         Doer::Alone(arm) => {
-            let checked = check(&arm, program, certain, &Surroundings::default(), &settings);
+            let (program, certain, unsaid) = told.for_arm(&arm);
+            let checked = check(&arm, &program, certain, &Surroundings::default(), &settings);
             let estimated = arm.has_stand_ins();
-            return Ok(Follow { arm: *arm, parts: None, words: 0, checked, estimated });
+            return Ok(Follow { arm: *arm, parts: None, words: 0, checked, estimated, unsaid });
         }
         Doer::InCell(setup) => setup,
     };
@@ -107,9 +129,10 @@ pub(super) fn follow(
         tool_radius: arm.station.tool.radius,
         clearance: arm.scenario.generate.moves.clearance_mm * 1e-3,
     };
-    let checked = check(&arm.station.arm, program, certain, &around, &settings);
+    let (program, certain, unsaid) = told.for_arm(&arm.station.arm);
+    let checked = check(&arm.station.arm, &program, certain, &around, &settings);
     let words = arm.scenario.world.keep_out_mm.len();
     let (parts, arm) = (Some(arm.part_names()), arm.station.arm.clone());
     let estimated = arm.has_stand_ins();
-    Ok(Follow { arm, parts, words, checked, estimated })
+    Ok(Follow { arm, parts, words, checked, estimated, unsaid })
 }

@@ -18,7 +18,7 @@ use hairpin_formats::{atomic, rapid};
 use crate::Problem;
 use crate::check::read_anywhere;
 use crate::sets::Set;
-use follow::Doer;
+use follow::{Doer, Told};
 use kind::Kind;
 
 pub use findings::MoveFinding;
@@ -103,7 +103,8 @@ pub fn import(settings: &ImportSettings) -> Result<Imported, Problem> {
         Some(stands) => follow::in_base(&module.program, &stands),
         None => module.program.clone(),
     };
-    let follow = |(doer, follower)| follow::follow(doer, follower, (&program, module.certain));
+    let told = Told { program: &program, certain: module.certain, is_rapid: files::are_rapid(&settings.files) };
+    let follow = |(doer, follower)| follow::follow(doer, follower, &told);
     let followed = doer.zip(settings.check.as_ref()).map(follow).transpose()?;
     let findings = findings::findings(&module, followed.as_ref());
     Ok(Imported::Program(Box::new(Read { module, followed, findings })))

@@ -102,6 +102,53 @@ fn what_is_plain_is_a_single_arc_and_what_is_not_has_a_reason() {
 }
 
 #[test]
+fn of_equal_lengths_the_least_turning_and_the_fewest_stops_win() {
+    let bounds = Curvatures { most: 1.0, most_rate: 1.0 };
+    let query = |x, y, yaw, k| Query { start_curvature: k, goal: Goal { x, y, yaw, curvature: k } };
+    let both = Choices { reversals: true, turns: true, ..Choices::default() };
+    let turned = |solution: &Solution| {
+        let of = |segment: &Segment| if segment.length_m() > 0.0 { 0.0 } else { segment.turn_rad().abs() };
+        solution.segments.iter().map(of).sum::<f64>()
+    };
+    for choices in [both, Choices { arcs: false, ..both }, Choices { gear: Gear::Reverse, ..both }] {
+        for (asked, most) in [
+            (query(-2.0, 0.0, 0.0, 0.0), 0.0),
+            (query(2.0, 0.0, 0.0, 0.0), 0.0),
+            (query(-2.0, 0.5, 0.0, 0.0), 2.0 * 0.25_f64.atan() + 1e-9),
+            (query(-2.0, 0.0, 0.3, 0.0), 0.3 + 1e-9),
+            (query(2.0, 0.0, -0.3, 0.0), 0.3 + 1e-9),
+        ] {
+            let solution = solve(&asked, &bounds, &choices, || false);
+            check(&asked, &bounds, &solution);
+            assert!(turned(&solution) <= most, "{asked:?} {choices:?}: {solution:?}");
+        }
+    }
+    // Back along the circle that both ends are on: no way to straight wheels and back is as short.
+    let (sin, cos) = (-0.75_f64).sin_cos();
+    let bent = query(2.0 * sin, 2.0 * (1.0 - cos), -0.75, 0.5);
+    let solution = solve(&bent, &bounds, &both, || false);
+    let found = check(&bent, &bounds, &solution);
+    assert!((found.length - 1.5).abs() < 1e-6 && found.reversals == 0, "{solution:?}");
+    // Among words with cusps none as long as the shortest stands less often.
+    let stops = |path: &cc::Path| {
+        let mut gears = Vec::new();
+        path.segments(|segment| gears.push(segment.gear));
+        gears.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    };
+    let grid = [-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0];
+    for (x, y) in grid.iter().flat_map(|x| grid.map(|y| (*x, y))) {
+        for eighth in -4..=4 {
+            let asked = query(x, y, f64::from(eighth) * std::f64::consts::FRAC_PI_4, 0.0);
+            let Some(best) = cc::steer(&asked, &bounds, Gears::Both) else { continue };
+            cc::every(&asked, &bounds, Gears::Both, |path| {
+                let same = (path.length_m() - best.length_m()).abs() < 1e-9;
+                assert!(!same || stops(&path) >= stops(&best), "{asked:?}: {best:?} {path:?}");
+            });
+        }
+    }
+}
+
+#[test]
 fn mirrored_queries_have_mirrored_drives() {
     let bounds = Curvatures { most: 1.0, most_rate: 1.0 };
     let mut random = stream(4);

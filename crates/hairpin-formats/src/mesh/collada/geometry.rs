@@ -4,14 +4,18 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
-use super::super::polygon;
+use super::super::polygon::{self, Faces};
 use super::super::types::{MOST_TRIANGLES, MeshError};
 
 /// Points and triangles.
 pub(super) type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 /// What a geometry is made of, in its own unit.
-pub(super) fn triangles_of(geometry: &Node, named: &BTreeMap<&str, Node>) -> Result<Triangles, MeshError> {
+pub(super) fn triangles_of(
+    geometry: &Node,
+    named: &BTreeMap<&str, Node>,
+    uneven: Faces,
+) -> Result<Triangles, MeshError> {
     let Some(mesh) = child(geometry, "mesh") else {
         let what = geometry.children().find(Node::is_element).map_or("nothing", |node| node.tag_name().name());
         return Err(MeshError::NoCollada(format!("a geometry is {what}, no <mesh>")));
@@ -59,7 +63,7 @@ pub(super) fn triangles_of(geometry: &Node, named: &BTreeMap<&str, Node>) -> Res
                 "triangles" | "trifans" => triangles.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]])),
                 _ => {
                     let places: Vec<[f64; 3]> = face.iter().map(|corner| points[*corner as usize]).collect();
-                    let cut = polygon::cut(&places).map_err(|why| MeshError::Face {
+                    let cut = polygon::cut(&places, uneven).map_err(|why| MeshError::Face {
                         place: format!("<{kind}> in line {}, face {number}", line(&primitive)),
                         corners: face.len(),
                         why,

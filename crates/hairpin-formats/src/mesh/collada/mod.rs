@@ -24,6 +24,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use self::geometry::{child, children, line, triangles_of};
 use self::place::{place_of, upright};
+use super::polygon::Faces;
 use super::types::{MOST_TRIANGLES, Mesh, MeshError};
 
 /// Nodes within nodes, at most, and in all: a file may name one node again and again.
@@ -38,7 +39,7 @@ const LARGEST: usize = 64_000_000;
 ///
 /// # Errors
 /// No XML, no Collada, numbers that are none, indices of nothing, more than is read.
-pub(super) fn read_collada(text: &str) -> Result<Mesh, MeshError> {
+pub(super) fn read_collada(text: &str, faces: Faces) -> Result<Mesh, MeshError> {
     if text.len() > LARGEST {
         return Err(MeshError::NoCollada(format!("{} bytes are more than {LARGEST}", text.len())));
     }
@@ -50,7 +51,7 @@ pub(super) fn read_collada(text: &str) -> Result<Mesh, MeshError> {
         return Err(MeshError::NoCollada(format!("its root is <{}>", root.tag_name().name())));
     }
     let asset = child(&root, "asset");
-    let mut scene = Scene { named: named(&root), nodes: 0, mesh: Mesh::default() };
+    let mut scene = Scene { named: named(&root), faces, nodes: 0, mesh: Mesh::default() };
     let upright = upright(asset.as_ref())?;
     match scene.begin(&root)? {
         Some(visual) => scene.children(&visual, &upright, 0)?,
@@ -82,6 +83,7 @@ impl Called for Node<'_, '_> {
 /// What has been gathered.
 struct Scene<'t> {
     named: BTreeMap<&'t str, Node<'t, 't>>,
+    faces: Faces,
     nodes: usize,
     mesh: Mesh,
 }
@@ -142,7 +144,7 @@ impl<'t> Scene<'t> {
 
     /// Adds a geometry where it stands.
     fn part(&mut self, geometry: &Node<'t, 't>, at: &Matrix4<f64>) -> Result<(), MeshError> {
-        let (points, triangles) = triangles_of(geometry, &self.named)?;
+        let (points, triangles) = triangles_of(geometry, &self.named, self.faces)?;
         if self.mesh.triangles.len() + triangles.len() > MOST_TRIANGLES {
             return Err(MeshError::TooMany(MOST_TRIANGLES));
         }
@@ -150,7 +152,12 @@ impl<'t> Scene<'t> {
         self.mesh
             .vertices
             .extend(points.iter().map(|p| <[f64; 3]>::from(at.transform_point(&Point3::from(*p)).coords)));
-        self.mesh.triangles.extend(triangles.iter().map(|triangle| triangle.map(|corner| corner + before)));
+        // A mirror turns what is wound outwards inwards.
+        let mirrored = at.fixed_view::<3, 3>(0, 0).determinant() < 0.0;
+        self.mesh.triangles.extend(triangles.iter().map(|&[a, b, c]| {
+            let triangle = if mirrored { [a, c, b] } else { [a, b, c] };
+            triangle.map(|corner| corner + before)
+        }));
         Ok(())
     }
 }

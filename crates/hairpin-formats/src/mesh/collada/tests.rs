@@ -42,7 +42,7 @@ fn unit_and_upward_axis_are_the_file_s_own() {
         // What a file does not say is the format's own: metres, y up.
         ("", [2.0, -6.0, 4.0]),
     ] {
-        let read = read_collada(&file(asset, TRIANGLES, "")).unwrap();
+        let read = read_collada(&file(asset, TRIANGLES, ""), Faces::Outwards).unwrap();
         near(far(&read), right);
         assert_eq!(read.triangles, [[0, 1, 2], [1, 3, 7]]);
     }
@@ -63,7 +63,7 @@ fn nodes_stand_where_their_transforms_put_them() {
             [8.0, 11.0, 14.0],
         ),
     ] {
-        near(far(&read_collada(&file(z_up, TRIANGLES, &scene(&nodes))).unwrap()), right);
+        near(far(&read_collada(&file(z_up, TRIANGLES, &scene(&nodes)), Faces::Outwards).unwrap()), right);
     }
     let twice = format!(
         "<library_nodes><node id=\"n\">{here}</node></library_nodes>{}",
@@ -71,14 +71,16 @@ fn nodes_stand_where_their_transforms_put_them() {
             "<node><instance_node url=\"#n\"/></node><node><translate>1 0 0</translate><instance_node url=\"#n\"/></node>"
         )
     );
-    assert_eq!(read_collada(&file(z_up, TRIANGLES, &twice)).unwrap().triangles.len(), 4);
+    assert_eq!(read_collada(&file(z_up, TRIANGLES, &twice), Faces::Outwards).unwrap().triangles.len(), 4);
     // Millimetres shift in millimetres.
-    let read = read_collada(&file(
-        "<unit meter=\"0.001\"/><up_axis>Z_UP</up_axis>",
-        TRIANGLES,
-        &scene(&format!("<node><translate>8 0 0</translate>{here}</node>")),
-    ));
+    let moved = scene(&format!("<node><translate>8 0 0</translate>{here}</node>"));
+    let moved = file("<unit meter=\"0.001\"/><up_axis>Z_UP</up_axis>", TRIANGLES, &moved);
+    let read = read_collada(&moved, Faces::Outwards);
     near(far(&read.unwrap()), [0.01, 0.004, 0.006]);
+    // A mirror leaves what is outside outside.
+    let mirrored = scene(&format!("<node><scale>-1 1 1</scale>{here}</node>"));
+    let read = read_collada(&file(z_up, TRIANGLES, &mirrored), Faces::Outwards).unwrap();
+    assert_eq!(read.triangles, [[0, 2, 1], [1, 7, 3]]);
 }
 
 #[test]
@@ -96,13 +98,13 @@ fn every_kind_of_face_becomes_triangles() {
             vec![[0, 1, 3], [0, 3, 2]],
         ),
     ] {
-        assert_eq!(read_collada(&file("", &primitive, "")).unwrap().triangles, right, "{primitive}");
+        assert_eq!(read_collada(&file("", &primitive, ""), Faces::Outwards).unwrap().triangles, right, "{primitive}");
     }
 }
 
 #[test]
 fn what_is_no_collada_is_told() {
-    let told = |text: &str| read_collada(text).unwrap_err().to_string();
+    let told = |text: &str| read_collada(text, Faces::Outwards).unwrap_err().to_string();
     assert!(told("<x").contains("is no Collada"));
     assert!(told("<svg/>").contains("its root is <svg>"));
     let input = "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>";

@@ -5,15 +5,11 @@ use tiff::tags::{ByteOrder, Tag};
 use tiff::{TiffError, TiffFormatError, TiffResult};
 
 use super::decoder::{Tiff, limits, open};
+use super::pages::{MASK, SMALLER};
 use super::sparse;
 
-/// Bits of NewSubfileType: a smaller copy; a mask.
-const SMALLER: u32 = 1;
-const MASK: u32 = 4;
 const PHOTOMETRIC: u16 = 262;
 const BLACK_IS_ZERO: u16 = 1;
-/// Overviews halve the sides; no file has this many.
-const MOST_DIRECTORIES: usize = 100;
 
 /// What a file has of a mask.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,10 +29,7 @@ pub(super) fn apply(
     (columns, rows): (usize, usize),
     heights: &mut [f32],
 ) -> TiffResult<Mask> {
-    for _ in 0..MOST_DIRECTORIES {
-        if !tiff.more_images() {
-            return Ok(Mask::Absent);
-        }
+    while tiff.more_images() {
         tiff.next_image()?;
         let kind = tiff.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0);
         if kind & MASK == 0 || kind & SMALLER != 0 {

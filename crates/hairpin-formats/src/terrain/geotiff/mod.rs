@@ -1,5 +1,7 @@
 //! GeoTIFF: one band of heights with pixel scale and tie point, or a transformation without rotation.
 //!
+//! Overviews and a mask beside that are known; of several full pages none is taken.
+//!
 //! Sources: OGC GeoTIFF 1.1 (19-008r4); GDAL's tags GDAL_METADATA (scale, offset, unit of a band), GDAL_NODATA and its
 //! masks within the file.
 
@@ -7,6 +9,7 @@ mod decoder;
 mod keys;
 mod mask;
 mod metadata;
+mod pages;
 mod place;
 mod sparse;
 
@@ -20,6 +23,7 @@ use super::remedy::Remedy;
 use decoder::{Tiff, limits, open};
 use mask::Mask;
 use metadata::Band;
+use pages::Ambiguous;
 
 pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let broken = |error: tiff::TiffError| {
@@ -27,6 +31,9 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
         TerrainError::Convert { why, command: Remedy::rewrite(file, "-co COMPRESS=DEFLATE ") }
     };
     let mut tiff = open(bytes).map_err(broken)?;
+    if let Some(ambiguous) = pages::ambiguous(&mut tiff).map_err(broken)? {
+        return Err(one_page(ambiguous, file));
+    }
     let (columns, rows) = tiff.dimensions().map_err(broken)?;
     let (columns, rows) = bounded(columns.into(), rows.into())?;
     let mut tiff = tiff.with_limits(limits(columns * rows));
@@ -85,6 +92,28 @@ pub(super) fn read(bytes: &[u8], file: &str) -> Result<Raster, TerrainError> {
     let Band { scale, offset, no_data, .. } = band;
     let layout = Layout { scale, offset, no_data, masked, south_up: placed.south_up, at_centers: keys.at_centers };
     Ok(Raster { grid: placed.grid, heights, reference, layout })
+}
+
+/// Pages are like bands: a map is one of them, and who has it says which.
+fn one_page(ambiguous: Ambiguous, file: &str) -> TerrainError {
+    let (why, page) = match ambiguous {
+        Ambiguous::Several(second) => (
+            format!(
+                "several full pages, of which the second is directory {second}: one is needed; this takes the first"
+            ),
+            1,
+        ),
+        Ambiguous::SmallerFirst(Some(page)) => (
+            format!("its first page is a smaller copy or a mask, directory {page} is the full one; this takes it"),
+            page,
+        ),
+        Ambiguous::SmallerFirst(None) => (
+            "its first page says that it is a smaller copy or a mask, and there is no full one; this takes it".into(),
+            1,
+        ),
+        Ambiguous::TooMany => ("more than 100 directories; this takes the first".into(), 1),
+    };
+    TerrainError::Convert { why, command: Remedy::page(file, page) }
 }
 
 /// What a compression is called that is not read here.

@@ -12,6 +12,7 @@ use thiserror::Error;
 
 use super::body::{self, Capsule, Hull, Link, Mass, Outline, body_name};
 use super::chain::{Chain, Joint};
+use super::coupling::Coupling;
 use super::opw::Opw;
 use super::{AXES, Arm, JointLimit, Joints, Kinematics};
 use crate::math::rotation::{quaternion_from_euler, unit_quaternion};
@@ -168,6 +169,11 @@ pub struct JointsDescription {
     /// Time constants of the servos' lag, in the place of `execute.servo_lag_s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_s: Option<[f64; AXES]>,
+    /// Whether the controller tells axis 3 against the base, rax_3 = θ3 + θ2, as ABB's do of arms with a parallel rod
+    /// (IRB 2400, 4400, 6400): joint targets of RAPID are read and written so. Angles and bounds here are the joints'
+    /// own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub j23_coupled: Option<bool>,
 }
 
 /// A part of a link.
@@ -301,6 +307,7 @@ impl ArmDescription {
             chain,
             kinematics,
             limits,
+            coupling: Coupling::of(self.joints.j23_coupled, &self.name),
             lags: self.joints.lags()?,
             joint_names: self.joint_names()?,
             links,

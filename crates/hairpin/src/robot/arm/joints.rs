@@ -10,7 +10,8 @@ pub type Joints = [f64; AXES];
 
 /// What one joint may do.
 ///
-/// The bounds are the joint's own; coupling between axes (as of parallel rods) is not modelled.
+/// The bounds are the joint's own; a parallel rod's are not modelled
+/// ([`Coupling`](super::Coupling) is of what controllers tell).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointLimit {
     /// Least angle, rad.

@@ -11,6 +11,7 @@
 //! | `chain` | forward kinematics, Jacobian, Newton's inverse: for every arm |
 //! | `seeds` | from where Newton begins, until a posture within the limits is found |
 //! | `opw` | the closed inverse, eight branches: for spherical wrists |
+//! | `coupling` | how a controller tells axis 3 where a parallel rod drives it |
 //! | `configuration` | cf1, cf4, cf6, cfx of a controller's robtarget |
 //! | `singularity` | margins without unit |
 //! | `rates` | bounds of joints on a whole piece of a tool move, from one sample |
@@ -24,6 +25,7 @@
 mod body;
 mod chain;
 mod configuration;
+mod coupling;
 mod description;
 mod dynamics;
 mod joints;
@@ -39,6 +41,7 @@ mod tests;
 pub use body::{APART, Capsule, Hull, Link, Mass, Outline, body_name};
 pub use chain::{Chain, Frames, Iterated, Joint};
 pub use configuration::{Branch, Configuration};
+pub use coupling::Coupling;
 pub use description::{
     ArmDescription, ArmError, ArmKind, CapsuleDescription, ChainDescription, ChainJoint, HullDescription,
     JointsDescription, MassDescription, OpwDescription,
@@ -101,6 +104,8 @@ pub struct Arm {
     pub kinematics: Kinematics,
     /// What the joints may do.
     pub limits: [JointLimit; AXES],
+    /// How its controller tells axis 3.
+    pub coupling: Coupling,
     /// Time constants of the servos' lag, s, where the file has them.
     pub lags: Option<Joints>,
     /// What the joints are called by ROS.

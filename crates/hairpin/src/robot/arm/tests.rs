@@ -394,6 +394,7 @@ fn files_are_held_to_their_bounds() {
             speed_deg_s: [200.0; 6],
             acceleration_deg_s2: None,
             lag_s: None,
+            j23_coupled: None,
         },
         joint_names: Vec::new(),
         capsules: Vec::new(),

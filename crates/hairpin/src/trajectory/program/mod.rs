@@ -77,6 +77,17 @@ pub struct Move {
 }
 
 impl Program {
+    /// The same program with every joint target's angles, rad, as `to` makes them.
+    pub fn with_joints(&self, to: impl Fn(&[f64; 6]) -> [f64; 6]) -> Self {
+        let mut program = self.clone();
+        for one in &mut program.moves {
+            if let Motion::AbsoluteJoint(target) = &mut one.motion {
+                target.joints = to(&target.joints);
+            }
+        }
+        program
+    }
+
     /// A program without moves, for one tool and one work object.
     pub fn new(name: &str, procedure: &str, tool: Tool, work_object: WorkObject) -> Self {
         Self {

@@ -32,6 +32,7 @@ fn arm(b: f64, signs: Joints) -> Arm {
         chain: opw.chain(),
         kinematics: Kinematics::Opw(opw),
         limits: bounds.map(limit),
+        coupling: Default::default(),
         lags: None,
         joint_names: Default::default(),
         links: Default::default(),

@@ -167,6 +167,19 @@ fn where_nothing_is_clear_the_depth_is_told() {
 }
 
 #[test]
+fn ways_of_one_length_stand_in_the_order_of_their_turning() {
+    let choices = Choices { reversals: true, turns: true, arcs: false, ..Choices::default() };
+    for ahead in [-2.0, 2.0] {
+        let asked = query(ahead, 0.0, 0.0);
+        let ways = super::ways::every(&asked, &BOUNDS, &choices);
+        let turns = |segment: &Segment| matches!(segment.motion, Motion::Turn { .. });
+        let first = &ways[0];
+        assert!((first.length - 2.0).abs() < 1e-9 && !first.segments.iter().any(turns), "{first:?}");
+        assert!(super::ways::shortest(&asked, &BOUNDS, &choices).is_some_and(|way| way.segments.len() == 1));
+    }
+}
+
+#[test]
 fn motions_are_looked_along_as_drives_are() {
     let keep_outs = KeepOuts::new(vec![circle(2.0, 0.35, 0.1)]).expect("a place");
     let mut check = MotionCheck::new(&keep_outs, 0.3);

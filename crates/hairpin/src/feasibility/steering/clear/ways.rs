@@ -4,8 +4,11 @@
 //! gear) with clothoids: places are got around by taking another of them, not by bending one.
 
 use crate::feasibility::steering::shooting::cc::{self, Gears};
+use crate::feasibility::steering::shooting::preference::Effort;
 use crate::feasibility::steering::shooting::query::{Curvatures, Query};
-use crate::feasibility::steering::shooting::solve::{Choices, Method, single_arcs, turn_drive_turn};
+use crate::feasibility::steering::shooting::solve::{
+    Choices, Method, listed, single_arcs, turn_drive_turn, with_turns,
+};
 use crate::trajectory::drive::{Segment, SegmentList};
 
 /// A drive to the goal.
@@ -32,14 +35,18 @@ const SMOOTH: f64 = 0.8;
 ///
 /// Three circle sizes, the gears that are allowed, arcs, words, turns in place; unjudged against places.
 ///
-/// Allocates its list; sorted by metres driven, single arcs counted at 0.8 of theirs.
+/// Allocates its list; sorted by metres driven, single arcs counted at 0.8 of theirs, equals of the closed forms by
+/// [`Effort`].
 pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Vec<Way> {
     let mut ways = Vec::new();
     if choices.arcs {
         single_arcs(query, bounds, choices, |segments| ways.push(Way::new(segments, Method::SingleArc)));
     }
     if choices.turns {
-        ways.push(Way::new(turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn));
+        let other = choices.reversals.then(|| choices.gear.opposite());
+        for gear in [Some(choices.gear), other].into_iter().flatten() {
+            ways.push(Way::new(turn_drive_turn(query, bounds, gear), Method::TurnDriveTurn));
+        }
     }
     let sharpest = query.start_curvature.abs().max(query.goal.curvature.abs());
     for share in SHARES {
@@ -50,16 +57,26 @@ pub(super) fn every(query: &Query, bounds: &Curvatures, choices: &Choices) -> Ve
     }
     let rank = |way: &Way| if way.method == Method::SingleArc { SMOOTH * way.length } else { way.length };
     ways.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+    // Closed forms that are equally long to rounding, each run of them by what they turn and how often they stand.
+    let alike = |a: &Way, b: &Way| a.method != Method::SingleArc && b.method != Method::SingleArc && same_length(a, b);
+    for run in ways.chunk_by_mut(alike) {
+        run.sort_by(|a, b| Effort::of(&a.segments).against_in_turns(&Effort::of(&b.segments)));
+    }
     ways
+}
+
+/// Whether lengths differ by rounding alone.
+fn same_length(a: &Way, b: &Way) -> bool {
+    Effort::of(&a.segments).is_as_long_as(&Effort::of(&b.segments))
 }
 
 /// The shortest way in closed form.
 ///
-/// Where turns in place are allowed, turn–drive–turn, which is straight and so the shortest whenever its ends are not
-/// bent.
+/// Where turns in place are allowed, as [`with_turns`] has it.
 pub(super) fn shortest(query: &Query, bounds: &Curvatures, choices: &Choices) -> Option<Way> {
     if choices.turns {
-        return Some(Way::new(turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn));
+        let (segments, method) = with_turns(query, bounds, choices);
+        return Some(Way::new(segments, method));
     }
     cc::steer(query, bounds, gears(choices)).map(|path| Way::of(&path))
 }
@@ -75,8 +92,6 @@ impl Way {
     }
 
     fn of(path: &cc::Path) -> Self {
-        let mut segments = SegmentList::EMPTY;
-        path.segments(|segment| segments.add(segment));
-        Self::new(segments, Method::Clothoids)
+        Self::new(listed(path), Method::Clothoids)
     }
 }

@@ -3,9 +3,10 @@
 use super::control::Control;
 use super::families::{self, Among, Answer, Iteration, Parameters, Problem};
 use super::flat;
+use super::preference::Effort;
 use super::query::{Curvatures, Goal, Query};
 use super::solve::{Choices, Method, Outcome, Solution, solve};
-use crate::trajectory::drive::{Gear, Segment};
+use crate::trajectory::drive::Gear;
 
 /// What was found, with the family's own numbers.
 ///
@@ -135,13 +136,10 @@ fn solution(
     Solution { outcome, segments, method: Method::SingleArc, iterations, arc: Some(status) }
 }
 
-/// Solved before unsolved, then the shorter.
-///
-/// Lengths in metres driven; of equals the one that was there.
+/// Solved before unsolved, then by [`Effort`]; of equals the one that was there.
 fn better(found: &Solution, best: &Solution) -> bool {
-    let length = |solution: &Solution| solution.segments.iter().map(Segment::length_m).sum::<f64>();
     match (found.outcome == Outcome::Solved, best.outcome == Outcome::Solved) {
-        (true, true) => length(found) < length(best),
+        (true, true) => Effort::of(&found.segments).against(&Effort::of(&best.segments)).is_lt(),
         (found, _) => found,
     }
 }

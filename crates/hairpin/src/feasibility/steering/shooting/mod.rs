@@ -56,6 +56,7 @@ pub mod families;
 pub mod flat;
 mod generate;
 pub mod nearest;
+pub(in crate::feasibility::steering) mod preference;
 pub mod query;
 pub mod rough;
 pub mod solve;

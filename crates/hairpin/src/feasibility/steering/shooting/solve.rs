@@ -2,8 +2,9 @@
 //!
 //! Order of what is tried, by what it costs: a single arc that is short beside a lower bound (the way itself and the
 //! turning of the heading; then, in one gear without turns in place, Dubins' length), turn–drive–turn where it may be
-//! driven, the words of clothoids, and the arc after all where the words are no shorter by a quarter. So smoothness is
-//! bought with length up to a factor of 1.25 and no farther.
+//! driven, in both gears if these may be, the words of clothoids, and the arc after all where the words are no shorter
+//! by a quarter. So smoothness is bought with length up to a factor of 1.25 and no farther. Of drives of equal length
+//! the one with the least turning in place is taken, then the one with the fewest stops.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,6 +14,7 @@ use crate::trajectory::drive::{Gear, Motion, Segment, SegmentList};
 use super::cc::{self, Gears};
 use super::families;
 use super::flat;
+use super::preference::Effort;
 use super::query::{Curvatures, Goal, Query};
 
 /// What may be driven, and how hard to look for it.
@@ -168,14 +170,13 @@ fn plainly(query: &Query, bounds: &Curvatures, choices: &Choices, mut stop: impl
         return Solution { outcome, ..solution };
     }
     if choices.turns {
-        let segments = turn_drive_turn(query, bounds, choices.gear);
-        return Solution { outcome: Outcome::Solved, segments, method: Method::TurnDriveTurn, ..solution };
+        let (segments, method) = with_turns(query, bounds, choices);
+        return Solution { outcome: Outcome::Solved, segments, method, ..solution };
     }
     let gears = if choices.reversals { Gears::Both } else { Gears::Only(choices.gear) };
     match cc::steer(query, bounds, gears) {
         Some(path) if !arc_within(path.length_m()) => {
-            let mut segments = SegmentList::EMPTY;
-            path.segments(|segment| segments.add(segment));
+            let segments = listed(&path);
             Solution { outcome: Outcome::Solved, segments, method: Method::Clothoids, ..solution }
         }
         _ if arc.is_some() => Solution { outcome: Outcome::Solved, ..solution },
@@ -230,6 +231,45 @@ fn mirrored(query: &Query, gear: Gear) -> Query {
         Gear::Forward => *query,
         Gear::Reverse => Query { goal: Goal { x: -query.goal.x, yaw: -query.goal.yaw, ..query.goal }, ..*query },
     }
+}
+
+/// The shortest closed form where turns in place are allowed: turn–drive–turn, in both gears with `choices.reversals`.
+///
+/// Of lengths within 10⁻⁹ m, or that share of them, the least turning in place, then the fewest stops, then the
+/// preferred gear: straight back is driven in reverse, not between two half turns. Where an end is bent, and arcs are
+/// tried, words of clothoids with cusps may be shorter than the ways to straight wheels.
+pub(in crate::feasibility::steering) fn with_turns(
+    query: &Query,
+    bounds: &Curvatures,
+    choices: &Choices,
+) -> (SegmentList, Method) {
+    let mut best = (turn_drive_turn(query, bounds, choices.gear), Method::TurnDriveTurn);
+    if !choices.reversals {
+        return best;
+    }
+    let mut effort = Effort::of(&best.0);
+    let mut offer = |segments: SegmentList, method: Method| {
+        let found = Effort::of(&segments);
+        if found.against(&effort).is_lt() {
+            (best, effort) = ((segments, method), found);
+        }
+    };
+    offer(turn_drive_turn(query, bounds, choices.gear.opposite()), Method::TurnDriveTurn);
+    let bent = query.start_curvature != 0.0 || query.goal.curvature != 0.0;
+    if choices.arcs
+        && bent
+        && let Some(path) = cc::steer(query, bounds, Gears::Both)
+    {
+        offer(listed(&path), Method::Clothoids);
+    }
+    best
+}
+
+/// A path as segments.
+pub(in crate::feasibility::steering) fn listed(path: &cc::Path) -> SegmentList {
+    let mut segments = SegmentList::EMPTY;
+    path.segments(|segment| segments.add(segment));
+    segments
 }
 
 /// Clothoid to zero curvature, turn, straight, turn, clothoid from zero curvature; what there is no need of is left

@@ -49,6 +49,7 @@ fn arm() -> Arm {
             speed: speed.to_radians(),
             acceleration: 6.0 * speed.to_radians(),
         }),
+        coupling: Default::default(),
         lags: None,
         joint_names: Default::default(),
         links: Default::default(),
