@@ -105,8 +105,14 @@ pub(crate) fn drawn(
 fn measure(setup: &Setup, case: &Case, runs: &[Run]) -> Result<CaseResult, Problem> {
     let mut result = campaign::judge(setup, case, runs)?;
     result.drawn.extend(vary::draw_for_case(&setup.scenario, case.seed, case.number));
-    if result.status != Status::ExecutorFailed {
-        result.status = Status::Unjudged;
+    match runs.iter().find_map(|run| campaign::unlike(setup, case, run)) {
+        // What no robot does is no number to stand beside.
+        Some(why) => {
+            (result.status, result.message) = (Status::Inconclusive, Some(why));
+            (result.measures, result.of_runs) = (None, None);
+        }
+        None if result.status != Status::ExecutorFailed => result.status = Status::Unjudged,
+        None => {}
     }
     (result.violations, result.elsewhere, result.draws) = (Vec::new(), Vec::new(), None);
     Ok(result)

@@ -166,7 +166,8 @@ fn missions(found: &Compared) -> Value {
 /// What random feasible cases came to.
 pub(super) fn baseline(found: &Baseline) -> Value {
     json!({
-        "cases": found.cases, "failed": found.failed, "executions": found.executions, "metric": found.stress.column(), "mean": found.mean,
+        "cases": found.cases, "failed": found.failed, "implausible": found.implausible, "executions": found.executions,
+        "metric": found.stress.column(), "mean": found.mean,
         "interval": found.interval, "median": found.median, "max": found.max, "worst": found.worst,
     })
 }

@@ -88,7 +88,7 @@ fn files_of_queries_are_answered_on_the_map_the_same_on_any_number_of_threads() 
 #[test]
 fn what_stands_in_the_way_is_named() {
     let folder = tempfile::tempdir().unwrap();
-    hills(folder.path(), |x, y| if (x - 1.0).hypot(y) < 0.3 { -9999.0 } else { rolling(x, y) });
+    hills(folder.path(), |x, y| if (x - 1.0).abs() < 0.3 { -9999.0 } else { rolling(x, y) });
     let ahead = ["--from", "-2,0,0", "--to", "4,0,0"];
     let (code, out, error) = run(folder.path(), &[&["steer", "rocky8", "--terrain", "hills.asc"][..], &ahead].concat());
     assert!(code == 2 && out.is_empty() && error.contains("cells without data, the first in row"), "{error}");
@@ -112,6 +112,47 @@ fn what_stands_in_the_way_is_named() {
     let (code, answer) = steer(folder.path(), "rocky8", &["--from", "-3,0,0", "--to", "2,0,0"]);
     assert_eq!((code, &answer["limit"]), (3, &Value::from("tilt_rad")), "{answer}");
     assert!(answer["excess"].as_f64().unwrap() > 0.1, "{answer}");
+}
+
+#[test]
+fn holes_of_a_map_are_driven_around_as_places_to_keep_out_of_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    hills(at, |x, y| if (x - 1.0).hypot(y) < 0.3 || y > 5.0 { -9999.0 } else { rolling(x, y) });
+    let keep_out = |more: &[&str]| steer(at, "rocky8", &[&["--no-data", "keep-out"], more].concat());
+    let (code, answer) = keep_out(&["--from", "-4,0,0", "--to", "6,0,0", "--path", "path.csv"]);
+    assert_eq!((code, &answer["status"]), (0, &Value::from("ok")), "{answer}");
+    let error = |name: &str| answer["errors"][name].as_f64().unwrap().abs();
+    assert!(error("x_m").hypot(error("y_m")) < 0.01 && error("yaw_rad") < 0.01, "{answer}");
+    assert!((10.0..12.0).contains(&answer["length_m"].as_f64().unwrap()), "{answer}");
+    let path = fs::read_to_string(at.join("path.csv")).unwrap();
+    let mut lines = path.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let [x, y] = ["x_m", "y_m"].map(|name| names.iter().position(|known| *known == name).unwrap());
+    let (mut rows, mut aside) = (0, 0.0_f64);
+    for line in lines {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+        // Heights take two cells beyond the middle of one.
+        assert!((cells[x] - 1.0).hypot(cells[y]) > 0.3 + 0.2 && cells[y] < 4.8, "{line}");
+        aside = if cells[y].abs() > aside.abs() { cells[y] } else { aside };
+        rows += 1;
+    }
+    assert!(rows > 100, "{rows} rows");
+    // Around a place of the user's as well, which stays one.
+    let circle = format!("1,{aside},0.3");
+    let (code, both) = keep_out(&["--from", "-4,0,0", "--to", "6,0,0", "--keep-out-circle", &circle]);
+    assert_eq!((code, &both["status"]), (0, &Value::from("ok")), "{both}");
+    assert!(both["segments"] != answer["segments"], "{both}");
+    // No way leads into what has no data.
+    let (code, none) = keep_out(&["--from", "-4,0,0", "--to", "1,7,1.5"]);
+    assert_eq!((code, &none["limit"]), (3, &Value::from("no_data")), "{none}");
+    fs::write(at.join("q.csv"), "id,sx,sy,syaw,x,y,yaw,k0,kf\na,-4,0,0,10,0,0,0,0\nb,-4,0,0,5,7,1.5,0,0\n").unwrap();
+    let arguments = ["--terrain", "hills.asc", "--no-data", "keep-out", "--queries", "q.csv"];
+    let (code, out, error) = run(at, &[&["steer", "rocky8"], &arguments[..]].concat());
+    assert_eq!(code, 0, "{error}");
+    let rows: Vec<Vec<&str>> = out.lines().map(|row| row.split(',').collect()).collect();
+    let status = |id: &str| rows.iter().find(|row| row[0] == id).map(|row| row[4]);
+    assert_eq!(["a", "b"].map(status), [Some("ok"), Some("infeasible")], "{out}");
 }
 
 #[test]

@@ -86,6 +86,20 @@ fn change(out: &Path, change: &dyn Fn(RunFacts) -> RunFacts) {
     write_facts(&out.join(FACTS), &facts).unwrap();
 }
 
+/// Random cases that nothing can fly are no mean to stand beside.
+#[test]
+fn what_no_robot_does_is_no_random_case() {
+    let place = tempfile::tempdir().unwrap();
+    let executor = format!("python3 '{UNLIKE}' some");
+    let more = ["--set", "execute.baseline=12", "--executor", &executor, "--out", "some"];
+    let found = json(place.path(), &[&FLIGHTS[..], &SPEC, &more].concat());
+    let count = |key: &str| found["baseline"][key].as_u64().unwrap_or_else(|| panic!("{key}: {found}"));
+    assert!(count("cases") > 0 && count("implausible") > 0, "{found}");
+    assert_eq!((count("cases") + count("implausible"), count("failed"), count("executions")), (12, 0, 12), "{found}");
+    let again = json(place.path(), &["judge", "some"]);
+    assert_eq!(again["baseline"], found["baseline"]);
+}
+
 /// Of what earlier versions executed the rows tell, and where none were kept nobody knows.
 #[test]
 fn runs_that_nobody_looked_at_are_looked_at_or_open() {

@@ -1,5 +1,5 @@
 """Flies each mission along its straight legs at 2 m/s, 50 poses a second, and tells what no robot does, by its argument:
-`leap` leaves out nine tenths of the longest leg and the time for them, `over` has its up axis down all the way, `flip`
+`leap` leaves out nine tenths of the longest leg and the time for them, `some` does so in about half of the missions, `over` has its up axis down all the way, `flip`
 on one leg, `held` tells each place for a second, `straight` nothing of it."""
 import json, math, sys
 MODE = sys.argv[1]
@@ -8,11 +8,12 @@ def fly(w):
     lengths = [math.dist(a, b) for a, b in zip(w, w[1:])]
     longest = lengths.index(max(lengths))
     rows, t, held = [], 0.0, None
+    leaps = MODE == "leap" or MODE == "some" and round(1000 * sum(lengths)) % 2
     for leg, (a, b) in enumerate(zip(w, w[1:])):
         n = max(2, math.ceil(lengths[leg] / 2 / 0.02))
         for k in range(n):
             s = k / n
-            if MODE == "leap" and leg == longest and 0.05 < s < 0.95: continue
+            if leaps and leg == longest and 0.05 < s < 0.95: continue
             rows.append((t, [u + (v - u) * s for u, v in zip(a, b)], leg))
             t += 0.02
     rows.append((t, w[-1], len(w) - 2))

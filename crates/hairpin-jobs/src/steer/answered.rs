@@ -11,7 +11,7 @@ use hairpin::feasibility::steering::shooting::solve::Solution;
 use hairpin::trajectory::SpeedProfile;
 use hairpin::trajectory::drive::Segment;
 use hairpin::verification::{DriveClaim, DrivePiece, DriveReplay};
-use hairpin::world::terrain::KeepOuts;
+use hairpin::world::terrain::{KeepOuts, NoGround};
 use hairpin_formats::steering::{Asked, Status};
 
 use super::pace::direction;
@@ -30,6 +30,8 @@ pub struct Answered {
     pub near: Option<Near>,
     /// The drive that the ground lets go no further, and after how many metres.
     pub stopped: Option<Box<(Solution, f64)>>,
+    /// Where that is for want of ground: the place.
+    pub(super) no_ground: Option<NoGround>,
     /// The bounds that were in force.
     pub bounds: Curvatures,
     /// Curvatures that would be feasible, where those asked for are not.
@@ -51,8 +53,8 @@ impl Answered {
         solving: Duration,
     ) -> Self {
         let (drive, near, stopped, nearest, profile) = (None, None, None, None, None);
-        let (parameters, cost) = (None, None);
-        Self { status, drive, solving, limit, near, stopped, bounds, nearest, profile, parameters, cost }
+        let (no_ground, parameters, cost) = (None, None, None);
+        Self { status, drive, solving, limit, near, stopped, no_ground, bounds, nearest, profile, parameters, cost }
     }
 }
 

@@ -47,13 +47,12 @@ pub(super) fn map(
     Ok(file)
 }
 
-/// Answers `asked` on `map`.
-pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answered {
+/// Answers `asked` on `map`; what solving took, and may take, counts from `begun` on.
+pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked, begun: Instant) -> Answered {
     let (solver, bounds) = (task.solver, task.bounds);
     let site = Site { rover: task.rover, map, speed: task.boundary.speed, direction: direction(asked) };
     let start = start(asked);
     let (goal, towards) = (goal(asked, &start), goal(task.towards, &start));
-    let begun = Instant::now();
     let over = || solver.time_limit.is_some_and(|limit| begun.elapsed() >= limit);
     let mut found = match task.there {
         true => standing(task, asked),
@@ -84,18 +83,21 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
         near: Some(near.clone()),
         ..answered(Status::Infeasible, Some(near.limit()), drive)
     };
-    let stopped = |limit, after_m| Answered {
+    let stopped = |limit, no_ground: Option<&NoGround>, after_m| Answered {
         stopped: (!solution.segments.is_empty()).then(|| Box::new((solution, after_m))),
+        no_ground: no_ground.copied(),
         ..answered(Status::Infeasible, Some(limit), None)
     };
     let ground = match (&status, &replay) {
         (Found::Blocked(blocked), _) if !ran_out => {
             let after_m = replay.as_ref().map_or_else(|stop| stop.after_m, |_| blocked.after_m);
-            return stopped(stopped_by(map, &goal, &blocked.cause), after_m);
+            let (limit, place) = stopped_by(map, &goal, &blocked.cause);
+            return stopped(limit, place, after_m);
         }
         (_, Err(stop)) if !ran_out => {
-            let limit = stop.no_ground.as_ref().map_or(("rest", None), |place| no_ground(map, &goal, place));
-            return near.map_or_else(|| stopped(limit, stop.after_m), |near| too_near(near, None));
+            let place = stop.no_ground.as_ref();
+            let limit = place.map_or(("rest", None), |place| no_ground(map, &goal, place));
+            return near.map_or_else(|| stopped(limit, place, stop.after_m), |near| too_near(near, None));
         }
         (_, Err(_)) => return answered(Status::TimeLimit, None, None),
         (_, Ok(ground)) => ground,
@@ -103,7 +105,7 @@ pub(super) fn answer(task: &Task<'_>, map: &ElevationMap, asked: &Asked) -> Answ
     let replay = on_the_ground(&flat, ground, &start);
     let along = if task.glides { None } else { uneven(&site, &start, &goal, &solution.segments) };
     if let (false, None, Some(Uneven::NoGround { place, after_m })) = (ran_out, &near, &along) {
-        return stopped(no_ground(map, &goal, place), *after_m);
+        return stopped(no_ground(map, &goal, place), Some(place), *after_m);
     }
     let drive = Some((solution, replay));
     let over = task.rover.limits.broken_at_rest(ground.max_tilt, ground.max_joint);
@@ -201,17 +203,20 @@ fn on_the_ground(flat: &DriveReplay, ground: &GroundReplay, start: &Planar) -> D
     }
 }
 
-/// What stops a drive, and by how much it is exceeded where that is a length.
-fn stopped_by(map: &ElevationMap, goal: &Planar, cause: &Cause) -> (&'static str, Option<f64>) {
+/// A limit, and by how much it is exceeded where that is a length.
+type Limit = (&'static str, Option<f64>);
+
+/// What stops a drive, and the place where that is for want of ground.
+fn stopped_by<'a>(map: &ElevationMap, goal: &Planar, cause: &'a Cause) -> (Limit, Option<&'a NoGround>) {
     match cause {
-        Cause::Unsettled(Unsettled::NoGround(place)) => no_ground(map, goal, place),
-        Cause::Unsettled(_) => ("rest", None),
-        Cause::Overturned => ("tilt_rad", None),
+        Cause::Unsettled(Unsettled::NoGround(place)) => (no_ground(map, goal, place), Some(place)),
+        Cause::Unsettled(_) => (("rest", None), None),
+        Cause::Overturned => (("tilt_rad", None), None),
     }
 }
 
 /// A place without ground; beyond the map's edge lies the goal by so many metres, or else that place.
-fn no_ground(map: &ElevationMap, goal: &Planar, place: &NoGround) -> (&'static str, Option<f64>) {
+fn no_ground(map: &ElevationMap, goal: &Planar, place: &NoGround) -> Limit {
     let (low, high) = map.extent();
     let beyond = |at: [f64; 2]| {
         let over = [0, 1].map(|i| (low[i] - at[i]).max(at[i] - high[i]).max(0.0));

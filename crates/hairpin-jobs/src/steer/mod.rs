@@ -4,6 +4,7 @@
 mod answered;
 mod batch;
 mod ground;
+mod holes;
 mod level;
 mod pace;
 mod plane;

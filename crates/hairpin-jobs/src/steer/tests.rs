@@ -391,15 +391,59 @@ fn joints_are_held_to_their_limit() {
 
 /// `rover` on a map of 15 m by 15 m from (0, 0) on, in cells of 0.25 m, whose heights along x (m) are `height`.
 fn on_map(rover: &str, height: fn(f64) -> f64) -> Vehicle {
+    on_ground(rover, |x, _| height(x))
+}
+
+/// The same of heights at x and y.
+fn on_ground(rover: &str, height: impl Fn(f64, f64) -> f64) -> Vehicle {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.asc");
-    let row: String = (0..60).map(|column| format!("{} ", height(0.25 * f64::from(column)))).collect();
+    let at = |i: u32| 0.25 * f64::from(i);
+    let row = |y| (0..60).map(|column| format!("{} ", height(at(column), y))).collect::<String>() + "\n";
+    let rows: String = (0..60).rev().map(|i| row(at(i))).collect();
     let head = "ncols 60\nnrows 60\nxllcenter 0\nyllcenter 0\ncellsize 0.25\nNODATA_value -9999\n";
-    fs::write(&path, format!("{head}{}", format!("{row}\n").repeat(60))).unwrap();
+    fs::write(&path, format!("{head}{rows}")).unwrap();
     let holes = hairpin::world::terrain::HoleRule::KeepOut;
     let georeference = hairpin_formats::terrain::Georeference { holes, ..Default::default() };
     let settings = SteerSettings { rover: rover.into(), terrain: Some((path, georeference)), ..Default::default() };
     Vehicle::new(&settings, &Unwatched).unwrap()
+}
+
+/// What a vehicle can drive around is no end of its drive, and what lies aside changes nothing.
+#[test]
+fn holes_in_the_way_are_gone_around() {
+    let within = |x: f64, y: f64, at: [f64; 2]| (x - at[0]).abs() < 0.3 && (y - at[1]).abs() < 0.3;
+    let asked = Question { from: Some([1.5, 7.0, 0.0, 0.0]), to: [13.5, 7.0, 0.0, 0.0], ..Question::default() }.asked();
+    let holes: [&[[f64; 2]]; 4] = [&[[7.5, 7.0]], &[[7.5, 7.0], [7.5, 8.75]], &[[7.5, 7.0], [9.5, 5.5]], &[[8.0, 1.5]]];
+    for rover in ["rocky8", "generic"] {
+        let plain = on_ground(rover, |_, _| 0.0).answer(&asked);
+        for (i, holes) in holes.into_iter().enumerate() {
+            let missing = |x, y| holes.iter().any(|at| within(x, y, *at));
+            let vehicle = on_ground(rover, |x, y| if missing(x, y) { -9999.0 } else { 0.0 });
+            let answered = vehicle.answer(&asked);
+            assert_eq!((answered.status, answered.limit), (Status::Ok, None), "{rover} {i}");
+            assert!(answered.missed_m().unwrap() < 0.01, "{rover} {i}");
+            let (solution, replay) = answered.drive.as_ref().unwrap();
+            assert!((12.0..15.0).contains(&replay.length), "{rover} {i}: {} m", replay.length);
+            // Without data are 0.25 m and two cells around the middle.
+            for state in &vehicle.follow(&asked, &answered, Rows::Few).unwrap().states {
+                let out = |at: &[f64; 2]| (state.at.x - at[0]).abs().max((state.at.y - at[1]).abs());
+                assert!(holes.iter().all(|at| out(at) > 0.75), "{rover} {i}: {:?}", state.at);
+            }
+            let same = plain.drive.as_ref().unwrap().0.segments == solution.segments;
+            assert_eq!(same, i == 3, "{rover} {i}");
+        }
+    }
+    // A goal in a hole, and a hole from edge to edge.
+    for hole in [|x: f64, y: f64| x > 13.3 && y < 8.0, |x: f64, _: f64| (6.0..7.0).contains(&x)] {
+        let answered = on_ground("rocky8", |x, y| if hole(x, y) { -9999.0 } else { 0.0 }).answer(&asked);
+        assert_eq!(
+            (answered.status, answered.limit),
+            (Status::Infeasible, Some(("no_data", None))),
+            "nowhere to go around"
+        );
+        assert!(answered.stopped.is_some_and(|stopped| stopped.1 > 1.0));
+    }
 }
 
 /// Drives went through holes, over cliffs and beyond the edge, and were `ok`.

@@ -21,7 +21,7 @@ use super::answered::Answered;
 use super::pace::{Pace, Rows, direction, start, wheels_broken};
 use super::plane::Task;
 use super::solver::{Solver, places};
-use super::{SteerSettings, ground, plane, start_table};
+use super::{SteerSettings, ground, holes, plane, start_table};
 use crate::{Problem, Watch};
 
 /// A vehicle that is asked for drives, where it drives, and how they are looked for.
@@ -216,7 +216,7 @@ impl Vehicle {
         let most = shaping.most.max(task.boundary.query.start_curvature.abs());
         let task = Task { shaping: Curvatures { most, ..*shaping }, ..*task };
         match &self.map {
-            Some(map) => ground::answer(&task, map, asked),
+            Some(map) => holes::answer(&task, map, asked),
             None => plane::answer(&task, asked),
         }
     }

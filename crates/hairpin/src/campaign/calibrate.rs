@@ -6,8 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::digits::{rounded_up, signed_digits};
-use super::impossible::of_program;
-use super::judge::measures_of;
+use super::judge::{measures_of, unlike};
 use super::scenario::Asked;
 use super::{Case, Run, Setup};
 use crate::judgement::{Limits, Measures, Quantile, exceeded_by, violations};
@@ -113,7 +112,7 @@ pub fn outcome(setup: &Setup, case: &Case, runs: &[Run]) -> Option<Outcome> {
         let measures = measures_of(setup, case, run)?;
         let flight = run.outcome.as_ref().ok()?;
         // What no robot of the file does says nothing of what is ordinary.
-        if of_program(setup, case, flight).is_some() {
+        if unlike(setup, case, run).is_some() {
             return None;
         }
         let events = Limits {

@@ -21,6 +21,9 @@ pub struct Baseline {
     pub cases: usize,
     /// Cases beside these that were not, because an execution failed.
     pub failed: usize,
+    /// Cases beside these that were left out, because a program told a motion of one of their runs that no robot of its
+    /// kind makes.
+    pub implausible: usize,
     /// Runs of all cases.
     pub executions: usize,
     /// What is measured, of each case the worst over its runs, whatever else its spec limits.
@@ -54,6 +57,7 @@ impl Baseline {
         Some(Self {
             cases: values.len(),
             failed: results.iter().filter(|result| result.status == Status::ExecutorFailed).count(),
+            implausible: results.iter().filter(|result| result.status == Status::Inconclusive).count(),
             executions: results.len() * repeat as usize,
             stress,
             less_is_worse,
@@ -97,13 +101,17 @@ impl Baseline {
                 format!(", {count} of them cut short ({})", ways.join(", "))
             }
         };
-        let of = format!("{}{cut}{}", self.cases, self.failed_in_words());
+        let of = format!("{}{cut}{}", self.cases, self.others_in_words());
         format!("random feasible ones{name} {mean} in the mean{interval}, {worst} at worst of {of}")
     }
 
-    /// `, 2 more failed`, or nothing.
-    pub(super) fn failed_in_words(&self) -> String {
-        if self.failed == 0 { String::new() } else { format!(", {} more failed", self.failed) }
+    /// `, 2 more failed, 1 more left out (no motion of its robot)`, or nothing.
+    pub(super) fn others_in_words(&self) -> String {
+        let of = |count: usize, what: &str| match count {
+            0 => String::new(),
+            count => format!(", {count} more {what}"),
+        };
+        of(self.failed, "failed") + &of(self.implausible, "left out (no motion of its robot)")
     }
 
     /// What they are, for whoever reads what a campaign rests on.
@@ -113,16 +121,24 @@ impl Baseline {
             "Random feasible cases: {} of the same feasible set, drawn from a graph of their own each, {sampler}, with as many runs each and draws of their own (baseline.parquet); \
              measured, not judged, and counted nowhere. The interval of their mean is Student's, 95 %.{}",
             self.cases,
-            self.failed_in_full()
+            self.others_in_full()
         )
     }
 
     /// That some were not measured, in a sentence of its own, or nothing.
-    fn failed_in_full(&self) -> String {
-        match self.failed {
+    fn others_in_full(&self) -> String {
+        let failed = match self.failed {
             0 => String::new(),
             failed => {
                 format!(" Executions of {failed} more failed: their stress is not known, and no part of the mean.")
+            }
+        };
+        match self.implausible {
+            0 => failed,
+            count => {
+                format!(
+                    "{failed} {count} more are left out: their program told a motion that no robot of its kind makes."
+                )
             }
         }
     }
@@ -212,6 +228,11 @@ mod tests {
         let [low, high] = found.interval.unwrap();
         assert!(low == 0.0 && (high - 12.9566).abs() < 1e-3, "{low} {high}");
         assert_eq!((of(&[None]), of(&[Some(f64::NAN)])), (None, None));
+        let unlike = CaseResult::bare(CaseNumber(2), Status::Inconclusive);
+        let beside = [deviating(&[Some(1.0), Some(3.0)]), vec![unlike]].concat();
+        let found = Baseline::of(Stress::MaxDeviation, 1, &beside).unwrap();
+        assert_eq!((found.cases, found.implausible, found.mean), (2, 1, 2.0));
+        assert_eq!(found.others_in_words(), ", 1 more left out (no motion of its robot)");
         assert_eq!(of(&[Some(2.0)]).unwrap().interval, None);
     }
 

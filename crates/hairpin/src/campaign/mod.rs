@@ -108,7 +108,7 @@ pub use full_rate::FullRate;
 pub use generate::{Known, Optimum, generate, optima};
 pub use graph::{Losses, Lost, Stage};
 pub use influence::{Influence, RunDeviation, influences};
-pub use judge::{contradiction, judge, judge_runs};
+pub use judge::{contradiction, judge, judge_runs, unlike};
 pub use kind::{Footing, OnGround, PassedOver, PlanError, PlannedRows, Verified};
 pub use landed::at_full_rate;
 pub use mission::{Mission, mission, mission_again, planned, planned_rows};

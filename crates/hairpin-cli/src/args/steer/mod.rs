@@ -83,7 +83,7 @@ pub(crate) struct Steer {
     pub(crate) kinematics: SteerKinematics,
     #[command(flatten)]
     pub(crate) map: MapFlags,
-    /// What cells without data are
+    /// What cells without data are; what is kept out of is driven around
     #[arg(long, value_enum, default_value_t = NoData::Error, requires = "terrain")]
     pub(crate) no_data: NoData,
     #[command(flatten)]

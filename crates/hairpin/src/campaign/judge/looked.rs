@@ -25,6 +25,22 @@ pub(in crate::campaign) fn look(setup: &Setup, case: &Case, flight: &Flight) -> 
     is_asked.then(|| Implausible { speed: of_program(setup, case, flight), attitude: overturned(setup, &flight.track) })
 }
 
+/// Why the run of a program says nothing of its robot: what was found when it landed, or else in the rows that stand.
+pub(super) fn unlike(setup: &Setup, case: &Case, flight: &Flight, known: Option<&FullRate>) -> Option<String> {
+    setup.program()?;
+    let found = known.and_then(|known| known.implausible).or_else(|| look(setup, case, flight));
+    match found {
+        Some(found) => in_words(setup, found),
+        None => of_program(setup, case, flight).map(|speed| speed.in_words()),
+    }
+}
+
+/// What of it leaves a run open: what fell over on its way is judged.
+fn in_words(setup: &Setup, found: Implausible) -> Option<String> {
+    let too_fast = found.speed.map(|speed| speed.in_words());
+    too_fast.or_else(|| upside_down(setup, found.attitude).map(|found| found.in_words()))
+}
+
 impl Looked {
     /// What was found when the run landed, or else in the rows that stand; where there are none, what the rest tells.
     pub(super) fn at(
@@ -48,9 +64,7 @@ impl Looked {
 
     /// Why such a run decides nothing, where anything is asked.
     pub(super) fn open(&self, setup: &Setup, limits: &Limits) -> Option<String> {
-        let Implausible { speed, attitude } = self.found;
-        let too_fast = speed.map(|speed| speed.in_words());
-        too_fast.or_else(|| upside_down(setup, attitude).map(|found| found.in_words())).filter(|_| limits.are_given())
+        in_words(setup, self.found).filter(|_| limits.are_given())
     }
 
     /// Why a run that keeps all limits does not, where anything is asked: nobody looked.

@@ -165,6 +165,12 @@ pub fn contradiction(setup: &Setup, result: &CaseResult) -> Option<String> {
     Some(told.in_words())
 }
 
+/// Why `run` says nothing of what its robot does, in a sentence: its program tells a motion that no robot of its kind
+/// makes. `None` of our own simulators, and of what was not carried out.
+pub fn unlike(setup: &Setup, case: &Case, run: &Run) -> Option<String> {
+    looked::unlike(setup, case, run.outcome.as_ref().ok()?, run.full_rate.as_deref())
+}
+
 /// What one run measured; `None` where it was not carried out or cannot be judged.
 ///
 /// By the limits' own reference and corner; of programs also move by move.

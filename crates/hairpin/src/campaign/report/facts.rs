@@ -45,7 +45,7 @@ pub(super) fn key_numbers(pieces: &Pieces) -> Vec<[String; 3]> {
             random.interval_in_words(setup).map_or(String::new(), |interval| format!("{interval} in the mean, 95 %; "));
         let stress = random.stress_percent(pieces.results);
         let stress = stress.map_or(String::new(), |percent| format!("; these cases {percent:+.0} %"));
-        let all = format!("{}{}", random.cases, random.failed_in_words());
+        let all = format!("{}{}", random.cases, random.others_in_words());
         let note = format!("{interval}{} at worst of {all}{stress}", random.told(setup, random.worst));
         let what = match random.stress {
             Stress::MaxDeviation => "random feasible cases".to_owned(),

@@ -9,6 +9,7 @@
 
 mod flat;
 pub mod generate;
+mod holes;
 pub mod keep_out;
 mod map;
 mod rationed;
