@@ -137,6 +137,7 @@ const BEFORE: &[&str] = &[
     "robot/rover/body.rs",
     "robot/rover/description.rs",
     "world/terrain/generate.rs",
+    "world/terrain/holes.rs",
     "world/terrain/keep_out/",
     "world/terrain/rocks.rs",
     "world/terrain/smooth.rs",
