@@ -10,11 +10,10 @@ use std::sync::Arc;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
 use arrow_schema::Field;
-use bytes::Bytes;
 use hairpin::campaign::CaseNumber;
 
 use super::Key;
-use super::compressed::closed;
+use super::compressed::Packed;
 use super::piece::{Piece, union};
 use super::table::{PERIOD, io_error, notes};
 use super::track::TOLERANCES;
@@ -26,8 +25,8 @@ const IN_MEMORY: usize = 16 << 20;
 /// Where the bytes of a piece are until it is written.
 #[derive(Debug)]
 enum Place {
-    Held(Bytes),
-    /// From the one on, so many.
+    Held(Packed),
+    /// As a file of its own within a file: from that byte on, so many.
     Filed(u64, usize),
 }
 
@@ -72,9 +71,9 @@ impl PartWriter {
         // Pieces of one table hardly ever differ in their columns.
         let like = self.slots.values().next_back().map(|slot| &slot.fields).filter(|fields| **fields == piece.fields);
         let fields = like.cloned().unwrap_or(piece.fields);
-        let place = match self.held + piece.bytes.len() <= self.most {
-            true => Place::Held(piece.bytes),
-            false => self.filed(&piece.bytes)?,
+        let place = match self.held + piece.packed.size() <= self.most {
+            true => Place::Held(piece.packed),
+            false => self.filed(&piece.packed.to_file()?)?,
         };
         self.held += place.held();
         self.slots.insert(key, Slot { place, fields, period: piece.period });
@@ -121,20 +120,12 @@ impl PartWriter {
             let mut file = Some(file);
             for slot in slots.values() {
                 let piece = slot.read(waiting.as_mut())?.with_fields(&fields)?;
-                let metadata = piece.metadata()?;
                 if let Some(file) = file.take() {
-                    let schema = metadata.file_metadata().schema_descr().root_schema_ptr();
-                    writer =
-                        Some(SerializedFileWriter::new(file, schema, Arc::new(properties.clone())).map_err(io_error)?);
+                    let (root, properties) = (Arc::clone(piece.packed.root()), Arc::new(properties.clone()));
+                    writer = Some(SerializedFileWriter::new(file, root, properties).map_err(io_error)?);
                 }
-                let Some(writer) = &mut writer else { continue };
-                for group in metadata.row_groups() {
-                    let mut there = writer.next_row_group().map_err(io_error)?;
-                    for column in group.columns() {
-                        let close = closed(column.clone(), group.num_rows() as usize);
-                        there.append_column(&piece.bytes, close).map_err(io_error)?;
-                    }
-                    there.close().map_err(io_error)?;
+                if let Some(writer) = &mut writer {
+                    piece.packed.append_to(writer)?;
                 }
             }
             writer.map_or(Ok(()), |writer| writer.close().map(drop).map_err(io_error))
@@ -145,23 +136,23 @@ impl PartWriter {
 impl Place {
     /// Bytes in memory.
     fn held(&self) -> usize {
-        if let Self::Held(bytes) = self { bytes.len() } else { 0 }
+        if let Self::Held(packed) = self { packed.size() } else { 0 }
     }
 }
 
 impl Slot {
     fn read(&self, file: Option<&mut File>) -> io::Result<Piece> {
-        let bytes = match (&self.place, file) {
-            (Place::Held(bytes), _) => bytes.clone(),
+        let packed = match (&self.place, file) {
+            (Place::Held(packed), _) => packed.clone(),
             (Place::Filed(at, length), Some(file)) => {
                 file.seek(SeekFrom::Start(*at))?;
                 let mut bytes = vec![0; *length];
                 file.read_exact(&mut bytes)?;
-                bytes.into()
+                Packed::read(&bytes.into())?
             }
             (Place::Filed(..), None) => return Err(io::ErrorKind::NotFound.into()),
         };
-        Ok(Piece { bytes, fields: self.fields.clone(), period: self.period })
+        Ok(Piece { packed, fields: self.fields.clone(), period: self.period })
     }
 }
 
@@ -203,7 +194,7 @@ mod tests {
     #[test]
     fn a_part_has_the_same_bytes_wherever_its_pieces_waited() {
         let place = tempfile::tempdir().unwrap();
-        let one = piece(1, &[1.0, 2.0]).bytes.len();
+        let one = piece(1, &[1.0, 2.0]).packed.size();
         let written = |most: usize| {
             let mut part = PartWriter { most, ..PartWriter::in_folder(place.path()) };
             for (case, values) in [(2, [3.0, 4.0]), (0, [5.0, 6.0]), (2, [7.0, 8.0]), (1, [9.0, 0.5])] {

@@ -6,15 +6,14 @@ use std::sync::Arc;
 
 use ::parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
 use ::parquet::basic::Compression;
-use ::parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
+use ::parquet::file::metadata::ParquetMetaDataReader;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::schema::types::ColumnPath;
 use arrow_array::{RecordBatch, new_null_array};
 use arrow_cast::cast;
 use arrow_schema::{DataType, Field, Schema};
-use bytes::Bytes;
 
-use super::compressed::Layout;
+use super::compressed::{Layout, Packed};
 use super::table::{CASE, Columns, RUN, decode_groups_of, io_error, properties};
 use crate::channels::LEG;
 
@@ -25,8 +24,7 @@ thread_local! {
 /// The rows of one case or run, packed.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// A Parquet file of one row group.
-    pub(super) bytes: Bytes,
+    pub(super) packed: Packed,
     /// Its columns.
     pub(super) fields: Arc<[Field]>,
     /// Time between the samples of which only some rows are there, s.
@@ -45,7 +43,7 @@ impl Piece {
 
     pub(super) fn of_batch(batch: &RecordBatch, period: Option<f64>) -> io::Result<Self> {
         let schema = batch.schema();
-        let bytes = LAYOUT.with_borrow_mut(|known| {
+        let packed = LAYOUT.with_borrow_mut(|known| {
             // Pieces of one table hardly ever differ in their columns.
             let layout = match known.take().filter(|known| *known.schema() == schema) {
                 Some(layout) => layout,
@@ -54,11 +52,7 @@ impl Piece {
             known.insert(layout).packed(batch)
         })?;
         let fields = schema.fields().iter().map(|field| field.as_ref().clone()).collect();
-        Ok(Self { bytes, fields, period })
-    }
-
-    pub(super) fn metadata(&self) -> io::Result<ParquetMetaData> {
-        ParquetMetaDataReader::new().parse_and_finish(&self.bytes).map_err(io_error)
+        Ok(Self { packed, fields, period })
     }
 
     /// The same with the columns `fields`: numbers in other widths, and columns that it has not empty.
@@ -66,8 +60,10 @@ impl Piece {
         if self.fields == *fields {
             return Ok(self.clone());
         }
-        let metadata = ArrowReaderMetadata::try_new(Arc::new(self.metadata()?), ArrowReaderOptions::new());
-        let batch = decode_groups_of(&self.bytes, &metadata.map_err(io_error)?).map_err(io::Error::other)?;
+        let bytes = self.packed.to_file()?;
+        let metadata = ParquetMetaDataReader::new().parse_and_finish(&bytes);
+        let metadata = metadata.and_then(|all| ArrowReaderMetadata::try_new(Arc::new(all), ArrowReaderOptions::new()));
+        let batch = decode_groups_of(&bytes, &metadata.map_err(io_error)?).map_err(io::Error::other)?;
         let column = |field: &Field| match batch.column_by_name(field.name()) {
             Some(column) => cast(column, field.data_type()).map_err(io::Error::other),
             None => Ok(new_null_array(field.data_type(), batch.num_rows())),

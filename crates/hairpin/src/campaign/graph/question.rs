@@ -116,15 +116,11 @@ impl<N: Copy + Eq + Ord + Hash, O: Additive> Question<'_, N, O> {
 
     /// Up to the first leg that the reach set has no longer.
     fn seen(&self, found: &Found<N>) -> Vec<SeenLeg> {
-        let mut legs = Vec::new();
-        let pairs = found.nodes.windows(2);
         let see = |pair: &[N]| {
-            legs.clear();
-            self.reach.legs(&pair[0], self.points, &mut legs);
-            let leg = legs.iter().find(|leg| leg.to == pair[1])?;
+            let leg = self.reach.leg(&pair[0], &pair[1], self.points)?;
             Some(SeenLeg { features: leg.features, duration: leg.duration })
         };
-        pairs.map_while(see).collect()
+        found.nodes.windows(2).map_while(see).collect()
     }
 
     /// The answer with the plans of `found`, the best first, and a proven upper bound of the score.

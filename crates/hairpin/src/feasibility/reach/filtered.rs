@@ -26,6 +26,13 @@ impl<N, R: Reach<N>, F: Fn(&N, &Leg<N>) -> bool> Reach<N> for Filtered<R, F> {
             index <= first || (self.keep)(from, leg)
         });
     }
+
+    fn leg(&self, from: &N, to: &N, candidates: &[Point3<f64>]) -> Option<Leg<N>>
+    where
+        N: PartialEq,
+    {
+        self.inner.leg(from, to, candidates).filter(|leg| (self.keep)(from, leg))
+    }
 }
 
 /// Two bits per unordered pair of waypoints: judged when first asked for, then remembered. A search looks at few of the

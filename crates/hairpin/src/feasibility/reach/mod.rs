@@ -143,6 +143,16 @@ pub trait Reach<N> {
         Some(duration)
     }
 
+    /// The one leg of [`Self::legs`] that leads to `to`, for who needs no other; `None` where it is none.
+    fn leg(&self, from: &N, to: &N, candidates: &[Point3<f64>]) -> Option<Leg<N>>
+    where
+        N: PartialEq,
+    {
+        let mut legs = Vec::new();
+        self.legs(from, candidates, &mut legs);
+        legs.into_iter().find(|leg| leg.to == *to)
+    }
+
     /// Whether [`Self::possible`] gives the feasible legs alone: nothing is gained by proving them later.
     fn is_known_at_once(&self) -> bool {
         true
@@ -169,6 +179,13 @@ impl<N, R: Reach<N> + ?Sized> Reach<N> for &R {
 
     fn proven(&self, from: &N, to: &N, duration: f64) -> Option<f64> {
         (**self).proven(from, to, duration)
+    }
+
+    fn leg(&self, from: &N, to: &N, candidates: &[Point3<f64>]) -> Option<Leg<N>>
+    where
+        N: PartialEq,
+    {
+        (**self).leg(from, to, candidates)
     }
 
     fn is_known_at_once(&self) -> bool {

@@ -278,6 +278,30 @@ impl<'a, J: ProveLegs> States<'a, J> {
         self.seen(from, &self.kept_legs(self.number(from)), candidates, ground, out);
     }
 
+    /// The one of [`Self::legs`] to the node `to`: alone, where not all from `from` are known.
+    ///
+    /// # Panics
+    /// If `candidates` are not the graph's waypoints.
+    pub(in crate::feasibility) fn leg(
+        &self,
+        [from, to]: [&WitnessNode; 2],
+        candidates: &[Point3<f64>],
+        ground: impl Fn(&LegFeatures, &Vector3<f64>) -> f64,
+    ) -> Option<Leg<WitnessNode>> {
+        let (left, state) = (self.number(from), self.number(to) as u32);
+        let kept = self.kept.borrow()[left].clone();
+        let rung = match kept {
+            Some(legs) => legs.iter().find(|leg| leg.state == state)?.rung,
+            None => {
+                let least = self.least_time(from.waypoint as usize, to.waypoint as usize);
+                self.shortest(left, state as usize, least)?
+            }
+        };
+        let mut leg = Vec::with_capacity(1);
+        self.seen(from, &[Judged { state, rung }], candidates, ground, &mut leg);
+        leg.pop().filter(|leg| leg.to == *to)
+    }
+
     /// Appends what may be legs from `from`, in the order of their states: all legs are among them, none is shorter.
     /// Nothing is kept of them.
     ///

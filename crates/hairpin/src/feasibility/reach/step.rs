@@ -119,10 +119,8 @@ impl<'a, S: StepSet> StepReach<'a, S> {
     /// Calls `found` with the waypoints that can follow, in rising order.
     #[inline]
     fn each(&self, previous: u32, current: u32, mut found: impl FnMut(u32)) {
-        let here = self.graph.point(current);
-        let from = here + (here - self.graph.point(previous)) * self.drift;
+        let from = self.carried(previous, current);
         let (min, max) = (from + self.min, from + self.max);
-        let square = self.longest * self.longest;
         let points = self.graph.points();
         for first in (0..self.graph.words()).step_by(CHUNK) {
             let mut chunk = [0; CHUNK];
@@ -133,12 +131,26 @@ impl<'a, S: StepSet> StepReach<'a, S> {
                 while bits != 0 {
                     let next = (number * WORD) as u32 + bits.trailing_zeros();
                     bits &= bits - 1;
-                    if next != current && (points[next as usize] - here).norm_squared() <= square {
+                    if self.is_move(current, next) {
                         found(next);
                     }
                 }
             }
         }
+    }
+
+    /// Where the velocity of the leg from `previous` alone leads.
+    #[inline]
+    fn carried(&self, previous: u32, current: u32) -> Vector3<f64> {
+        let here = self.graph.point(current);
+        here + (here - self.graph.point(previous)) * self.drift
+    }
+
+    /// Whether there is a way from `current`, and no longer one than a leg may be.
+    #[inline]
+    fn is_move(&self, current: u32, next: u32) -> bool {
+        let way = self.graph.point(next) - self.graph.point(current);
+        next != current && way.norm_squared() <= self.longest * self.longest
     }
 
     /// What scores see of the leg from `node` to waypoint `to`.
@@ -188,5 +200,19 @@ impl<S: StepSet> Reach<StepNode> for StepReach<'_, S> {
         if waiting.count > 0 {
             flush(&mut waiting);
         }
+    }
+
+    /// The same looks, at one waypoint's word alone.
+    fn leg(&self, from: &StepNode, to: &StepNode, candidates: &[Point3<f64>]) -> Option<Leg<StepNode>> {
+        debug_assert_eq!(candidates.len(), self.graph.points().len(), "the reach set is bound to another graph");
+        let (word, bit) = (to.current as usize / WORD, 1 << (to.current as usize % WORD));
+        let place = self.carried(from.previous, from.current);
+        let mut bits = [0];
+        self.graph.near_box(self.settings.simd, &(place + self.min), &(place + self.max), word, &mut bits);
+        bits[0] &= bit;
+        self.set.select(&place, &self.graph.points()[word * WORD..], &mut bits);
+        let is_leg = to.previous == from.current && bits == [bit] && self.is_move(from.current, to.current);
+        let features = || self.features(from, to.current);
+        is_leg.then(|| Leg { to: *to, waypoint: to.current, duration: self.settings.step, features: features() })
     }
 }

@@ -9,7 +9,7 @@ use super::features::{LANES, eight_features};
 use super::graph::{Graph, WORD};
 use super::refusal::refusal_order;
 use super::sampling::{constant_speeds, end_points, steps};
-use super::{Hull, HullSettings, Polytope};
+use super::{Hull, HullSettings, Leg, Polytope, Reach, StepNode, StepReach, StepSettings};
 use crate::math::random::{Stream, named_seed, stream};
 use crate::math::simd::Simd;
 use crate::robot::quadrotor::{Quadrotor, QuadrotorDescription};
@@ -133,4 +133,29 @@ fn waypoints_are_found_and_legs_measured_equally() {
             numbers.map(|f| [f.v_in, f.v_out, f.turn, f.length, f.climb, f.slope_in].map(f64::to_bits))
         });
     }
+}
+
+/// Also of waypoints that no leg leads to, and by way of what they were not entered from.
+#[test]
+fn one_leg_is_that_of_all() {
+    let hull = Hull::new(&shipped()[0], &HullSettings::default()).unwrap();
+    let (mut found, mut none) = (0, 0);
+    for seed in 0..5 {
+        let mut random = stream(named_seed(seed, "one leg", 0));
+        let all: Vec<Point3<f64>> = points(&mut random, 150, 12.0).into_iter().map(Point3::from).collect();
+        let reach = StepReach::new(&hull, &all, StepSettings { max_speed: 12.0, ..StepSettings::default() });
+        for (previous, current) in [(0, 0), (0, 70), (149, 3), (64, 63)] {
+            let from = StepNode { previous, current };
+            let mut legs: Vec<Leg<StepNode>> = Vec::new();
+            reach.legs(&from, &all, &mut legs);
+            for next in 0..150 {
+                let to = StepNode { previous: current, current: next };
+                let leg = legs.iter().find(|leg| leg.to == to);
+                assert_eq!(reach.leg(&from, &to, &all).as_ref(), leg, "seed {seed}, {from:?} to {next}");
+                (found, none) = (found + usize::from(leg.is_some()), none + usize::from(leg.is_none()));
+            }
+            assert_eq!(reach.leg(&from, &StepNode { previous: current + 1, current: 5 }, &all), None);
+        }
+    }
+    assert!(found > 50 && none > 50, "{found} legs, {none} none");
 }

@@ -69,6 +69,13 @@ impl<N> Reach<N> for Until<'_, N> {
         if self.goes_on() { self.inner.proven(from, to, duration) } else { None }
     }
 
+    fn leg(&self, from: &N, to: &N, candidates: &[Point3<f64>]) -> Option<Leg<N>>
+    where
+        N: PartialEq,
+    {
+        if self.goes_on() { self.inner.leg(from, to, candidates) } else { None }
+    }
+
     fn is_known_at_once(&self) -> bool {
         self.inner.is_known_at_once()
     }

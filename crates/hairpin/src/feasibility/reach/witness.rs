@@ -277,6 +277,10 @@ impl Reach<WitnessNode> for Roadmap<'_> {
         self.states.proven(from, to)
     }
 
+    fn leg(&self, from: &WitnessNode, to: &WitnessNode, candidates: &[Point3<f64>]) -> Option<Leg<WitnessNode>> {
+        self.states.leg([from, to], candidates, |_, _| 0.0)
+    }
+
     fn is_known_at_once(&self) -> bool {
         false
     }

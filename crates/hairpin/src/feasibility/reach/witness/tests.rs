@@ -81,6 +81,15 @@ fn legs_that_may_be_are_proven_to_be_those_that_are() {
                 })
                 .collect();
             assert_eq!(proven, legs, "seed {seed}");
+            // Asked alone, of a roadmap that knows all of them and of one that knows none.
+            let new = Roadmap::new(&judge, &points, &settings(seed));
+            for leg in &possible {
+                let known = legs.iter().find(|known| known.to == leg.to);
+                assert!(
+                    [&map, &new].iter().all(|map| map.leg(&from, &leg.to, &points).as_ref() == known),
+                    "seed {seed}"
+                );
+            }
         }
     }
     assert!(many > 1_000 && none > 10 && longer > 10, "{many} legs, {none} none, {longer} longer");
