@@ -1,4 +1,4 @@
-//! A small Parquet file whose pages are compressed by one compressor for all of its columns.
+//! A row group whose pages are compressed by one compressor for all of its columns.
 //!
 //! The writer of the crate `parquet` makes a compressor and a decompressor for each column of each row group, and each
 //! of them asks the processor three times what it can do. On a virtual machine the host answers that: for pieces of a
