@@ -132,8 +132,7 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
         let others = fit.untried.map_or("of others it".into(), |who| format!("of `{who}`, which steers here, that"));
         console::say(&format!("Such intervals held on {}; {others} is not shown", fit.tried));
     }
-    let scatter: Option<f64> = fit.scatter_m.into();
-    if let Some(scatter_m) = scatter {
+    if let Some(scatter_m) = fit.scatter_m {
         let [left, scatter] = [fit.residual_m, scatter_m].map(|off| number(Some(per_m * off)));
         console::say(&format!(
             "The fit leaves {left} {unit} (rmse), the logs' scatter from sample to sample is {scatter} {unit}: whether gusts are between \

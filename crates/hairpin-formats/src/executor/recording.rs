@@ -19,8 +19,8 @@ use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID, HEIGHTS_BY_MAP};
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;
-/// What is flown after the time limit before hairpin calls it off, s: whoever flies on after his last waypoint is within
-/// it. What is reached in it is not reached.
+/// What is flown after the time limit before hairpin calls it off, s: whoever flies on after his last waypoint is
+/// within it. What is reached in it is not reached.
 const OVERTIME_S: f64 = 10.0;
 /// Seconds by which a stamp that is due at the time limit may be rounded beyond it: less than a millionth of any.
 const ROUNDING_S: f64 = 1e-6;

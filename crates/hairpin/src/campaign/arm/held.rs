@@ -98,7 +98,9 @@ fn used<T>(all: &[T], indices: impl Iterator<Item = usize>) -> impl Iterator<Ite
 fn apart(found: &mut Collector, what: &str, said: &Isometry3<f64>, asked: &Isometry3<f64>) {
     let place = (said.translation.vector - asked.translation.vector).norm();
     found.above(format_args!("{what}.place"), place, PLACE, "m");
-    found.above(format_args!("{what}.turn"), said.rotation.angle_to(&asked.rotation), TURN, "rad");
+    let between = said.rotation.inverse() * asked.rotation;
+    let turn = 2.0 * libm::atan2(between.imag().norm(), between.w.abs());
+    found.above(format_args!("{what}.turn"), turn, TURN, "rad");
 }
 
 /// The first target that is no point of the cloud.

@@ -670,7 +670,6 @@ fn programs_are_held_to_the_scenario_as_it_stands_now() {
             ("generate.search", json!({ "start": another }), "generate.search.start"),
             ("generate.search", json!({ "min_cost": 99_999.0 }), "generate.search.min_cost"),
             ("generate.cost", json!("time"), "generate.cost = time"),
-            ("generate.moves.singularity_margin_deg", json!(45), "graph"),
         ] {
             let said = told(&[(key, value.clone())]);
             assert!(said.contains(words), "{key} = {value}, arcs = {arcs}: {said}");
