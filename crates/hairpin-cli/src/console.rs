@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use hairpin::judgement::is_command;
 use hairpin_formats::atomic::is_lost;
 use hairpin_formats::quote::shortened;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -20,7 +21,7 @@ static LOST: OnceLock<String> = OnceLock::new();
 /// it. A reader that has gone away (`| head`) is no mistake: what is left to say is not said.
 pub(crate) fn say(line: &str) {
     let own = line.trim_end_matches('\n');
-    say_text(&format!("{}{}\n", written_out(own, char::is_control), &line[own.len()..]));
+    say_text(&format!("{}{}\n", written_out(own, is_command), &line[own.len()..]));
 }
 
 /// Lines of results, made of cells that begin none.
@@ -55,7 +56,7 @@ pub(crate) fn warn_in_colour(lines: &str) {
 
 /// `text` with what would command the terminal written out: names come from files, and from whoever made these.
 fn plain(text: &str) -> Cow<'_, str> {
-    written_out(text, |c| c.is_control() && c != '\n' && c != '\t')
+    written_out(text, |c| is_command(c) && c != '\n' && c != '\t')
 }
 
 /// `text` with what `commands` picks written out: `\n`, `\u{1b}`.
@@ -91,7 +92,7 @@ pub(crate) fn say_verdict(sentence: &str, exit_code: u8) {
     if width().is_none() || !colour_is_allowed() {
         return say(sentence);
     }
-    say_text(&format!("{}\n", in_colour(&written_out(sentence, char::is_control), exit_code)));
+    say_text(&format!("{}\n", in_colour(&written_out(sentence, is_command), exit_code)));
 }
 
 /// The words in capitals that a sentence begins with, and its counts, in bold and in the colour of its exit code.
@@ -139,7 +140,7 @@ pub(crate) fn progress(what: &'static str, of: usize) -> ProgressBar {
 /// Rows under headers, columns as wide as they need; the first row is the header. No cell begins a line. On a terminal
 /// it is as wide as that: columns wrap, and where even that is too wide the last ones are left out.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
-    let cell = |cell: &String| written_out(cell, char::is_control).into_owned();
+    let cell = |cell: &String| written_out(cell, is_command).into_owned();
     let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(cell).collect()).collect();
     match width() {
         Some(width) => fitting(&rows, width),

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use hairpin::campaign::{CaseNumber, CaseResult, Status, report};
+use hairpin::judgement::is_command;
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
 use crate::atomic::{self, WriteError};
@@ -205,7 +206,7 @@ fn clean(text: &str) -> String {
     while let Some(c) = rest.next() {
         if c == '\u{1b}' && rest.peek() == Some(&'[') {
             while rest.next().is_some_and(|end| !end.is_ascii_alphabetic()) {}
-        } else if matches!(c, '\n' | '\t') || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}')) {
+        } else if matches!(c, '\n' | '\t') || !(is_command(c) || matches!(c, '\u{fffe}' | '\u{ffff}')) {
             kept.push(c);
         }
     }

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use hairpin::judgement::is_command;
+
 /// Characters of a word that are quoted whole: as many as paths may have, and some.
 const LONGEST_WORD: usize = 1_000;
 /// What is left of a longer one.
@@ -64,10 +66,10 @@ pub fn cell(text: &str) -> String {
 
 /// A name on one line, whatever is in it: what would begin another line, or command a terminal, is written out.
 pub fn on_one_line(name: &str) -> Cow<'_, str> {
-    if !name.contains(char::is_control) {
+    if !name.contains(is_command) {
         return name.into();
     }
-    name.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
+    name.chars().map(|c| if is_command(c) { c.escape_default().to_string() } else { c.to_string() }).collect()
 }
 
 #[cfg(test)]
@@ -94,5 +96,6 @@ mod tests {
     fn names_begin_no_line() {
         assert_eq!(on_one_line("rock"), "rock");
         assert_eq!(on_one_line("a\nPASS\u{1b}"), "a\\nPASS\\u{1b}");
+        assert_eq!(on_one_line("a\u{202e}SSAP"), "a\\u{202e}SSAP");
     }
 }

@@ -7,7 +7,7 @@
 
 use std::fs;
 
-use hairpin::campaign::arm::{ArmGraph, ArmSetup};
+use hairpin::campaign::arm::{ArmGraph, ArmSetup, graph_of};
 use hairpin::campaign::{Case, CaseNumber, Stop};
 use hairpin_formats::folder::{ARCS, GRAPH, OPTIMUM, graph_decimals};
 use hairpin_formats::{arcs, atomic, bounds, costs};
@@ -99,9 +99,16 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
         }
         _ => table.costs.clone(),
     };
+    let asked = of_scenario(arm, &object, decimals, &costs);
     let checked =
         certificate::check(&object, costs, arcs).ok_or_else(|| format!("{OPTIMUM} is no certificate of this graph"))?;
     let mut findings: Vec<String> = checked.findings.iter().map(|what| format!("{OPTIMUM}: {what}")).collect();
+    findings.extend(asked);
+    let visits = arm.scenario.generate.search.visits;
+    if checked.visits as u64 != visits {
+        let said = checked.visits;
+        findings.push(format!("{OPTIMUM}: points come {said} times at most, generate.search.visits = {visits}"));
+    }
     let names = |row: &Value| row.as_u64().filter(|row| (*row as usize) < n).map(|row| arm.point_name(row as usize));
     let proven: Vec<String> = object["path"].as_array().into_iter().flatten().filter_map(names).collect();
     let mut first = first.clone();
@@ -121,4 +128,25 @@ fn check(work: &Work, arm: &ArmSetup, first: &Case) -> Result<Optimum, String> {
         findings.push(format!("{OPTIMUM}: its path costs {told}, the case says {}", first.score));
     }
     Ok(Optimum { steps: checked.steps, findings })
+}
+
+/// What of the question that the object answers is not what the scenario asks now: the graph with its moves from and to
+/// home, and the ends.
+fn of_scenario(arm: &ArmSetup, object: &Value, decimals: usize, costs: &[Option<i64>]) -> Vec<String> {
+    // Without a graph no program holds, and each says so.
+    let Ok(graph) = graph_of(arm) else { return Vec::new() };
+    let question = arm.question(&graph);
+    let mut findings = Vec::new();
+    if decimals != graph_decimals(&graph) || costs != question.costs {
+        findings.push(format!("{OPTIMUM}: it is of another graph than the scenario's"));
+    }
+    for (key, asked) in [("start", question.ends.start), ("end", question.ends.end)] {
+        let said = object[key].as_u64();
+        if said != asked.map(|row| row as u64) {
+            let told = |row: Option<u64>| row.map_or("any point".into(), |row| format!("row {row}"));
+            let (said, asked) = (told(said), told(asked.map(|row| row as u64)));
+            findings.push(format!("{OPTIMUM}: its {key} is {said}, the scenario's {asked} (generate.search.{key})"));
+        }
+    }
+    findings
 }

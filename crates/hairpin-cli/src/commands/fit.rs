@@ -83,7 +83,7 @@ fn object(asked: &Fit, found: &Fitted, code: u8) -> Value {
         "robot": asked.out, "logs": found.logs, "logged_s": found.logged_s,
         "parameters": fit.estimates.iter().map(parameter).collect::<Vec<_>>(),
         "intervals_tried_on": fit.tried, "intervals_never_tried_with": fit.untried, "confounded": confounded, "execute": found.execute,
-        "residual_m": fit.residual_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
+        "residual_m": fit.residual_m, "scatter_m": fit.scatter_m, "inflation": fit.inflation, "stretches": fit.stretches, "samples": fit.samples,
         "gap": fit.gaps.iter().map(gap).collect::<Vec<_>>(),
         "unseen": fit.unseen.map(|[before, after]| json!({ "before_rmse_m": before, "after_rmse_m": after, "improves": after < before })),
         "exit_code": code,
@@ -131,6 +131,13 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
     if told(found) > 0 {
         let others = fit.untried.map_or("of others it".into(), |who| format!("of `{who}`, which steers here, that"));
         console::say(&format!("Such intervals held on {}; {others} is not shown", fit.tried));
+    }
+    if let Some(scatter_m) = fit.scatter_m {
+        let [left, scatter] = [fit.residual_m, scatter_m].map(|off| number(Some(per_m * off)));
+        console::say(&format!(
+            "The fit leaves {left} {unit} (rmse), the logs' scatter from sample to sample is {scatter} {unit}: whether gusts are between \
+             them, or a vehicle, a clock or a mission that none of these numbers describes, the intervals do not tell"
+        ));
     }
     if let Some(Confounded { direction, deviation }) = &fit.confounded {
         let parts: Vec<String> = direction.iter().map(|(field, share)| format!("{share:+.2} {field}")).collect();

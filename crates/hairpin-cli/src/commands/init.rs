@@ -23,6 +23,8 @@ fn write(asked: &Ci) -> Result<u8, Problem> {
         Server::Jenkins => ci::Server::Jenkins,
     };
     let path = asked.out.as_deref().unwrap_or(Path::new(server.place()));
+    let source = asked.source.as_deref().unwrap_or_default();
+    let text = server.text(&asked.scenario, source).map_err(|error| Problem::input(error.to_string()))?;
     if path.exists() && !asked.force {
         return Err(Problem::input(format!(
             "{} exists already: --force overwrites it, --out FILE writes another",
@@ -32,8 +34,7 @@ fn write(asked: &Ci) -> Result<u8, Problem> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         atomic::make_folder(folder)?;
     }
-    let source = asked.source.as_deref().unwrap_or_default();
-    atomic::write(path, server.text(&asked.scenario, source).as_bytes())?;
+    atomic::write(path, text.as_bytes())?;
     if asked.json {
         console::say(&json!({ "exit_code": DONE, "file": path }).to_string());
         return Ok(DONE);

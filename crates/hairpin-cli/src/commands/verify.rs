@@ -32,6 +32,7 @@ pub fn object(verified: &Verified, code: u8) -> Value {
             "verified": optimum.findings.is_empty(), "steps": optimum.steps, "findings": optimum.findings,
         })),
         "graph": verified.graph.as_ref().map(|graph| json!({ "moves": graph.moves, "findings": graph.findings })),
+        "tables": verified.tables,
         "planned": { "checked": planned, "failed": planned - theirs }, "unknown": verified.unknown,
         "nothing": verified.nothing, "edited": verified.edited,
     })
@@ -86,6 +87,7 @@ fn in_words(verified: &Verified) {
             format!("; {} of {moves} moves of the graph followed again hold", moves - findings.len())
         }
     };
+    verified.tables.iter().for_each(|finding| console::say(finding));
     let unknown = verified.unknown.as_deref().map_or(String::new(), |what| format!("; {what}"));
     let word = if verified.has_findings() { "NOT VERIFIED" } else { "VERIFIED" };
     // Without a witness it is about what stands around plans, or about a graph.

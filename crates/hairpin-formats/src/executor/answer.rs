@@ -50,7 +50,7 @@ impl Worker {
             Ok(flight) => (Ok(flight), Some(self)),
             // It is in step with us: the next mission may go better.
             Err(failure @ Failure::Reported { .. }) => {
-                (Err(Failed { failure, stderr: self.stderr.text() }), Some(self))
+                (Err(Failed { failure, stderr: self.said_in_full() }), Some(self))
             }
             Err(failure) => (Err(self.fail(failure)), None),
         };
@@ -89,7 +89,7 @@ impl Worker {
 
     /// The mission before went on after its end.
     fn blame(&self, line: &[u8], before: &mut Option<Failed>) {
-        before.get_or_insert_with(|| Failed { failure: after(line), stderr: self.stderr.text() });
+        before.get_or_insert_with(|| Failed { failure: after(line), stderr: self.said_in_full() });
     }
 
     fn record(

@@ -1,5 +1,6 @@
 //! Why an executor gave no flight. The sentences go into results, so they hold nothing that depends on the clock.
 
+use hairpin::judgement::is_command;
 use thiserror::Error;
 
 use super::recording::PoseError;
@@ -202,7 +203,7 @@ pub fn was_never_asked(sentence: &str) -> bool {
 
 /// Room for a stranger's words in one line of a table: no control characters, at most `limit` characters.
 pub(crate) fn excerpt(text: &str, limit: usize) -> String {
-    let mut clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(limit).collect();
+    let mut clean: String = text.chars().map(|c| if is_command(c) { ' ' } else { c }).take(limit).collect();
     if text.chars().nth(limit).is_some() {
         clean.push('…');
     }

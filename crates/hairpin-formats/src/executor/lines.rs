@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::delimited::BYTE_ORDER_MARK;
 
@@ -113,7 +113,14 @@ fn send_batches(mut stdout: impl Read, sender: &SyncSender<Batch>) {
 
 /// The end of a child's stderr.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Tail(Arc<Mutex<VecDeque<u8>>>);
+pub(crate) struct Tail(Arc<(Mutex<Kept>, Condvar)>);
+
+#[derive(Debug, Default)]
+struct Kept {
+    bytes: VecDeque<u8>,
+    /// How often something came.
+    came: u64,
+}
 
 impl Tail {
     /// Reads `stderr` in a thread of its own until it closes. The receiver closes with it.
@@ -131,22 +138,91 @@ impl Tail {
     fn fill(&self, mut stderr: impl Read) {
         let mut buffer = [0; 4096];
         while let Ok(count @ 1..) = stderr.read(&mut buffer) {
-            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            kept.extend(&buffer[..count]);
-            let excess = kept.len().saturating_sub(TAIL);
-            kept.drain(..excess);
+            let mut kept = self.open();
+            kept.bytes.extend(&buffer[..count]);
+            let excess = kept.bytes.len().saturating_sub(TAIL);
+            kept.bytes.drain(..excess);
+            kept.came += 1;
+            self.0.1.notify_all();
         }
+    }
+
+    /// Waits until nothing has come for `quiet`, at most `most`: what a child said before a line of its stdout may be
+    /// read after it, and of a stream that stays open nothing tells that all is there.
+    pub(super) fn settle(&self, quiet: Duration, most: Duration) {
+        let until = Instant::now() + most;
+        let mut kept = self.open();
+        loop {
+            let before = kept.came;
+            let patience = quiet.min(until.saturating_duration_since(Instant::now()));
+            let (now, waited) = self
+                .0
+                .1
+                .wait_timeout_while(kept, patience, |kept| kept.came == before)
+                .unwrap_or_else(PoisonError::into_inner);
+            kept = now;
+            if waited.timed_out() {
+                return;
+            }
+        }
+    }
+
+    fn open(&self) -> MutexGuard<'_, Kept> {
+        self.0.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Forgets what came so far.
     pub(super) fn clear(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        self.open().bytes.clear();
     }
 
     /// What is kept, as text.
     pub(crate) fn text(&self) -> String {
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let (front, back) = kept.as_slices();
+        let kept = self.open();
+        let (front, back) = kept.bytes.as_slices();
         String::from_utf8_lossy(&[front, back].concat()).into_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stream of which each piece comes when it is let go, and which stays open.
+    struct Slow(Receiver<&'static [u8]>);
+
+    impl Read for Slow {
+        fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+            let Ok(piece) = self.0.recv() else { return Ok(0) };
+            buffer[..piece.len()].copy_from_slice(piece);
+            Ok(piece.len())
+        }
+    }
+
+    #[test]
+    fn what_is_read_late_is_waited_for_and_silence_is_not_for_long() {
+        let (send, pieces) = sync_channel(0);
+        let (tail, _closed) = Tail::follow(Slow(pieces));
+        let begun = Instant::now();
+        tail.settle(Duration::from_millis(10), Duration::from_secs(60));
+        assert!(tail.text().is_empty() && begun.elapsed() < Duration::from_secs(30));
+        let late = thread::spawn(move || {
+            for piece in [b"no ".as_slice(), b"map"] {
+                thread::sleep(Duration::from_millis(50));
+                send.send(piece).unwrap();
+            }
+            send
+        });
+        tail.settle(Duration::from_secs(2), Duration::from_secs(60));
+        assert_eq!(tail.text(), "no map");
+        // Who never stops is not waited for.
+        let send = late.join().unwrap();
+        thread::spawn(move || {
+            while send.send(b".").is_ok() {
+                thread::sleep(Duration::from_millis(1))
+            }
+        });
+        tail.settle(Duration::from_secs(60), Duration::from_millis(50));
+        assert!(tail.text().starts_with("no map"));
     }
 }

@@ -19,8 +19,11 @@ use hairpin::trajectory::{ATTITUDE_UNKNOWN, END_UNSAID, HEIGHTS_BY_MAP};
 
 /// How far from 1 the length of a quaternion may be: what six printed digits leave.
 const QUATERNION_TOLERANCE: f64 = 1e-3;
-/// What is flown after the time limit before hairpin calls it off, s.
+/// What is flown after the time limit before hairpin calls it off, s: whoever flies on after his last waypoint is
+/// within it. What is reached in it is not reached.
 const OVERTIME_S: f64 = 10.0;
+/// Seconds by which a stamp that is due at the time limit may be rounded beyond it: less than a millionth of any.
+const ROUNDING_S: f64 = 1e-6;
 /// Beyond it a simulation has diverged, m/s.
 const FASTEST_M_S: f64 = 1e6;
 /// Bound of the memory that one mission may take: 10⁶ poses are 100 MB.
@@ -255,7 +258,9 @@ impl<'a> Recording<'a> {
         self.mission.waypoints.len().saturating_sub(2) as u64
     }
 
-    /// Ends the flight for the reason that the executor gives. Whether `done` is so is told by `reached`.
+    /// Ends the flight for the reason that the executor gives, but that who comes to the last waypoint after the time
+    /// limit is not `done`: it ends as `time`, as our own simulator would have ended it. Whether `done` is so otherwise
+    /// is told by `reached`.
     ///
     /// # Errors
     /// No pose; velocities that are not those of the places; heights that are not told where the robot cannot stand;
@@ -273,12 +278,16 @@ impl<'a> Recording<'a> {
             disagreement(&self.times, &self.poses, velocities).map_or(Ok(()), Err)?;
         }
         let by_map = self.take_heights()?;
+        let mut reached = self.reached();
+        let late = |time: &mut Option<f64>| time.take_if(|at| *at > self.mission.time_limit + ROUNDING_S).is_some();
+        // In order, so that none is late whose last one is not.
+        let too_late = reached.iter_mut().map(late).fold(false, |_, last| last);
         let ended = match reason {
+            EndReason::Done if too_late => Ended::Time,
             EndReason::Done => Ended::Done,
             EndReason::Time => Ended::Time,
             EndReason::Crash => Ended::Crash,
         };
-        let reached = self.reached();
         let outside = |pose: &Isometry3<f64>| self.mission.setup.is_outside(&Point3::from(pose.translation.vector));
         let left_world = self.poses.iter().position(outside).map(|index| self.times[index]);
         let mut channels = Vec::new();

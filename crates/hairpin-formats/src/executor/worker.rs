@@ -151,6 +151,12 @@ impl Worker {
         self.stderr.text()
     }
 
+    /// The same, once what it wrote before its last line of stdout is there: two pipes are read by two threads.
+    pub(super) fn said_in_full(&self) -> String {
+        self.stderr.settle(LOOK, AFTERMATH);
+        self.stderr.text()
+    }
+
     fn shake_hands(&mut self, cancelled: &dyn Fn() -> bool) -> Result<(), Failure> {
         self.say(&ToExecutor::Hello { hairpin: self.protocol });
         let limit = self.limits.handshake;

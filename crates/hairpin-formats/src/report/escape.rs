@@ -1,5 +1,7 @@
 //! Text between tags.
 
+use hairpin::judgement::is_command;
+
 /// `text` with what HTML reads as its own written out; on one line, without control characters.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -10,7 +12,7 @@ pub(super) fn escape(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\n' | '\t' => escaped.push(' '),
-            c if c.is_control() => {}
+            c if is_command(c) => {}
             c => escaped.push(c),
         }
     }

@@ -1,6 +1,7 @@
 //! What the flight of a mission shows of its program.
 
 use hairpin::campaign::Mission;
+use hairpin::campaign::missed::all_missed;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Ended, Flight};
 
 use super::step::Step;
@@ -28,7 +29,24 @@ pub(super) fn tell(step: &mut Step, mission: &Mission, flight: &Flight, seconds:
             mission.accept
         )),
         (Ended::Done, ..) => {}
+        (Ended::Time, Some(None), _) if comes_late(mission, flight) => step.mistake(format!(
+            "comes to the last waypoint only after time_limit_s = {}, at which a mission ends as \"time\": it counts as unfinished, which is a violation",
+            mission.time_limit
+        )),
         _ => step.remark(format!("ended \"{ended}\" and not \"done\": on a small mission this is worth a look")),
+    }
+    if flight.ended == Ended::Done {
+        let allowed = mission.setup.scenario.deviation_limit().unwrap_or(0.0);
+        for missed in all_missed(&mission.setup, flight, &mission.waypoints) {
+            let what = format!("says \"done\", but {}", missed.in_words());
+            if missed.nearest_m > allowed {
+                step.mistake(format!("{what}: what skips one is INCONCLUSIVE"));
+            } else {
+                step.remark(format!(
+                    "{what}: it is judged as passed, for the limit of the deviation is {allowed} m here; was it left out?"
+                ));
+            }
+        }
     }
     if let Some(at) = flight.left_world {
         step.remark(format!(
@@ -51,4 +69,12 @@ pub(super) fn tell(step: &mut Step, mission: &Mission, flight: &Flight, seconds:
     if !has("leg") {
         step.remark("no \"leg\": hairpin assigns poses to legs along the path");
     }
+}
+
+/// Whether it is at the last waypoint at some pose after the time limit.
+fn comes_late(mission: &Mission, flight: &Flight) -> bool {
+    let Some(end) = mission.waypoints.last() else { return false };
+    let is_there = |pose: usize| (flight.track.position(pose) - end).norm() <= mission.accept;
+    let times = flight.track.times();
+    (0..times.len()).any(|pose| times[pose] > mission.time_limit && is_there(pose))
 }

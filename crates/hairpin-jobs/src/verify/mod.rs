@@ -2,6 +2,7 @@
 
 mod answer;
 mod check;
+mod tables;
 #[cfg(test)]
 mod tests;
 
@@ -29,6 +30,8 @@ pub struct Verified {
     pub optimum: Option<Optimum>,
     /// Of arms, the moves of the graph that no program uses as well.
     pub graph: Option<GraphAgain>,
+    /// What of the graph's tables in the folder is not that of the scenario's graph.
+    pub tables: Vec<String>,
     /// Cases with something placed around them that were checked, and those of them that are clear of it.
     pub surrounded: [usize; 2],
     /// What of the robot the claims rest on that is not known, or leave out.
@@ -49,13 +52,13 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     // A folder's cases are missions, or were searched for; without a tally a search has not yet come to one.
     let tally = if work.folder.has_tally() { work.folder.read_tally()? } else { Tally::default() };
     let hold = if tally.missions.is_empty() { campaign::verify } else { campaign::verify_mission };
+    let arm = work.setup.own::<ArmSetup>();
+    // Made once, before all threads ask for it.
+    let of_arm = arm.and_then(|arm| Some((arm, graph_of(arm).ok()?)));
     let answers: Vec<Answer> = cases.par_iter().map(|case| check(&work, case, hold)).collect();
-    let optimum = work.setup.own::<ArmSetup>().and_then(|arm| optimum::verify(&work, arm, &cases));
-    let graph = work
-        .setup
-        .own::<ArmSetup>()
-        .and_then(|arm| graph_of(arm).ok().map(|graph| arm.graph_again(&graph)))
-        .filter(|graph| graph.moves > 0);
+    let optimum = arm.and_then(|arm| optimum::verify(&work, arm, &cases));
+    let tables = of_arm.as_ref().map_or_else(Vec::new, |(arm, graph)| tables::differing(&work, arm, graph));
+    let graph = of_arm.map(|(arm, graph)| arm.graph_again(&graph)).filter(|graph| graph.moves > 0);
     let around = answers.iter().zip(&cases).filter(|(answer, case)| case.environment.is_some() && answer.is_checked());
     let clear = around.clone().filter(|(answer, _)| answer.fine()).count();
     let surrounded = [around.count(), clear];
@@ -63,7 +66,7 @@ pub fn verify(folder: &Path) -> Result<Verified, Problem> {
     let is_nothing = optimum.is_none() && graph.is_none() && !answers.iter().any(Answer::is_checked);
     let nothing = is_nothing.then(|| nothing(&work.setup, &cases));
     let edited = work.folder.edited(&work.setup)?;
-    Ok(Verified { answers, optimum, graph, surrounded, unknown, nothing, edited })
+    Ok(Verified { answers, optimum, graph, tables, surrounded, unknown, nothing, edited })
 }
 
 /// Why nothing of `cases` is verified.
@@ -85,6 +88,7 @@ impl Verified {
         self.failed().next().is_some()
             || self.optimum.as_ref().is_some_and(|optimum| !optimum.findings.is_empty())
             || self.graph.as_ref().is_some_and(|graph| !graph.findings.is_empty())
+            || !self.tables.is_empty()
     }
 
     /// Cases of which something does not hold.

@@ -69,18 +69,53 @@ pub(super) fn missed(setup: &Setup, flight: &Flight, measures: &Measures, limits
     if flight.reached.last() == Some(&None) {
         return None;
     }
-    let accept = setup.scenario.executor().accept;
-    let accept_m = accept.max(limits.deviation.unwrap_or(0.0));
-    // Programs may accept in a cylinder as high as it is wide, whose rim is farther than its radius.
-    let at_rim = |waypoint: usize, radius: f64| {
-        radius <= std::f64::consts::SQRT_2 * accept && flight.reached.get(waypoint).is_some_and(Option::is_some)
-    };
+    let there = There::of(setup, flight, limits.deviation);
     let radii = measures.waypoints_within.iter().enumerate();
-    let (waypoint, nearest_m) = radii.map(|(waypoint, radius)| (waypoint, *radius)).find(|(waypoint, radius)| {
-        let is_there = *radius <= accept_m || at_rim(*waypoint, *radius);
-        !is_there
-    })?;
-    Some(Missed { waypoint, of: measures.waypoints_within.len(), nearest_m, accept_m }.in_words())
+    let (waypoint, nearest_m) = radii
+        .map(|(waypoint, radius)| (waypoint, *radius))
+        .find(|(waypoint, radius)| !there.is_at(*waypoint, *radius))?;
+    Some(Missed { waypoint, of: measures.waypoints_within.len(), nearest_m, accept_m: there.within }.in_words())
+}
+
+/// Every waypoint but the last that a program's `flight` was not within the acceptance radius of, after those before it
+/// that it was at. Those that it was within the limit of the deviation of count as passed where runs are judged.
+///
+/// O(samples · waypoints²).
+pub fn all_missed(setup: &Setup, flight: &Flight, waypoints: &[Point3<f64>]) -> Vec<Missed> {
+    let there = There::of(setup, flight, None);
+    let (mut been, mut missed) = (Vec::new(), Vec::new());
+    for (waypoint, place) in waypoints.iter().enumerate().take(waypoints.len().saturating_sub(1)) {
+        been.push(*place);
+        let nearest_m = radii(&flight.track, &been).last().copied().unwrap_or(f64::INFINITY);
+        if !there.is_at(waypoint, nearest_m) {
+            // One that was left out does not hide those after it.
+            been.pop();
+            missed.push(Missed { waypoint, of: waypoints.len(), nearest_m, accept_m: there.within });
+        }
+    }
+    missed
+}
+
+/// What counts as having been at a waypoint.
+struct There<'a> {
+    /// `execute.accept_m`, m.
+    accept: f64,
+    /// That, or the limit of the deviation if it is more, m.
+    within: f64,
+    reached: &'a [Option<f64>],
+}
+
+impl<'a> There<'a> {
+    fn of(setup: &Setup, flight: &'a Flight, deviation: Option<f64>) -> Self {
+        let accept = setup.scenario.executor().accept;
+        Self { accept, within: accept.max(deviation.unwrap_or(0.0)), reached: &flight.reached }
+    }
+
+    fn is_at(&self, waypoint: usize, radius: f64) -> bool {
+        // Programs may accept in a cylinder as high as it is wide, whose rim is farther than its radius.
+        let is_in_rim = radius <= std::f64::consts::SQRT_2 * self.accept;
+        radius <= self.within || (is_in_rim && self.reached.get(waypoint).is_some_and(Option::is_some))
+    }
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ pub fn mission(setup: &Setup, case: &Case, run: usize) -> Result<Mission, Mistak
     let timed = if case.leg_times.is_empty() { Vec::new() } else { setup.kind().timed(case) };
     let yaws = setup.kind().headings(case);
     let executor = varied.scenario.executor();
-    let (waypoints, planned) = (case.waypoints.len(), timed.last().map_or(0.0, |last| last.t));
+    let (waypoints, planned) = (case.waypoints.len(), setup.kind().planned_s(&timed));
     let slowest = varied.kind().slowest(&case.waypoints, waypoints, planned);
     let time_limit = executor.patience.time_limit(waypoints, planned, slowest);
     let accept = executor.accept;

@@ -62,6 +62,6 @@ pub use statistics::{
 pub use stress::Stress;
 pub use swiftness::Swiftness;
 pub use verdict::{
-    Beside, Claim, Judged, Verdict, Worst, finding, inconclusive, invalid, nothing_feasible, search_in_vain, unjudged,
-    verdict, violated, within_spec,
+    Beside, Claim, Judged, Verdict, Worst, finding, inconclusive, invalid, is_command, nothing_feasible,
+    search_in_vain, unjudged, verdict, violated, within_spec,
 };

@@ -10,7 +10,7 @@ pub(crate) const AGAINST_CAMPAIGN: usize = 0;
 /// Places outside the kinds' own rooms where it is asked what a robot is.
 pub(crate) const TELLING_KINDS_APART: usize = 1;
 /// Verbs that are about what one kind of robot alone has.
-pub(crate) const ASKED_BY_TYPE: usize = 18;
+pub(crate) const ASKED_BY_TYPE: usize = 17;
 /// Lines with a comment beyond column 120.
 pub(crate) const LONG_COMMENTS: usize = 0;
 

@@ -130,6 +130,32 @@ fn acceptance_is_a_cylinder_from_protocol_2_on() {
     assert_eq!(reached(&speaks_2(folder.path(), &format!("{poses}; {end}"))), [Some(0.0), Some(1.0), Some(2.0)]);
 }
 
+/// Our own simulator ends at the limit; a program's word does not stretch it.
+#[test]
+fn what_is_reached_after_the_time_limit_is_not_reached() {
+    let folder = tempfile::tempdir().unwrap();
+    let flown = |last: f64, end: &str| {
+        let poses = format!("pose(0, [1, 1, 1]); pose(15, [5, 1, 1], 1); pose({last}, [1, 5, 1], 1)");
+        let body = format!("{poses}; say(type='end', reason='{end}')");
+        fly(&python(folder.path(), &body), limits(), 1, 1).remove(0).unwrap()
+    };
+    for (last, end, ended, is_there) in [
+        (30.0, "done", Ended::Done, true),
+        (30.1, "done", Ended::Time, false),
+        (39.0, "done", Ended::Time, false),
+        (30.1, "time", Ended::Time, false),
+        (30.0, "time", Ended::Time, true),
+    ] {
+        let flight = flown(last, end);
+        let reached = [Some(0.0), Some(15.0), is_there.then_some(last)];
+        assert_eq!((flight.ended, &flight.reached[..]), (ended, &reached[..]), "{last} s, {end}");
+    }
+    // He who was there in time may fly on.
+    let body = "pose(0, [1, 1, 1]); pose(15, [5, 1, 1], 1); pose(29.9, [1, 5, 1], 1); pose(31.5, [1, 5, 1], 1)";
+    let flight = fly(&python(folder.path(), &format!("{body}; say(type='end', reason='done')")), limits(), 1, 1);
+    assert_eq!(flight[0].as_ref().unwrap().ended, Ended::Done);
+}
+
 #[test]
 fn programs_are_known_by_what_they_say_of_themselves() {
     let folder = tempfile::tempdir().unwrap();
@@ -165,6 +191,17 @@ fn nothing_lands_of_a_program_that_is_not_wanted() {
         let greeting = super::super::fly_all_if(program, &is_wanted, 2, 3, &make, &land, &|| false);
         assert_eq!(greeting.map(|greeting| greeting.name).as_deref(), Some("second"));
         assert_eq!((landed.load(std::sync::atomic::Ordering::Relaxed), asked.exists()), (flown, flown > 0), "{name}");
+    }
+}
+
+/// A program that lives on after its `error`: what it wrote before is another pipe's.
+#[test]
+fn an_error_keeps_what_was_said_on_stderr_before_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = "print('no map of case ' + m['case'], file=sys.stderr, flush=True); say(type='error', message='cannot')";
+    for (number, answer) in fly(&python(folder.path(), body), limits(), 1, 5).into_iter().enumerate() {
+        let failed = answer.unwrap_err();
+        assert_eq!(failed.stderr.trim_end(), format!("no map of case {}", CaseNumber(number)));
     }
 }
 

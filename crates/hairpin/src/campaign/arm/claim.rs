@@ -1,5 +1,6 @@
 //! What of programs is claimed, and by whom.
 
+use super::held::held;
 use super::solver::ArmSolver;
 use super::{ArmSetup, knobs, losses, plan, replan, verify};
 use crate::campaign::graph::Losses;
@@ -35,9 +36,13 @@ impl Claim for ArmSetup {
         Vec::new()
     }
 
-    /// An arm's task is a cloud: a program is held to the waypoints of its case.
-    fn verify(&self, case: &Case, _: &Scenario, _: Made) -> (Option<Proof>, Option<EndError>) {
+    /// An arm's task is a cloud: a program is held to the waypoints of its case, and one that was searched for to the
+    /// cloud, the graph and what programs may be.
+    fn verify(&self, case: &Case, _: &Scenario, made: Made) -> (Option<Proof>, Option<EndError>) {
         let mut proof = verify::verify(self, case);
+        if let (Some(program), Some(proof), Made::Searched) = (case.program(), &mut proof, made) {
+            proof.findings.extend(held(self, case, program));
+        }
         if case.environment.is_some() {
             proof.get_or_insert_default();
         }

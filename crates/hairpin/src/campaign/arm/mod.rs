@@ -9,7 +9,7 @@
 //!           joint stands; regression: two releases
 //!   told:   idle: keys that no run reads
 //!   out:    handed: as controllers take programs
-//!   proof:  verify, retrace ─▶ verification, as plain numbers (written)
+//!   proof:  verify, retrace ─▶ verification, as plain numbers (written); held: to the scenario as it stands now
 //!   Say:    say, assumptions, figure, losses, obstructions, doubt, knobs
 //! ```
 //!
@@ -33,6 +33,7 @@ mod figure;
 mod fit;
 mod graph;
 mod handed;
+mod held;
 mod hidden;
 mod idle;
 mod judge;

@@ -58,7 +58,7 @@ impl ArmSetup {
     ///
     /// So the sum over a path with home is the sum over the cloud's moves alone. O(n²) in time and memory. Where a
     /// start or an end is fixed and home is in the question, only that row has an arc from home, or to it.
-    fn question(&self, graph: &ArmGraph) -> Question {
+    pub fn question(&self, graph: &ArmGraph) -> Question {
         let search = &self.scenario.generate.search;
         let n = graph.points();
         let (first, last) = (search.start.map(|row| row as usize), search.end.map(|row| row as usize));

@@ -631,3 +631,51 @@ fn what_clear_holds_of_is_said_once() {
     assert!(said(Some(500.0)).ends_with(short), "{}", said(Some(500.0)));
     assert!(said(None).contains("It holds of runs on their path alone, "), "{}", said(None));
 }
+
+/// Each as one edit of the scenario beside programs that were found before it: what they are, they are no more.
+#[test]
+fn programs_are_held_to_the_scenario_as_it_stands_now() {
+    let level = std::f64::consts::FRAC_1_SQRT_2;
+    let points = json!([[300, 100, 400], [350, -100, 300], [400, 50, 350], [250, 200, 450], [300, -200, 400]]);
+    let heaviest = json!({ "programs": 1 });
+    let cases = |more: &[(&'static str, Value)]| {
+        let given = [
+            ("task.points", points.clone()),
+            ("generate.search", heaviest.clone()),
+            ("generate.moves.speeds", json!(["v500", "v1000"])),
+        ];
+        [&given[..], more].concat()
+    };
+    for arcs in [false, true] {
+        let base = cases(&[("generate.moves.arcs", json!(arcs))]);
+        let made = setup(&base);
+        let nothing = Executions { execute: &|_, _| None, duration: &|_| None, furnish: &|_| None, partial: None };
+        let plan = ArmSolver::new(own(&made)).solve(0, nothing, Wanted::Cases, &Stop::never()).plans.remove(0).1;
+        let case = plan.clone().case(made.scenario.seed(), 0, 0);
+        let told = |edit: &[(&'static str, Value)]| {
+            let now = setup(&[&base[..], edit].concat());
+            let proof = verify(&now, &case).proof.expect("a program");
+            proof.findings.iter().map(|finding| finding.field.clone()).collect::<Vec<_>>().join("; ")
+        };
+        assert_eq!(told(&[]), "", "arcs = {arcs}");
+        let higher = json!([[300, 100, 410], [350, -100, 310], [400, 50, 360], [250, 200, 460], [300, -200, 410]]);
+        let another = (way(&made, &plan)[0].row + 1) % 5;
+        for (key, value, words) in [
+            ("task.points", higher, "p0"),
+            ("task.points", json!([[300, 100, 400], [350, -100, 300]]), "no point of the scenario"),
+            ("task.points_in", json!({ "q1_q4_default": [level, level, 0, 0] }), ".turn"),
+            ("world.wobj", json!({ "name": "wT", "declare": true, "uframe_mm": [10, 0, 0] }), "work_object.place"),
+            ("world.tool.tcp_mm", json!([0, 0, 130]), "tool.place"),
+            ("generate.moves.speeds", json!(["v300"]), "is none of generate.moves.speeds"),
+            ("generate.search", json!({ "start": another }), "generate.search.start"),
+            ("generate.search", json!({ "min_cost": 99_999.0 }), "generate.search.min_cost"),
+            ("generate.cost", json!("time"), "generate.cost = time"),
+        ] {
+            let said = told(&[(key, value.clone())]);
+            assert!(said.contains(words), "{key} = {value}, arcs = {arcs}: {said}");
+        }
+        let edit = if arcs { ("generate.moves.arcs", json!(false)) } else { ("generate.moves.kind", json!("joint")) };
+        let has_arc = way(&made, &plan).iter().any(|met| met.passed);
+        assert_eq!(told(&[edit]).contains("generate.moves"), has_arc || !arcs, "arcs = {arcs}");
+    }
+}

@@ -62,6 +62,15 @@ impl<'a> Ways<'a> {
     /// Asks the inverse kinematics once per point in joint mode with an arm of closed inverse; nothing is followed
     /// yet.
     pub(super) fn new(setup: &'a ArmSetup, graph: Arc<ArmGraph>) -> Self {
+        Self::of(setup, graph, |_| true)
+    }
+
+    /// The same for programs through the points of `rows` alone: others have no posture but the graph's.
+    pub(super) fn through(setup: &'a ArmSetup, graph: Arc<ArmGraph>, rows: &[usize]) -> Self {
+        Self::of(setup, graph, |row| rows.contains(&row))
+    }
+
+    fn of(setup: &'a ArmSetup, graph: Arc<ArmGraph>, is_asked: impl Fn(usize) -> bool) -> Self {
         let station = &setup.station;
         let settings = joint_settings(station, &setup.scenario);
         let bodies = Bodies::new(&station.arm, &station.tool, &station.cell, settings.clearance);
@@ -77,7 +86,7 @@ impl<'a> Ways<'a> {
             let first = met.then_some(Posture { configuration: own, other: None });
             let point = &station.points[row];
             let stand = Stand { pose: point.pose, configuration: point.configuration.and_then(configuration) };
-            let all = match tells {
+            let all = match tells && is_asked(row) {
                 true => postures(&station.arm, &station.tool, &bodies, &stand, &settings),
                 false => Vec::new(),
             };

@@ -10,9 +10,11 @@ use crate::trajectory::{Channel, Track, TrackError};
 
 /// Rate of planned tracks, and of the timed reference that executors get, Hz: boats are slow.
 ///
-/// A sample every 0.2 s of what is drawn and compared, every 0.5 s of what executors are handed.
+/// A sample every 0.2 s of what is drawn and compared, every 0.1 s of what executors are handed: who passes on nothing
+/// but these is seen as often, accelerations are judged of four poses a second and more, and `check-executor` remarks
+/// below ten.
 const RATE: f64 = 5.0;
-const REFERENCE_RATE: f64 = 2.0;
+const REFERENCE_RATE: f64 = 10.0;
 
 /// Place, heading and velocity at a moment.
 ///

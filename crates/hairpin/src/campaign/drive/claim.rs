@@ -17,8 +17,12 @@ use crate::verification::{EndError, Finding, Proof};
 /// Enough for any scale of mission, and few enough to be made at once.
 const OPEN_CELLS: f64 = 400.0;
 const LEAST_CELL_M: f64 = 0.1;
-/// Rate of the timed reference that executors get, Hz: drives are slow.
-const REFERENCE_RATE: f64 = 2.0;
+/// Rate of the timed reference that executors get, Hz.
+/// Who passes on nothing but its rows is seen as often: accelerations are judged of four poses a second and more, and
+/// `check-executor` remarks below ten.
+const REFERENCE_RATE: f64 = 10.0;
+/// What the duration of a plan is rounded down to where time limits are reckoned, s: they stay what they were.
+const PATIENCE_S: f64 = 0.5;
 
 impl Claim for DriveSetup {
     fn solver(&self) -> Result<Box<dyn Solver + '_>, String> {
@@ -42,6 +46,10 @@ impl Claim for DriveSetup {
 
     fn timed(&self, case: &Case) -> Vec<Timed> {
         plan::timed(self, case, REFERENCE_RATE)
+    }
+
+    fn planned_s(&self, timed: &[Timed]) -> f64 {
+        timed.last().map_or(0.0, |last| (last.t / PATIENCE_S).floor() * PATIENCE_S)
     }
 
     fn headings(&self, case: &Case) -> Vec<f64> {

@@ -42,19 +42,19 @@ pub(super) fn headings(setup: &DriveSetup, case: &Case) -> Vec<f64> {
 
 /// The timed reference of a mission at `rate` (Hz).
 ///
-/// At t = k / rate up to the drive's end, by even accelerations between the track's stamps
+/// At t = k / rate and at the drive's end, by even accelerations between the track's stamps
 /// ([`Track::motion_at`]). Empty for a drive that the ground does not carry.
 ///
-/// Positions m and velocities m/s in the map's frame; the last sample is up to 1/rate before the end.
+/// Positions m and velocities m/s in the map's frame; the last interval may be shorter than 1/rate, and is left out
+/// below 1 ns.
 pub(super) fn timed(setup: &DriveSetup, case: &Case, rate: f64) -> Vec<Timed> {
     let Ok(track) = track(setup, case) else { return Vec::new() };
     let end = track.times().last().copied().unwrap_or_default();
     let count = (end * rate).floor() as usize;
-    let row = |k: usize| {
-        let t = k as f64 / rate;
-        track.motion_at(t).map(|(position, velocity, _)| Timed { t, position, velocity })
-    };
-    (0..=count).filter_map(row).collect()
+    let even = (0..=count).map(|k| k as f64 / rate);
+    let rest = Some(end).filter(|end| end - count as f64 / rate > 1e-9);
+    let row = |t: f64| track.motion_at(t).map(|(position, velocity, _)| Timed { t, position, velocity });
+    even.chain(rest).filter_map(row).collect()
 }
 
 /// Turns towards each waypoint and straight lines to it, from rest to rest.

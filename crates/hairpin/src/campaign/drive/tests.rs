@@ -295,6 +295,20 @@ fn planned_velocities_are_those_of_the_timing() {
     }
 }
 
+/// Who passes on the timed reference comes to the plan's end, and is seen often enough to be judged.
+#[test]
+fn the_timed_reference_ends_where_the_plan_does() {
+    let setup = setup(car(), &[]);
+    let own = setup.own::<DriveSetup>().unwrap();
+    let case = &solver(&setup).draw(0, &Stop::never()).unwrap().case(7, 0, 0);
+    let (rows, track) = (setup.kind().timed(case), super::plan::track(own, case).unwrap());
+    let (end, last) = (*track.times().last().unwrap(), rows.last().unwrap());
+    assert!((last.t - end).abs() < 1e-9 && (last.position - track.position(track.len() - 1)).norm() < 1e-9);
+    assert!(rows.windows(2).all(|pair| pair[1].t > pair[0].t && pair[1].t - pair[0].t < 0.1 + 1e-9));
+    // Time limits are reckoned as they were from two rows a second.
+    assert_eq!(setup.kind().planned_s(&rows), (2.0 * end).floor() / 2.0);
+}
+
 #[test]
 fn keys_without_meaning_for_its_ground_are_refused() {
     for (changes, key) in [

@@ -65,6 +65,10 @@ pub struct Fit {
     /// Root of the mean square of the residuals of the logs that were fitted to, m.
     /// Each log counts alike, however long.
     pub residual_m: f64,
+    /// How far the places of these logs scatter from sample to sample, m, root of the mean square: what noise alone
+    /// would leave. What is left beyond it is told by no interval: gusts, which they allow for, or a vehicle, a clock
+    /// or a mission that no number describes. `None` of what is not compared by its places in space.
+    pub scatter_m: Option<f64>,
     /// How much more a residual's sum scatters than if samples were independent: n over the effective number. Of logs
     /// that are imitated: how far their signs are off, over what chance makes them (D over its degrees of freedom).
     pub inflation: f64,

@@ -4,10 +4,10 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::FitError;
 use super::answer::{Confounded, Estimate, Fit, Reading};
-use super::gap::Gap;
+use super::gap::{Gap, scatter};
 use super::simulate::Loops;
 use super::whiten::Filter;
-use crate::campaign::kind::Adjustable;
+use crate::campaign::kind::{Adjustable, Output};
 use crate::math::output_error::Side;
 use crate::math::power::square;
 
@@ -67,6 +67,9 @@ impl Found {
         });
         let seen: Vec<&Gap> = which.iter().map(|at| &gaps[*at]).collect();
         let residual_m = (seen.iter().map(|gap| square(gap.after.rmse_m)).sum::<f64>() / seen.len() as f64).sqrt();
+        let scattered = which.iter().map(|at| square(scatter(&loops.flown[*at].track, loops.rule.axes)));
+        let by_place = loops.rule.outputs.iter().any(|(output, _)| matches!(output, Output::Position(2)));
+        let scatter_m = by_place.then(|| (scattered.sum::<f64>() / which.len() as f64).sqrt());
         let keys = estimates.iter().filter(|estimate| estimate.is_told());
         let keys =
             keys.flat_map(|estimate| estimate.number.keys.iter().map(|(key, of)| (key.clone(), estimate.value * of)));
@@ -79,6 +82,7 @@ impl Found {
             tried: loops.tried,
             untried: loops.untried,
             residual_m,
+            scatter_m,
             inflation: self.inflation,
             stretches: self.stretches,
             samples: which.iter().map(|at| loops.compared[*at].samples.len()).sum(),

@@ -101,6 +101,11 @@ pub(in crate::campaign) trait Claim {
     /// Stamps rise from 0 s. Cases without times have none, as those of `none` and `sphere` that only name waypoints.
     fn timed(&self, case: &Case) -> Vec<Timed>;
 
+    /// The planned duration (s) that a run's time limit is reckoned from: that of its `timed` reference.
+    fn planned_s(&self, timed: &[Timed]) -> f64 {
+        timed.last().map_or(0.0, |last| last.t)
+    }
+
     /// The planned heading at each waypoint, rad from x towards y; empty where there is none.
     ///
     /// One a waypoint, or none at all; counter-clockwise seen from above.

@@ -18,6 +18,14 @@ pub use self::judged::{Beside, Claim, Judged, Worst};
 use super::chosen::{Against, Count, draws_sentence};
 use super::spec::Violation;
 
+/// Whether `c` is no part of a text but commands whoever shows it: control characters, what ends a line, and what turns
+/// the direction of writing (Unicode's `Bidi_Control`), by which a name reads as another one, or a sentence as its
+/// reverse.
+pub fn is_command(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// One sentence and its exit code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verdict {
@@ -31,7 +39,7 @@ impl Verdict {
     /// A sentence is one line, whatever the names in it are: what would begin another, or command a terminal, is
     /// written out (`\n`, `\u{1b}`).
     pub fn of(sentence: &str, exit_code: u8) -> Self {
-        let plain = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+        let plain = |c: char| if is_command(c) { c.escape_default().to_string() } else { c.to_string() };
         Self { sentence: sentence.chars().map(plain).collect(), exit_code }
     }
 }
