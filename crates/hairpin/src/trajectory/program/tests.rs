@@ -132,6 +132,10 @@ fn numbers_that_are_none_are_found() {
     type Change<'a> = (&'a dyn Fn(&mut Program), &'static str);
     let changes: [Change<'_>; 8] = [
         (&|p| p.moves[0].speed.tcp = 0.0, "tcp speed = 0: must be a number, more than 0 m/s"),
+        (
+            &|p| p.moves[0].speed.tcp = 90.0,
+            "tcp speed = 90: must be a number, more than 0 m/s and at most 20 m/s, or vmax",
+        ),
         (&|p| p.moves[0].speed.tcp = f64::NAN, "move 0 (to p1): tcp speed = NaN"),
         (&|p| p.moves[0].speed.orientation = -1.0, "orientation speed = -1"),
         (&|p| p.moves[0].duration = Some(0.0), "duration = 0"),
