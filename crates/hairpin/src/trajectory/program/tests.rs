@@ -130,7 +130,7 @@ fn numbers_that_are_none_are_found() {
     let good = || program(vec![Motion::Linear(target(1.0, 2.0).named("p1"))]);
     assert!(good().checked().is_ok());
     type Change<'a> = (&'a dyn Fn(&mut Program), &'static str);
-    let changes: [Change<'_>; 8] = [
+    let changes: [Change<'_>; 9] = [
         (&|p| p.moves[0].speed.tcp = 0.0, "tcp speed = 0: must be a number, more than 0 m/s"),
         (
             &|p| p.moves[0].speed.tcp = 90.0,
