@@ -1,6 +1,6 @@
 //! Clouds of points for arms: CSV in mm with orientation and configuration, or the robtargets of a RAPID module.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use hairpin::trajectory::program::{NO_EXTERNAL, PoseTarget};
@@ -47,6 +47,12 @@ pub enum CloudError {
         column: &'static str,
         /// The header found.
         header: String,
+    },
+    /// A column twice: nobody knows which is meant.
+    #[error("line 1: column `{column}` twice")]
+    Twice {
+        /// The column.
+        column: String,
     },
     /// Orientations under other names.
     #[error(
@@ -130,7 +136,7 @@ impl CloudError {
     /// The line that it is on, from 1; `None` of what is wrong with all of it.
     pub fn line(&self) -> Option<usize> {
         match self {
-            Self::Header { .. } | Self::Orientation { .. } => Some(1),
+            Self::Header { .. } | Self::Twice { .. } | Self::Orientation { .. } => Some(1),
             Self::Width { line, .. }
             | Self::Value { line, .. }
             | Self::Quaternion { line, .. }
@@ -166,6 +172,10 @@ pub fn parse(text: &str) -> Result<Vec<CloudPoint>, CloudError> {
     let Table { header, names, rows } = Table::of(text, Cut::told_by(text));
     let place = |column: &str| names.place(column);
     let refuse = |column| CloudError::Header { column, header: header.into() };
+    let mut known = HashSet::new();
+    if let Some(column) = names.cells().find(|name| !name.is_empty() && !known.insert(name.to_ascii_lowercase())) {
+        return Err(CloudError::Twice { column: quote::cell(column) });
+    }
     let mut places = [None; COLUMNS.len()];
     for (index, column) in COLUMNS.into_iter().enumerate() {
         places[index] = place(column);

@@ -96,6 +96,13 @@ fn what_no_controller_takes_is_told_in_every_language() {
         ("t.script", script(&format!("movej({home}, a=0, v=0)")), "FAIL: 2 findings in 1 moves"),
         ("t.src", src("BAS (#VEL_PTP,150)"), "NOT EXECUTABLE line 4: BAS (#VEL_PTP) = 150: must be"),
         ("t.src", src("$VEL.CP=0"), "NOT EXECUTABLE line 4: $VEL.CP = 0: must be"),
+        // From where the arm stands 30° in a millisecond.
+        (
+            "t.script",
+            script(&format!("movej({home})\n  movej([0,0,0,0,0,0], t=0.001)")),
+            "line 4: NOT EXECUTABLE (before)→(in place): in the 0.001 s that it is to take axis 5 turns by 30.0°, 30000°/s: its \
+             largest speed is 320°/s",
+        ),
     ] {
         fs::write(folder.path().join(name), text).unwrap();
         let (code, out, error) = run(folder.path(), &["import", name, "--check"]);
@@ -110,6 +117,36 @@ fn what_no_controller_takes_is_told_in_every_language() {
         fs::write(folder.path().join("t.script"), text).unwrap();
         let object = json(folder.path(), &["import", "t.script", "--check"]);
         assert_eq!((object["exit_code"].as_i64(), object["moves"].as_i64()), (Some(0), Some(moves)));
+    }
+}
+
+/// Times and speeds that no arm has are a slip in the unit or in a digit.
+#[test]
+fn what_no_arm_is_fast_enough_for_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for (body, code, words) in [
+        ("MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,50,0),v100\\T:=2,fine,tool0;", 0, "PASS: 0 findings"),
+        (
+            "MoveL p10,v100,fine,tool0;\nMoveL Offs(p10,0,50,0),v100\\T:=0.001,fine,tool0;",
+            1,
+            "line 9: NOT EXECUTABLE p10→(in place): in the 0.001 s that it is to take axis ",
+        ),
+        (
+            "MoveL p10,v100,fine,tool0;\nMoveAbsJ home,v100\\T:=0.001,fine,tool0;",
+            1,
+            "line 9: NOT EXECUTABLE p10→home: in the ",
+        ),
+        (
+            "MoveL p10,[90000,500,5000,1000],fine,tool0;",
+            1,
+            "NOT EXECUTABLE line 8 (to p10): tcp speed = 90: must be a number, more than 0 m/s and at most 20 m/s, or vmax",
+        ),
+        ("MoveL p10,v100\\V:=90000,fine,tool0;", 1, "NOT EXECUTABLE line 8 (to p10): tcp speed = 90: must be"),
+        ("MoveL p10,vmax,fine,tool0;", 0, "PASS: 0 findings"),
+    ] {
+        let file = module(folder.path(), body);
+        let (found, out, error) = run(folder.path(), &["import", &file, "--check"]);
+        assert!(found == code && out.contains(words), "{body}: {found}\n{out}{error}");
     }
 }
 

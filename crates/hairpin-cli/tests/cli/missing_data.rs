@@ -135,3 +135,48 @@ fn the_robots_own_accelerations_bound_what_samples_hide() {
         assert_eq!(verdict(max).contains("clear: all links within 15 mm of the path"), max == "60", "{max}");
     }
 }
+
+/// Where the tool is tells neither the arm's posture nor the turns of its axes, and moves are proven clear in one.
+#[test]
+fn joints_are_held_against_the_programs_postures() {
+    let place = TempDir::new().unwrap();
+    let place = place.path();
+    // Its last axis has room for a turn more.
+    fs::write(place.join("irb.toml"), ROBOT.replace(", -400]", ", -800]").replace(", 400]", ", 800]")).unwrap();
+    fs::write(place.join("arm.toml"), SCENARIO.replace("\"irb120\"", "\"irb.toml\"")).unwrap();
+    let (code, text, error) = run(place, &["stress", "arm.toml", "--out", "A"]);
+    assert_eq!(code, 0, "{text}{error}");
+    let exported = Exported::of(place, "A");
+    let turn = std::f64::consts::TAU;
+    let log = |name: &str, turned: &dyn Fn(usize, f64) -> f64| {
+        let mut text = String::from("t_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n");
+        for (i, (t, q)) in exported.rows.iter().enumerate() {
+            let q = [q[0], q[1], q[2], q[3], q[4], turned(i, q[5])];
+            text += &format!("{t:.4},{}\n", q.map(|q| format!("{q:.8}")).join(","));
+        }
+        fs::write(place.join(name), text).unwrap();
+        let (code, text, error) = run(place, &["judge", name, "--campaign", "A"]);
+        (code, text + &error)
+    };
+    let (code, text) = log("own.csv", &|_, q| q);
+    assert!(code == 0 && !text.contains("clearance of the links is not shown"), "{text}");
+    // A controller's lag and what servos are off.
+    let (code, text) = log("near.csv", &|i, q| q + 0.03 * (i as f64 / 50.0).sin());
+    assert_eq!(code, 0, "{text}");
+    let (code, text) = log("turned.csv", &|_, q| q + turn);
+    assert!(code == 5 && text.contains("INCONCLUSIVE") && text.contains("axis 6 stands at "), "{text}");
+    assert!(text.contains(", and the nearest posture of the program has it at "), "{text}");
+    // A log of poses shows where the tool was, and nothing of the links.
+    let table = fs::read_to_string(place.join("A/export/0000-0.csv")).unwrap();
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|found| *found == name).unwrap();
+    let kept = ["t", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(column);
+    let line = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        kept.map(|column| cells[column]).join(",") + "\n"
+    };
+    fs::write(place.join("poses.csv"), table.lines().map(line).collect::<String>()).unwrap();
+    let (code, text, error) = run(place, &["judge", "poses.csv", "--campaign", "A"]);
+    let unshown = "clearance of the links is not shown: the log tells poses and no joints";
+    assert!(code == 0 && text.contains(unshown), "{text}{error}");
+}

@@ -21,6 +21,12 @@ const MOST_RAD: f64 = 700.0;
 /// How far from 1 the length of a quaternion may be: logs round to three decimals.
 const QUATERNION: f64 = 1e-2;
 
+/// So far a place that is told may be from where the joints put the tool, m: the arm's file has the dimensions of its
+/// type, and those of each arm are some millimetres off.
+const OFF_M: f64 = 5e-3;
+/// The same of orientations, rad.
+const TURNED: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
 /// A recording as it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerLog {
@@ -102,6 +108,27 @@ pub enum ControllerLogError {
         /// Samples found.
         found: usize,
     },
+    /// The place that it tells is not where its joints put the tool.
+    #[error(
+        "{}, line {line}: the tool is told {off_mm:.1} mm and {turned_deg:.1}° from where the joints of the same line put it \
+         ({allowed_mm:.1} mm and {allowed_deg:.1}° are allowed, with what it moves from line to line): joints in another unit \
+         or order, places of another tool or in another frame; take out the columns that are wrong",
+        path.display()
+    )]
+    Contradiction {
+        /// The file.
+        path: PathBuf,
+        /// Line.
+        line: usize,
+        /// How far both are apart, mm.
+        off_mm: f64,
+        /// By how much they are turned against each other, degrees; 0 where orientations are not told.
+        turned_deg: f64,
+        /// What may be, mm.
+        allowed_mm: f64,
+        /// What may be, degrees.
+        allowed_deg: f64,
+    },
     /// What a track refuses.
     #[error("{}: {cause}", path.display())]
     Track {
@@ -161,7 +188,7 @@ const JOINTS: &[&str] = &["q", "j", "joint", "joint_", "axis", "axis_"];
 ///
 /// Cells are separated by commas, tabs, or semicolons, and with the latter two a decimal comma is understood. Without
 /// positions the joints go through `arm`: base_from_tcp = base_from_flange(q) · flange_from_tcp. Stamps are taken as
-/// they are, however far apart.
+/// they are, however far apart. With both, each row's place must be where its joints put the tool.
 ///
 /// # Errors
 /// The first thing wrong, with line, column and value; stamps that do not rise; fewer than two samples.
@@ -201,14 +228,16 @@ fn parse(path: &Path, text: &str, arm: Option<(&Arm, &Isometry3<f64>)>) -> Resul
         what,
         header: header.into(),
     })?;
-    let mut rows =
-        Rows { path, layout: &layout, times: Vec::new(), poses: Vec::new(), joints: Vec::new(), moves: Vec::new() };
-    let mut last_line = 1;
+    let (times, poses, joints, moves, lines_of) = Default::default();
+    let mut rows = Rows { path, layout: &layout, times, poses, joints, moves, lines: lines_of };
     for cells in lines {
-        last_line = cells.line;
         rows.push(&cells, arm)?;
     }
-    let Rows { times, poses, joints, moves, .. } = rows;
+    if let Some(arm) = arm {
+        rows.agree(arm)?;
+    }
+    let Rows { times, poses, joints, moves, lines, .. } = rows;
+    let last_line = lines.last().copied().unwrap_or(1);
     if times.len() < 2 {
         return Err(ControllerLogError::Short { path: path.into(), found: times.len() });
     }
@@ -348,9 +377,53 @@ struct Rows<'a> {
     poses: Vec<Isometry3<f64>>,
     joints: Vec<Joints>,
     moves: Vec<f64>,
+    /// Of each.
+    lines: Vec<usize>,
 }
 
 impl Rows<'_> {
+    /// That poses which are told stand where the joints of their rows put the tool: the worst row that does not.
+    ///
+    /// Both may be of moments up to a row apart, so as much is allowed as the tool moves from row to row.
+    fn agree(&self, arm: (&Arm, &Isometry3<f64>)) -> Result<(), ControllerLogError> {
+        let layout = self.layout;
+        if layout.position.is_none() || layout.joints.is_none() {
+            return Ok(());
+        }
+        let is_turned = !matches!(layout.turn, Turn::Unknown);
+        let put: Vec<Isometry3<f64>> = self.joints.iter().map(|joints| pose(joints, arm)).collect();
+        let apart = |a: &Isometry3<f64>, b: &Isometry3<f64>| {
+            let turned = if is_turned { a.rotation.angle_to(&b.rotation) } else { 0.0 };
+            [(a.translation.vector - b.translation.vector).norm(), turned]
+        };
+        // By the joints and by the places: one of both may stand still.
+        let steps: Vec<[f64; 2]> = (1..put.len())
+            .map(|i| {
+                let [told, by_joints] = [&self.poses, &put].map(|all| apart(&all[i - 1], &all[i]));
+                [told[0].max(by_joints[0]), told[1].max(by_joints[1])]
+            })
+            .collect();
+        let row = |i: usize| {
+            let off = apart(&self.poses[i], &put[i]);
+            let beside = steps[i.saturating_sub(1)..(i + 1).min(steps.len())].iter();
+            let allowed = beside
+                .fold([OFF_M, TURNED], |most, step| [most[0].max(OFF_M + step[0]), most[1].max(TURNED + step[1])]);
+            (i, off, allowed, (off[0] / allowed[0]).max(off[1] / allowed[1]))
+        };
+        let worst = (0..put.len()).map(row).reduce(|worst, one| if one.3 > worst.3 { one } else { worst });
+        match worst {
+            Some((i, off, allowed, times)) if times > 1.0 => Err(ControllerLogError::Contradiction {
+                path: self.path.into(),
+                line: self.lines[i],
+                off_mm: 1e3 * off[0],
+                turned_deg: off[1].to_degrees(),
+                allowed_mm: 1e3 * allowed[0],
+                allowed_deg: allowed[1].to_degrees(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
     fn push(&mut self, cells: &Cells, arm: Option<(&Arm, &Isometry3<f64>)>) -> Result<(), ControllerLogError> {
         let layout = self.layout;
         if cells.len() != layout.width {
@@ -393,6 +466,7 @@ impl Rows<'_> {
             }
             self.moves.push(order);
         }
+        self.lines.push(cells.line);
         self.times.push(time);
         self.poses.push(pose);
         self.joints.extend(joints);

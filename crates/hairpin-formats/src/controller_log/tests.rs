@@ -74,6 +74,33 @@ fn joints_go_through_the_arm() {
     assert!(fails(text).contains("joints without positions need an arm"));
 }
 
+/// Places and joints of one row that contradict each other leave nobody knowing which of them is true.
+#[test]
+fn places_are_held_against_the_joints_beside_them() {
+    let (arm, tcp) = (arm(), Isometry3::translation(0.0, 0.0, 0.12));
+    let written = |aside: f64, still: bool, turned: f64| {
+        let mut text = "t,x_mm,y_mm,z_mm,qw,qx,qy,qz,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n".to_owned();
+        for i in 0..20 {
+            let q = [10.0 + f64::from(i), 20.0, -30.0, 40.0, 50.0, 60.0];
+            let at = arm.forward(&q.map(f64::to_radians)) * tcp;
+            let (p, r) = (1e3 * at.translation.vector, at.rotation);
+            let [_, q2, q3, q4, q5, q6] = q;
+            let (q1, q6) = (if still { 10.0 } else { q[0] } + aside, q6 + turned);
+            text += &format!("{},{},{},{},{},{},{},{},", f64::from(i) * 0.1, p.x, p.y, p.z, r.w, r.i, r.j, r.k);
+            text += &format!("{q1},{q2},{q3},{q4},{q5},{q6}\n");
+        }
+        parse(Path::new("log.csv"), &text, Some((&arm, &tcp))).map_err(|error| error.to_string())
+    };
+    assert!(written(0.0, false, 0.0).is_ok());
+    // The next row's joints, as of who writes both a moment apart.
+    assert!(written(1.0, false, 0.0).is_ok());
+    for (aside, still, turned) in [(3.5, false, 0.0), (0.0, true, 0.0), (0.0, false, 10.0)] {
+        let told = written(aside, still, turned).unwrap_err();
+        assert!(told.contains("from where the joints of the same line put it"), "{told}");
+    }
+    assert!(written(0.0, true, 0.0).unwrap_err().starts_with("log.csv, line 21: "));
+}
+
 #[test]
 fn columns_of_joints_are_told_and_so_are_those_beyond_the_six() {
     let text = "t,q7_rad,Q2_rad,q1_deg,q3_rad,q4_rad,q5_rad,q6_rad,joint_9_deg,qw_rad\n0,0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0,0\n";

@@ -117,7 +117,9 @@ impl Reader<'_> {
             ..Zone::stop()
         };
         let zone = if radius == 0.0 { Zone::stop() } else { zone };
-        let speed = speed_of(speed.filter(|_| !in_joints));
+        // What is above its bound was told with the argument.
+        let speed =
+            speed_of(speed.filter(|speed| !in_joints && (*speed <= 0.0 || Bound::URSCRIPT_SPEED.holds(*speed))));
         let m = Move { tool, duration, configuration_demanded: false, ..Move::new(motion, speed, zone) };
         self.reading.go(line, m, doubts);
         Ok(())

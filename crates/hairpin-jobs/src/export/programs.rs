@@ -174,7 +174,8 @@ fn texts(work: &Work, case: &Case, program: &Program, language: Language) -> Res
             vec![(format!("{id}.src"), files.src), (format!("{id}.dat"), files.dat)]
         }
         Language::Rapid => {
-            let program = &arm.for_controller(program).with_joints(|q| arm.station.arm.coupling.told(q));
+            let program = arm.in_wobj0(&arm.for_controller(program));
+            let program = &program.with_joints(|q| arm.station.arm.coupling.told(q));
             header.extend((!arm.tells_configurations()).then(|| UNCONFIGURED.into()));
             header.extend(is_coupled(arm).then(|| COUPLED.into()));
             let module = rapid::module(program, &header).map_err(|error| error.to_string())?;

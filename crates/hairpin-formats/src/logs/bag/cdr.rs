@@ -10,12 +10,14 @@ pub(super) struct Cdr<'a> {
 }
 
 /// Why a message tells nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum NoMessage {
     /// It is shorter than its type, or none of it.
     Broken,
     /// It is one of its type, and its numbers are no place.
     NotFinite,
+    /// It is one of its type that tells nothing, and why: `without positions`.
+    Unfit(String),
 }
 
 type Answer<T> = Result<T, NoMessage>;

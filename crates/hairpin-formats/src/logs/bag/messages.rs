@@ -6,6 +6,7 @@ use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 use super::super::accuracy::{both, known};
 use super::cdr::{Cdr, NoMessage};
+use crate::quote::shortened;
 
 /// No robot is further from where it began, m.
 const FARTHEST_M: f64 = 1e7;
@@ -117,9 +118,17 @@ pub(super) fn joints<'a>(cdr: &mut Cdr<'a>) -> Result<(i64, Vec<&'a str>, Vec<f6
     let names = (0..cdr.length(4)?).map(|_| cdr.string()).collect::<Result<Vec<_>, _>>()?;
     let positions = (0..cdr.length(8)?).map(|_| cdr.f64()).collect::<Result<Vec<_>, _>>()?;
     // Of a joint that is named twice nobody knows which position is its own.
-    let each_once = names.iter().collect::<HashSet<_>>().len() == names.len();
-    if names.len() != positions.len() || !each_once {
-        return Err(NoMessage::Broken);
+    let mut known = HashSet::new();
+    if let Some(twice) = names.iter().find(|name| !known.insert(**name)) {
+        return Err(NoMessage::Unfit(format!("with the joint {} twice", shortened(twice))));
+    }
+    if names.len() != positions.len() {
+        let count =
+            |count: usize, what: &str| if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") };
+        return Err(NoMessage::Unfit(match positions.len() {
+            0 => "without positions".into(),
+            some => format!("with {} for {}", count(some, "position"), count(names.len(), "joint")),
+        }));
     }
     if !positions.iter().all(|q| q.is_finite()) {
         return Err(NoMessage::NotFinite);

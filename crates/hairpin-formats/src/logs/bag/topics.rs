@@ -34,6 +34,9 @@ pub(super) struct Topic {
     /// Messages whose numbers are no place or no angles, and where the first is.
     not_finite: usize,
     first_not_finite: usize,
+    /// Messages of its type that tell nothing, and of the first where it is and why.
+    unfit: usize,
+    first_unfit: Option<(usize, String)>,
     /// Poses whose quaternion turns nothing; stamp (s) and length of the first.
     unturned: usize,
     first_unturned: Option<(f64, f64)>,
@@ -57,6 +60,7 @@ impl Topic {
     pub(super) fn of(name: String, kind: Kind) -> Self {
         let (frame, samples, sets, received, paths, stamped, seen) = Default::default();
         let (broken, first_broken, not_finite, first_not_finite) = Default::default();
+        let (unfit, first_unfit) = Default::default();
         let (unturned, first_unturned, zeros, elsewhere, halves) = Default::default();
         Self {
             name,
@@ -72,6 +76,8 @@ impl Topic {
             first_broken,
             not_finite,
             first_not_finite,
+            unfit,
+            first_unfit,
             unturned,
             first_unturned,
             zeros,
@@ -96,6 +102,11 @@ impl Topic {
                     self.first_not_finite = offset;
                 }
                 self.not_finite += 1;
+                Ok(())
+            }
+            Err(NoMessage::Unfit(why)) => {
+                self.first_unfit.get_or_insert((offset, why));
+                self.unfit += 1;
                 Ok(())
             }
             Err(NoMessage::Broken) => {
@@ -227,6 +238,9 @@ impl Topic {
                 self.not_finite, self.first_not_finite
             ));
         }
+        if let Some((offset, why)) = &self.first_unfit {
+            notes.push(format!("{name}: {} messages that tell nothing, the first {why}, at byte {offset}", self.unfit));
+        }
         let of_places = self.zeros > 0 && self.zeros == samples.len();
         if of_places {
             notes.push(format!("{name}: quaternions of zeros: no attitude is told"));
@@ -256,11 +270,16 @@ impl Topic {
             if clock == Clock::Receive {
                 rows.iter_mut().zip(received).for_each(|((t_s, sample), at)| (*t_s, sample.t_s) = (at, at));
             }
+            // The times of a path are its poses' own, and its first may be zero.
+            let stampless = match self.kind {
+                Kind::Path => None,
+                _ => without_stamps(&name, clock, &mut rows, &mut notes),
+            };
             let far = |one: &Sample, other: &Sample| places_apart(&one.p_m, &other.p_m).unwrap_or_default();
             let (rows, twice) = rising(rows, clock, &far);
             let unfit = twice.tell(&name, &mut notes, |(t_s, one), other| two_places(*t_s, &one.p_m, &other.p_m));
             notes.extend(unturned.iter().map(|why| format!("{name}: {why}")));
-            let unfit = unfit.or(unturned);
+            let unfit = stampless.or(unfit).or(unturned);
             let samples: Vec<Sample> = rows.into_iter().map(|(_, sample)| sample).collect();
             motions.push(LoggedMotion { unfit, ..LoggedMotion::of(&name, source, samples) });
         } else {
@@ -271,17 +290,44 @@ impl Topic {
             let times = if clock == Clock::Receive { set.received } else { set.times };
             let name = if many { format!("{name}[{index}]") } else { name.clone() };
             let far = |one: &Vec<f64>, other: &Vec<f64>| farthest(one, other).map_or(0.0, |(_, far)| far);
-            let (rows, twice) = rising(times.into_iter().zip(set.rows).collect(), clock, &far);
+            let mut rows: Vec<(f64, Vec<f64>)> = times.into_iter().zip(set.rows).collect();
+            let stampless = without_stamps(&name, clock, &mut rows, &mut notes);
+            if rows.is_empty() {
+                continue;
+            }
+            let (rows, twice) = rising(rows, clock, &far);
             let unfit = twice.tell(&name, &mut notes, |(t_s, one), other| {
                 let joint = farthest(one, other).map_or(0, |(joint, _)| joint);
                 let [one, other] = [one, other].map(|row| format!("{} rad", told(row[joint])));
                 two(*t_s, &format!("positions of the joint {}", shortened(&set.names[joint])), &one, &other)
             });
+            let unfit = stampless.or(unfit);
             let (times_s, positions_rad) = rows.into_iter().unzip();
             all.push(Joints { name, source, joints: set.names, times_s, positions_rad, unfit });
         }
         (frame.map(|frame| (name, frame)), notes)
     }
+}
+
+/// Leaves out the rows whose header has no stamp among others that have one: they are of an unknown moment, not of the
+/// year 1970. Tells how many they were, and gives what is wrong where that is half of them or more.
+fn without_stamps<T>(name: &str, clock: Clock, rows: &mut Vec<(f64, T)>, notes: &mut Vec<String>) -> Option<String> {
+    if clock != Clock::Header {
+        return None;
+    }
+    let all = rows.len();
+    rows.retain(|(t_s, _)| *t_s != 0.0);
+    let missing = all - rows.len();
+    if missing == 0 {
+        return None;
+    }
+    let told = format!("{missing} of {all} messages have no stamp in their header");
+    let why = (2 * missing >= all).then(|| format!("{told}: when they were nobody knows"));
+    notes.push(match why {
+        Some(_) => format!("{name}: {told}"),
+        None => format!("{name}: {told} and are left out"),
+    });
+    why
 }
 
 /// The joint that is farthest from itself in two rows of the same joints, and how far, rad.

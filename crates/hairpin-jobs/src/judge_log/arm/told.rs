@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use hairpin::campaign::arm::ArmSetup;
+use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Setup, Status};
 use hairpin::judgement::moves::offset_told;
 use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
@@ -10,6 +12,9 @@ use super::super::found::{JudgedLog, Outcome};
 use super::super::matching::Matched;
 use super::super::told::{hundredths, where_and_when};
 use super::found::{FoundProgram, JointsTold};
+
+/// A tool at its place may hang on another elbow or wrist.
+const UNSHOWN: &str = "clearance of the links is not shown: the log tells poses and no joints";
 
 /// A log that was judged.
 pub(super) fn judged((file, name): (&Path, &str), found: FoundProgram, setup: &Setup) -> JudgedLog {
@@ -43,7 +48,10 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
     let worst = result.measures.as_ref().map(|measures| worst(measures, setup));
     let why = || result.message.as_deref().map_or("it cannot be measured", |why| why.trim_start_matches("run 0: "));
     match (result.status, worst) {
-        (Status::Pass, Some(worst)) => (Outcome::Pass, within_spec(case, how, &with(worst))),
+        (Status::Pass, Some(worst)) => {
+            let sentence = [Some(worst), found.unshown(setup)].into_iter().flatten().collect::<Vec<_>>().join("; ");
+            (Outcome::Pass, within_spec(case, how, &with(sentence)))
+        }
         (Status::Unjudged, Some(worst)) => {
             let sentence = format!("{worst}; nothing was asked for: spec = \"none\"");
             (Outcome::Unjudged, unjudged(case, how, &with(sentence)))
@@ -89,6 +97,12 @@ impl JointsTold {
 impl FoundProgram {
     fn offset_words(&self) -> Option<String> {
         offset_told(self.offset.into_iter())
+    }
+
+    /// What a log of poses alone does not show of a program that was proven clear in one posture.
+    fn unshown(&self, setup: &Setup) -> Option<String> {
+        let mode = setup.own::<ArmSetup>()?.scenario.generate.mode;
+        (self.joints.is_none() && mode == ArmMode::Joint).then(|| UNSHOWN.to_owned())
     }
 
     /// What is told before the sentence, label and value.

@@ -12,13 +12,11 @@ use crate::search::heaviest::MOST_EXACT_POINTS;
 pub(super) fn claim(setup: &ArmSetup, tally: &Tally, said: &mut Vec<String>) {
     let generate = &setup.scenario.generate;
     let clearance = generate.moves.clearance_mm;
-    let off = match (tally.proven_short_of(&*setup.scenario), setup.scenario.spec.path) {
+    let off = match (tally.proven_short_of(&*setup.scenario), setup.scenario.widest_mm()) {
         (Some(within), _) => format!(
             "of runs within {within} mm of their path, which is less than `spec.path.max_mm` by now, and of no others"
         ),
-        (None, Some(limit)) => {
-            format!("as far as runs stay within the {} mm of `spec.path.max_mm` of their path", limit.max_mm)
-        }
+        (None, Some(most)) => format!("as far as runs stay within the {most} mm of `spec.path.max_mm` of their path"),
         (None, None) => "of runs on their path alone, as no `spec.path.max_mm` says how far off they may be".into(),
     };
     said.push(match generate.mode {
@@ -191,7 +189,8 @@ pub(super) fn act(setup: &ArmSetup, said: &mut Vec<String>) {
     said.push(match &execute.logs {
         Some(logs) => format!(
             "Recorded on a real controller (hardware): `{logs}`. Places are taken for those of the tool's point in the arm's base frame; what \
-             they are held against is the path and the time that hairpin's virtual controller plans for the program."
+             they are held against is the path and the time that hairpin's virtual controller plans for the program, and joints against its \
+             postures: logs that tell poses alone do not show that the links were where they were proven clear."
         ),
         None => format!(
             "Simulated: hairpin's virtual controller, a stand-in for one whose numbers are not public: profile {}, servo lag of {}, \

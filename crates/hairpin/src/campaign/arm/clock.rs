@@ -9,6 +9,7 @@
 
 use super::ArmSetup;
 use super::arm_graph::ArmGraph;
+use super::handed::{as_the_world, is_wobj0, moved};
 use crate::campaign::scenario::MoveName;
 use crate::trajectory::program::{JointTarget, PoseTarget, Speed, Tool, WorkObject};
 
@@ -67,6 +68,11 @@ impl ArmSetup {
             points.iter_mut().for_each(|point| point.configuration = None);
         }
         self.in_world(&mut work_object);
+        if is_wobj0(&work_object) {
+            let world_from_object = work_object.base_from_object();
+            points.iter_mut().for_each(|point| moved(&world_from_object, point));
+            as_the_world(&mut work_object);
+        }
         let speed = self.scenario.generate.moves.speeds.first().and_then(|name| Speed::predefined(name));
         let speed = speed.ok_or("`generate.moves.speeds` is empty")?;
         Ok(ArcClock { tool, work_object, points, arcs, home: self.home(), start, configured, at_start, speed })

@@ -68,9 +68,10 @@ impl ArmGraph {
     }
 }
 
-/// The deviation that the spec allows, m: moves are proven clear for whatever is within spec.
+/// The deviation that the spec allows at most, m, whatever is drawn of it: moves are proven clear for whatever is within
+/// spec.
 pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
-    scenario.spec.path.map_or(0.0, |limit| limit.max_mm * 1e-3)
+    scenario.widest_mm().map_or(0.0, |most| most * 1e-3)
 }
 
 /// What is in `known`, or else made. Nobody waits for another thread, which might be waiting for this one's work: what
@@ -167,8 +168,7 @@ fn nowhere(setup: &ArmSetup) -> String {
     let scenario = &setup.scenario;
     let home = setup.home_meets().into_iter().next().map_or(String::new(), |meets| format!("; at home {meets}"));
     let clearance = scenario.generate.moves.clearance_mm;
-    let beside =
-        scenario.spec.path.map_or(String::new(), |limit| format!(" and the {} mm of spec.path.max_mm", limit.max_mm));
+    let beside = scenario.widest_mm().map_or(String::new(), |most| format!(" and the {most} mm of spec.path.max_mm"));
     format!(
         "no point can be drawn: of {DRAWS} places within reach the arm can stand at none, and come to it from home, with \
          generate.moves.clearance_mm = {clearance}{beside} kept from all that is in the cell{home}"

@@ -13,6 +13,25 @@ use crate::campaign::scenario::ArmMode;
 use crate::robot::arm::{AXES, Joints};
 use crate::trajectory::program::{JointTarget, Motion, Move, PoseTarget, Program, WorkObject};
 
+/// Whether a module would have the controller's own `wobj0` for it, which is its world whatever stands here.
+pub(super) fn is_wobj0(object: &WorkObject) -> bool {
+    !object.declare && object.name.eq_ignore_ascii_case("wobj0")
+}
+
+/// `target` as seen from the world that its object stands in.
+pub(super) fn moved(world_from_object: &Isometry3<f64>, target: &mut PoseTarget) {
+    // A frame that came back to where it was is off by rounding, which is to change nothing.
+    let (shift, turn) = (world_from_object.translation.vector.norm(), world_from_object.rotation.vector().norm());
+    if shift > 1e-9 || turn > 1e-9 {
+        target.pose = world_from_object * target.pose;
+    }
+}
+
+/// An object whose targets count from the world.
+pub(super) fn as_the_world(object: &mut WorkObject) {
+    (object.user, object.object) = (Isometry3::identity(), Isometry3::identity());
+}
+
 /// Angles that are nearer than this on every axis are one posture, rad.
 const SAME: f64 = 1e-3;
 
@@ -50,6 +69,28 @@ impl ArmSetup {
             handed.moves.iter_mut().for_each(|one| self.without_configurations(program, one));
         }
         handed.work_objects.iter_mut().for_each(|object| self.in_world(object));
+        handed
+    }
+
+    /// `program`, whose work objects are as [`Self::for_controller`] leaves them, for a language that says no frame of
+    /// `wobj0`: targets that are met in it count from what a controller has under that name, its world.
+    ///
+    /// world_from_tcp = world_from_wobj0 · wobj0_from_tcp, and `wobj0` is the world then.
+    pub fn in_wobj0(&self, program: &Program) -> Program {
+        let mut handed = program.clone();
+        for one in &mut handed.moves {
+            let object = &program.work_objects[one.work_object];
+            if is_wobj0(object) {
+                let world_from_object = object.base_from_object();
+                let poses: Vec<&mut PoseTarget> = match &mut one.motion {
+                    Motion::Joint(to) | Motion::Linear(to) => vec![to],
+                    Motion::Circular { via, to } => vec![via, to],
+                    Motion::AbsoluteJoint(_) => Vec::new(),
+                };
+                poses.into_iter().for_each(|target| moved(&world_from_object, target));
+            }
+        }
+        handed.work_objects.iter_mut().filter(|object| is_wobj0(object)).for_each(as_the_world);
         handed
     }
 
@@ -149,6 +190,7 @@ mod tests {
     use std::f64::consts::PI;
     use std::sync::Arc;
 
+    use nalgebra::Vector3;
     use serde_json::{Value, json};
 
     use super::*;
@@ -265,6 +307,40 @@ mod tests {
         let arm: &ArmSetup = setup.own().unwrap();
         let flange = arm.station.flange(&arm.station.points[0].pose);
         assert!(by_angles(arm, &arm.station.arm.inverse(&flange, &arm.station.home)[0]));
+    }
+
+    /// A controller's own `wobj0` is its base, wherever the arm's file has that: a module says no frame of it.
+    #[test]
+    fn targets_in_wobj0_count_from_the_controllers_base() {
+        let setup = before();
+        let mut arm: ArmSetup = setup.own::<ArmSetup>().unwrap().clone();
+        let mut station = Station::clone(&arm.station);
+        let controller_from_base = Isometry3::new(Vector3::new(0.1, -0.2, 0.05), Vector3::new(0.0, 0.0, PI)).inverse();
+        station.arm.base_from_controller = controller_from_base.inverse();
+        let pose = station.points[0].pose;
+        arm.station = Arc::new(station);
+        let met = |row| Met {
+            row,
+            configuration: None,
+            speed: Speed::predefined("v200").unwrap(),
+            zone: Zone::stop(),
+            passed: false,
+        };
+        let program = arm.program(&[met(0)], 0, |_, _| false);
+        let handed = arm.in_wobj0(&arm.for_controller(&program));
+        assert_eq!((handed.work_objects[0].user, &handed.work_objects[0].name[..]), (Isometry3::identity(), "wobj0"));
+        let target = |program: &Program| program.moves[1].motion.poses().next().unwrap().pose;
+        let expected = controller_from_base * pose;
+        let off = expected.inverse() * target(&handed);
+        assert!(off.translation.vector.norm() < 1e-12 && off.rotation.angle() < 1e-7, "{off}");
+        // As a frame that is declared in a module says it.
+        let declared = arm.for_controller(&program);
+        let off = declared.work_objects[0].base_from_object() * target(&declared) * target(&handed).inverse();
+        assert!(off.translation.vector.norm() < 1e-12, "{off}");
+        // Where both bases are one nothing changes, not the sign of a zero either.
+        let arm: &ArmSetup = setup.own().unwrap();
+        let program = arm.program(&[met(0)], 0, |_, _| false);
+        assert_eq!(arm.in_wobj0(&arm.for_controller(&program)), arm.for_controller(&program));
     }
 
     #[test]

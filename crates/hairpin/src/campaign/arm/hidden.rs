@@ -43,7 +43,10 @@ impl ArmSetup {
             between: &between,
             estimated: arm.estimated.iter().map(String::as_str).find(|key| *key == ACCELERATIONS),
         };
-        unseen(programmed, recording, settings, &hidden, measured).ok()
+        let mut unseen = unseen(programmed, recording, settings, &hidden, measured).ok()?;
+        // What is open for the samples that are there is graver than what may be between them.
+        unseen.open = self.other_posture(programmed, &measured.legs, recording).or(unseen.open);
+        Some(unseen)
     }
 }
 
@@ -121,7 +124,7 @@ impl<'a> Log<'a> {
 ///
 /// One row of six angles (rad) a sample; `None` where a channel is missing. They are the log's own and are not held
 /// against its poses.
-fn recorded(recording: &Track) -> Option<Vec<Joints>> {
+pub(super) fn recorded(recording: &Track) -> Option<Vec<Joints>> {
     let channels: Vec<&[f64]> =
         (1..=AXES).map(|k| recording.channel(&format!("q{k}_rad"))).collect::<Option<Vec<_>>>()?;
     Some((0..recording.len()).map(|i| std::array::from_fn(|k| channels[k][i])).collect())

@@ -44,7 +44,7 @@ impl Programs for ArmSetup {
     }
 
     fn programmed(&self, case: &Case) -> Option<PlannedPath> {
-        self.planned_path(case).ok()
+        Some(self.with_postures(case, self.planned_path(case).ok()?))
     }
 
     fn measured(&self, programmed: &PlannedPath, recording: &Track, reference: Option<&Track>) -> Option<Measured> {

@@ -64,6 +64,7 @@ pub(super) fn stage_of(refusal: &Refusal, names: &[String]) -> (Stage, String) {
         Refusal::UnknownConfiguration { .. } => (Stage::Limits, "a configuration that is not known".into()),
         Refusal::NoSuchConfiguration { .. } => (Stage::Limits, "no posture in the demanded configuration".into()),
         Refusal::NoArc(_) | Refusal::Turned { .. } => (Stage::Limits, "no arc".into()),
+        Refusal::TooQuick { axis, .. } => (Stage::Limits, format!("speed of axis {}", axis + 1)),
         Refusal::OtherBranch { .. } => (Stage::Limits, "another configuration than most points".into()),
     }
 }

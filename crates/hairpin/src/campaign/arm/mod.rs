@@ -43,6 +43,7 @@ mod moves;
 mod obstructions;
 mod plan;
 mod points;
+mod posture;
 mod program;
 mod recorded;
 mod regression;

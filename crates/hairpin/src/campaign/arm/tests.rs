@@ -573,6 +573,46 @@ fn what_runs_do_not_read_is_not_drawn() {
     }
 }
 
+/// What only a program's text has, and an axis at which nothing is wrong, no run reads.
+#[test]
+fn what_no_run_reads_is_drawn_of_no_arm() {
+    let of = |vary: Value| changed(&[("vary", vary)]).map(|setup| setup.passed_over().len());
+    let axis = json!({ "choice": [1, 6] });
+    let play = json!({ "uniform": [0.0, 2.0] });
+    for (vary, words) in [
+        (json!({ "robot.joints.j23_coupled": { "choice": [true, false] } }), "it is how controllers tell programs"),
+        (json!({ "execute.faults.axis": axis }), "neither execute.faults.backlash_deg nor execute.faults.slower"),
+    ] {
+        let told = of(vary).unwrap_err();
+        assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
+    }
+    assert_eq!(of(json!({ "execute.faults.axis": axis, "execute.faults.backlash_deg": play })), Ok(0));
+    let told = of(json!({ "execute.faults.backlash_deg": play })).unwrap_err();
+    assert!(told[0].contains("execute.faults.axis = not given"), "{told:?}");
+    let alone = setup(&[("execute.faults", json!({ "axis": 2 }))]).passed_over();
+    assert!(alone.len() == 1 && alone[0].key == "execute.faults.axis" && alone[0].value == "2", "{alone:?}");
+    assert!(setup(&[("execute.faults", json!({ "axis": 2, "slower": 0.5 }))]).passed_over().is_empty());
+}
+
+/// A limit that is drawn lets runs be as far off as its largest draw.
+#[test]
+fn moves_are_proven_clear_for_the_widest_limit_that_is_drawn() {
+    let within = |key: &str, drawn: Value| setup(&[("vary", json!({ (key): drawn }))]).scenario.clear_within_mm();
+    assert_eq!(setup(&[]).scenario.clear_within_mm(), Some(15.0));
+    for (key, drawn, most) in [
+        ("spec.path.max_mm", json!({ "uniform": [10.0, 30.0] }), 30.0),
+        ("spec.path.max_mm", json!({ "uniform": [5.0, 8.0] }), 15.0),
+        ("spec.path.max_mm", json!({ "normal": [20.0, 1.0] }), 26.0),
+        ("spec.path.max_mm", json!({ "choice": [15.0, 40.0] }), 40.0),
+        ("spec.path", json!({ "choice": [{ "max_mm": 45.0 }] }), 45.0),
+    ] {
+        assert_eq!(within(key, drawn.clone()), Some(most), "{key}: {drawn}");
+    }
+    let drawn = setup(&[("vary", json!({ "spec.path.max_mm": { "uniform": [10.0, 30.0] } }))]);
+    let arm: &ArmSetup = drawn.own().unwrap();
+    assert!((super::graph::allowed(&arm.scenario) - 0.03).abs() < 1e-15);
+}
+
 #[test]
 fn keys_of_the_search_for_the_worst_have_bounds() {
     let asked = setup(&[("generate.search.target", json!("lateness"))]).scenario.search();

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::campaign::scenario::{Distribution, KeyPath, Mistake, Scenario, shapes_the_plan, zip};
-use crate::campaign::vary::{Tree, apply};
+use crate::campaign::vary::{Tree, apply, is_same};
 
 /// Keys that say what the campaign is, not what happens in a case.
 ///
@@ -59,7 +59,8 @@ const LEAST_SHARE: f64 = 0.01;
 /// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was
 /// drawn.
 ///
-/// Each key is tried alone, the others nominal: two that are fine by themselves may make a scenario that is not.
+/// Each key is tried alone, the others nominal, and with another one that is drawn where only that is wrong then: two that
+/// are fine by themselves may make a scenario that is not.
 ///
 /// Costs two builds a key, or as many as it has choices.
 ///
@@ -122,11 +123,25 @@ fn check_entry(
         Ok(ends) => ends,
         Err((value, bound)) => return refuse(value, bound),
     };
+    // What is drawn for a run is not what was searched: a model's legs are those of the nominal robot.
+    let of_search = |mistake: &Mistake| !shapes_the_plan(key) && mistake.key.starts_with(scenario.score_key());
+    let wrong = |draws: &[(String, Value)]| -> Result<Option<Mistake>, Mistake> {
+        Ok(built(&apply(scenario, draws)?).into_iter().find(|mistake| !of_search(mistake)))
+    };
     for end in ends {
-        let drawn = apply(scenario, &[(key.to_owned(), end.clone())])?;
-        // What is drawn for a run is not what was searched: a model's legs are those of the nominal robot.
-        let of_search = |mistake: &Mistake| !shapes_the_plan(key) && mistake.key.starts_with(scenario.score_key());
-        if let Some(first) = built(&drawn).into_iter().find(|mistake| !of_search(mistake)) {
+        let own = (key.to_owned(), end.clone());
+        let Some(first) = wrong(std::slice::from_ref(&own))? else { continue };
+        // What is wrong beside it may be drawn too: the axis of a fault, which has none where there is no fault.
+        let beside = scenario.vary().iter().find(|(other, _)| *other != key && is_same(other, &first.key));
+        let others = beside.and_then(|(other, drawn)| {
+            let others = self::ends(drawn, nominal.get(&KeyPath::parse(other)?)).ok()?;
+            Some(others.into_iter().map(|value| (other.to_owned(), value)).collect::<Vec<_>>())
+        });
+        let mut is_fine = others.is_some();
+        for other in others.into_iter().flatten() {
+            is_fine &= wrong(&[own.clone(), other])?.is_none();
+        }
+        if !is_fine {
             return refuse(end.to_string(), format!("within bounds: {first}"));
         }
     }

@@ -44,6 +44,17 @@ pub(in crate::campaign) fn runs(given: Option<u64>, vary: &BTreeMap<String, Dist
 }
 
 impl Distribution {
+    /// The largest that may be drawn of a key of one number, or of the number `within` of what may be chosen.
+    pub(in crate::campaign) fn largest(&self, within: &str) -> Option<f64> {
+        let number = |value: &Value| value.as_f64().or_else(|| value.get(within)?.as_f64());
+        match (&self.uniform, &self.normal, &self.choice) {
+            (Some([_, high]), ..) => number(high),
+            (_, Some([mean, deviation]), _) => Some(self.interval(number(mean)?, number(deviation)?).1),
+            (_, _, Some(choice)) => choice.iter().filter_map(number).reduce(f64::max),
+            (None, None, None) => None,
+        }
+    }
+
     /// Where draws of `normal` with this mean and deviation lie: within `min` and `max`, and six deviations.
     pub(crate) fn interval(&self, mean: f64, deviation: f64) -> (f64, f64) {
         let low = self.min.unwrap_or(f64::NEG_INFINITY).max(mean - WIDEST_SIGMA * deviation);

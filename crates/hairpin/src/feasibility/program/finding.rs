@@ -82,6 +82,7 @@ impl Finding {
         let word = match self.refusal.kind() {
             _ if self.open => "INCONCLUSIVE",
             "collision" => "COLLISION",
+            "duration" => "NOT EXECUTABLE",
             _ => "UNREACHABLE",
         };
         format!("{line}{word} {from}→{to}: {}", self.reason(parts))

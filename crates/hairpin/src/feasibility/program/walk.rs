@@ -35,6 +35,8 @@ pub struct Surroundings<'a> {
     pub clearance: f64,
 }
 
+/// So much faster than its largest speed an axis may be asked to turn, as a share of it: rated speeds are no walls.
+const FASTER: f64 = 0.1;
 /// Findings for which another configuration is looked for; beyond, a program has other worries.
 const MOST_REMEDIES: usize = 50;
 
@@ -119,6 +121,29 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn step(&mut self, index: usize, m: &Move) {
+        let (before, found) = (self.at, self.checked.findings.len());
+        self.go(index, m);
+        // What cannot be done at all is not done in time either.
+        if let (Some(from), Some(to), true) = (before, self.at, found == self.checked.findings.len()) {
+            self.hurry(index, m, &from, &to);
+        }
+    }
+
+    /// Looks at whether the axes can turn from `from` to `to` in the time that the move is to take: none does by its mean
+    /// speed, ramps left out, what none does.
+    fn hurry(&mut self, index: usize, m: &Move, from: &Joints, to: &Joints) {
+        let Some(seconds) = m.duration.filter(|seconds| *seconds > 0.0) else { return };
+        let share = |axis: usize| (to[axis] - from[axis]).abs() / seconds / self.arm.limits[axis].speed;
+        let Some(axis) = (0..AXES).reduce(|most, axis| if share(axis) > share(most) { axis } else { most }) else {
+            return;
+        };
+        if share(axis) > 1.0 + FASTER {
+            let (turn, speed) = ((to[axis] - from[axis]).abs(), self.arm.limits[axis].speed);
+            self.record(index, m, Refusal::TooQuick { axis, turn, seconds, speed }, None, None);
+        }
+    }
+
+    fn go(&mut self, index: usize, m: &Move) {
         *(if self.at.is_some() { &mut self.checked.followed } else { &mut self.checked.ends_only }) += 1;
         let tcp = &self.program.tools[m.tool].tcp;
         match (&m.motion, self.at) {

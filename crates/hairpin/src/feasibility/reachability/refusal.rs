@@ -114,6 +114,17 @@ pub enum Refusal {
         /// \[cf1, cf4, cf6, cfx\] of the target.
         demanded: [i32; 4],
     },
+    /// In the time that the move is to take an axis would have to be faster than it can.
+    TooQuick {
+        /// From 0.
+        axis: usize,
+        /// How far it turns, rad.
+        turn: f64,
+        /// What the move is to take, s.
+        seconds: f64,
+        /// The axis' largest speed, rad/s.
+        speed: f64,
+    },
 }
 
 impl Refusal {
@@ -154,14 +165,15 @@ impl Refusal {
             | Self::Turned { .. }
             | Self::NoSuchConfiguration { .. }
             | Self::ArrivesOtherwise { .. }
-            | Self::UnknownConfiguration { .. } => {}
+            | Self::UnknownConfiguration { .. }
+            | Self::TooQuick { .. } => {}
         }
         self
     }
 
     /// Its name, for machines.
     ///
-    /// `collision`, `reach`, `limit`, `singularity`, `arc` or `configuration`.
+    /// `collision`, `reach`, `limit`, `singularity`, `arc`, `configuration` or `duration`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::ToolMeets { .. } | Self::Collides { .. } | Self::SelfCollides { .. } => "collision",
@@ -174,6 +186,7 @@ impl Refusal {
             | Self::NoSuchConfiguration { .. }
             | Self::ArrivesOtherwise { .. }
             | Self::UnknownConfiguration { .. } => "configuration",
+            Self::TooQuick { .. } => "duration",
         }
     }
 
@@ -254,6 +267,15 @@ impl fmt::Display for InWords<'_> {
                 }
                 let decimals = that_differ(value, least, 3..=9);
                 write!(f, "{of} singularity: {measure} {value:.decimals$} < {least:.decimals$} {at}")
+            }
+            Refusal::TooQuick { axis, turn, seconds, speed } => {
+                let [turn, mean, speed] = [turn, turn / seconds, speed].map(f64::to_degrees);
+                write!(
+                    f,
+                    "in the {seconds} s that it is to take axis {} turns by {turn:.1}°, {mean:.0}°/s: its largest speed is \
+                     {speed:.0}°/s",
+                    axis + 1
+                )
             }
             Refusal::Collides { link, part: index, at, undecided } => {
                 let verb = if undecided { not_proven } else { meets };

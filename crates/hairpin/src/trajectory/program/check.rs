@@ -148,8 +148,9 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Speed of the tool's centre point, m/s; infinite: as fast as the arm can.
-    pub const SPEED: Self = Self::above("a number, more than 0 m/s", f64::INFINITY);
+    /// Speed of the tool's centre point, m/s, where it is not as fast as the arm can: no arm's tool is faster, and mm/s
+    /// for m/s, or one digit too many, are the usual slips.
+    pub const SPEED: Self = Self::above("a number, more than 0 m/s and at most 20 m/s, or vmax", 20.0);
     /// The same in KRL, where more is an error at the statement, and mm/s are the usual slip. (KRC 4, `$VEL.CP`.)
     pub const KRL_SPEED: Self = Self::above("more than 0 m/s and at most 3 m/s", 3.0);
     /// The same in URScript: the most that safety settings can allow. (UR, general limits.)
@@ -270,7 +271,7 @@ impl Check<'_> {
             }
         };
         let (speed, zone) = (&self.m.speed, &self.m.zone);
-        hold(Bound::SPEED.holds(speed.tcp), "tcp speed", speed.tcp, Bound::SPEED.words);
+        hold(speed.tcp == f64::INFINITY || Bound::SPEED.holds(speed.tcp), "tcp speed", speed.tcp, Bound::SPEED.words);
         for (field, value) in [
             ("orientation speed", speed.orientation),
             ("speed of linear external axes", speed.linear_external),

@@ -130,8 +130,12 @@ fn numbers_that_are_none_are_found() {
     let good = || program(vec![Motion::Linear(target(1.0, 2.0).named("p1"))]);
     assert!(good().checked().is_ok());
     type Change<'a> = (&'a dyn Fn(&mut Program), &'static str);
-    let changes: [Change<'_>; 8] = [
+    let changes: [Change<'_>; 9] = [
         (&|p| p.moves[0].speed.tcp = 0.0, "tcp speed = 0: must be a number, more than 0 m/s"),
+        (
+            &|p| p.moves[0].speed.tcp = 90.0,
+            "tcp speed = 90: must be a number, more than 0 m/s and at most 20 m/s, or vmax",
+        ),
         (&|p| p.moves[0].speed.tcp = f64::NAN, "move 0 (to p1): tcp speed = NaN"),
         (&|p| p.moves[0].speed.orientation = -1.0, "orientation speed = -1"),
         (&|p| p.moves[0].duration = Some(0.0), "duration = 0"),

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use super::{ArmControllerKind, ArmScenario, CostSection, PointsFrame, PointsSource, ProgramMethod};
 use crate::campaign::bounds;
 use crate::campaign::scenario::{
-    ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, Keys, Named, NamedMesh, Patience,
-    Steering, Subject, TIMEOUT_S, Terms, UserSteering, runs, sections,
+    ARM_MOVES, BASELINE, DeviationFrom, Distribution, Environment, Executor, Head, KeyPath, Keys, Named, NamedMesh,
+    Patience, Steering, Subject, TIMEOUT_S, Terms, UserSteering, runs, sections,
 };
 use crate::judgement::Limits;
 use crate::trajectory::program::{Tool, WorkObject};
@@ -137,8 +137,21 @@ impl Keys for ArmScenario {
 
     /// Moves are proven clear with what the spec allows beside them, and without a limit as they are planned.
     fn clear_within_mm(&self) -> Option<f64> {
-        Some(self.spec.path.map_or(0.0, |limit| limit.max_mm))
+        Some(self.widest_mm().unwrap_or(0.0))
     }
 
     sections!(hairpin, robot, seed, world, task, generate, execute, vary, spec);
+}
+
+impl ArmScenario {
+    /// How far off its path (mm) the limit lets a run be at most, as it is given or drawn; `None` without a limit.
+    ///
+    /// Moves are searched once, and proven for the widest of the limits that runs are held to.
+    pub(in crate::campaign) fn widest_mm(&self) -> Option<f64> {
+        let drawn = self.vary.iter().filter_map(|(key, drawn)| {
+            let is_of_path = matches!(&KeyPath::parse(key)?.to_string()[..], "spec.path" | "spec.path.max_mm");
+            is_of_path.then(|| drawn.largest("max_mm")).flatten()
+        });
+        self.spec.path.map(|limit| limit.max_mm).into_iter().chain(drawn).reduce(f64::max)
+    }
 }
