@@ -29,7 +29,7 @@ pub(super) fn read_mcap(bytes: &[u8]) -> Result<Logged, Fault> {
 
 #[derive(Debug)]
 enum Channel {
-    Read(Topic),
+    Read(Box<Topic>),
     /// Of another kind, or in another encoding: its name and what it is.
     Other(String),
 }
@@ -50,7 +50,7 @@ impl Bag {
             Record::Channel { id, schema, topic, encoding } if !self.channels.contains_key(&id) => {
                 let name = self.schemas.get(&schema).map_or("of no schema", String::as_str);
                 let channel = match Kind::of(name) {
-                    Some(kind) if encoding == "cdr" => Channel::Read(Topic::of(topic, kind)),
+                    Some(kind) if encoding == "cdr" => Channel::Read(Box::new(Topic::of(topic, kind))),
                     _ => Channel::Other(format!("{topic} ({name}, {encoding})")),
                 };
                 self.channels.insert(id, channel);
@@ -72,7 +72,7 @@ impl Bag {
         let (mut topics, mut others) = (Vec::new(), Vec::new());
         for channel in self.channels.into_values() {
             match channel {
-                Channel::Read(topic) => topics.push(topic),
+                Channel::Read(topic) => topics.push(*topic),
                 Channel::Other(told) => others.push(told),
             }
         }
