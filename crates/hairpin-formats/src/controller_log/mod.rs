@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::bounds::SHORTEST_STEP_S;
-use hairpin::math::rotation::{quaternion_from_euler, unit_quaternion};
+use hairpin::math::rotation::{quaternion_from_euler, rotation_vector, unit_quaternion};
 use hairpin::robot::arm::{AXES, Arm, Joints};
 use hairpin::trajectory::{Channel, Track, TrackError};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -393,7 +393,7 @@ impl Rows<'_> {
         let is_turned = !matches!(layout.turn, Turn::Unknown);
         let put: Vec<Isometry3<f64>> = self.joints.iter().map(|joints| pose(joints, arm)).collect();
         let apart = |a: &Isometry3<f64>, b: &Isometry3<f64>| {
-            let turned = if is_turned { a.rotation.angle_to(&b.rotation) } else { 0.0 };
+            let turned = if is_turned { rotation_vector(&(a.rotation.inverse() * b.rotation)).norm() } else { 0.0 };
             [(a.translation.vector - b.translation.vector).norm(), turned]
         };
         // By the joints and by the places: one of both may stand still.

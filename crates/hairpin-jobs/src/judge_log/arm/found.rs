@@ -33,6 +33,8 @@ pub struct FoundProgram {
     pub source: SourceTold,
     /// Its joints by name; `None` where it has none.
     pub joints: Option<JointsTold>,
+    /// Whether its program was proven clear in one posture.
+    pub in_one_posture: bool,
     /// When the program is taken to begin, s of the log.
     pub begins_s: f64,
     /// Where it ends before its program does.

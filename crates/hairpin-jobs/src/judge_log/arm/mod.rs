@@ -18,6 +18,7 @@ mod tests;
 use std::path::Path;
 
 use hairpin::campaign::arm::ArmSetup;
+use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Case, Run, Setup, judge_runs};
 use hairpin::judgement::moves::MoveMeasures;
 use hairpin::trajectory::Track;
@@ -95,6 +96,7 @@ impl<'a> Programs<'a> {
             matched,
             source: read.source,
             joints: read.joints,
+            in_one_posture: self.arm.scenario.generate.mode == ArmMode::Joint,
             begins_s: read.begins_s,
             short,
             to_s: read.to_s,

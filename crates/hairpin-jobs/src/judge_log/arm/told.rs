@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use hairpin::campaign::arm::ArmSetup;
-use hairpin::campaign::scenario::ArmMode;
 use hairpin::campaign::{Setup, Status};
 use hairpin::judgement::moves::offset_told;
 use hairpin::judgement::{Measures, Verdict, Violation, inconclusive, unjudged, violated, within_spec};
@@ -49,7 +47,7 @@ fn verdict(found: &FoundProgram, how: &[&str], setup: &Setup) -> (Outcome, Verdi
     let why = || result.message.as_deref().map_or("it cannot be measured", |why| why.trim_start_matches("run 0: "));
     match (result.status, worst) {
         (Status::Pass, Some(worst)) => {
-            let sentence = [Some(worst), found.unshown(setup)].into_iter().flatten().collect::<Vec<_>>().join("; ");
+            let sentence = [Some(worst), found.unshown()].into_iter().flatten().collect::<Vec<_>>().join("; ");
             (Outcome::Pass, within_spec(case, how, &with(sentence)))
         }
         (Status::Unjudged, Some(worst)) => {
@@ -100,9 +98,8 @@ impl FoundProgram {
     }
 
     /// What a log of poses alone does not show of a program that was proven clear in one posture.
-    fn unshown(&self, setup: &Setup) -> Option<String> {
-        let mode = setup.own::<ArmSetup>()?.scenario.generate.mode;
-        (self.joints.is_none() && mode == ArmMode::Joint).then(|| UNSHOWN.to_owned())
+    fn unshown(&self) -> Option<String> {
+        (self.joints.is_none() && self.in_one_posture).then(|| UNSHOWN.to_owned())
     }
 
     /// What is told before the sentence, label and value.

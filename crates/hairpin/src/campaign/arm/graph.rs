@@ -68,8 +68,8 @@ impl ArmGraph {
     }
 }
 
-/// The deviation that the spec allows at most, m, whatever is drawn of it: moves are proven clear for whatever is within
-/// spec.
+/// The deviation that the spec allows at most, m, whatever is drawn of it: moves are proven clear for whatever is
+/// within spec.
 pub(super) fn allowed(scenario: &ArmScenario) -> f64 {
     scenario.widest_mm().map_or(0.0, |most| most * 1e-3)
 }

@@ -5,8 +5,8 @@
 //! far(q) = min over the program's postures on the moves about q of max_k |q_k − program_k|        open where far > 20°
 //! ```
 //!
-//! Times are not compared: lag, a late start and a slow arm leave a robot in postures of its program. Twenty degrees are
-//! far more than tracking errors make of a joint, near a stretched wrist as well, and far less than another elbow,
+//! Times are not compared: lag, a late start and a slow arm leave a robot in postures of its program. Twenty degrees
+//! are far more than tracking errors make of a joint, near a stretched wrist as well, and far less than another elbow,
 //! another wrist or a turn.
 
 use std::ops::Range;

@@ -59,8 +59,8 @@ const LEAST_SHARE: f64 = 0.01;
 /// All mistakes of `[vary]` in a scenario whose nominal values have none; `built` gives those of a scenario that was
 /// drawn.
 ///
-/// Each key is tried alone, the others nominal, and with another one that is drawn where only that is wrong then: two that
-/// are fine by themselves may make a scenario that is not.
+/// Each key is tried alone, the others nominal, and with another one that is drawn where only that is wrong then: two
+/// that are fine by themselves may make a scenario that is not.
 ///
 /// Costs two builds a key, or as many as it has choices.
 ///
