@@ -129,8 +129,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Looks at whether the axes can turn from `from` to `to` in the time that the move is to take, by mean speeds: ramps,
-    /// which take longer, are left out.
+    /// Looks at whether the axes can turn from `from` to `to` in the time that the move is to take, by mean speeds:
+    /// ramps, which take longer, are left out.
     fn hurry(&mut self, index: usize, m: &Move, from: &Joints, to: &Joints) {
         let Some(seconds) = m.duration.filter(|seconds| *seconds > 0.0) else { return };
         let share = |axis: usize| (to[axis] - from[axis]).abs() / seconds / self.arm.limits[axis].speed;
