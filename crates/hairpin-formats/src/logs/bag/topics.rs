@@ -309,10 +309,14 @@ impl Topic {
     }
 }
 
+/// The first stamp of a clock that begins at 0, as a simulation's does, is no farther from the next one than this many
+/// times what others are from one another, or than this, s.
+const BEGINS: (f64, f64) = (2.0, 1.0);
+
 /// Leaves out the rows whose header has no stamp among others that have one: they are of an unknown moment, not of the
 /// year 1970. Tells how many they were, and gives what is wrong where that is half of them or more.
 fn without_stamps<T>(name: &str, clock: Clock, rows: &mut Vec<(f64, T)>, notes: &mut Vec<String>) -> Option<String> {
-    if clock != Clock::Header {
+    if clock != Clock::Header || begins_at_zero(rows) {
         return None;
     }
     let all = rows.len();
@@ -328,6 +332,14 @@ fn without_stamps<T>(name: &str, clock: Clock, rows: &mut Vec<(f64, T)>, notes: 
         None => format!("{name}: {told} and are left out"),
     });
     why
+}
+
+/// Whether stamps of 0 are moments: of the first rows alone, with the next stamp not far behind.
+fn begins_at_zero<T>(rows: &[(f64, T)]) -> bool {
+    let times = || rows.iter().map(|(t_s, _)| *t_s).skip_while(|t_s| *t_s == 0.0);
+    let gaps = times().zip(times().skip(1)).map(|(one, other)| (other - one).abs());
+    let near = gaps.fold(BEGINS.1, |most, gap| most.max(BEGINS.0 * gap));
+    times().next().is_some_and(|first| first <= near) && times().all(|t_s| t_s != 0.0)
 }
 
 /// The joint that is farthest from itself in two rows of the same joints, and how far, rad.

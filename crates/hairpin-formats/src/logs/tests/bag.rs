@@ -99,25 +99,26 @@ fn messages_that_name_a_joint_twice_are_not_read() {
 /// A message without a stamp is of an unknown moment, not of the year 1970.
 #[test]
 fn messages_without_a_stamp_among_others_are_left_out() {
+    const BEGUN: u32 = 1_700_000_000;
     let joints = |t: u32, q: f64| {
         let head = Cdr::new(true).header(if q < 0.0 { 0 } else { t }, 0, "").u32(1).text("q_a");
         head.u32(1).numbers(&[q.abs()]).u32(0).u32(0).bytes()
     };
     let place = |t: u32, x: f64| pose(if x < 0.0 { 0 } else { t }, "map", x.abs());
-    let read = |without: &[u32]| {
+    let read = |begun: u32, without: &[u32]| {
         let one = |t: u32| {
             let q = if without.contains(&t) { -1.0 } else { 1.0 } * f64::from(t);
-            let at = u64::from(t) * 1_000_000_000;
+            let at = u64::from(begun + t) * 1_000_000_000;
             [
-                ("/j", "sensor_msgs/msg/JointState", at, joints(t, q)),
-                ("/a", "geometry_msgs/msg/PoseStamped", at, place(t, q)),
+                ("/j", "sensor_msgs/msg/JointState", at, joints(begun + t, q)),
+                ("/a", "geometry_msgs/msg/PoseStamped", at, place(begun + t, q)),
             ]
         };
         parse(&bag(&(1..=6).flat_map(one).collect::<Vec<_>>(), None), "a.mcap").unwrap()
     };
     for without in [&[1][..], &[3, 4], &[6]] {
-        let found = read(without);
-        let kept: Vec<f64> = (1..=6).filter(|t| !without.contains(t)).map(f64::from).collect();
+        let found = read(BEGUN, without);
+        let kept: Vec<f64> = (1..=6).filter(|t| !without.contains(t)).map(|t| f64::from(BEGUN + t)).collect();
         let (motion, joints) = (&found.motions[0], &found.joints[0]);
         assert_eq!(motion.samples.iter().map(|sample| sample.t_s).collect::<Vec<_>>(), kept, "{without:?}");
         assert_eq!((&joints.times_s, &motion.unfit, &joints.unfit), (&kept, &None, &None), "{without:?}");
@@ -129,10 +130,16 @@ fn messages_without_a_stamp_among_others_are_left_out() {
         }
     }
     // Of whom most tell no time, nothing is known of when.
-    let found = read(&[2, 4, 6]);
+    let found = read(BEGUN, &[2, 4, 6]);
     let why = "3 of 6 messages have no stamp in their header: when they were nobody knows";
     let unfit = [found.motions[0].unfit.as_deref(), found.joints[0].unfit.as_deref()];
     assert_eq!(unfit, [Some(why); 2]);
+    // A simulation's clock begins at 0.
+    let found = read(0, &[1]);
+    let (motion, joints) = (&found.motions[0], &found.joints[0]);
+    let kept = [0.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    assert_eq!(motion.samples.iter().map(|sample| sample.t_s).collect::<Vec<_>>(), kept);
+    assert_eq!((&joints.times_s[..], &motion.unfit, &joints.unfit), (&kept[..], &None, &None));
 }
 
 #[test]
