@@ -135,8 +135,9 @@ fn tell(asked: &Fit, found: &Fitted, code: u8) {
     if let Some(scatter_m) = fit.scatter_m {
         let [left, scatter] = [fit.residual_m, scatter_m].map(|off| number(Some(per_m * off)));
         console::say(&format!(
-            "The fit leaves {left} {unit} (rmse), the logs' scatter from sample to sample is {scatter} {unit}: whether gusts are between \
-             them, or a vehicle, a clock or a mission that none of these numbers describes, the intervals do not tell"
+            "The fit leaves {left} {unit} (rmse), the logs' scatter from sample to sample is {scatter} {unit}: whether {}, the \
+             intervals do not tell",
+            fit.undescribed
         ));
     }
     if let Some(Confounded { direction, deviation }) = &fit.confounded {

@@ -70,6 +70,7 @@ pub(super) fn fittable(setup: &ArmSetup) -> Result<Fittable, String> {
         numbers: LAGS.into_iter().enumerate().map(lag).chain([delay]).collect(),
         outputs: &OUTPUTS,
         axes: 3,
+        undescribed: "an arm, a clock or a program is between them that none of these numbers describes",
         unit: ("mm", 1e3),
         sampling: Sampling {
             least_s: 2.0,

@@ -87,6 +87,7 @@ pub(super) fn fittable(setup: &DriveSetup) -> Result<Fittable, String> {
         numbers,
         outputs: &OUTPUTS,
         axes: 2,
+        undescribed: "a vehicle or a clock is between them that none of these numbers describes",
         unit: ("m", 1.0),
         sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 2.0, whole_legs: false, start_m: None },
         tried: TRIED,

@@ -29,7 +29,7 @@ pub struct Estimate {
     pub number: Adjustable,
     /// Nearest to the logs with all numbers free; of one without effect, as given.
     pub best: f64,
-    /// What is written: [`best`](Self::best) of all that can be told given the others as they were, or as given.
+    /// What is written: [`best`](Self::best) of one that is told, else as given.
     pub value: f64,
     /// 95 % profile interval; an end that is a bound is open.
     pub interval: Option<[f64; 2]>,
@@ -66,8 +66,8 @@ pub struct Fit {
     /// Each log counts alike, however long.
     pub residual_m: f64,
     /// How far the places of these logs scatter from sample to sample, m, root of the mean square: what noise alone
-    /// would leave. What is left beyond it is told by no interval: gusts, which they allow for, or a vehicle, a clock
-    /// or a mission that no number describes. `None` of what is not compared by its places in space.
+    /// would leave. What is left beyond it is told by no interval: [`undescribed`](Self::undescribed). `None` of logs
+    /// that are imitated, which have a bound of their own for it.
     pub scatter_m: Option<f64>,
     /// How much more a residual's sum scatters than if samples were independent: n over the effective number. Of logs
     /// that are imitated: how far their signs are off, over what chance makes them (D over its degrees of freedom).
@@ -90,6 +90,8 @@ pub struct Fit {
     /// Who steered these logs, where that is a controller that intervals were never tried with: whether they hold is
     /// not known then.
     pub untried: Option<&'static str>,
+    /// What may be between the logs' scatter and what the fit leaves.
+    pub undescribed: &'static str,
     /// Unit that gaps are told in, and so many of it in a metre.
     pub unit: (&'static str, f64),
 }

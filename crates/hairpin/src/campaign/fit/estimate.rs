@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! logs ─▶ Loops ─┬─▶ output_error ─┬─▶ Found ─▶ Fit
-//!                └─▶ imitated      ┘     └─▶ told numbers from all logs but one ─▶ gap on that one
+//!                └─▶ imitated      ┘     └─▶ the same from all logs but one ─▶ gap on that one
 //! ```
 
 use super::answer::Fit;
 use super::compare::Flown;
-use super::found::{Disturbance, Found};
+use super::found::{Disturbance, Found, written};
 use super::gap::{Gap, deviation};
 use super::simulate::Loops;
 use super::{FitError, imitated, output_error};
@@ -28,7 +28,7 @@ pub struct FitSettings {
 /// See [`FitError`].
 ///
 /// `setup` is that of the robot as given; `flown` are its logs with their missions. With nothing held out each log's
-/// `unseen` comes from a fit to all the others, of the told numbers alone: one more descent a log.
+/// `unseen` comes from a fit to all the others, of which is taken what is written of the whole: one more descent a log.
 pub fn fit(
     setup: &Setup,
     flown: &[Flown],
@@ -46,13 +46,12 @@ pub fn fit(
         Some(imitator) => imitated::found(&loops, &*imitator, &given, &fitted, stopped),
         None => output_error::found(&loops, &given, &fitted, stopped),
     }?;
-    let written = found.written.clone();
     let mut gaps: Vec<Gap> = (0..flown.len())
         .map(|at| Gap {
             log: flown[at].log.clone(),
             mission: flown[at].mission.clone(),
             before: deviation(&loops, &given, at),
-            after: deviation(&loops, &written, at),
+            after: deviation(&loops, &found.written, at),
             unseen: None,
         })
         .collect();
@@ -64,19 +63,20 @@ pub fn fit(
                 return Err(FitError::Stopped);
             }
             let others: Vec<usize> = fitted.iter().copied().filter(|other| *other != at).collect();
-            gap.unseen = refitted(&loops, &found, &others).map(|theta| deviation(&loops, &theta, at));
+            gap.unseen = refitted(&loops, &given, &found, &others).map(|theta| deviation(&loops, &theta, at));
         }
     }
     Ok(found.into_fit(&loops, &given, &fitted, gaps))
 }
 
-/// The numbers that are told, from the logs `which` alone.
-fn refitted(loops: &Loops, found: &Found, which: &[usize]) -> Option<Vec<f64>> {
+/// What would be written of the logs `which` alone.
+fn refitted(loops: &Loops, given: &[f64], found: &Found, which: &[usize]) -> Option<Vec<f64>> {
     if found.told.is_empty() {
         return Some(found.written.clone());
     }
-    match &found.disturbance {
+    let best = match &found.disturbance {
         Disturbance::Coloured(colour) => output_error::refitted(loops, found, colour, which),
         Disturbance::Noisy(noise) => imitated::refitted(loops, found, noise, which),
-    }
+    };
+    Some(written(given, &found.told, &best?))
 }

@@ -7,7 +7,7 @@ use super::answer::{Confounded, Estimate, Fit, Reading};
 use super::gap::{Gap, scatter};
 use super::simulate::Loops;
 use super::whiten::Filter;
-use crate::campaign::kind::{Adjustable, Output};
+use crate::campaign::kind::Adjustable;
 use crate::math::output_error::Side;
 use crate::math::power::square;
 
@@ -68,8 +68,8 @@ impl Found {
         let seen: Vec<&Gap> = which.iter().map(|at| &gaps[*at]).collect();
         let residual_m = (seen.iter().map(|gap| square(gap.after.rmse_m)).sum::<f64>() / seen.len() as f64).sqrt();
         let scattered = which.iter().map(|at| square(scatter(&loops.flown[*at].track, loops.rule.axes)));
-        let by_place = loops.rule.outputs.iter().any(|(output, _)| matches!(output, Output::Position(2)));
-        let scatter_m = by_place.then(|| (scattered.sum::<f64>() / which.len() as f64).sqrt());
+        let held_to_samples = matches!(self.disturbance, Disturbance::Coloured(_));
+        let scatter_m = held_to_samples.then(|| (scattered.sum::<f64>() / which.len() as f64).sqrt());
         let keys = estimates.iter().filter(|estimate| estimate.is_told());
         let keys =
             keys.flat_map(|estimate| estimate.number.keys.iter().map(|(key, of)| (key.clone(), estimate.value * of)));
@@ -79,6 +79,7 @@ impl Found {
             spelt: loops.spelt.clone(),
             derives: loops.derives,
             unit: loops.unit,
+            undescribed: loops.undescribed,
             tried: loops.tried,
             untried: loops.untried,
             residual_m,
@@ -126,6 +127,16 @@ pub(super) fn enough(loops: &Loops, stretches: usize) -> Result<(), FitError> {
 /// Those of the numbers `free` that are told.
 pub(super) fn told(free: &[usize], readings: &[(Reading, Option<[f64; 2]>)]) -> Vec<usize> {
     free.iter().copied().filter(|own| readings[*own].0 == Reading::Told).collect()
+}
+
+/// What is written: of the numbers `told` what was found with all that acts free, of the others what was given.
+///
+/// A number that is known and not told (an open delay, say) is left out of the model, not made up for by the others:
+/// they would be drawn to the ends of their intervals, and be measurements of nothing.
+pub(super) fn written(given: &[f64], told: &[usize], best: &[f64]) -> Vec<f64> {
+    let mut written = given.to_vec();
+    told.iter().for_each(|own| written[*own] = best[*own]);
+    written
 }
 
 /// What an interval says of an estimate.

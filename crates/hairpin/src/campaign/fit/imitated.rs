@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::FitError;
 use super::answer::Reading;
-use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told};
+use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told, written};
 use super::outputs::has;
 use super::simulate::Loops;
 use crate::campaign::kind::{GroundLog, Imitator, Output};
@@ -44,8 +44,7 @@ const UNLIKE: f64 = 10.0;
 /// θ = (numbers, ln of noise)      half interval = t_{ν, 95 %} √C_kk      ν the freedom of C
 /// ```
 ///
-/// An end beyond a bound is open. Numbers that are told are fitted once more with the others as they were given, each
-/// within its interval.
+/// An end beyond a bound is open.
 ///
 /// # Errors
 /// Too few stretches, a log without headings, one in which the vehicle hardly moves, no simulation that comes to an
@@ -65,7 +64,7 @@ pub(super) fn found(
     let starts: Vec<Vec<f64>> =
         imitator.starts(&observed, given).into_iter().map(|start| [&start[..], &noise].concat()).collect();
     let signs = |theta: &[f64], draw: u64| if stopped() { None } else { signs(loops, imitator, which, theta, draw) };
-    let mut imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
+    let imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
     let over = || if stopped() { FitError::Stopped } else { FitError::Unfinished };
     let all: Vec<usize> = (0..numbers + NOISES).collect();
     let nearest = imitation.nearest(&starts, &all).ok_or_else(over)?;
@@ -91,21 +90,7 @@ pub(super) fn found(
         }
     }
     let told = told(&free, &readings);
-    let mut written = given.to_vec();
-    told.iter().for_each(|own| written[*own] = best[*own]);
-    if !told.is_empty() && told.len() < free.len() {
-        // With the others as they were given, each goes where it fits best within its interval.
-        for &own in &told {
-            if let Some([low, high]) = readings[own].1 {
-                imitation.parameters[own] = Parameter { low, high, ..imitation.parameters[own] };
-            }
-        }
-        let start = [&written[..], &best[numbers..]].concat();
-        let with_noise: Vec<usize> = told.iter().copied().chain(numbers..numbers + NOISES).collect();
-        if let Some(found) = imitation.nearest(&[start], &with_noise) {
-            written = found[..numbers].to_vec();
-        }
-    }
+    let written = written(given, &told, &best);
     if stopped() {
         return Err(FitError::Stopped);
     }
@@ -115,7 +100,7 @@ pub(super) fn found(
     Ok(Found { free, told, best, covariance, inflation: imitated.misfit, readings, written, stretches, disturbance })
 }
 
-/// The numbers that are told, from the logs `which` alone.
+/// All numbers that act, from the logs `which` alone.
 ///
 /// Noise is held as it was found. `None` where that does not come to an end.
 pub(super) fn refitted(loops: &Loops, found: &Found, noise: &[f64], which: &[usize]) -> Option<Vec<f64>> {
@@ -123,8 +108,8 @@ pub(super) fn refitted(loops: &Loops, found: &Found, noise: &[f64], which: &[usi
     let observed = observed(loops, &*imitator, which).ok()?;
     let signs = |theta: &[f64], draw: u64| signs(loops, &*imitator, which, theta, draw);
     let imitation = Imitation { signs: &signs, observed, parameters: parameters(loops) };
-    let start = [&found.written[..], noise].concat();
-    imitation.nearest(&[start], &found.told).map(|theta| theta[..found.written.len()].to_vec())
+    let start = [&found.best[..], noise].concat();
+    imitation.nearest(&[start], &found.free).map(|theta| theta[..found.best.len()].to_vec())
 }
 
 fn parameters(loops: &Loops) -> Vec<Parameter> {

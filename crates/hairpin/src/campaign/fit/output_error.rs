@@ -4,19 +4,18 @@
 //! descend from given (and from elsewhere)  ─▶ θ₀ ─▶ colour: filters of the residuals at θ₀
 //! descend on filtered residuals            ─▶ θ̂;  acting: numbers without effect on Q are left out
 //! spread by stretches                      ─▶ covariance;  profile of each number ─▶ 95 % interval ─▶ Reading
-//! descend in the numbers that are told     ─▶ what is written, the others as given
 //! ```
 //!
 //! See [`crate::math::output_error`] for Q, its descent and its profiles.
 
 use super::FitError;
 use super::answer::Reading;
-use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told};
+use super::found::{Disturbance, Found, NO_EFFECT, enough, reading, told, written};
 use super::simulate::Loops;
 use super::stretches::{colour, objective, residuals};
 use super::whiten::Filter;
 use crate::judgement::{SIGMA_95, student_quantile};
-use crate::math::output_error::{Parameter, acting, descend, profile, spread};
+use crate::math::output_error::{acting, descend, profile, spread};
 
 /// On the logs `which`.
 ///
@@ -50,7 +49,7 @@ pub(super) fn found(
     }
     let colour = colour(loops, &start.theta, which).ok_or_else(|| over(FitError::NoEffect))?;
     let white = |theta: &[f64]| if stopped() { None } else { residuals(loops, theta, which, &colour) };
-    let mut objective = objective(loops, which, &white);
+    let objective = objective(loops, which, &white);
     let best = descend(&objective, &start.theta, &all).ok_or_else(|| over(FitError::NoEffect))?;
     let free = acting(&objective, &best, &all, &|k| 0.25 * best.theta[k].abs().max(loops.numbers[k].step), NO_EFFECT);
     let spread = spread(&objective, &best, &free).ok_or_else(|| over(FitError::NoEffect))?;
@@ -65,28 +64,17 @@ pub(super) fn found(
         return Err(FitError::Stopped);
     }
     let told = told(&free, &readings);
-    let mut start = given.to_vec();
-    // With the others as they were given, each goes where it fits best within its interval.
-    for &own in &told {
-        start[own] = best.theta[own];
-        if let Some([low, high]) = readings[own].1 {
-            objective.parameters[own] = Parameter { low, high, ..objective.parameters[own] };
-        }
-    }
-    let written = match told.is_empty() {
-        true => start,
-        false => descend(&objective, &start, &told).map_or(start, |found| found.theta),
-    };
+    let written = written(given, &told, &best.theta);
     let n = free.len() as f64;
     let inflation = spread.covariance.diagonal().component_div(&spread.white.diagonal()).sum() / n;
     let (covariance, disturbance) = (spread.covariance, Disturbance::Coloured(colour));
     Ok(Found { free, told, best: best.theta, covariance, inflation, readings, written, stretches, disturbance })
 }
 
-/// The numbers that are told, from the logs `which` alone.
+/// All numbers that act, from the logs `which` alone.
 ///
 /// With the filters that were found on all logs.
 pub(super) fn refitted(loops: &Loops, found: &Found, colour: &[Filter], which: &[usize]) -> Option<Vec<f64>> {
     let residuals = |theta: &[f64]| residuals(loops, theta, which, colour);
-    descend(&objective(loops, which, &residuals), &found.written, &found.told).map(|found| found.theta)
+    descend(&objective(loops, which, &residuals), &found.best, &found.free).map(|found| found.theta)
 }

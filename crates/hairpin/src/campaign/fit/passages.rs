@@ -57,6 +57,18 @@ pub(super) fn passages(
     Ok(passed)
 }
 
+/// The least distance of a motion from a waypoint in the first `axes` of the world, m: of the lines between samples.
+pub(super) fn nearest(track: &Track, to: &Point3<f64>, axes: usize) -> f64 {
+    let plane = |way: Vector3<f64>| Vector3::from_fn(|k, _| if k < axes { way[k] } else { 0.0 });
+    let off = |i: usize| {
+        let (from, along) = (track.position(i), plane(track.position(i + 1) - track.position(i)));
+        let way = plane(to - from);
+        let share = if along.norm_squared() > 0.0 { along.dot(&way) / along.norm_squared() } else { 0.0 };
+        (way - along * share.clamp(0.0, 1.0)).norm()
+    };
+    (0..track.len().saturating_sub(1)).map(off).fold(f64::INFINITY, f64::min)
+}
+
 /// The zero of a line through points by least squares, within the time around; 0 where they do not fall.
 ///
 /// Seconds from the first sample within the radius.

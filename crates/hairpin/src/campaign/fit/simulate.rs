@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::FitError;
 use super::compare::{Compared, Flown, Rule};
+use super::passages::nearest;
 use crate::campaign::kind::{Adjustable, Fittable, Imitator, Order};
 use crate::campaign::{Case, Mistake, Setup};
 use crate::math::output_error::Parameter;
@@ -25,6 +26,8 @@ pub(super) struct Loops<'a> {
     pub(super) spelt: Vec<(String, Value)>,
     /// Whether what the robot leaves out is derived from its other numbers.
     pub(super) derives: bool,
+    /// What may be between the logs' scatter and what a fit leaves.
+    pub(super) undescribed: &'static str,
     /// Of gaps, and so many of it in a metre.
     pub(super) unit: (&'static str, f64),
     /// On whom intervals were found to hold.
@@ -37,7 +40,7 @@ impl<'a> Loops<'a> {
     pub(super) fn new(setup: &Setup, flown: &'a [Flown]) -> Result<Self, FitError> {
         let fittable = setup.kind().fittable().map_err(FitError::NotFittable)?;
         let Fittable { calm, spelt, derives, numbers, outputs, axes, unit, sampling, acceptance, .. } = fittable;
-        let Fittable { tried, untried, timed, .. } = fittable;
+        let Fittable { tried, untried, timed, undescribed, .. } = fittable;
         if flown.is_empty() {
             return Err(FitError::NoLogs);
         }
@@ -47,7 +50,7 @@ impl<'a> Loops<'a> {
         let rule = Rule { outputs, sampling, axes, acceptance, radius, timed };
         let compared = flown.iter().map(|one| Compared::of(one, &rule)).collect::<Result<_, _>>()?;
         let flown = flown.iter().collect();
-        Ok(Self { setup, numbers, flown, compared, rule, spelt, derives, unit, tried, untried })
+        Ok(Self { setup, numbers, flown, compared, rule, spelt, derives, undescribed, unit, tried, untried })
     }
 
     /// Bounds and steps of the numbers.
@@ -140,7 +143,26 @@ impl<'a> Loops<'a> {
         self.compared[at].distances(&flown.track, &track, &flown.case.waypoints, &self.rule)
     }
 
-    /// Why the first mission that is not simulated with `theta` is not.
+    /// The first waypoint that log number `at` keeps farther off than `simulated` does, where motions go by the clock
+    /// and no passage is asked for: a log of another mission would be compared as a whole, and be late everywhere.
+    ///
+    /// Twice as far as a log may begin from the first waypoint is allowed beyond what the simulation keeps off: corners
+    /// are cut by lags that are to be found.
+    fn kept_off(&self, at: usize, simulated: &Track) -> Option<FitError> {
+        if !self.rule.timed {
+            return None;
+        }
+        let Flown { log, mission, case, track } = self.flown[at];
+        let allowed = 2.0 * self.rule.sampling.start_m.unwrap_or(self.rule.radius);
+        let off = |track: &Track, to| nearest(track, to, self.rule.axes);
+        case.waypoints.iter().enumerate().skip(1).find_map(|(waypoint, to)| {
+            let (nearest, within) = (off(track, to), off(simulated, to) + allowed);
+            let kept_off = FitError::Missed { log: log.clone(), mission: mission.clone(), waypoint, nearest, within };
+            (nearest > within).then_some(kept_off)
+        })
+    }
+
+    /// Why the first mission that is not simulated with `theta` is not, or its log is none of it.
     /// `None` where all are.
     pub(super) fn refused(&self, theta: &[f64]) -> Option<FitError> {
         let told = |at: usize, why: String| FitError::Simulated { mission: self.flown[at].mission.clone(), why };
@@ -152,7 +174,10 @@ impl<'a> Loops<'a> {
             Err(why) => Some(told(at, why)),
             Ok(track) => {
                 let passed = self.compared[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
-                passed.is_none().then(|| told(at, "it misses a waypoint".into()))
+                match passed {
+                    None => Some(told(at, "it misses a waypoint".into())),
+                    Some(_) => self.kept_off(at, &track),
+                }
             }
         })
     }

@@ -81,6 +81,37 @@ fn who_steered_and_was_never_tried_is_named() {
     assert_eq!(untried(drives::scenario("differential-drive", "stanley")), Some("stanley"));
 }
 
+/// A delay is known and not told: neither the lags nor what is said of unseen logs may make up for it.
+#[test]
+fn what_is_written_was_found_and_unseen_logs_are_held_to_it() {
+    let setup = arms::scenario();
+    let truth = Truth::draw(&setup, 2, &|number, _| if number.field == "start_delay_s" { 0.08 } else { 0.05 });
+    let logs = arms::flown(&setup, &truth, 2, 3);
+    let found = fit(&setup, &logs, &FitSettings::default(), &|| false).unwrap();
+    let told: Vec<_> = found.estimates.iter().filter(|estimate| estimate.is_told()).collect();
+    assert!(told.len() >= 4);
+    for estimate in told {
+        assert_eq!(estimate.value, estimate.best);
+        assert!((estimate.value - 0.05).abs() < 0.002, "{estimate:?}");
+    }
+    for Gap { before, after, unseen, log, .. } in &found.gaps {
+        let unseen = unseen.unwrap().rmse_m;
+        assert!((unseen / after.rmse_m - 1.0).abs() < 0.1 && unseen < before.rmse_m, "{log}: {unseen} {after:?}");
+    }
+    assert!(found.residual_m > 20.0 * found.scatter_m.unwrap(), "{found:?}");
+
+    let missed = |logs: &[Flown]| match fit(&setup, logs, &FitSettings::default(), &|| false) {
+        Err(FitError::Missed { waypoint, nearest, within, .. }) => (waypoint > 0, nearest > within),
+        other => panic!("{other:?}"),
+    };
+    let mut exchanged = logs.clone();
+    (exchanged[0].track, exchanged[1].track) = (logs[1].track.clone(), logs[0].track.clone());
+    assert_eq!(missed(&exchanged), (true, true));
+    let mut frozen = logs;
+    frozen[2].track = arms::frozen(&frozen[2].track);
+    assert_eq!(missed(&frozen), (true, true));
+}
+
 #[test]
 #[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_lie_within_their_intervals"]
 fn numbers_lie_within_their_intervals() {

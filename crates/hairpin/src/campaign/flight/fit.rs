@@ -138,6 +138,7 @@ pub(super) fn fittable(setup: &FlightSetup, controller: &ControllerSettings) -> 
         numbers,
         outputs: &OUTPUTS,
         axes: 3,
+        undescribed: "gusts are between them, or a vehicle, a clock or a mission that none of these numbers describes",
         unit: ("m", 1.0),
         sampling: Sampling { least_s: 5.0, least_hz: 8.0, period: 0.1, stretch: 3.0, whole_legs: true, start_m: None },
         tried: "20 drawn quadrotors, FlightGoggles' file ± 30 %, flown by `stable-waypoint`",

@@ -86,6 +86,9 @@ pub(in crate::campaign) struct Fittable {
     pub(in crate::campaign) outputs: &'static [(Output, usize)],
     /// World axes in which the gap is told.
     pub(in crate::campaign) axes: usize,
+    /// What may be between the logs' scatter and what a fit leaves, of which the intervals do not tell: to be read
+    /// after "whether".
+    pub(in crate::campaign) undescribed: &'static str,
     /// Unit of the gap, and so many of it in a metre.
     pub(in crate::campaign) unit: (&'static str, f64),
     /// How long and how often.

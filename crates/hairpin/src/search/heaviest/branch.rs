@@ -168,7 +168,21 @@ impl<'a, R: Relaxation> Branching<'a, R> {
             let problem = open.pop()?;
             self.look(problem, &mut open);
         }
-        open.iter().map(|problem| problem.bound).filter(|bound| *bound >= self.threshold()).max()
+        open.retain(|problem| !self.is_closed(problem));
+        open.iter().map(|problem| problem.bound).max()
+    }
+
+    /// Whether a problem that was never looked at is no longer of interest, as a better path was found since; then a
+    /// leaf of the certificate says so, by the multipliers that its bound is of.
+    fn is_closed(&mut self, problem: &Open) -> bool {
+        let choices = self.ground.choices;
+        let bound = self.relaxation.solve(choices, &problem.made, &problem.multipliers, false);
+        let closed = bound.is_none_or(|bound| bound < self.threshold());
+        if closed && self.record.wanted {
+            let leaf = self.record.step(choices, &problem.multipliers, Vec::new(), Vec::new());
+            hang(&mut self.record, problem.parent, leaf);
+        }
+        closed
     }
 
     /// Looks at one problem; what is left of it goes to `open`.

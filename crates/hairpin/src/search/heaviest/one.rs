@@ -109,13 +109,14 @@ fn by_bounds(
         (true, false) => prove::<Forest<i128>>(arcs, settings, path, record, stop),
         (false, _) => prove::<Arborescence>(arcs, settings, path, record, stop),
     };
-    let proven = searched.open.is_none();
     let (best, below) = (searched.best.cost(), settings.min_cost.unwrap_or(0) - 1);
-    let bound = match searched.open {
-        None => best.max(below),
-        Some(open) => (open.min(root) / scale).max(best).max(below),
-    };
-    let proof = (proven && settings.proof && settings.programs <= 1).then(|| Proof {
+    let possible = searched.open.map(|open| open.min(root) / scale);
+    let bound = possible.unwrap_or(best).max(best).max(below);
+    let single = settings.programs <= 1;
+    // The bound may have come down to the path while something was still to be looked at: a proof, but without the tree
+    // that a certificate is of.
+    let proven = possible.is_none_or(|possible| single && !settings.proof && possible <= best);
+    let proof = (possible.is_none() && settings.proof && single).then(|| Proof {
         scale,
         directed: !arcs.symmetric(),
         steps: record.steps,

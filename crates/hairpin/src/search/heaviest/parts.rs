@@ -71,7 +71,8 @@ pub(super) fn in_parts(
     }
     let open = parts.iter().filter(|part| !part.closed).map(|part| part.bound).max();
     let bound = open.unwrap_or(below).max(best.0).max(below);
-    let found = Heaviest { nodes, ..Heaviest::found(vec![best], Some(bound), open.is_none(), method) };
+    let proven = open.is_none_or(|open| open <= best.0);
+    let found = Heaviest { nodes, ..Heaviest::found(vec![best], Some(bound), proven, method) };
     Ok(wanted(found, settings))
 }
 

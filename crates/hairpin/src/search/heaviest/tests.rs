@@ -174,6 +174,38 @@ fn a_wanted_cost_is_kept_to() {
 }
 
 #[test]
+fn a_search_cut_short_leaves_no_side_of_its_proof_open() {
+    let mut proofs = 0;
+    for seed in 0..1500 {
+        let (arcs, ends) = question(seed, 12, true);
+        let most_nodes = Some(2 + seed % 3);
+        let settings = HeaviestSettings { ends, method: Method::Branch, most_nodes, proof: true, ..Default::default() };
+        let found = heaviest(&arcs, &settings, &|| false).unwrap();
+        let Some(proof) = found.proof.filter(|proof| proof.steps.len() > 3) else { continue };
+        proofs += 1;
+        for (number, step) in proof.steps.iter().enumerate() {
+            if let Next::Branch { out, into, .. } = step.next {
+                assert!(out > number && into > number, "seed {seed}: step {number} of {:?}", (out, into));
+            }
+        }
+    }
+    assert!(proofs > 50, "{proofs}");
+}
+
+#[test]
+fn a_bound_that_is_the_cost_is_a_proof() {
+    let mut bare = 0;
+    for seed in 0..300 {
+        let (arcs, ends) = question(seed, 12, seed % 2 == 0);
+        let local = by(Method::Local, &arcs, ends);
+        let Some((cost, _)) = local.paths.first() else { continue };
+        assert_eq!(local.proven, local.bound == Some(*cost), "seed {seed}");
+        bare += u32::from(local.proven);
+    }
+    assert!(bare > 20, "{bare}");
+}
+
+#[test]
 fn who_is_stopped_tells_a_sound_bound() {
     let (arcs, _) = loop_free_instance(60);
     let most = heaviest(&arcs, &HeaviestSettings::default(), &|| false).unwrap();

@@ -64,3 +64,14 @@ pub(super) fn flown(setup: &Setup, truth: &Truth, seed: u64, count: usize) -> Ve
     };
     (0..count).map(run).collect()
 }
+
+/// The same, standing still from half of its samples on.
+pub(super) fn frozen(track: &Track) -> Track {
+    let half = track.len() / 2;
+    let poses = (0..track.len()).map(|i| track.poses()[i.min(half)]).collect();
+    let channels = track.channels().iter().map(|channel| Channel {
+        name: channel.name.clone(),
+        values: (0..track.len()).map(|i| channel.values[i.min(half)]).collect(),
+    });
+    Track::new(track.times().to_vec(), poses, channels.collect()).unwrap()
+}
