@@ -176,7 +176,7 @@ impl<'a, R: Relaxation> Branching<'a, R> {
     /// leaf of the certificate says so, by the multipliers that its bound is of.
     fn is_closed(&mut self, problem: &Open) -> bool {
         let choices = self.ground.choices;
-        let bound = self.relaxation.solve(choices, &problem.made, &problem.multipliers, false);
+        let bound = self.relaxation.solve(choices, &problem.made, &problem.multipliers, true);
         let closed = bound.is_none_or(|bound| bound < self.threshold());
         if closed && self.record.wanted {
             let leaf = self.record.step(choices, &problem.multipliers, Vec::new(), Vec::new());
