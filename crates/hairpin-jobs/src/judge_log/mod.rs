@@ -46,6 +46,7 @@ use crate::{Problem, Watch};
 use files::{Files, files_in};
 use told::name_in;
 
+pub(crate) use accuracy::resolution;
 pub use arm::{FoundProgram, JointsTold};
 pub(crate) use arm::{arm_of, ran};
 pub(crate) use asks::Asks;
