@@ -86,6 +86,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
              another",
         ));
     }
+    settings.in_bounds()?;
     if let Some((from, to)) = settings.from_s.zip(settings.to_s).filter(|(from, to)| from >= to) {
         return Err(Problem::input(format!("--from {from} --to {to}: --from must be before --to")));
     }
