@@ -103,8 +103,8 @@ fn forms_before(path: &Path) -> Vec<PathBuf> {
     form.filter(|_| is_exported(path)).map_or_else(Vec::new, |(case, before)| beside(case, before))
 }
 
-/// Whether a text file says that it is a list of mission items. One that is not there (a link may lead nowhere), or that
-/// nobody may read, could be one, and is read to be refused.
+/// Whether a text file says that it is a list of mission items. One that is not there (a link may lead nowhere), or
+/// that nobody may read, could be one, and is read to be refused.
 fn is_wpl(path: &Path) -> bool {
     use io::ErrorKind::{FileTooLarge, InvalidData, InvalidInput};
     match bounds::read_text(path, MOST_TEXT_BYTES) {

@@ -1,5 +1,5 @@
-//! Whether two logs are one recording: to the bit, or written once more with another clock, rounded, thinned out, cut or
-//! in another format.
+//! Whether two logs are one recording: to the bit, or written once more with another clock, rounded, thinned out, cut
+//! or in another format.
 //!
 //! Positions tell. Of two flights of one mission no two agree to the last digit that is told, wind and sensors see to
 //! that; of one recording they do, whatever was made of its rows and of its clock:
@@ -97,8 +97,11 @@ impl<'a> Way<'a> {
         }
         let length = moved.iter().map(|(_, far)| far).sum();
         let mut spans: Vec<f64> = track.times().windows(2).map(|pair| pair[1] - pair[0]).collect();
-        spans.sort_unstable_by(f64::total_cmp);
-        let usual_s = spans.get(spans.len() / 2).copied().unwrap_or(f64::INFINITY);
+        let middle = spans.len() / 2;
+        let usual_s = match spans.is_empty() {
+            true => f64::INFINITY,
+            false => *spans.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
         Self { times: track.times(), places, moved, length, usual_s }
     }
 
@@ -176,7 +179,7 @@ struct Pair<'a> {
 impl<'a> Pair<'a> {
     fn of(one: &'a Read, other: &'a Read) -> Self {
         let steps = [one, other].map(|read| read.step_m.min(COARSEST_M));
-        let exact = FLOOR_M + OF_STEP * steps[0].hypot(steps[1]);
+        let exact = FLOOR_M + OF_STEP * libm::hypot(steps[0], steps[1]);
         let [mut one, mut other] = [one, other].map(|read| Way::of(&read.flown.track, exact));
         let in_order = one.usual_s >= other.usual_s;
         if !in_order {
