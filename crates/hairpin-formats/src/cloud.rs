@@ -309,7 +309,7 @@ impl PointRow<'_> {
     fn point(&self) -> Result<CloudPoint, CloudError> {
         let mut position = Point3::origin();
         for axis in 0..3 {
-            position[axis] = self.number(axis, 1e9, "a finite number in mm")? / 1000.0;
+            position[axis] = self.number(axis, 1e9, "a finite number in mm, 1e9 at most either way")? / 1000.0;
         }
         Ok(CloudPoint {
             line: self.line,
@@ -326,7 +326,7 @@ impl PointRow<'_> {
         }
         let mut value = [0.0; 4];
         for (index, component) in value.iter_mut().enumerate() {
-            *component = self.number(3 + index, 1e9, "a finite number")?;
+            *component = self.number(3 + index, 1e9, "a finite number, 1e9 at most either way")?;
         }
         let quaternion = Quaternion::new(value[0], value[1], value[2], value[3]);
         let length = quaternion.norm();

@@ -14,6 +14,7 @@ pub mod check_executor;
 pub mod cluster;
 pub mod compare;
 pub mod consent;
+mod copies;
 pub mod differences;
 pub mod execute;
 pub mod explain;

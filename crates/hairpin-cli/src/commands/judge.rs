@@ -6,7 +6,7 @@ use hairpin_jobs::{Problem, Watch};
 
 use super::answer::Answer;
 use super::{judge_log, junit};
-use crate::args::Judge;
+use crate::args::{AltitudeName, Judge};
 use crate::{console, settings};
 
 /// Runs the command.
@@ -41,7 +41,7 @@ fn against(asked: &Judge) -> Result<Option<Against>, Problem> {
             asked.path.display()
         )));
     }
-    let named = asked.turn != 0.0 || asked.offset != [0.0; 3];
+    let named = asked.turn != 0.0 || asked.offset != [0.0; 3] || asked.altitude != AltitudeName::Relative;
     if against.is_none() && (asked.path.is_file() || of_logs || named) {
         return Err(Problem::input(format!(
             "{} is not a campaign folder; a log is judged against a campaign's cases, --campaign OUT, or one mission, --mission M",

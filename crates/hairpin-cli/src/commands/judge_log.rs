@@ -93,7 +93,7 @@ pub fn object(judged: &JudgedLogs) -> Value {
             "inconclusive": count("inconclusive"), "invalid": count("invalid"), "unjudged": count("unjudged"),
         },
         "logs": judged.logs.iter().map(log).collect::<Vec<_>>(),
-        "left_out": judged.left_out,
+        "left_out": judged.left_out, "copies": judged.copies,
     })
 }
 

@@ -24,21 +24,29 @@ pub(super) fn source(name: &str) -> Source {
 }
 
 /// Words in names of topics that are no motions but what motions are to be.
-const ASKED: &str = "carrot clicked cmd command commanded commands demand demanded des desired expected fake goal goals \
-                     ideal initial lookahead nominal plan planned planner planning plans predicted prediction ref \
-                     reference requested setpoint setpoints sp target targets tgt wanted waypoint waypoints wp wps";
+const ASKED: &str = "carrot clicked cmd command commanded commands demand demanded des desired expected fake forecast \
+                     future goal goals ideal initial intended lookahead mpc mppi next nmpc nominal plan planned planner \
+                     planning plans pred predicted prediction predictions preds ref reference requested rollout \
+                     setpoint setpoints sp target targets tgt traj trajectories trajectory trajs wanted waypoint \
+                     waypoints waypt waypts wp wps wpt wpts";
 /// What is written together with them: `goalpose`, `jointcmd`.
 const BODIES: [&str; 8] = ["pose", "position", "odometry", "odom", "path", "states", "state", "joint"];
+/// Words of two, which are none of them alone, and of which the second may go on: `set_points`, `look_ahead`, `way_pt`.
+const PAIRS: [[&str; 2]; 6] =
+    [["set", "point"], ["set", "pose"], ["set", "position"], ["way", "point"], ["way", "pt"], ["look", "ahead"]];
 
 /// Whether the name of a topic says that it was asked for: `/firefly/command/pose`, `/goal_pose`, `/targetPose2`,
-/// `/set_point`, and what PX4 is told (`/fmu/in/…`).
+/// `/set_point`, `/way_point`, `/look_ahead_point`, and what PX4 is told (`/fmu/in/…`).
 pub(super) fn is_asked(name: &str) -> bool {
-    let words = words(name);
     let is = |word: &str| ASKED.split(' ').any(|asked| asked == word);
     let is_beside =
         |word: &str, body: &str| word.strip_suffix(body).is_some_and(is) || word.strip_prefix(body).is_some_and(is);
+    let is_pair = |pair: &[String]| {
+        PAIRS.iter().any(|[first, then]| pair[0] == *first && pair[1].starts_with(then)) || pair == ["fmu", "in"]
+    };
+    let words = words(name);
     words.iter().any(|word| is(word) || BODIES.iter().any(|body| is_beside(word, body)))
-        || words.windows(2).any(|pair| pair[0] == "set" && pair[1].starts_with("point") || pair == ["fmu", "in"])
+        || words.windows(2).any(is_pair)
 }
 
 /// The words of a name, in small letters: between other signs, between letters and digits, and where a large letter
@@ -58,12 +66,64 @@ fn words(name: &str) -> Vec<String> {
             word.extend(c.to_lowercase());
         }
     }
+    words.retain(|word| !word.is_empty());
     words
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_planned;
+    use super::{is_asked, is_planned};
+
+    #[test]
+    fn what_is_asked_for_is_told_by_its_words() {
+        for name in [
+            "/way_point",
+            "/wayPoint",
+            "/way__point",
+            "/robot/way_points",
+            "/look_ahead/pose",
+            "/lookAheadPoint",
+            "/lookahead_point",
+            "/set_pose",
+            "/gazebo/set_position",
+            "/next_pose",
+            "/intended_pose",
+            "/pred_odom",
+            "/mpc/pose",
+            "/trajectory_point",
+            "/traj_pose",
+            "/goal_pose",
+            "/fmu/in/vehicle_visual_odometry",
+        ] {
+            assert!(is_asked(name), "{name}");
+        }
+        for name in [
+            "/odom",
+            "/odometry/filtered",
+            "/pose",
+            "/amcl_pose",
+            "/tf_pose",
+            "/robot_pose_ekf/odom_combined",
+            "/mavros/local_position/pose",
+            "/mavros/global_position/local",
+            "/mocap/drone1/pose",
+            "/vrpn_client_node/uav1/pose",
+            "/vicon/body/body",
+            "/qualisys/cf1/pose",
+            "/crazyflie/pose",
+            "/gps/fix",
+            "/ground_truth/state",
+            "/Odometry",
+            "/vins_estimator/odometry",
+            "/orb_slam3/camera_pose",
+            "/wayfarer/odom",
+            "/nextbot/odom",
+            "/joint_states",
+            "/dataset/pose",
+        ] {
+            assert!(!is_asked(name), "{name}");
+        }
+    }
 
     #[test]
     fn plans_are_told_by_their_names() {

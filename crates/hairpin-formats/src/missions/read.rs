@@ -103,9 +103,14 @@ fn forms_before(path: &Path) -> Vec<PathBuf> {
     form.filter(|_| is_exported(path)).map_or_else(Vec::new, |(case, before)| beside(case, before))
 }
 
-/// Whether a text file says that it is a list of mission items.
+/// Whether a text file says that it is a list of mission items. One that is not there (a link may lead nowhere), or
+/// that nobody may read, could be one, and is read to be refused.
 fn is_wpl(path: &Path) -> bool {
-    bounds::read_text(path, MOST_TEXT_BYTES).is_ok_and(|text| text.starts_with("QGC WPL"))
+    use io::ErrorKind::{FileTooLarge, InvalidData, InvalidInput};
+    match bounds::read_text(path, MOST_TEXT_BYTES) {
+        Ok(text) => text.starts_with("QGC WPL"),
+        Err(cause) => !matches!(cause.kind(), FileTooLarge | InvalidData | InvalidInput),
+    }
 }
 
 fn with_environment(path: &Path, scenario: &Scenario, farthest: f64) -> Result<Mission, MissionError> {

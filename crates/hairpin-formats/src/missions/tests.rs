@@ -313,6 +313,13 @@ fn a_folder_has_missions_of_all_formats() {
     write("a.csv", "x_m,y_m,z_m,name\n1,2,3,4\n4,5,6,4\n");
     let told = read(&place.path().join("a.csv"), &scenario(false), FARTHEST_M).unwrap().notes;
     assert_eq!(told, ["columns that are not read: name"]);
+    // What is not there could be one.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("gone.txt", place.path().join("d.txt")).expect("a link of our own");
+        let refused = read_all(place.path(), &scenario(false), FARTHEST_M).unwrap_err().to_string();
+        assert!(refused.contains("d.txt"), "{refused}");
+    }
 }
 
 proptest! {

@@ -66,7 +66,7 @@ impl Flown {
 pub(crate) fn fly_missing(work: &Work, cases: &[Case], watch: &dyn Watch) -> Result<Flown, Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
     if let (Some(arm), Some(pattern)) = (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
-        take_in(work, arm, pattern, cases)?;
+        take_in(work, (arm, pattern), cases, watch)?;
         return count(work, cases, repeat);
     }
     let all = || cases.iter().flat_map(|case| (0..repeat).map(move |run| (case, run)));

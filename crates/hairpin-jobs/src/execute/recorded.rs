@@ -1,7 +1,7 @@
 //! Where an arm ran elsewhere, its logs become the campaign's runs.
 
 use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::{Case, CaseNumber, Run};
@@ -9,8 +9,8 @@ use hairpin_formats::folder::Landed;
 use hairpin_formats::recordings::{self, RecordingError};
 use rayon::prelude::*;
 
-use crate::Problem;
 use crate::work::Work;
+use crate::{Problem, Watch, copies};
 
 /// Broken logs that are told one by one.
 const LISTED: usize = 10;
@@ -26,9 +26,17 @@ pub(crate) fn check_recordings(work: &Work, cases: &[Case]) -> Result<(), Proble
     }
 }
 
-/// Reads the logs that `pattern` names and writes them as runs.
-pub(super) fn take_in(work: &Work, arm: &ArmSetup, pattern: &str, cases: &[Case]) -> Result<(), Problem> {
+/// Reads the logs that `pattern` names and writes them as runs; those that are one recording are told.
+pub(super) fn take_in(
+    work: &Work,
+    (arm, pattern): (&ArmSetup, &str),
+    cases: &[Case],
+    watch: &dyn Watch,
+) -> Result<(), Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
+    let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
+    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    copies::told(&copies::copies(files.values()), name).iter().for_each(|words| watch.warn(words));
     let all = cases.iter().flat_map(|case| (0..repeat).map(move |run| (case.number, run)));
     let writer = work.folder.write_runs(repeat, all);
     read(work, (arm, pattern), cases, &|run| {

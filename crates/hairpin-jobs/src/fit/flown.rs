@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairpin::campaign::fit::Flown;
 use hairpin::campaign::{Case, CaseNumber, Setup, plan_followed};
+use hairpin::judgement::Resolution;
 use hairpin::trajectory::{ATTITUDE_UNKNOWN, Channel, Track};
 use hairpin_formats::frames::Geodetic;
 use hairpin_formats::logs::{self, EventKind, LogFrame, Logged, LoggedMotion, Progress, Sample};
@@ -12,8 +13,11 @@ use hairpin_formats::placement::Placement;
 use hairpin_formats::velocities::disagreement;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use super::once::Read;
 use crate::check::read_about_home;
-use crate::judge_log::{Asks, FrameSettings, Heights, IntoWorld, LegsBy, arm_of, best, course, matched, ran};
+use crate::judge_log::{
+    Asks, FrameSettings, Heights, IntoWorld, LegsBy, arm_of, best, course, matched, ran, resolution,
+};
 use crate::missions::followed;
 use crate::{Problem, Watch};
 
@@ -117,11 +121,13 @@ struct InWorld<'a> {
 /// # Errors
 /// It cannot be read, has no motion of a body, or is about a place on Earth of its own where the world has none; no
 /// mission is known for it.
-pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn Watch) -> Result<Flown, Problem> {
+pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn Watch) -> Result<Read, Problem> {
     if let Some(arm) = arm_of(setup) {
         let named = missions.named(file)?;
         let (case, track) = ran(file, arm, named.map_or(missions.cases(), std::slice::from_ref), &Asks::FIT)?;
-        return Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track });
+        let step_m = Resolution::of(&track).place.all;
+        let (log, mission) = (file.display().to_string(), missions.name(case));
+        return Ok(Read { flown: Flown { log, mission, case: case.clone(), track }, step_m });
     }
     let logged = logs::read(file).map_err(Problem::input)?;
     let place = missions.place(setup)?;
@@ -149,7 +155,10 @@ pub(super) fn flown(file: &Path, missions: &Missions, setup: &Setup, watch: &dyn
     let log = InWorld { logged: &logged, progress, samples, accept: setup.scenario.executor().accept };
     let case = missions.of(file, &log, setup)?;
     let track = track(&log, case).map_err(|why| Problem::of_file(file, why))?;
-    Ok(Flown { log: file.display().to_string(), mission: missions.name(case), case: case.clone(), track })
+    // In the log's own frame: turned into the world's, steps are no longer to be seen.
+    let step_m = resolution(motion).place.all;
+    let (log, mission) = (file.display().to_string(), missions.name(case));
+    Ok(Read { flown: Flown { log, mission, case: case.clone(), track }, step_m })
 }
 
 /// What of a motion was the mission: from its begin, as far as the log tells it, to what ended it or the first moment

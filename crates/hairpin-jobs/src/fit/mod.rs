@@ -1,18 +1,18 @@
 //! A robot's numbers from logs of its missions.
 
 mod flown;
+mod once;
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::fit::{self, Estimate, Fit, FitError, Flown};
 use hairpin::campaign::{Setup, vary};
 use hairpin::math::simd::Simd;
-use hairpin::trajectory::Track;
 use hairpin_formats::atomic;
 use hairpin_formats::fitted_robot::{self, FittedNumber, four_digits};
 use hairpin_formats::folder::refuse_own;
 use hairpin_formats::scenario::{setup_for, shadowed};
+use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::judge_log::arm_of;
@@ -20,6 +20,7 @@ use crate::sets::Set;
 use crate::work::{PLACE, open_with, same_as_made};
 use crate::{Problem, Watch};
 use flown::{Missions, flown};
+use once::{Read, is_one};
 
 /// What is fitted to what.
 #[derive(Debug, Clone, Default)]
@@ -62,15 +63,16 @@ pub struct Fitted {
 ///
 /// # Errors
 /// Neither a mission nor a campaign; a robot, campaign, mission or log that cannot be read; a log that is no flight of
-/// its mission, or has the samples of one before it; too little in all of them; it was asked to stop.
+/// its mission, or is the recording of one before it; too little in all of them; it was asked to stop.
 pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem> {
     refuse_own(&settings.out)?;
     shadowed(&settings.robot).iter().for_each(|note| watch.warn(note));
     let (setup, missions) = missions(settings, watch)?;
     let setup = setup.with_simd(settings.simd);
-    let logs: Vec<Flown> =
+    let logs: Vec<Read> =
         settings.logs.iter().map(|log| flown(log, &missions, &setup, watch)).collect::<Result<_, _>>()?;
     refuse_twice(&settings.logs, &logs)?;
+    let logs: Vec<Flown> = logs.into_iter().map(|read| read.flown).collect();
     let held_out = settings.hold_out.map_or(0, |share| (share * logs.len() as f64).ceil() as usize);
     if held_out > 0 && held_out >= logs.len() {
         let of = logs.len();
@@ -92,37 +94,14 @@ pub fn fit(settings: &FitSettings, watch: &dyn Watch) -> Result<Fitted, Problem>
     Ok(Fitted { fit: found, setup, logs: logs.len(), logged_s, execute, text })
 }
 
-/// Whether no log is one that is there already, under whatever name: it would shrink intervals as if it were new,
-/// and be tried on a fit to itself.
-fn refuse_twice(files: &[PathBuf], logs: &[Flown]) -> Result<(), Problem> {
-    let mut seen: HashMap<[u8; 32], &PathBuf> = HashMap::new();
-    for (file, log) in files.iter().zip(logs) {
-        if let Some(before) = seen.insert(samples_of(&log.track), file) {
-            let before = before.display();
-            return Err(Problem::of_file(
-                file,
-                format!("has the samples of {before}: what they say would count twice"),
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// A hash of all that a motion says: of two recordings no two samples agree to the bit.
-fn samples_of(track: &Track) -> [u8; 32] {
-    let mut hash = blake3::Hasher::new();
-    let mut take = |numbers: &[f64]| {
-        for number in numbers {
-            hash.update(&number.to_le_bytes());
-        }
-    };
-    take(track.times());
-    for pose in track.poses() {
-        take(pose.translation.vector.as_slice());
-        take(pose.rotation.coords.as_slice());
-    }
-    track.channels().iter().for_each(|channel| take(&channel.values));
-    hash.finalize().into()
+/// Whether no log is one that is there already, under whatever name and in whatever format: it would shrink intervals
+/// as if it were new, and be tried on a fit to itself.
+fn refuse_twice(files: &[PathBuf], logs: &[Read]) -> Result<(), Problem> {
+    let again = (0..logs.len()).into_par_iter().find_map_first(|i| {
+        let why = logs[..i].iter().find_map(|before| is_one(&logs[i], before))?;
+        Some((&files[i], why))
+    });
+    again.map_or(Ok(()), |(file, why)| Err(Problem::of_file(file, format!("{why}; what they say would count twice"))))
 }
 
 /// The same with every number of its robot given: what R leaves out was derived from others, and is not derived anew

@@ -24,7 +24,7 @@ pub(super) fn accuracies(samples: &[Sample]) -> (Vec<Option<[f64; 2]>>, Option<S
 
 /// The steps in which the log tells its numbers, in its own frame: turned into the world's they are as long and no
 /// longer to be seen.
-pub(super) fn resolution(motion: &LoggedMotion) -> Resolution {
+pub(crate) fn resolution(motion: &LoggedMotion) -> Resolution {
     let of = |value: &dyn Fn(&Sample, usize) -> f64| {
         Step::of(&[0, 1, 2].map(|axis| motion.samples.iter().map(|sample| value(sample, axis)).collect()))
     };

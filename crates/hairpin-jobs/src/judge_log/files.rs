@@ -47,7 +47,8 @@ pub(super) struct Files {
 /// The files of a folder and of its subfolders, but for hidden ones, what is no log by its ending, and what belongs to
 /// a recording: a bag's `metadata.yaml`, what SQLite keeps beside a database. Ordered by their paths, name by name.
 ///
-/// A link to a folder is followed where it leads out of this one, and once.
+/// A link to a folder is followed where it leads out of this one, and once; one that leads nowhere is a log that cannot
+/// be read, as whatever lay there is not judged.
 ///
 /// # Errors
 /// A folder that cannot be read; none of them has a log.
@@ -82,7 +83,8 @@ impl Walk {
         for path in paths.iter().filter(|path| !small(path.file_name()).starts_with('.')) {
             if path.is_dir() {
                 self.subfolder(path)?;
-            } else if path.is_file() && is_log(path, &names) {
+            } else if is_log(path, &names) {
+                // A link that leads nowhere, or a pipe, is a log that cannot be read.
                 let is_planned = is_planned(&told::file_name(path));
                 let of = if is_planned { &mut self.found.left_out } else { &mut self.found.logs };
                 of.push(path.clone());
@@ -201,5 +203,18 @@ mod tests {
         symlink(away.path(), root.join("once-more")).unwrap();
         symlink(away.path().join("2.csv"), root.join("3.csv")).unwrap();
         assert_eq!(within(root, &files_in(root).unwrap().logs), ["3.csv", "a/1.csv", "away/2.csv"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_that_lead_nowhere_are_logs_that_cannot_be_read() {
+        use std::os::unix::fs::symlink;
+        let place = TempDir::new().unwrap();
+        let root = place.path();
+        put(root, "1.csv");
+        for (to, link) in [("gone.ulg", "2.ulg"), ("gone", "2026-11-30"), ("5.csv", "5.csv"), ("gone.md", "notes.md")] {
+            symlink(root.join(to), root.join(link)).unwrap();
+        }
+        assert_eq!(within(root, &files_in(root).unwrap().logs), ["1.csv", "2.ulg", "2026-11-30", "5.csv"]);
     }
 }

@@ -124,6 +124,8 @@ pub struct JudgedLogs {
     pub count: Option<Verdict>,
     /// Of a folder: files that by their names are no recordings but what was planned, and folders of campaigns.
     pub left_out: Vec<PathBuf>,
+    /// Of a folder: files that are one recording, byte by byte, under several names.
+    pub copies: Vec<Vec<PathBuf>>,
 }
 
 impl JudgedLog {

@@ -71,7 +71,7 @@ impl<'a> IntoWorld<'a> {
     /// From `frame` to the world at `place`.
     ///
     /// # Errors
-    /// A log far outside of what the world's plane can show.
+    /// A log far outside of what the world's plane can show; heights above the sea, where one of both has none.
     pub(crate) fn of(frame: &LogFrame, place: Option<&'a Placement>, named: &FrameSettings) -> Result<Self, Problem> {
         let mut told = FrameTold {
             log: in_words(frame),
@@ -82,6 +82,9 @@ impl<'a> IntoWorld<'a> {
             altitude_applied: false,
             named: *named,
         };
+        if named.altitude == Altitude::Amsl {
+            above_the_sea(frame, place)?;
+        }
         let mut lower = 0.0;
         let how = match (frame, place) {
             (LogFrame::Enu(Some(origin)), Some(world)) => {
@@ -181,6 +184,18 @@ fn tangent(log: &Placement, world: &Placement) -> Result<(Point3<f64>, UnitQuate
         axes.set_column(axis, &((image(along)? - at) / FAR));
     }
     Ok((at, UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&axes))))
+}
+
+/// Whether both a log's origin and the world's are at an altitude above the sea.
+fn above_the_sea(frame: &LogFrame, place: Option<&Placement>) -> Result<(), Problem> {
+    let why = match (frame, place) {
+        (LogFrame::Enu(Some(_)), Some(_)) => return Ok(()),
+        (LogFrame::Enu(Some(_)), None) => "the world does not say where on Earth it is (world.origin)",
+        _ => "the log does not say where on Earth it is",
+    };
+    Err(Problem::input(format!(
+        "--altitude amsl: {why}, and so nothing is known of heights above the sea; leave it out"
+    )))
 }
 
 fn in_words(frame: &LogFrame) -> String {

@@ -42,10 +42,12 @@ use std::path::Path;
 
 use hairpin_formats::folder::refuse_own;
 
+use crate::copies::copies;
 use crate::{Problem, Watch};
 use files::{Files, files_in};
 use told::name_in;
 
+pub(crate) use accuracy::resolution;
 pub use arm::{FoundProgram, JointsTold};
 pub(crate) use arm::{arm_of, ran};
 pub(crate) use asks::Asks;
@@ -84,6 +86,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
              another",
         ));
     }
+    settings.in_bounds()?;
     if let Some((from, to)) = settings.from_s.zip(settings.to_s).filter(|(from, to)| from >= to) {
         return Err(Problem::input(format!("--from {from} --to {to}: --from must be before --to")));
     }
@@ -97,7 +100,7 @@ pub fn judge_log(settings: &LogSettings, watch: &dyn Watch) -> Result<JudgedLogs
     let judged = if settings.path.is_dir() {
         judge_folder(&settings.path, &judge, watch)?
     } else {
-        JudgedLogs { logs: vec![judge(&settings.path)?], count: None, left_out: Vec::new() }
+        JudgedLogs { logs: vec![judge(&settings.path)?], count: None, left_out: Vec::new(), copies: Vec::new() }
     };
     if let Some(file) = &settings.page {
         page::write(file, &judged, &against)?;
@@ -121,6 +124,8 @@ fn judge_folder(
             Err(problem) => told::unreadable((&file, &name_in(folder, &file)), &problem),
         });
     }
-    let count = told::count(folder, &logs, &left_out);
-    Ok(JudgedLogs { logs, count: Some(count), left_out })
+    // What was not read is no recording.
+    let copies = copies(logs.iter().filter(|log| log.found.is_some() || log.program.is_some()).map(|log| &log.file));
+    let count = told::count(folder, &logs, &left_out, &copies);
+    Ok(JudgedLogs { logs, count: Some(count), left_out, copies })
 }

@@ -6,6 +6,13 @@ use super::frame::FrameSettings;
 use crate::Problem;
 use crate::sets::Set;
 
+/// No robot is farther from where it began, m.
+const FARTHEST_M: f64 = 1e7;
+/// No stamp of a log is later, s: thirty thousand years after 1970.
+const LATEST_S: f64 = 1e12;
+/// Nobody turns a log by more, °.
+const MOST_DEG: f64 = 1e6;
+
 /// What a log is judged against.
 #[derive(Debug, Clone)]
 pub enum Against {
@@ -62,16 +69,34 @@ impl LogSettings {
         }
     }
 
+    /// Nothing, where all numbers are such as logs have.
+    ///
+    /// # Errors
+    /// One that no log has.
+    pub(super) fn in_bounds(&self) -> Result<(), Problem> {
+        let offsets = self.frame.offset_m.map(|m| ("--offset", m, FARTHEST_M, "m"));
+        let times = [("--from", self.from_s), ("--to", self.to_s)];
+        let times = times.into_iter().filter_map(|(flag, s)| Some((flag, s?, LATEST_S, "s")));
+        let turn = ("--turn", self.frame.turn_deg, MOST_DEG, "°");
+        for (flag, value, most, unit) in offsets.into_iter().chain(times).chain([turn]) {
+            // Written out, a number of 300 digits says nothing.
+            if value.is_nan() || value.abs() > most {
+                return Err(Problem::input(format!("{flag} {value:e}: must be within {most:e} {unit} either way")));
+            }
+        }
+        Ok(())
+    }
+
     /// Nothing, where logs are an arm's.
     ///
     /// # Errors
     /// What is asked of logs that say nothing of an arm's frame.
     pub(super) fn of_an_arm(&self) -> Result<(), Problem> {
-        let named = self.frame.turn_deg != 0.0 || self.frame.offset_m != [0.0; 3];
+        let named = self.frame != FrameSettings::default();
         let (world, frames) = (self.world.is_some(), "an arm's log is in its base's frame");
         for (asked, what) in [(world, "--world: what an arm must not meet is its cell's"), (named, frames)] {
             if asked {
-                return Err(Problem::input(format!("{what}; leave --world, --turn and --offset out")));
+                return Err(Problem::input(format!("{what}; leave --world, --turn, --offset and --altitude out")));
             }
         }
         Ok(())

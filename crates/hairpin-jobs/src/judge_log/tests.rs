@@ -708,6 +708,68 @@ fn a_folder_with_a_broken_log_judges_the_others() {
 }
 
 #[test]
+fn logs_that_are_one_recording_are_told() {
+    let here = TempDir::new().unwrap();
+    let logs = here.path().join("logs");
+    fs::create_dir_all(logs.join("more")).unwrap();
+    let rows = |off: f64| -> String {
+        let row = |s: &Sample| format!("{} {} {} {} 0 0 0 1\n", s.t_s, s.p_m.x, s.p_m.y, s.p_m.z);
+        samples(100.0, off).iter().map(row).collect()
+    };
+    for (name, off) in [("a.tum", 0.3), ("b.tum", 0.2), ("more/a.tum", 0.3)] {
+        fs::write(logs.join(name), rows(off)).unwrap();
+    }
+    // What cannot be read is no recording.
+    for name in ["c.tum", "d.tum"] {
+        fs::write(logs.join(name), "0 1 2 three 0 0 0 1\n").unwrap();
+    }
+    let judged = judge_log(&LogSettings { path: logs.clone(), ..settings(here.path(), HALF) }, &crate::Unwatched);
+    let judged = judged.unwrap();
+    assert_eq!(judged.copies, [[logs.join("a.tum"), logs.join("more/a.tum")]]);
+    let told = "3 within spec, 2 invalid; one recording under several names, which are no repeats: a.tum = more/a.tum";
+    let count = judged.count.unwrap().sentence;
+    assert!(count.ends_with(told), "{count}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_nowhere_is_a_log_that_was_not_judged() {
+    let here = TempDir::new().unwrap();
+    let logs = here.path().join("logs");
+    fs::create_dir(&logs).unwrap();
+    let row = |s: &Sample| format!("{} {} {} {} 0 0 0 1\n", s.t_s, s.p_m.x, s.p_m.y, s.p_m.z);
+    fs::write(logs.join("a.tum"), samples(100.0, 0.3).iter().map(row).collect::<String>()).unwrap();
+    std::os::unix::fs::symlink("gone.ulg", logs.join("b.ulg")).unwrap();
+    let judged = judge_log(&LogSettings { path: logs, ..settings(here.path(), HALF) }, &crate::Unwatched).unwrap();
+    assert_eq!(judged.logs.iter().map(|log| log.outcome).collect::<Vec<_>>(), [Outcome::Pass, Outcome::Invalid]);
+    assert_eq!(judged.exit_code(), 5);
+}
+
+#[test]
+fn heights_above_the_sea_need_places_on_earth() {
+    let amsl = |settings: &mut LogSettings| settings.frame.altitude = Altitude::Amsl;
+    let refused = judged_as(&log(100.0, 0.3), |settings, _| amsl(settings)).unwrap_err();
+    assert!(refused.contains("--altitude amsl: the log does not say where on Earth it is"), "{refused}");
+    let mut placed = log(100.0, 0.3);
+    placed.frame = LogFrame::Enu(Some(Geodetic { lat_deg: 38.0335530, lon_deg: -78.5079772, alt_amsl_m: 180.0 }));
+    let refused = judged_as(&placed, |settings, _| amsl(settings)).unwrap_err();
+    assert!(refused.contains("the world does not say where on Earth it is (world.origin)"), "{refused}");
+}
+
+#[test]
+fn numbers_that_no_log_has_are_refused_and_told_shortly() {
+    let here = TempDir::new().unwrap();
+    let refused = |change: fn(&mut LogSettings)| {
+        let mut settings = settings(here.path(), HALF);
+        change(&mut settings);
+        judge_log(&settings, &crate::Unwatched).unwrap_err().to_string()
+    };
+    assert_eq!(refused(|s| s.frame.offset_m[1] = -1e300), "--offset -1e300: must be within 1e7 m either way");
+    assert_eq!(refused(|s| s.from_s = Some(1e300)), "--from 1e300: must be within 1e12 s either way");
+    assert_eq!(refused(|s| s.frame.turn_deg = 1e20), "--turn 1e20: must be within 1e6 ° either way");
+}
+
+#[test]
 fn a_limit_between_told_legs_and_assigned_ones_is_told() {
     let told = |pair: [Option<f64>; 2], limit: f64| super::told::told_otherwise(pair, Some(limit));
     let words = told([Some(0.8), Some(1.67)], 1.0).unwrap();

@@ -16,8 +16,8 @@ use super::cut::Cut;
 use super::found::{Found, JudgedLog, Outcome};
 use super::left_out::LeftOut;
 use super::remedy::log_at;
-use crate::Problem;
 use crate::missions::FENCE;
+use crate::{Problem, copies};
 
 /// A log that was judged.
 pub(super) fn judged((file, name): (&Path, &str), found: Found, setup: &Setup) -> JudgedLog {
@@ -36,7 +36,7 @@ pub(super) fn unreadable((file, name): (&Path, &str), problem: &Problem) -> Judg
 }
 
 /// The line with counts.
-pub(super) fn count(folder: &Path, logs: &[JudgedLog], left: &[PathBuf]) -> Verdict {
+pub(super) fn count(folder: &Path, logs: &[JudgedLog], left: &[PathBuf], copies: &[Vec<PathBuf>]) -> Verdict {
     let of = |outcome: Outcome| logs.iter().filter(|log| log.outcome == outcome).count();
     let [pass, fail, open, invalid, unjudged] =
         [Outcome::Pass, Outcome::Fail, Outcome::Inconclusive, Outcome::Invalid, Outcome::Unjudged].map(of);
@@ -46,7 +46,9 @@ pub(super) fn count(folder: &Path, logs: &[JudgedLog], left: &[PathBuf]) -> Verd
     let counts = [(pass, "within spec"), (fail, "in violation"), (open, "inconclusive"), (invalid, "invalid")];
     let mut words: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
     words.extend((unjudged > 0).then(|| format!("{unjudged} unjudged: spec = \"none\"")));
-    let words = [Some(words.join(", ")), left_out(folder, left)].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    let again = copies::told(copies, |file| name_in(folder, file));
+    let words =
+        [Some(words.join(", ")), again, left_out(folder, left)].into_iter().flatten().collect::<Vec<_>>().join("; ");
     let (start, code) = match (fail, open + invalid) {
         (1.., _) => (format!("FAIL {fail}/{all}"), 1),
         (0, 1..) => (format!("INCONCLUSIVE 0/{all}"), 5),

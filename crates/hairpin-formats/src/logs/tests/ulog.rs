@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
-use super::write_ulog::{ATTITUDE, POSITION, Position, Ulog, flight, singles};
+use super::write_ulog::{ATTITUDE, POSITION, Position, Ulog, attitude, flight, singles};
 use super::*;
 use crate::frames::Geodetic;
 
@@ -246,6 +246,91 @@ fn of_two_instances_the_selector_says_which_was_flown_by() {
     let camera = |instance| (instance, "vehicle_visual_odometry");
     let log = two([camera(0), camera(1)], &[]);
     assert!(log.motions.iter().all(|motion| motion.source == Source::Untold));
+}
+
+/// The subscriptions that tell something in a step.
+type Ids = fn(u64) -> &'static [u16];
+
+#[test]
+fn of_two_subscriptions_to_one_instance_at_one_time_nobody_knows_which_is_the_vehicles() {
+    let why = "2 subscriptions to this one instance at one time: nobody knows which is the vehicle's";
+    for name in ["vehicle_local_position", "vehicle_visual_odometry"] {
+        let log = two([(0, name); 2], &[(0, 0)]);
+        let [motion] = &log.motions[..] else { panic!("{:?}", log.motions) };
+        assert_eq!(motion.unfit.as_deref(), Some(why), "{name}");
+        assert!(log.notes.contains(&format!("{name}: {why}")), "{:?}", log.notes);
+    }
+    // What stands beside positions.
+    let mut log = Ulog::new();
+    let status = "vehicle_status:uint64_t timestamp;uint8_t nav_state;bool failsafe;";
+    for format in [POSITION, ATTITUDE, status] {
+        log.message(b'F', format.as_bytes());
+    }
+    log.subscribe(0, 0, "vehicle_local_position");
+    let logged = |twice: &str, data: &dyn Fn(u64) -> Vec<u8>, ids: &dyn Fn(u64) -> &'static [u16]| {
+        let mut log = Ulog(log.0.clone());
+        log.subscribe(0, 1, twice);
+        log.subscribe(0, 2, twice);
+        for step in 0..6_u64 {
+            let t = 100_000 * step;
+            log.data(0, &[&at(t, [step as f32, 0.0, 0.0]).bytes()]);
+            ids(step).iter().for_each(|id| log.data(*id, &[&data(t)]));
+        }
+        parsed(&log.0).motions.remove(0)
+    };
+    let both: Ids = |_| &[1, 2];
+    let one_then_other: Ids = |step| if step < 3 { &[1] } else { &[2] };
+    let turn = |t: u64| attitude(t, [1.0, 0.0, 0.0, 0.0]);
+    let mode = |t: u64| [&t.to_le_bytes()[..], &[3, 0]].concat();
+    for (twice, data) in [("vehicle_attitude", &turn as &dyn Fn(u64) -> Vec<u8>), ("vehicle_status", &mode)] {
+        let told = logged(twice, data, &both).unfit;
+        assert_eq!(told, Some(format!("{twice}: {why}")));
+        // One ends before the other begins: the logger subscribed to it again.
+        let again = logged(twice, data, &one_then_other);
+        assert_eq!(again.unfit, None);
+        assert!(twice != "vehicle_attitude" || again.samples.iter().all(|sample| sample.attitude.is_some()));
+    }
+}
+
+#[test]
+fn a_position_that_is_subscribed_to_again_later_is_one() {
+    let of = |ids: [u16; 6]| {
+        let mut log = positions(&[]);
+        log.subscribe(0, 7, "vehicle_local_position");
+        for (step, id) in (0_u64..).zip(ids) {
+            log.data(id, &[&at(100_000 * step, [step as f32, 0.0, 0.0]).bytes()]);
+        }
+        parsed(&log.0).motions.remove(0)
+    };
+    let one = of([0, 0, 0, 7, 7, 7]);
+    assert_eq!((one.samples.len(), one.unfit), (6, None));
+    assert!(of([0, 0, 7, 7, 7, 0]).unfit.is_some());
+}
+
+#[test]
+fn poses_in_another_frame_than_the_first_are_left_out() {
+    let of = |frames: [u8; 6]| {
+        let mut log = Ulog::new();
+        log.message(b'F', VISUAL.as_bytes());
+        log.subscribe(0, 0, "vehicle_visual_odometry");
+        for (step, frame) in (0_u64..).zip(frames) {
+            let (t, place) = (100_000 * step, singles([step as f32, 0.0, 0.0]));
+            let parts = [place, singles([1.0, 0.0, 0.0, 0.0]), singles([0.0; 3]), singles([0.04; 3])];
+            log.data(0, &[&t.to_le_bytes(), &t.to_le_bytes(), &parts.concat(), &[frame, 1]]);
+        }
+        parsed(&log.0)
+    };
+    let told = "vehicle_visual_odometry: 3 poses in another frame than the first are not read";
+    for (frames, wanted, is_frd) in
+        [([1, 1, 1, 2, 2, 2], [0.0, 1.0, 2.0], false), ([2, 1, 2, 1, 2, 1], [0.0, 2.0, 4.0], true)]
+    {
+        let log = of(frames);
+        let north: Vec<f64> = log.motions[0].samples.iter().map(|sample| sample.p_m.y.round()).collect();
+        assert_eq!(north, wanted);
+        assert!(log.notes.iter().any(|note| note == told), "{:?}", log.notes);
+        assert_eq!(matches!(log.frame, LogFrame::Named(_)), is_frd);
+    }
+    assert_eq!(of([2; 6]).motions[0].samples.len(), 6);
 }
 
 #[test]

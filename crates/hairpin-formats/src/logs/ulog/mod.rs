@@ -1,6 +1,7 @@
 //! PX4's ULog: positions, attitudes, missions and modes, in the order in which they were logged.
 
 mod formats;
+mod heard;
 mod mission;
 mod odometry;
 mod position;
@@ -16,6 +17,7 @@ use super::error::Fault;
 use super::log::{Clock, LogFrame, Logged, Source, Span};
 use super::samples::Budget;
 use formats::{Formats, Size};
+use heard::Heard;
 use mission::Flown;
 use odometry::attitude;
 use position::target;
@@ -67,6 +69,8 @@ struct Reader {
     series: Vec<Series>,
     /// Series by `msg_id`.
     ids: BTreeMap<u16, usize>,
+    /// Series by topic and instance.
+    topics: BTreeMap<(String, u8), usize>,
     flown: Flown,
     budget: Budget,
     now_s: f64,
@@ -103,12 +107,18 @@ impl Reader {
             // What was appended, or read again behind a broken place, may say it again.
             return if after_break { Ok(()) } else { Err(format!("a second subscription with the id {id}").into()) };
         }
+        // One that is subscribed to again goes on under another number.
+        if let Some(place) = self.topics.get(&(name.to_owned(), instance)) {
+            self.ids.insert(id, *place);
+            return Ok(());
+        }
         let size = self.formats.size(name)?;
         let finder = Finder { formats: &self.formats, name };
         let stamp = finder.needed("timestamp")?;
         let what = What::of(name, &finder)?;
         self.ids.insert(id, self.series.len());
-        self.series.push(Series { name: name.into(), instance, size, stamp, what });
+        self.topics.insert((name.into(), instance), self.series.len());
+        self.series.push(Series { name: name.into(), instance, size, stamp, heard: Heard::default(), what });
         Ok(())
     }
 
@@ -133,6 +143,7 @@ impl Reader {
         }
         let stamp = series.stamp.read(data).unwrap_or(0.0);
         self.now_s = stamp / 1e6;
+        series.heard.hear(id, stamp);
         match &mut series.what {
             What::Positions(_, positions) => positions.push(stamp, data, &mut self.budget)?,
             What::Odometry(_, odometry) => odometry.push(stamp, data, &mut self.budget)?,

@@ -46,8 +46,11 @@ pub(super) struct Odometry {
     invalid: Invalid,
     /// Poses in axes that nobody knows.
     unknown: usize,
+    /// Axes of the first pose: those of others are turned against them by what nobody tells.
+    axes: Option<Axes>,
+    /// Poses in other axes than the first.
+    elsewhere: usize,
     skipped: usize,
-    frd: bool,
     halves: usize,
     unfit: Option<String>,
 }
@@ -71,14 +74,15 @@ impl Odometry {
             count: None,
             invalid: Invalid::default(),
             unknown: 0,
+            axes: None,
+            elsewhere: 0,
             skipped: 0,
-            frd: false,
             halves: 0,
             unfit: None,
         })
     }
 
-    fn axes(&self, slot: Option<Slot>, data: &[u8]) -> Axes {
+    fn axes_of(&self, slot: Option<Slot>, data: &[u8]) -> Axes {
         match slot.and_then(|slot| slot.read(data)).map(|number| number - self.first) {
             Some(0.0) => Axes::Ned,
             Some(1.0) => Axes::Frd,
@@ -91,9 +95,13 @@ impl Odometry {
     pub(super) fn push(&mut self, stamp: f64, data: &[u8], budget: &mut Budget) -> Result<(), Fault> {
         let read = |slot: Slot| slot.read(data).unwrap_or(f64::NAN);
         let t_s = seconds(stamp, self.sample.map(read));
-        let frame = self.axes(self.pose_frame, data);
+        let frame = self.axes_of(self.pose_frame, data);
         if matches!(frame, Axes::Unknown | Axes::Body) {
             self.unknown += 1;
+            return Ok(());
+        }
+        if self.axes.is_some_and(|first| first != frame) {
+            self.elsewhere += 1;
             return Ok(());
         }
         let ned = self.p.map(read);
@@ -108,10 +116,10 @@ impl Odometry {
             return Ok(());
         }
         budget.take()?;
-        self.frd |= frame == Axes::Frd;
+        self.axes = Some(frame);
         let attitude = self.q.map(|q| q.map(read)).and_then(attitude);
         let v = self.v.map(|v| v.map(read)).filter(|v| v.iter().all(|v| v.is_finite()));
-        let v_m_s = v.and_then(|v| match self.axes(self.velocity_frame, data) {
+        let v_m_s = v.and_then(|v| match self.axes_of(self.velocity_frame, data) {
             Axes::Body => attitude.map(|turn| turn * body(v)),
             Axes::Unknown => None,
             axes => (axes == frame).then(|| enu_vector(v)),
@@ -137,7 +145,7 @@ impl Odometry {
 
     /// Whether the heading of its axes is its own.
     pub(super) fn is_frd(&self) -> bool {
-        self.frd
+        self.axes == Some(Axes::Frd)
     }
 
     pub(super) fn motion(self, name: &str, source: Source) -> (Option<LoggedMotion>, Vec<String>) {
@@ -145,10 +153,13 @@ impl Odometry {
         if self.unknown > 0 {
             notes.push(format!("{name}: {} poses in a frame that is not told are not read", self.unknown));
         }
+        if self.elsewhere > 0 {
+            notes.push(format!("{name}: {} poses in another frame than the first are not read", self.elsewhere));
+        }
         if self.skipped > 0 {
             notes.push(format!("{name}: {} samples without numbers or with stamps that do not rise", self.skipped));
         }
-        if self.frd {
+        if self.is_frd() {
             notes.push(format!("{name}: its frame has a heading of its own (FRD); its x is taken for north"));
         }
         let Self { samples, resets, invalid, halves, unfit, .. } = self;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::super::attitude::Attitudes;
 use super::super::log::{LoggedMotion, Source};
 use super::formats::{Size, Slot};
+use super::heard::Heard;
 use super::mission::Topic;
 use super::odometry::Odometry;
 use super::position::Positions;
@@ -19,6 +20,7 @@ pub(super) struct Series {
     pub(super) instance: u8,
     pub(super) size: Size,
     pub(super) stamp: Slot,
+    pub(super) heard: Heard,
     pub(super) what: What,
 }
 
@@ -89,37 +91,49 @@ impl Series {
 pub(super) fn motions(series: Vec<Series>, origin: Option<Geodetic>, notes: &mut Vec<String>) -> Vec<LoggedMotion> {
     let mut attitudes = BTreeMap::new();
     let (mut moved, mut chosen) = (Vec::new(), Vec::new());
+    // Why nothing is to be judged by what hangs on a selector or a mission's state that is there twice.
+    let (mut unchosen, mut unflown) = (None, None);
     for series in series {
-        let (name, key) = (series.told(), (series.name, series.instance));
+        let name = series.told();
+        let unfit = series.heard.unfit().filter(|_| !matches!(series.what, What::Other));
+        notes.extend(unfit.iter().map(|why| format!("{name}: {why}")));
+        let key = (series.name, series.instance);
         match series.what {
-            What::Attitudes { read, .. } if !read.is_empty() => drop(attitudes.insert(key, read)),
+            What::Attitudes { read, .. } if !read.is_empty() => drop(attitudes.insert(key, (read, unfit))),
             What::Positions(source, positions) if !positions.is_empty() => {
                 let (motion, told) = positions.motion(&name, source, origin);
                 notes.extend(told);
-                moved.push((motion, key.1));
+                moved.push((LoggedMotion { unfit: unfit.or(motion.unfit), ..motion }, key.1));
             }
-            What::Chosen(selector) if key.1 == 0 => chosen = selector.into_chosen(),
+            What::Chosen(selector) if key.1 == 0 => {
+                chosen = selector.into_chosen();
+                unchosen = unfit.map(|why| format!("{name}: {why}"));
+            }
+            What::Flown(_) if key.1 == 0 => unflown = unflown.or(unfit.map(|why| format!("{name}: {why}"))),
             What::Odometry(source, odometry) => {
                 if origin.is_some() && !odometry.is_empty() {
                     notes.push(format!("{name}: about a point of its own, which is nowhere on Earth"));
                 }
                 let (motion, told) = odometry.motion(&name, source);
                 notes.extend(told);
-                moved.extend(motion.map(|motion| (motion, key.1)));
+                moved.extend(motion.map(|motion| (LoggedMotion { unfit: unfit.or(motion.unfit), ..motion }, key.1)));
             }
             _ => {}
         }
     }
     for (motion, instance) in &mut moved {
+        let own = unchosen.as_ref().filter(|_| motion.source == Source::Estimate).or(unflown.as_ref());
+        motion.unfit = motion.unfit.take().or_else(|| own.cloned());
         let topic = match motion.source {
             Source::GroundTruth => "vehicle_attitude_groundtruth",
             Source::Estimate if motion.name.starts_with("vehicle_local") => "vehicle_attitude",
             _ => continue,
         };
         let beside = [*instance, 0].iter().find_map(|instance| attitudes.get(&(topic.to_owned(), *instance)));
-        if let Some(beside) = beside {
+        if let Some((beside, unfit)) = beside {
             let turns = beside.at(motion.samples.iter().map(|sample| sample.t_s));
             motion.samples.iter_mut().zip(turns).for_each(|(sample, turn)| sample.attitude = turn);
+            motion.unfit = motion.unfit.take().or_else(|| unfit.as_ref().map(|why| format!("{topic}: {why}")));
         } else {
             notes.push(format!("{}: no `{topic}` beside it", motion.name));
         }
