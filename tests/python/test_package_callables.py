@@ -491,6 +491,61 @@ def test_judges_that_take_many_say_what_single_ones_say(cases, tmp_path):
         hairpin.stress("demo-quadrotor", target=low, out=tmp_path / "target")
 
 
+def test_a_run_that_was_failed_or_not_kept_is_no_pass(cases, tmp_path):
+    def flies_one(mission):
+        if mission["case"] == "0001":
+            raise OSError("rotor lost")
+        return straight(mission)
+
+    judged = cases.execute(executor=flies_one, out=tmp_path / "failed").judge_by(lambda run: True)
+    assert judged.margins == {("0000", 0): 0.0} and judged.failed == (("0001", 0),) and judged.missing == ()
+    assert (judged.exit_code, bool(judged), judged.verdict) == (4, False, "EXECUTOR FAILED 1/2 runs")
+    gone = {**SMALL, "execute.repeat": 3, "execute.record": "worst"}
+    worst = hairpin.stress("demo-quadrotor", out=tmp_path / "worst", values=gone)
+    judged = worst.judge_by(lambda run: True)
+    assert len(judged.margins) == 2 and len(judged.missing) == 4 and judged.exit_code == 5 and not judged
+    assert str(judged).startswith("INCONCLUSIVE 0/6 runs; 4 not there to judge")
+    judged = worst.judge_by(lambda run: False)
+    assert judged.exit_code == 1 and str(judged).startswith("FAIL 2/6 runs; 4 not there to judge")
+    none = worst.execute(values={"execute.record": "none"}, out=tmp_path / "none").judge_by(lambda run: True)
+    assert (none.exit_code, none.margins, len(none.missing)) == (5, {}, 6)
+    with pytest.raises(hairpin.InputError, match="executions"):
+        cases.judge_by(lambda run: True)
+
+
+def test_runs_that_were_asked_for_and_not_executed_are_missing(cases, tmp_path):
+    def enough(what, done, of):
+        if done > 1:
+            raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        cases.execute(out=tmp_path / "out", values={"execute.repeat": 20}, threads=1, progress=enough)
+    judged = hairpin.open_campaign(tmp_path / "out").judge_by(lambda run: True)
+    assert judged.margins and judged.missing and len(judged.margins) + len(judged.missing) == 40
+    assert judged.exit_code == 5
+
+
+def test_what_a_judge_says_no_with_is_no(cases, tmp_path):
+    flown = cases.execute(executor=straight, out=tmp_path / "out")
+    for no in (False, np.False_, np.array(False), np.float32(-1), -1, np.array(-0.5)):
+        assert flown.judge_by(lambda run, no=no: no).exit_code == 1, no
+        assert flown.judge_by(hairpin.vectorised(lambda runs, no=no: [no] * len(runs))).exit_code == 1, no
+    for many in ([False, False], (False, False), np.array([False, False]), np.zeros(2, bool)):
+        assert flown.judge_by(hairpin.vectorised(lambda runs, many=many: many)).exit_code == 1, many
+    assert flown.judge_by(lambda run: np.array(True)) and flown.judge_by(lambda run: np.ma.masked).exit_code == 5
+    for strange in ([False], np.array([False]), {}, {1.0}, b"\0", "1", 1j, np.ones((1, 1)), np.datetime64(1, "s"), object()):
+        with pytest.raises(hairpin.InputError) as found:
+            flown.judge_by(lambda run, strange=strange: strange)
+        error = found.value
+        assert error.field == "margin" and error.value and error.bound == "a number, True or False, or None"
+    for strange in ({0: 1, 1: 1}, {1.0, 2.0}, "11", b"\0\0", np.zeros((2, 1), bool), -np.ones((2, 2)), None, iter([1.0, 1.0])):
+        with pytest.raises(hairpin.InputError) as found:
+            flown.judge_by(hairpin.vectorised(lambda runs, strange=strange: strange))
+        assert (found.value.field, bool(found.value.value)) == ("judge", True) and "one for each run" in found.value.bound
+    pandas = pytest.importorskip("pandas")
+    assert flown.judge_by(hairpin.vectorised(lambda runs: pandas.Series([False] * len(runs)))).exit_code == 1
+
+
 def test_the_console_command_is_the_command():
     done = subprocess.run([sys.executable, "-m", "hairpin", "--version"], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout == subprocess.run([BIN, "--version"], capture_output=True, text=True).stdout
