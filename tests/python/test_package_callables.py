@@ -546,6 +546,45 @@ def test_what_a_judge_says_no_with_is_no(cases, tmp_path):
     assert flown.judge_by(hairpin.vectorised(lambda runs: pandas.Series([False] * len(runs)))).exit_code == 1
 
 
+def test_the_same_campaign_asks_its_executor_again(tmp_path):
+    asked = []
+
+    def climbs(mission):
+        asked.append(mission["case"])
+        flown = straight(mission)
+        flown["p_m"][:, 2] += 6.0 * np.sin(np.linspace(0.0, np.pi, len(flown["t_s"])))
+        return flown
+
+    values = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 1}, "execute.repeat": 1, "execute.baseline": 0}
+    flown = hairpin.stress("demo-quadrotor", executor=lambda mission: climbs(mission), out=tmp_path / "out", values=values)
+    # One of the same name: each folder's own is asked.
+    level = flown.execute(executor=lambda mission: straight(mission), out=tmp_path / "level")
+    asked.clear()
+    assert flown.exit_code == 1 and flown.shrink(budget=1).violations and asked
+    again = flown.execute(out=tmp_path / "again").judge()
+    assert again.exit_code == 1 and deviations(again) == deviations(flown)
+    asked.clear()
+    many = level.execute(executor=hairpin.vectorised(lambda missions: [straight(one) for one in missions]), out=tmp_path / "many")
+    steered = flown.execute(controller=gentle, out=tmp_path / "steered")
+    assert [one.execute().exit_code for one in (level, many, steered)] == [0, 0, 0] and not asked
+
+
+@pytest.mark.parametrize("left", [SystemExit(3), KeyboardInterrupt("stop"), GeneratorExit("over")], ids=repr)
+def test_executors_that_leave_are_told_as_those_that_raise(left, cases, tmp_path):
+    def leaves(mission):
+        raise left
+
+    for number, executor in enumerate((leaves, hairpin.vectorised(leaves))):
+        flown = cases.execute(executor=executor, out=tmp_path / str(number))
+        assert flown.exit_code == 4 and f"{type(left).__name__}: {left}" in flown.verdict, flown.verdict
+
+
+def test_an_executor_that_leaves_is_the_cause_of_a_search_that_found_nothing(tmp_path):
+    with pytest.raises(hairpin.ExecutorError, match="SystemExit: 3") as found:
+        hairpin.stress("demo-quadrotor", executor=lambda mission: sys.exit(3), out=tmp_path / "out", values=LOOPED)
+    assert isinstance(found.value.__cause__, SystemExit)
+
+
 def test_the_console_command_is_the_command():
     done = subprocess.run([sys.executable, "-m", "hairpin", "--version"], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout == subprocess.run([BIN, "--version"], capture_output=True, text=True).stdout

@@ -13,6 +13,7 @@ import numpy as np
 
 from hairpin import _native
 from hairpin._asked import place, place_or_none, seconds, whole, wrong
+from hairpin._bridge import serving_again
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
 from hairpin._judging import Judged, judged_by
@@ -233,12 +234,13 @@ class Campaign:
             raise InputError("`case`: no case violates, there is nothing to shrink", "case", "", "a case that violates")
         effort = (whole("budget", budget, 1), seconds("time_limit_s", time_limit_s), place_or_none("out", out))
         try:
-            found = _native.shrink(
-                (self.folder, one.number),
-                effort,
-                means(self._brought, portable, allow_commands),
-                waiting(threads, progress),
-            )
+            with serving_again(self._brought):
+                found = _native.shrink(
+                    (self.folder, one.number),
+                    effort,
+                    means(self._brought, portable, allow_commands),
+                    waiting(threads, progress),
+                )
         except Exception as error:
             raise (self._brought.why(error) if self._brought else error)
         return Shrunk(
