@@ -425,8 +425,6 @@ def test_many_missions_are_integrated_as_each_by_itself():
         for key in ("t_s", "p_m", "q_wxyz", "v_m_s", "leg"):
             np.testing.assert_array_equal(together[key], alone[key], err_msg=key)
     assert [flown["ended"] for flown in many(missions)] == ["done", "done", "time", "done"]
-    adrift = hairpin.dynamics(chase, lambda t, x, to: np.where(x > 0.5, np.nan, 1.0), lambda given: np.zeros((len(given), 3)), lambda x: x)
-    assert [flown["ended"] for flown in adrift(missions)] == ["crash", "crash", "crash", "done"]
     with pytest.raises(ValueError, match="a row for each of 4 missions"):
         hairpin.dynamics(chase, lambda t, x, to: x, lambda given: np.zeros((3, 3)), lambda x: x)(missions)
 
@@ -489,6 +487,100 @@ def test_judges_that_take_many_say_what_single_ones_say(cases, tmp_path):
             flown.judge_by(lambda run, answer=strange: answer)
     with pytest.raises(hairpin.InputError, match="no vectorised form"):
         hairpin.stress("demo-quadrotor", target=low, out=tmp_path / "target")
+
+
+def test_a_run_that_was_failed_or_not_kept_is_no_pass(cases, tmp_path):
+    def flies_one(mission):
+        if mission["case"] == "0001":
+            raise OSError("rotor lost")
+        return straight(mission)
+
+    judged = cases.execute(executor=flies_one, out=tmp_path / "failed").judge_by(lambda run: True)
+    assert judged.margins == {("0000", 0): 0.0} and judged.failed == (("0001", 0),) and judged.missing == ()
+    assert (judged.exit_code, bool(judged), judged.verdict) == (4, False, "EXECUTOR FAILED 1/2 runs")
+    gone = {**SMALL, "execute.repeat": 3, "execute.record": "worst"}
+    worst = hairpin.stress("demo-quadrotor", out=tmp_path / "worst", values=gone)
+    judged = worst.judge_by(lambda run: True)
+    assert len(judged.margins) == 2 and len(judged.missing) == 4 and judged.exit_code == 5 and not judged
+    assert str(judged).startswith("INCONCLUSIVE 0/6 runs; 4 not there to judge")
+    judged = worst.judge_by(lambda run: False)
+    assert judged.exit_code == 1 and str(judged).startswith("FAIL 2/6 runs; 4 not there to judge")
+    none = worst.execute(values={"execute.record": "none"}, out=tmp_path / "none").judge_by(lambda run: True)
+    assert (none.exit_code, none.margins, len(none.missing)) == (5, {}, 6)
+    with pytest.raises(hairpin.InputError, match="executions"):
+        cases.judge_by(lambda run: True)
+
+
+def test_runs_that_were_asked_for_and_not_executed_are_missing(cases, tmp_path):
+    def enough(what, done, of):
+        if done > 1:
+            raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        cases.execute(out=tmp_path / "out", values={"execute.repeat": 20}, threads=1, progress=enough)
+    judged = hairpin.open_campaign(tmp_path / "out").judge_by(lambda run: True)
+    assert judged.margins and judged.missing and len(judged.margins) + len(judged.missing) == 40
+    assert judged.exit_code == 5
+
+
+def test_what_a_judge_says_no_with_is_no(cases, tmp_path):
+    flown = cases.execute(executor=straight, out=tmp_path / "out")
+    for no in (False, np.False_, np.array(False), np.float32(-1), -1, np.array(-0.5)):
+        assert flown.judge_by(lambda run, no=no: no).exit_code == 1, no
+        assert flown.judge_by(hairpin.vectorised(lambda runs, no=no: [no] * len(runs))).exit_code == 1, no
+    for many in ([False, False], (False, False), np.array([False, False]), np.zeros(2, bool)):
+        assert flown.judge_by(hairpin.vectorised(lambda runs, many=many: many)).exit_code == 1, many
+    assert flown.judge_by(lambda run: np.array(True)) and flown.judge_by(lambda run: np.ma.masked).exit_code == 5
+    for strange in ([False], np.array([False]), {}, {1.0}, b"\0", "1", 1j, np.ones((1, 1)), np.datetime64(1, "s"), object()):
+        with pytest.raises(hairpin.InputError) as found:
+            flown.judge_by(lambda run, strange=strange: strange)
+        error = found.value
+        assert error.field == "margin" and error.value and error.bound == "a number, True or False, or None"
+    for strange in ({0: 1, 1: 1}, {1.0, 2.0}, "11", b"\0\0", np.zeros((2, 1), bool), -np.ones((2, 2)), None, iter([1.0, 1.0])):
+        with pytest.raises(hairpin.InputError) as found:
+            flown.judge_by(hairpin.vectorised(lambda runs, strange=strange: strange))
+        assert (found.value.field, bool(found.value.value)) == ("judge", True) and "one for each run" in found.value.bound
+    pandas = pytest.importorskip("pandas")
+    assert flown.judge_by(hairpin.vectorised(lambda runs: pandas.Series([False] * len(runs)))).exit_code == 1
+
+
+def test_the_same_campaign_asks_its_executor_again(tmp_path):
+    asked = []
+
+    def climbs(mission):
+        asked.append(mission["case"])
+        flown = straight(mission)
+        flown["p_m"][:, 2] += 6.0 * np.sin(np.linspace(0.0, np.pi, len(flown["t_s"])))
+        return flown
+
+    values = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 1}, "execute.repeat": 1, "execute.baseline": 0}
+    flown = hairpin.stress("demo-quadrotor", executor=lambda mission: climbs(mission), out=tmp_path / "out", values=values)
+    # One of the same name: each folder's own is asked.
+    level = flown.execute(executor=lambda mission: straight(mission), out=tmp_path / "level")
+    asked.clear()
+    assert flown.exit_code == 1 and flown.shrink(budget=1).violations and asked
+    again = flown.execute(out=tmp_path / "again").judge()
+    assert again.exit_code == 1 and deviations(again) == deviations(flown)
+    asked.clear()
+    many = level.execute(executor=hairpin.vectorised(lambda missions: [straight(one) for one in missions]), out=tmp_path / "many")
+    steered = flown.execute(controller=gentle, out=tmp_path / "steered")
+    assert [one.execute().exit_code for one in (level, many, steered)] == [0, 0, 0] and not asked
+
+
+@pytest.mark.parametrize("left", [SystemExit(3), KeyboardInterrupt("stop"), GeneratorExit("over")], ids=repr)
+def test_executors_that_leave_are_told_as_those_that_raise(left, cases, tmp_path):
+    def leaves(mission):
+        raise left
+
+    for number, executor in enumerate((leaves, hairpin.vectorised(leaves))):
+        flown = cases.execute(executor=executor, out=tmp_path / str(number))
+        assert flown.exit_code == 4 and f"{type(left).__name__}: {left}" in flown.verdict, flown.verdict
+
+
+def test_an_executor_that_leaves_is_the_cause_of_a_search_that_found_nothing(tmp_path):
+    with pytest.raises(hairpin.ExecutorError, match="SystemExit: 3") as found:
+        hairpin.stress("demo-quadrotor", executor=lambda mission: sys.exit(3), out=tmp_path / "out", values=LOOPED)
+    assert isinstance(found.value.__cause__, SystemExit)
 
 
 def test_the_console_command_is_the_command():

@@ -156,6 +156,29 @@ def test_the_fixture_fails_with_the_shrunk_case(place):
     assert code == 1 and "1 failed, 1 passed" in said and "waypoints ->" in said and "hairpin replay" in said, said
 
 
+def test_a_verdict_is_told_whatever_shrinking_came_to(place):
+    (place / "test_own.py").write_text(
+        "VALUES = {'generate.search': {'method': 'uniform', 'waypoints': 40, 'cases': 1}, 'execute.repeat': 1,\n"
+        "          'execute.baseline': 0, 'spec.deviation.max_m': 0.5}\n"
+        "def test_stops(hairpin_stress):\n"
+        "    asked = []\n"
+        "    def once(mission):\n"
+        "        asked.append(mission)\n"
+        "        if len(asked) > 1:\n"
+        "            raise OSError('rotor lost')\n"
+        "        return {'t_s': [0.0, 1.0], 'p_m': [mission['waypoints_m'][0]] * 2, 'ended': 'crash'}\n"
+        "    hairpin_stress(values=VALUES, executor=once)\n"
+    )
+    code, said = run(place, "test_own.py")
+    assert code == 1 and "1 failed" in said and "FAIL 1/1" in said and "Traceback" not in said, said
+    assert "not shrunk: " in said and "rotor lost" in said and "case 0000: crash" in said, said
+
+
+def test_settings_that_are_none_are_usage_errors(place):
+    code, said = run(place, "--hairpin", "scenario.toml", "--hairpin-set", "foo")
+    assert code == 4 and "ERROR: --hairpin-set foo: must be KEY=VALUE" in said and "Traceback" not in said, said
+
+
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_run(example):
     done = subprocess.run([sys.executable, str(example)], capture_output=True, text=True, timeout=120)

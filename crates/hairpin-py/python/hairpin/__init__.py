@@ -30,11 +30,12 @@ from hairpin._jobs import (
     verify,
 )
 from hairpin._judge import judge
+from hairpin._judging import Judged
 from hairpin._live import live
 from hairpin._logs import Cut, JudgedLog, JudgedLogs
 from hairpin._many import vectorised
 from hairpin._native import __version__
-from hairpin._results import Case, Comparison, Judged, Report, Run, Shrunk, Verification, Violation
+from hairpin._results import Case, Comparison, Report, Run, Shrunk, Verification, Violation
 from hairpin._scenario import Robot, Scenario, World
 from hairpin._steering import STATUSES, Curvature, Drive, Drives, Segment, steer
 from hairpin._tables import Table

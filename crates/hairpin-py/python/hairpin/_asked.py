@@ -66,6 +66,25 @@ def _float(value: Any) -> float:
         return math.nan
 
 
+def scalar(name: str, value: Any, bound: str) -> float | bool:
+    """A number or truth by itself, NaN and what is infinite too; of an array without dimensions its entry."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    unmasked(name, value, bound)
+    try:
+        if hasattr(value, "ndim"):
+            # float() takes words for what they say, truths for 0 and 1, and of complex numbers a part.
+            entry_of = np.asarray(value)
+            if entry_of.ndim or entry_of.dtype.kind not in _NUMBERS:
+                raise TypeError(entry_of)
+            return bool(entry_of) if entry_of.dtype.kind == "b" else float(entry_of)
+        if not hasattr(type(value), "__float__") or isinstance(value, str | bytes | Sequence):
+            raise TypeError(value)
+        return float(value)
+    except Exception:  # It is the caller's object that is asked.
+        raise wrong(name, value, bound) from None
+
+
 def seconds(name: str, value: Any) -> float | None:
     """A time limit; none is ``None``."""
     return None if value is None else real(name, value, "a number of seconds ≥ 0", least=0.0)

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from hairpin._asked import entry, finite, floats, function, unmasked, whole, word, wrong
+from hairpin._call import Brought
 from hairpin._labels import floats_by_name
 from hairpin._many import Together, takes_many
 from hairpin._scenario import texts
@@ -27,7 +28,8 @@ _OWNER = "HAIRPIN_PYTHON_EXECUTOR_OWNER"
 
 
 _executors: dict[str, Callable[..., Any]] = {}
-_lock = threading.Lock()
+_free = threading.Condition()
+"""Of what is served: held where it changes, and told of names that are free again."""
 
 _KEYS = ("t_s", "p_m", "q_wxyz", "v_m_s", "leg", "ended", "reason", "type", "case", "run")
 """What is understood of a flight: arrays, how it ended, and what the protocol says beside them."""
@@ -41,29 +43,53 @@ _NAMES = {
 
 
 @contextlib.contextmanager
-def serving(executor: Callable[..., Any] | str | None, raised: list[BaseException] | None = None) -> Iterator[str | None]:
-    """The command that executes; while it is in use the callable is served, and what it last ``raised`` kept."""
-    raised = [] if raised is None else raised
-    raised.clear()
+def serving(executor: Callable[..., Any] | str | None, brought: Brought | None = None) -> Iterator[str | None]:
+    """The command that executes; while it is in use the callable is served, and what it last raised kept.
+
+    What is ``brought`` keeps a callable and its name, for jobs that go on from a folder whose scenario names it.
+    """
     if executor is None or isinstance(executor, str):
         yield executor
         return
     function("executor", executor, "a command or a function of a mission")
-    given = getattr(executor, "__name__", type(executor).__name__)
-    plain = "".join(c if c.isalnum() or c in "_-." else "_" for c in given) or "executor"
-    with _lock:
-        if PLACE not in os.environ or os.environ.get(_OWNER) != str(os.getpid()):
-            _begin_to_listen()
-        name = next(
-            name for number in range(1, 1 << 16) if (name := plain if number == 1 else f"{plain}-{number}") not in _executors
-        )
-        _executors[name] = _keeping(Together(executor) if takes_many(executor) else executor, raised)
-    try:
+    kept = brought or Brought()
+    kept.executor = executor
+    with _named(executor, kept) as name:
         # Of the package it needs nothing, whose import takes longer than many a mission.
         yield shlex.join([sys.executable, "-IS", str(Path(__file__).with_name("_relay.py")), name])
+
+
+@contextlib.contextmanager
+def serving_again(brought: Brought | None) -> Iterator[None]:
+    """While it is in use the callable that executed is served by the name that the folder's scenario has."""
+    if brought is None or brought.executor is None:
+        yield
+        return
+    with _named(brought.executor, brought, brought.served):
+        yield
+
+
+@contextlib.contextmanager
+def _named(executor: Callable[..., Any], brought: Brought, known: str = "") -> Iterator[str]:
+    """The name by which an executor is asked for as long as this lasts: the one that is known, or one that is free."""
+    given = getattr(executor, "__name__", type(executor).__name__)
+    plain = "".join(c if c.isalnum() or c in "_-." else "_" for c in given) or "executor"
+    brought.flying.clear()
+    serves = _keeping(Together(executor) if takes_many(executor) else executor, brought.flying)
+    with _free:
+        if PLACE not in os.environ or os.environ.get(_OWNER) != str(os.getpid()):
+            _begin_to_listen()
+        # Another one of this name may be at work, in a thread of its own.
+        _free.wait_for(lambda: known not in _executors)
+        names = (plain if number == 1 else f"{plain}-{number}" for number in range(1, 1 << 16))
+        name = known or next(name for name in names if name not in _executors)
+        _executors[name], brought.served = serves, name
+    try:
+        yield name
     finally:
-        with _lock:
+        with _free:
             del _executors[name]
+            _free.notify_all()
 
 
 def _keeping(executor: Callable[..., Any], raised: list[BaseException]) -> Callable[..., Any]:
@@ -118,9 +144,11 @@ def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -
         yield {"type": "ready", "protocol": 1, "name": name}
     elif message["type"] == "mission":
         try:
-            yield from _told(executor(message), message)
-        except Exception as error:  # It is the user's code: what it raises is why there is no run.
-            yield {"type": "error", "message": f"{type(error).__name__}: {error}"}
+            told = list(_told(executor(message), message))
+        except BaseException as error:
+            # It is the user's code: what it raises is why there is no run. Ctrl-C ends the job in the thread that began it.
+            told = [{"type": "error", "message": f"{type(error).__name__}: {error}"}]
+        yield from told
 
 
 def _told(flown: Any, mission: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -28,6 +28,9 @@ class Brought:
     raised: list[BaseException] = field(default_factory=list)
     flying: list[BaseException] = field(default_factory=list)
     """What an executor raised last."""
+    executor: Callable[..., Any] | None = None
+    served: str = ""
+    """The name by which the executor is asked, which the folder's scenario has."""
 
     def code(self) -> _native.Code:
         return _native.Code(self.score, self.target, self.controller)

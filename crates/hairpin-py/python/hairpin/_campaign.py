@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import html
-import itertools
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -13,13 +12,13 @@ from typing import Any
 import numpy as np
 
 from hairpin import _native
-from hairpin._asked import function, place, place_or_none, seconds, whole, wrong
+from hairpin._asked import place, place_or_none, seconds, whole, wrong
+from hairpin._bridge import serving_again
 from hairpin._call import Brought, Progress, means, waiting
 from hairpin._errors import InputError
-from hairpin._labels import labels_of
-from hairpin._many import takes_many
+from hairpin._judging import Judged, judged_by
 from hairpin._picture import picture
-from hairpin._results import Case, Comparison, Floats, Judged, Report, Run, Shrunk, Verification, Violation, margin_of
+from hairpin._results import Case, Comparison, Floats, Report, Shrunk, Verification, Violation
 from hairpin._same import same
 from hairpin._scenario import sets_of
 from hairpin._tables import Table
@@ -202,28 +201,14 @@ class Campaign:
                 With :func:`vectorised` it gets a list of runs, 256 at most, and gives as many answers.
 
         Raises:
-            InputError: an answer is a word, or what else is no number.
-            ValueError: a vectorised judge gave more or fewer answers than it was asked for.
+            InputError: an answer is a word, a list, or what else is no number; a vectorised judge gave what is no list, tuple,
+                array (n,) or series, or more or fewer answers than it was asked for.
 
-        Nothing is written.
+        Runs that an executor failed (exit code 4), that were not executed, or whose motion was not kept (5) are not judged, and are
+        told beside the margins. Nothing is written.
         """
-        function("judge", judge, "a function of a run")
-        asked = judge if takes_many(judge) else lambda runs: [judge(run) for run in runs]
-        found: dict[tuple[str, int], float | None] = {}
-        runs = self._runs()
-        while block := list(itertools.islice(runs, 256)):
-            answers = _listed(asked(block))
-            if len(answers) != len(block):
-                raise ValueError(f"{len(answers)} answers of {len(block)} runs")
-            found.update({(run.case.id, run.number): margin_of(answer) for run, answer in zip(block, answers, strict=True)})
-        return Judged(found)
-
-    def _runs(self) -> Iterator[Run]:
-        """Every run that is kept, read when it is asked for."""
-        for case in self.cases:
-            runs = self.table("executions", case=case.number).to_numpy()["run"]
-            for run in sorted(set(runs.tolist())):
-                yield Run(case, run, self.execution(case.id, run))
+        # Runs are those that are there now, and so are their cases.
+        return judged_by(Campaign(self.folder), judge)
 
     def verify(self, *, threads: int | None = None, progress: Progress | None = None) -> Verification:
         """Integrates every witness by independent code; see :func:`hairpin.verify`."""
@@ -249,12 +234,13 @@ class Campaign:
             raise InputError("`case`: no case violates, there is nothing to shrink", "case", "", "a case that violates")
         effort = (whole("budget", budget, 1), seconds("time_limit_s", time_limit_s), place_or_none("out", out))
         try:
-            found = _native.shrink(
-                (self.folder, one.number),
-                effort,
-                means(self._brought, portable, allow_commands),
-                waiting(threads, progress),
-            )
+            with serving_again(self._brought):
+                found = _native.shrink(
+                    (self.folder, one.number),
+                    effort,
+                    means(self._brought, portable, allow_commands),
+                    waiting(threads, progress),
+                )
         except Exception as error:
             raise (self._brought.why(error) if self._brought else error)
         return Shrunk(
@@ -355,16 +341,6 @@ def _case(one: Mapping[str, Any]) -> Case:
         "message",
     )
     return Case(id=one["case"], waypoints_m=waypoints, violations=violations, **{name: one[name] for name in names})
-
-
-def _listed(answers: Any) -> list[Any]:
-    if not isinstance(answers, Iterable):
-        raise TypeError(f"{answers!r} is no list of answers, of the judge")
-    labels = labels_of(answers)
-    if labels is not None and not isinstance(answers, tuple):
-        # Sorted, say: whose answer is whose is told by labels of which the runs know nothing.
-        raise wrong("judge.index", labels, "numbers that rise, in the order of the runs")
-    return list(answers)
 
 
 def _metres(value: float | None) -> str:

@@ -9,16 +9,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hairpin._asked import floats, function, real, whole, wrong
+from hairpin._asked import entry, floats, function, real, whole, wrong
 from hairpin._many import takes_many, vectorised
 
 Floats = npt.NDArray[np.float64]
 Executor = Callable[[Any], Any]
 """Of a mission gives a flight; if it is marked by :func:`vectorised`, of a list of missions a list of flights."""
-_NUMBERS = "an array of numbers"
-_OF_A_POSE = ("p_m", "q_wxyz", "v_m_s")
+Advance = Callable[[float, dict[str, Any], npt.NDArray[np.bool_]], dict[str, Floats]]
+"""Of time, where to go and which missions are under way gives poses."""
+_OF_A_POSE = {"p_m": 3, "q_wxyz": 4, "v_m_s": 3}
 _MOST_STEPS = 10_000_000
 """Of a mission: few enough to be held in memory."""
+_DIVERGED = 1e100
+"""A state with an entry beyond it has diverged: that numbers overflow from there on is the model's own crash."""
 
 
 def dynamics(
@@ -48,6 +51,10 @@ def dynamics(
     and places have a row for each, (r, n), (r, m) and (r, 3), ``next`` is (r,), ``target_m`` (r, 3), ``waypoints_m`` a list, and
     ``start`` gets a list of missions. A row stays until the last one is there, and no row may depend on another.
 
+    What is of another shape is refused, and so is what is not finite (control, derivative, pose) where the state is: the run is
+    EXECUTOR FAILED, with the function's name and the time. Where the state itself grows beyond 1e100 the model diverged, and the
+    run ends as a ``crash``.
+
     A waypoint is reached within ``accept_m`` of it. What is reported is what was integrated: it is executed only, and a case that
     no reach set of hairpin's planned has the evidence ``unchecked``.
 
@@ -60,18 +67,27 @@ def dynamics(
     step_s, substeps = _step(step_s), whole("substeps", substeps, 1)
     _functions(derivative=derivative, control=control, start=start, pose=pose)
 
-    def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
-        state = np.array(floats("start", start(missions), _NUMBERS))
-        size = step_s / substeps
+    def begin(missions: Any, rows: int | None) -> Advance:
+        state = np.array(_shaped("start", start(missions), "n", rows))
+        _finite(("start", state), state, np.ones(rows or 1, dtype=bool), 0.0)
+        size, width = step_s / substeps, None
 
-        def advance(t: float, to: dict[str, Any]) -> Any:
-            nonlocal state
+        def advance(t: float, to: dict[str, Any], under_way: npt.NDArray[np.bool_]) -> dict[str, Floats]:
+            nonlocal state, width
+
+            def f(at: float, x: Floats) -> Floats:
+                return _shaped("derivative", derivative(at, x, u), state.shape[-1], rows)
+
             if t > 0.0:
                 before = t - step_s
-                u = floats("control", control(before, state, to), _NUMBERS)
+                u = _shaped("control", control(before, state, to), "m" if width is None else width, rows)
+                width = u.shape[-1]
+                _finite(("control", u), state, under_way, before)
                 for number in range(substeps):
-                    state = _runge_kutta(derivative, before + number * size, state, u, size)
-            return pose(state)
+                    state = _runge_kutta(f, before + number * size, state, size, under_way)
+            posed = _posed(pose(state), rows)
+            _finite(("p_m", posed["p_m"]), state, under_way, t)
+            return posed
 
         return advance
 
@@ -106,14 +122,14 @@ def adversary(
     step_s = _step(step_s)
     _functions(env_step=env_step, reset=reset, policy=policy, pose=pose)
 
-    def begin(missions: Any) -> Callable[[float, dict[str, Any]], Any]:
+    def begin(missions: Any, rows: int | None) -> Advance:
         state = reset(missions)
 
-        def advance(t: float, to: dict[str, Any]) -> Any:
+        def advance(t: float, to: dict[str, Any], under_way: npt.NDArray[np.bool_]) -> dict[str, Floats]:
             nonlocal state
             if t > 0.0:
                 state = env_step(state, policy(state, to))
-            return pose(state)
+            return _posed(pose(state), rows)
 
         return advance
 
@@ -121,20 +137,19 @@ def adversary(
 
 
 def _executor(
-    begin: Callable[[Any], Callable[[float, dict[str, Any]], Any]], step_s: float, many: bool, named: Any, otherwise: str
+    begin: Callable[[Any, int | None], Advance], step_s: float, many: bool, named: Any, otherwise: str
 ) -> Executor:
     """One of what steps a mission, or many of them at once."""
 
     def fly_many(missions: list[dict[str, Any]]) -> list[dict[str, Any]]:
-        advance = begin(missions)
-        return _carried_out(missions, lambda t, to: _posed_rows(advance(t, to), len(missions)), step_s)
+        return _carried_out(missions, begin(missions, len(missions)), step_s)
 
     def fly(mission: dict[str, Any]) -> dict[str, Any]:
-        advance = begin(mission)
+        advance = begin(mission, None)
 
-        def alone(t: float, to: dict[str, Any]) -> dict[str, Floats]:
+        def alone(t: float, to: dict[str, Any], under_way: npt.NDArray[np.bool_]) -> dict[str, Floats]:
             row = {"waypoints_m": to["waypoints_m"][0], "next": int(to["next"][0]), "target_m": to["target_m"][0]}
-            return {key: value[np.newaxis] for key, value in _posed(advance(t, row)).items()}
+            return {key: value[np.newaxis] for key, value in advance(t, row, under_way).items()}
 
         return _carried_out([mission], alone, step_s)[0]
 
@@ -152,37 +167,67 @@ def _step(step_s: float) -> float:
     return real("step_s", step_s, "a number of seconds > 0", above=0.0)
 
 
-def _runge_kutta(derivative: Callable[..., npt.ArrayLike], t: float, x: Floats, u: Floats, h: float) -> Floats:
-    def f(at: float, state: Floats) -> Floats:
-        return floats("derivative", derivative(at, state, u), _NUMBERS)
+def _runge_kutta(
+    f: Callable[[float, Floats], Floats], t: float, x: Floats, h: float, under_way: npt.NDArray[np.bool_]
+) -> Floats:
+    asked: list[tuple[float, Floats, Floats]] = []
 
-    k1 = f(t, x)
-    k2 = f(t + 0.5 * h, x + 0.5 * h * k1)
-    k3 = f(t + 0.5 * h, x + 0.5 * h * k2)
-    k4 = f(t + h, x + h * k3)
-    return x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    def slope(at: float, state: Floats) -> Floats:
+        asked.append((at, state, f(at, state)))
+        return asked[-1][2]
+
+    k1 = slope(t, x)
+    k2 = slope(t + 0.5 * h, x + 0.5 * h * k1)
+    k3 = slope(t + 0.5 * h, x + 0.5 * h * k2)
+    k4 = slope(t + h, x + h * k3)
+    after = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    if not np.isfinite(after).all():
+        for at, state, found in asked:
+            _finite(("derivative", found), state, under_way, at)
+    return after
 
 
-def _posed(found: Any) -> dict[str, Floats]:
+def _shaped(name: str, value: Any, size: int | str, rows: int | None) -> Floats:
+    """Numbers of one mission, or a row for each of many: of another shape they would be spread over all."""
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.shape == ((size,) if rows is None else (rows, size)):
+        return value
+    many = f"numbers of shape ({rows}, {size}), a row for each of {rows} missions"
+    bound = f"numbers of shape ({size},)" if rows is None else many
+    numbers = floats(name, value, bound)
+    first = () if rows is None else (rows,)
+    if numbers.ndim != len(first) + 1 or numbers.shape[:-1] != first or size not in ("m", "n", numbers.shape[-1]):
+        raise wrong(name, value, bound)
+    return numbers
+
+
+def _finite(told: tuple[str, Floats], state: Floats, under_way: npt.NDArray[np.bool_], t: float) -> None:
+    """Refuses what is not finite of a state that is: it is a mistake of the function, where a state that grows beyond all
+    numbers is the model's own crash."""
+    name, found = told
+    if np.isfinite(found).all():
+        return
+    alone = found.ndim == 1
+    table, states = (found[np.newaxis], state[np.newaxis]) if alone else (found, state)
+    held = under_way & (name == "start" or (np.abs(states) <= _DIVERGED).all(axis=1))
+    bad = np.argwhere(~np.isfinite(table) & held[:, np.newaxis])
+    if len(bad):
+        at = tuple(bad[0].tolist())
+        bound = f"a finite number at t = {t:g} s, of a finite state"
+        raise wrong(entry(name, at[1:] if alone else at), float(table[at]), bound)
+
+
+def _posed(found: Any, rows: int | None) -> dict[str, Floats]:
     table = found if isinstance(found, Mapping) else {"p_m": found}
     strange = next((key for key in table if key not in _OF_A_POSE), None)
     if strange is not None or "p_m" not in table:
         bound = "a place, or a dictionary with p_m and, if they are known, q_wxyz and v_m_s"
         raise wrong("pose", strange or list(table), bound)
     # A copy: an environment may give the same array again and again.
-    return {key: np.array(floats(key, value, _NUMBERS)) for key, value in table.items()}
-
-
-def _posed_rows(found: Any, rows: int) -> dict[str, Floats]:
-    posed = _posed(found)
-    for key, value in posed.items():
-        if value.shape[:1] != (rows,):
-            raise ValueError(f"{key} of shape {value.shape}: must have a row for each of {rows} missions")
-    return posed
+    return {key: np.array(_shaped(key, value, _OF_A_POSE[key], rows)) for key, value in table.items()}
 
 
 def _carried_out(
-    missions: list[dict[str, Any]], advance: Callable[[float, dict[str, Any]], dict[str, Floats]], step_s: float
+    missions: list[dict[str, Any]], advance: Advance, step_s: float
 ) -> list[dict[str, Any]]:
     """Steps until of each the last waypoint is reached, or the time is over."""
     ways = [np.asarray(mission["waypoints_m"], dtype=np.float64) for mission in missions]
@@ -200,7 +245,8 @@ def _carried_out(
     legs: list[npt.NDArray[np.int64]] = []
     while (under_way := under_way & (len(rows) * step_s <= limit)).any():
         towards = np.minimum(at, counts - 1)
-        row = advance(len(rows) * step_s, {"waypoints_m": ways, "next": at.copy(), "target_m": places[every, towards]})
+        to = {"waypoints_m": ways, "next": at.copy(), "target_m": places[every, towards]}
+        row = advance(len(rows) * step_s, to, under_way)
         lost = under_way & ~np.isfinite(row["p_m"]).all(axis=1)
         under_way &= ~lost
         rows.append(row)

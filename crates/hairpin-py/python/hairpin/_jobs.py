@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -82,7 +82,7 @@ def stress(
     """
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
-    with serving(executor, brought.flying) as command:
+    with serving(executor, brought) as command:
         begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s, budget_s)
         given = (place_or_none("missions", missions), place_or_none("repro", repro))
         said = _called(
@@ -122,7 +122,7 @@ def generate(
     """
     asked = scenario(source)
     brought = bring(controller, score, target, _score_key(asked) if score is not None else "")
-    with serving(executor, brought.flying) as command:
+    with serving(executor, brought) as command:
         begun = _begun(asked, out, seed, values, brought, (command, executor), if_there, time_limit_s)
         said = _called(
             brought, lambda: _native.generate(begun, means(brought, portable, allow_commands), waiting(threads, progress))
@@ -173,8 +173,9 @@ def execute(
         raise wrong("resume", resume, f"left out beside {'`missions`' if missions is not None else '`if_there`'}")
     brought = bring(controller)
     if controller is None and executor is None and own is not None:
-        brought = own
-    with serving(executor, brought.flying) as command:
+        # A copy: the folder that is executed has a name of its own for the executor.
+        brought, executor = replace(own), own.executor
+    with serving(executor, brought) as command:
         sets = sets_of(values) + [one for one in brought.sets if one[0].startswith("execute.")] + _command(command)
         sets += _side_by_side(executor, os.fspath(folder / "scenario.toml"), sets)
         flights = SimpleNamespace(

@@ -77,7 +77,7 @@ class Together:
             answers = list(self._executor([one.mission for one in asked]))
             if len(answers) != len(asked):
                 raise ValueError(f"{len(answers)} flights of {len(asked)} missions")
-        except Exception as error:
+        except BaseException as error:  # `sys.exit` too: who waits for an answer must have one.
             if len(asked) == 1:
                 asked[0].answer = error
                 return
@@ -94,4 +94,4 @@ class _Mission:
 
     def __init__(self, mission: dict[str, Any]) -> None:
         self.mission = mission
-        self.answer: Mapping[str, Any] | Exception | None = None
+        self.answer: Mapping[str, Any] | BaseException | None = None

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import html
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from hairpin._asked import wrong
 from hairpin._same import Same
 
 Floats = npt.NDArray[np.float64]
@@ -119,44 +118,6 @@ class Run(Same):
     def p_m(self) -> Floats:
         """Places, shape (n, 3), m, world frame."""
         return np.stack([self.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
-
-
-def margin_of(answer: Any) -> float | None:
-    """What a judge said of a run as a margin: ``None`` is open, and so is what is masked or NaN; ``True`` is within, ``False`` is not.
-
-    Raises:
-        InputError: a word, or what else is no number.
-    """
-    if isinstance(answer, bool | np.bool_):
-        return 0.0 if answer else -1.0
-    if np.ma.is_masked(answer):
-        return None
-    # float() takes words for what they say, and of complex numbers a part.
-    if np.asarray(answer).dtype.kind in "cSUmM":
-        raise wrong("margin", answer, "a number, True or False, or None")
-    margin = None if answer is None else float(answer)
-    return None if margin is None or np.isnan(margin) else margin
-
-
-@dataclass(frozen=True)
-class Judged:
-    """What a judge of this process says: margins by case and run, ≥ 0 is within, ``None`` is open."""
-
-    margins: dict[tuple[str, int], float | None] = field(default_factory=dict)
-
-    @property
-    def failing(self) -> list[tuple[str, int]]:
-        """Case and run of those that are not within, the worst first."""
-        out = [(margin, key) for key, margin in self.margins.items() if margin is not None and not margin >= 0.0]
-        return [key for _, key in sorted(out)]
-
-    @property
-    def exit_code(self) -> int:
-        """0 all within, 1 one is not, 5 one is open."""
-        return 1 if self.failing else (5 if any(margin is None for margin in self.margins.values()) or not self.margins else 0)
-
-    def __bool__(self) -> bool:
-        return self.exit_code == 0
 
 
 @dataclass(frozen=True)

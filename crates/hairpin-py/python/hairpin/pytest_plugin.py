@@ -39,6 +39,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     scenarios = [Path(name) for name in config.getoption("--hairpin")]
     config.stash[_CAMPAIGNS] = {}
+    for pair in config.getoption("--hairpin-set"):
+        _split(pair)
     for scenario in scenarios:
         if not scenario.is_file():
             raise pytest.UsageError(
@@ -220,9 +222,13 @@ def hairpin_stress(request: pytest.FixtureRequest, tmp_path: Path) -> Callable[.
         lines = [str(campaign.verdict)]
         worst = next(iter(campaign.failing), None)
         if worst is not None:
-            shrunk = campaign.shrink(worst, budget=shrink_budget)
-            points = "\n".join(f"  {x:.3f}, {y:.3f}, {z:.3f}" for x, y, z in shrunk.waypoints_m)
-            lines += [f"case {shrunk.case}: {shrunk}", points, f"again: hairpin replay {shrunk.repro}"]
+            try:
+                shrunk = campaign.shrink(worst, budget=shrink_budget)
+            except Exception as error:  # The campaign has its verdict, whatever became of a smaller case.
+                lines += [_told(campaign, worst), f"not shrunk: {type(error).__name__}: {error}"]
+            else:
+                points = "\n".join(f"  {x:.3f}, {y:.3f}, {z:.3f}" for x, y, z in shrunk.waypoints_m)
+                lines += [f"case {shrunk.case}: {shrunk}", points, f"again: hairpin replay {shrunk.repro}"]
         pytest.fail("\n".join(lines), pytrace=False)
 
     return run
