@@ -44,10 +44,15 @@ pub(super) struct Read {
     pub(super) step_m: f64,
 }
 
+/// Why two logs are one recording to the bit, if they are.
+pub(super) fn same_samples(log: &Read, before: &Read) -> Option<String> {
+    is_same(&log.flown.track, &before.flown.track).then(|| format!("has the samples of {}", before.flown.log))
+}
+
 /// Why two logs are one recording, if they are.
 pub(super) fn is_one(log: &Read, before: &Read) -> Option<String> {
-    if is_same(&log.flown.track, &before.flown.track) {
-        return Some(format!("has the samples of {}", before.flown.log));
+    if let Some(why) = same_samples(log, before) {
+        return Some(why);
     }
     let found = Pair::of(log, before).found()?;
     Some(format!(
