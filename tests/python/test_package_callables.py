@@ -531,15 +531,17 @@ def test_what_a_judge_says_no_with_is_no(cases, tmp_path):
     for many in ([False, False], (False, False), np.array([False, False]), np.zeros(2, bool)):
         assert flown.judge_by(hairpin.vectorised(lambda runs, many=many: many)).exit_code == 1, many
     assert flown.judge_by(lambda run: np.array(True)) and flown.judge_by(lambda run: np.ma.masked).exit_code == 5
-    for strange in ([False], np.array([False]), {}, {1.0}, b"\0", "1", 1j, np.ones((1, 1)), np.datetime64(1, "s"), object()):
+    stamp = np.datetime64(1, "s")
+    for strange in ([False], np.array([False]), {}, {1.0}, b"\0", "1", 1j, np.ones((1, 1)), stamp, object()):
         with pytest.raises(hairpin.InputError) as found:
             flown.judge_by(lambda run, strange=strange: strange)
         error = found.value
         assert error.field == "margin" and error.value and error.bound == "a number, True or False, or None"
-    for strange in ({0: 1, 1: 1}, {1.0, 2.0}, "11", b"\0\0", np.zeros((2, 1), bool), -np.ones((2, 2)), None, iter([1.0, 1.0])):
+    tables = (np.zeros((2, 1), bool), -np.ones((2, 2)))
+    for strange in ({0: 1, 1: 1}, {1.0, 2.0}, "11", b"\0\0", *tables, None, iter([1.0, 1.0])):
         with pytest.raises(hairpin.InputError) as found:
             flown.judge_by(hairpin.vectorised(lambda runs, strange=strange: strange))
-        assert (found.value.field, bool(found.value.value)) == ("judge", True) and "one for each run" in found.value.bound
+        assert found.value.field == "judge" and found.value.value and "one for each run" in found.value.bound
     pandas = pytest.importorskip("pandas")
     assert flown.judge_by(hairpin.vectorised(lambda runs: pandas.Series([False] * len(runs)))).exit_code == 1
 
@@ -553,8 +555,10 @@ def test_the_same_campaign_asks_its_executor_again(tmp_path):
         flown["p_m"][:, 2] += 6.0 * np.sin(np.linspace(0.0, np.pi, len(flown["t_s"])))
         return flown
 
-    values = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 1}, "execute.repeat": 1, "execute.baseline": 0}
-    flown = hairpin.stress("demo-quadrotor", executor=lambda mission: climbs(mission), out=tmp_path / "out", values=values)
+    search = {"method": "uniform", "waypoints": 40, "cases": 1}
+    values = {"generate.search": search, "execute.repeat": 1, "execute.baseline": 0}
+    high = lambda mission: climbs(mission)  # noqa: E731
+    flown = hairpin.stress("demo-quadrotor", executor=high, out=tmp_path / "out", values=values)
     # One of the same name: each folder's own is asked.
     level = flown.execute(executor=lambda mission: straight(mission), out=tmp_path / "level")
     asked.clear()
@@ -562,7 +566,8 @@ def test_the_same_campaign_asks_its_executor_again(tmp_path):
     again = flown.execute(out=tmp_path / "again").judge()
     assert again.exit_code == 1 and deviations(again) == deviations(flown)
     asked.clear()
-    many = level.execute(executor=hairpin.vectorised(lambda missions: [straight(one) for one in missions]), out=tmp_path / "many")
+    together = hairpin.vectorised(lambda missions: [straight(one) for one in missions])
+    many = level.execute(executor=together, out=tmp_path / "many")
     steered = flown.execute(controller=gentle, out=tmp_path / "steered")
     assert [one.execute().exit_code for one in (level, many, steered)] == [0, 0, 0] and not asked
 

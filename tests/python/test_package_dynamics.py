@@ -1,11 +1,12 @@
-"""Robots that are differential equations, and environments under a policy: shapes, mistakes, and models that diverge."""
+"""Robots that are differential equations, and environments under a policy: shapes, mistakes, models that diverge."""
 
 import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
 
-SMALL = {"generate.search": {"method": "uniform", "waypoints": 40, "cases": 1}, "execute.repeat": 1, "execute.baseline": 0}
+SEARCH = {"method": "uniform", "waypoints": 40, "cases": 1}
+SMALL = {"generate.search": SEARCH, "execute.repeat": 1, "execute.baseline": 0}
 WAY = {"waypoints_m": [[0, 0, 0], [1, 0, 0]], "accept_m": 0.1, "time_limit_s": 2.0}
 RIGHT = {
     "derivative": lambda t, x, u: u,
@@ -13,7 +14,11 @@ RIGHT = {
     "start": lambda mission: np.zeros(3),
     "pose": lambda x: x,
 }
-ROWS = {**RIGHT, "derivative": hairpin.vectorised(lambda t, x, u: u), "start": lambda missions: np.zeros((len(missions), 3))}
+ROWS = {
+    **RIGHT,
+    "derivative": hairpin.vectorised(lambda t, x, u: u),
+    "start": lambda missions: np.zeros((len(missions), 3)),
+}
 
 @pytest.fixture(scope="module")
 def cases(tmp_path_factory):
@@ -75,19 +80,22 @@ def test_a_model_that_diverges_crashes_and_a_mistake_in_it_is_none_of_the_robots
     with np.errstate(all="ignore"):
         flown = hairpin.dynamics(**explodes)(far)
         rows = hairpin.dynamics(**{**ROWS, "derivative": hairpin.vectorised(lambda t, x, u: x * x + x)})([far, far])
-    assert flown["ended"] == "crash" and 0.9 < flown["t_s"][-1] < 1.1 and [one["ended"] for one in rows] == ["time", "time"]
-    none = hairpin.dynamics(**{**RIGHT, "control": lambda *given: None, "start": lambda mission: mission["waypoints_m"][0]})
+    assert flown["ended"] == "crash" and 0.9 < flown["t_s"][-1] < 1.1
+    assert [one["ended"] for one in rows] == ["time", "time"]
+    first = lambda mission: mission["waypoints_m"][0]  # noqa: E731
+    none = hairpin.dynamics(**{**RIGHT, "control": lambda *given: None, "start": first})
     judged = cases.execute(executor=none, out=tmp_path / "out").judge()
     assert judged.exit_code == 4 and "`control` = None" in judged.verdict, judged.verdict
     # A row whose last waypoint is reached is over, whatever its function gives from there on.
     ends = {**ROWS, "control": lambda t, x, to: np.where((to["next"] > 1)[:, np.newaxis], np.nan, to["target_m"] - x)}
     near = {**WAY, "waypoints_m": [[0, 0, 0], [0.05, 0, 0]]}
-    assert [one["ended"] for one in hairpin.dynamics(**ends, step_s=0.1)([near, {**WAY, "time_limit_s": 9.0}])] == ["done", "done"]
+    both = hairpin.dynamics(**ends, step_s=0.1)([near, {**WAY, "time_limit_s": 9.0}])
+    assert [one["ended"] for one in both] == ["done", "done"]
 
 
 def test_an_environments_pose_has_its_shape():
     env = {"reset": lambda mission: 0, "policy": lambda state, to: 0, "step_s": 0.1}
-    for pose, field in ((lambda state: [0.0, 0.0], "p_m"), (lambda state: 1.0, "p_m"), (lambda state: {"p_m": [0] * 3, "v_m_s": [0]}, "v_m_s")):
+    for pose, field in (([0.0, 0.0], "p_m"), (1.0, "p_m"), ({"p_m": [0] * 3, "v_m_s": [0]}, "v_m_s")):
         with pytest.raises(hairpin.InputError) as found:
-            hairpin.adversary(lambda state, action: state, pose=pose, **env)(WAY)
+            hairpin.adversary(lambda state, action: state, pose=lambda state, pose=pose: pose, **env)(WAY)
         assert found.value.field == field

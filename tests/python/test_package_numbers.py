@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 hairpin = pytest.importorskip("hairpin", reason="the package is built by tests/run")
-from hairpin._campaign import _listed  # noqa: E402
 from hairpin._clouds import cloud_file  # noqa: E402
+from hairpin._judging import _listed  # noqa: E402
 from hairpin._labels import row_by_name  # noqa: E402
 
 BIN = os.environ["HAIRPIN_BIN"]
@@ -255,5 +255,5 @@ def test_one_row_with_names_goes_by_them():
     assert found.value.field == "start.index"
     # Sorted answers are those of other runs.
     with pytest.raises(hairpin.InputError, match="judge.index"):
-        _listed(pandas.Series([3.0, 1.0, 2.0]).sort_values())
-    assert _listed(pandas.Series([3.0, 1.0])) == [3.0, 1.0]
+        _listed(pandas.Series([3.0, 1.0, 2.0]).sort_values(), 3)
+    assert _listed(pandas.Series([3.0, 1.0]), 2) == [3.0, 1.0]

@@ -146,7 +146,7 @@ def _answers(message: dict[str, Any], executor: Callable[..., Any], name: str) -
         try:
             told = list(_told(executor(message), message))
         except BaseException as error:
-            # It is the user's code: what it raises is why there is no run. Ctrl-C ends the job in the thread that began it.
+            # It is the user's code: what it raises is why there is no run. Ctrl-C ends the job in the thread that asked.
             told = [{"type": "error", "message": f"{type(error).__name__}: {error}"}]
         yield from told
 

@@ -201,11 +201,11 @@ class Campaign:
                 With :func:`vectorised` it gets a list of runs, 256 at most, and gives as many answers.
 
         Raises:
-            InputError: an answer is a word, a list, or what else is no number; a vectorised judge gave what is no list, tuple,
-                array (n,) or series, or more or fewer answers than it was asked for.
+            InputError: an answer is a word, a list, or what else is no number; a vectorised judge gave what is no list,
+                tuple, array (n,) or series, or more or fewer answers than it was asked for.
 
-        Runs that an executor failed (exit code 4), that were not executed, or whose motion was not kept (5) are not judged, and are
-        told beside the margins. Nothing is written.
+        Runs that an executor failed (exit code 4), that were not executed, or whose motion was not kept (5) are not
+        judged, and are told beside the margins. Nothing is written.
         """
         # Runs are those that are there now, and so are their cases.
         return judged_by(Campaign(self.folder), judge)

@@ -51,9 +51,9 @@ def dynamics(
     and places have a row for each, (r, n), (r, m) and (r, 3), ``next`` is (r,), ``target_m`` (r, 3), ``waypoints_m`` a list, and
     ``start`` gets a list of missions. A row stays until the last one is there, and no row may depend on another.
 
-    What is of another shape is refused, and so is what is not finite (control, derivative, pose) where the state is: the run is
-    EXECUTOR FAILED, with the function's name and the time. Where the state itself grows beyond 1e100 the model diverged, and the
-    run ends as a ``crash``.
+    What is of another shape is refused, and so is what is not finite (control, derivative, pose) where the state is: the
+    run is EXECUTOR FAILED, with the function's name and the time. Where the state itself grows beyond 1e100 the model
+    diverged, and the run ends as a ``crash``.
 
     A waypoint is reached within ``accept_m`` of it. What is reported is what was integrated: it is executed only, and a case that
     no reach set of hairpin's planned has the evidence ``unchecked``.
@@ -189,7 +189,8 @@ def _runge_kutta(
 
 def _shaped(name: str, value: Any, size: int | str, rows: int | None) -> Floats:
     """Numbers of one mission, or a row for each of many: of another shape they would be spread over all."""
-    if type(value) is np.ndarray and value.dtype == np.float64 and value.shape == ((size,) if rows is None else (rows, size)):
+    wanted = (size,) if rows is None else (rows, size)
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.shape == wanted:
         return value
     many = f"numbers of shape ({rows}, {size}), a row for each of {rows} missions"
     bound = f"numbers of shape ({size},)" if rows is None else many
@@ -201,8 +202,8 @@ def _shaped(name: str, value: Any, size: int | str, rows: int | None) -> Floats:
 
 
 def _finite(told: tuple[str, Floats], state: Floats, under_way: npt.NDArray[np.bool_], t: float) -> None:
-    """Refuses what is not finite of a state that is: it is a mistake of the function, where a state that grows beyond all
-    numbers is the model's own crash."""
+    """Refuses what is not finite of a state that is: it is a mistake of the function, where a state that grows beyond
+    all numbers is the model's own crash."""
     name, found = told
     if np.isfinite(found).all():
         return
