@@ -1,6 +1,7 @@
 """Callables of the process: scores, targets, controllers, executors and judges; what goes wrong in them; who can go on."""
 
 import os
+import pickle
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -563,6 +564,8 @@ def test_the_same_campaign_asks_its_executor_again(tmp_path):
     level = flown.execute(executor=lambda mission: straight(mission), out=tmp_path / "level")
     asked.clear()
     assert flown.exit_code == 1 and flown.shrink(budget=1).violations and asked
+    copied = pickle.loads(pickle.dumps(flown))
+    assert copied.verdict == flown.verdict and copied.judge().exit_code == 1
     again = flown.execute(out=tmp_path / "again").judge()
     assert again.exit_code == 1 and deviations(again) == deviations(flown)
     asked.clear()

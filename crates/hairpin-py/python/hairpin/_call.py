@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -31,6 +32,14 @@ class Brought:
     executor: Callable[..., Any] | None = None
     served: str = ""
     """The name by which the executor is asked, which the folder's scenario has."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        """An executor that is of this process alone stays in it: who has the copy cannot ask it."""
+        try:
+            pickle.dumps(self.executor)
+        except (pickle.PicklingError, AttributeError, TypeError):
+            return {**self.__dict__, "executor": None, "served": ""}
+        return dict(self.__dict__)
 
     def code(self) -> _native.Code:
         return _native.Code(self.score, self.target, self.controller)

@@ -25,7 +25,7 @@ from hairpin._tables import Table
 
 
 class Campaign:
-    """A campaign's folder. What it shows is what the folder has.
+    """A campaign's folder. Its cases are those that the folder had when it was opened; tables, pages and jobs read it anew.
 
     Args:
         folder: a campaign folder.
