@@ -205,7 +205,7 @@ pub(crate) fn read(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>
         };
         Ok(json!({
             "folder": folder, "robot": work.setup.robot_name(), "controller": work.setup.controller(),
-            "limits": limits, "judged": !rows.is_empty() && rows.values().all(|row| row.result.is_some()),
+            "limits": limits, "repeat": work.setup.scenario.executor().repeat, "judged": !rows.is_empty() && rows.values().all(|row| row.result.is_some()),
             "cases": cases.iter().map(of_case).collect::<Vec<_>>(),
             "worst_first": worst_first(&results).iter().map(|result| result.case.0).collect::<Vec<_>>(),
         }))

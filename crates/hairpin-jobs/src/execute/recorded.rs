@@ -1,6 +1,6 @@
 //! Where an arm ran elsewhere, its logs become the campaign's runs.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 
 use hairpin::campaign::arm::ArmSetup;
@@ -12,6 +12,9 @@ use rayon::prelude::*;
 use crate::work::Work;
 use crate::{Problem, Watch, copies};
 
+/// A log of each case and run.
+type Files = BTreeMap<(CaseNumber, usize), PathBuf>;
+
 /// Broken logs that are told one by one.
 const LISTED: usize = 10;
 
@@ -21,7 +24,7 @@ const LISTED: usize = 10;
 /// Those that are missing, too many, or cannot be used.
 pub(crate) fn check_recordings(work: &Work, cases: &[Case]) -> Result<(), Problem> {
     match (work.setup.own::<ArmSetup>(), work.setup.recordings()) {
-        (Some(arm), Some(pattern)) => read(work, (arm, pattern), cases, &|_| Ok(())),
+        (Some(arm), Some(pattern)) => read(&found(work, pattern, cases)?, arm, cases, &|_| Ok(())),
         _ => Ok(()),
     }
 }
@@ -34,27 +37,31 @@ pub(super) fn take_in(
     watch: &dyn Watch,
 ) -> Result<(), Problem> {
     let repeat = work.setup.scenario.executor().repeat as usize;
-    let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
+    let files = found(work, pattern, cases)?;
     let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     copies::told(&copies::copies(files.values()), name).iter().for_each(|words| watch.warn(words));
     let all = cases.iter().flat_map(|case| (0..repeat).map(move |run| (case.number, run)));
     let writer = work.folder.write_runs(repeat, all);
-    read(work, (arm, pattern), cases, &|run| {
+    read(&files, arm, cases, &|run| {
         let landed = Landed::of(&run, &BTreeSet::new());
         Ok(writer.land(landed.map_err(|cause| writer.no_room(cause))?)?)
     })?;
     Ok(writer.finish()?)
 }
 
+/// The logs by case and run.
+fn found(work: &Work, pattern: &str, cases: &[Case]) -> Result<Files, Problem> {
+    let repeat = work.setup.scenario.executor().repeat as usize;
+    recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))
+}
+
 /// Reads them one by one on all threads, and hands each on.
 fn read(
-    work: &Work,
-    (arm, pattern): (&ArmSetup, &str),
+    files: &Files,
+    arm: &ArmSetup,
     cases: &[Case],
     landed: &(dyn Fn(Run) -> Result<(), Problem> + Sync),
 ) -> Result<(), Problem> {
-    let repeat = work.setup.scenario.executor().repeat as usize;
-    let files = recordings::find(work.folder.path(), pattern, cases, repeat).map_err(|wrong| refuse(&wrong))?;
     let by_number: HashMap<CaseNumber, &Case> = cases.iter().map(|case| (case.number, case)).collect();
     let read = |((number, run), path): (&(CaseNumber, usize), &PathBuf)| {
         let case = by_number.get(number)?;

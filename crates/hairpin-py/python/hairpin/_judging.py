@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -99,7 +98,7 @@ def judged_by(campaign: Campaign, judge: Callable[[Any], Any]) -> Judged:
 
 def _runs(campaign: Campaign, failed: list[tuple[str, int]], missing: list[tuple[str, int]]) -> Iterator[Run]:
     """Every run that is kept, read when it is asked for; the others go to those that failed, or that are missing."""
-    repeat = _repeat(campaign)
+    repeat = campaign._facts["repeat"]
     for case in campaign.cases:
         ended, kept = _ended(campaign, case), _kept(campaign, case)
         if ended is None and kept is None:
@@ -112,14 +111,6 @@ def _runs(campaign: Campaign, failed: list[tuple[str, int]], missing: list[tuple
                 yield Run(case, run, campaign.execution(case.id, run))
             else:
                 missing.append((case.id, run))
-
-
-def _repeat(campaign: Campaign) -> int:
-    """How often each case is executed, as the folder's scenario has it."""
-    text = (campaign.folder / "scenario.toml").read_text(encoding="utf-8")
-    execute = text.partition("\n[execute]\n")[2].partition("\n[")[0]
-    told = re.search(r"^repeat *= *([0-9]+)$", execute, re.MULTILINE)
-    return int(told[1]) if told else 0
 
 
 def _ended(campaign: Campaign, case: Case) -> dict[int, str] | None:

@@ -79,7 +79,7 @@ pub enum FitError {
     /// A waypoint that was not passed.
     #[error(
         "{log} is no flight of {mission}: after waypoint {} it comes no nearer to waypoint {waypoint} than {nearest:.2} m, \
-         where {within} m are a passage",
+         where {within:.2} m are a passage",
         waypoint - 1
     )]
     Missed {
