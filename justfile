@@ -17,7 +17,7 @@ check:
 quick:
     cargo fmt --all --check
     cargo clippy --workspace --lib --bins --offline -- -D warnings
-    cargo test --workspace --lib --test layers --offline
+    cargo test --workspace --lib --test unit --test layers --offline
 
 # A hundred thousand spoiled inputs for each reader; HAIRPIN_FUZZ_SEED makes them others.
 fuzz:

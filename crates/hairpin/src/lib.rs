@@ -15,7 +15,11 @@
 //!
 //! Inside, everything is SI and radians, z up, body frame x forward, y left, z up.
 
-#![cfg_attr(not(test), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+#![cfg_attr(not(feature = "unit-tests"), deny(clippy::unwrap_used))] // tests may, what meets users' data may not
+
+#[cfg(feature = "unit-tests")]
+#[macro_use]
+extern crate hairpin_test;
 
 pub mod campaign;
 pub mod feasibility;
@@ -25,5 +29,7 @@ pub mod robot;
 pub mod search;
 pub mod simulation;
 pub mod trajectory;
+#[cfg(feature = "unit-tests")]
+pub mod unit_tests;
 pub mod verification;
 pub mod world;

@@ -63,7 +63,7 @@ pub(super) fn upside_down(setup: &Setup, found: Option<Overturned>) -> Option<Ov
     found.filter(|found| setup.kind().most_tilt().is_none() && (found.throughout || !flies))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Isometry3, Point3, UnitQuaternion};
     use serde_json::{Value, json};

@@ -225,7 +225,7 @@ pub fn spec(setup: &Setup, proposals: &[Proposal]) -> Map<String, Value> {
     spec
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Isometry3, Point3};
     use serde_json::json;

@@ -496,7 +496,7 @@ impl CaseResult {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

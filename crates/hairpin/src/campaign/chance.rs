@@ -197,7 +197,7 @@ fn values(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = (f64, 
     results.iter().filter_map(move |result| value(result.measured()?))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use serde_json::json;
 

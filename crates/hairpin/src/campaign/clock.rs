@@ -110,7 +110,7 @@ pub(super) fn paced(case: &Case, speed: f64, least: f64) -> Cow<'_, Case> {
     Cow::Owned(Case { leg_times, witness: None, ..case.clone() })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

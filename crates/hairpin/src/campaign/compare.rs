@@ -261,7 +261,7 @@ fn change(&(metric, value, _): &Metric, pairs: &[(&CaseResult, &CaseResult)], to
     })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use nalgebra::Point3;

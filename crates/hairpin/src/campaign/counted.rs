@@ -83,7 +83,7 @@ impl Executor for Counted<'_> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::OwnSimulator;

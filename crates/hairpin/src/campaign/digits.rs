@@ -91,7 +91,7 @@ pub fn grouped(n: u64) -> String {
     text
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -154,7 +154,7 @@ pub fn ground_goals(site: &Site<'_>, count: usize, random: &mut Stream) -> Vec<(
     goals
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::drive::replay_flat;

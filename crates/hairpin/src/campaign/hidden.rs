@@ -189,7 +189,7 @@ pub(super) fn hidden(setup: &Setup, measures: &Measures, limits: &Limits) -> Opt
     (!all.is_empty()).then(|| all.join("; "))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Isometry3;
     use serde_json::json;

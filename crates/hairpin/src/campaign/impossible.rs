@@ -117,7 +117,7 @@ fn of_waypoints(case: &Case, flight: &Flight) -> Option<Track> {
     Track::new(times, poses, Vec::new()).ok()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
     use serde_json::json;

@@ -85,7 +85,7 @@ fn numbers(key: &str, value: &Value) -> Vec<(String, f64)> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use serde_json::json;

@@ -118,7 +118,7 @@ impl<'a> There<'a> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Isometry3;
     use serde_json::json;

@@ -80,7 +80,7 @@ pub mod shrink;
 pub mod states;
 pub mod stop;
 pub mod tally;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod testing;
 mod trial;
 mod user_code;

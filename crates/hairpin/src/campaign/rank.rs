@@ -47,7 +47,7 @@ pub fn stresses(stress: Stress, results: &[CaseResult]) -> impl Iterator<Item = 
     results.iter().filter_map(move |result| Some((result.case, value(result.measured()?)?)))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::Status;

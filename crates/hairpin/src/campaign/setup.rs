@@ -474,5 +474,5 @@ fn first(mistakes: Vec<Mistake>) -> Mistake {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;

@@ -179,7 +179,7 @@ pub struct RoundTally {
     pub unlearned: Option<String>,
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

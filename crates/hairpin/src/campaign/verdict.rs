@@ -328,7 +328,7 @@ pub(super) fn nothing_feasible(setup: &Setup, tally: &Tally, change: Option<&str
     judgement::nothing_feasible(&[&rests_on, setup.scenario.reach()], &what, change)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

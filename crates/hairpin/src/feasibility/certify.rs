@@ -204,7 +204,7 @@ fn least_time(length: f64, acceleration: f64, max_speed: f64) -> f64 {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::feasibility::limits::Limits;

@@ -198,7 +198,7 @@ impl FreeSpace {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::polynomial::septic;

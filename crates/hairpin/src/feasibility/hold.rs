@@ -280,7 +280,7 @@ pub fn fastest(judge: &LegJudge, a: &Point3<f64>, b: &Point3<f64>, longest: f64)
     Some((high, why?))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::feasibility::limits::Limits;

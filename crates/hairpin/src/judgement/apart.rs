@@ -79,7 +79,7 @@ pub fn decimals_of(limit: f64, least: usize) -> usize {
     least
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -6,7 +6,7 @@
 
 mod lanes;
 mod piece;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use std::ops::Range;

@@ -331,7 +331,7 @@ fn on_cubic(
     seen + bend * part * part / 8.0 + (most + bend) * span * span / 16.0
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Isometry3;
 

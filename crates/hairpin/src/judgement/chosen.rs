@@ -162,7 +162,7 @@ fn trimmed(number: f64) -> String {
     ((number * 1e6).round() / 1e6).to_string()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

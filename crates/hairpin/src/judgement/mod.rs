@@ -40,7 +40,7 @@ mod swiftness;
 mod unmeasured;
 pub mod verdict;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use apart::{decimals_of, told, told_outward};

@@ -156,7 +156,7 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, Normal};

@@ -50,7 +50,7 @@ pub fn exceeded_by(values: &[f64], above: f64, confidence: f64) -> Option<Quanti
     Some(Quantile { value: sorted[rank - 1], low: sorted[low - 1], high: sorted[high - 1] })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

@@ -42,7 +42,7 @@ pub fn repeats(times: &[f64], apart: &dyn Fn(usize, usize) -> f64, step: f64) ->
     stale
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

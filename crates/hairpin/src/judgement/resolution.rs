@@ -165,7 +165,7 @@ impl Unresolved {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -256,7 +256,7 @@ const MOST_TERMS: u32 = 100_000;
 /// Beyond these nobody counts cases.
 const MOST_CASES: f64 = 1e9;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

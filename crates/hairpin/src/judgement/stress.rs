@@ -160,7 +160,7 @@ impl Stress {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::judgement::Late;

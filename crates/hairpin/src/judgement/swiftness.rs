@@ -42,7 +42,7 @@ impl Swiftness {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -64,7 +64,7 @@ pub(crate) fn arc_tangent(y: &[f64; LANES], x: &[f64; LANES]) -> [f64; LANES] {
     angle
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::RngExt;
 

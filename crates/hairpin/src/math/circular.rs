@@ -51,7 +51,7 @@ const fn reciprocal_factorials<const N: usize>(offset: f64) -> [f64; N] {
     out
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -169,7 +169,7 @@ fn triangle(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> (Kept, Vect
     rest.into_iter().fold(first, |best, edge| if edge.1.norm_squared() < best.1.norm_squared() { edge } else { best })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

@@ -77,7 +77,7 @@ pub fn nearest_along(way: Option<&Cubic>, p: &Point3<f64>, a: &Point3<f64>, b: &
     way.map_or_else(|| nearest_point(p, a, b), |way| way.nearest(p))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -125,7 +125,7 @@ pub fn directions() -> impl Iterator<Item = Vector3<f64>> {
     cube.chain(between).filter(|v| *v != Vector3::zeros())
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

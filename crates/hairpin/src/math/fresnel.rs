@@ -128,7 +128,7 @@ pub fn clothoid(start: f64, end: f64, rate: f64) -> (f64, f64) {
     (unit * (cos * dx + sin * dy), mirror * unit * (cos * dy - sin * dx))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -445,7 +445,7 @@ fn inverse(covariance: &DMatrix<f64>, shrunk: f64) -> Option<DMatrix<f64>> {
     Some(all)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::standard_normals;

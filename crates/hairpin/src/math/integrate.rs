@@ -51,7 +51,7 @@ pub fn rk4_step<V: Vector>(f: impl Fn(&V) -> V, x: &V, h: f64) -> V {
     x.add_scaled(&k1, h / 6.0).add_scaled(&inner, h / 3.0).add_scaled(&k4, h / 6.0)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use nalgebra::Vector2;

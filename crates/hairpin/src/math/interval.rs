@@ -332,7 +332,7 @@ impl Smooth for f64x4 {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::stream;

@@ -146,7 +146,7 @@ pub fn corner_speed(c: f64, acceleration: f64, reach: f64) -> f64 {
     (acceleration * reach * tangent).sqrt()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{named_seed, stream};

@@ -78,7 +78,7 @@ fn subtract<const W: usize>(line: &mut [f64; W], factor: f64, lead: &[f64; W]) {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

@@ -204,7 +204,7 @@ fn solve(points: &[Point3<f64>], times: &[f64]) -> Vec<Derivatives> {
     derivatives
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{Stream, named_seed, stream};

@@ -356,7 +356,7 @@ impl Real for Centred {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

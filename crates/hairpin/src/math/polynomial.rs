@@ -106,7 +106,7 @@ pub fn halve(b: &[f64; 8]) -> ([f64; 8], [f64; 8]) {
     (left, right)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::stream;

@@ -24,7 +24,7 @@ pub fn power(x: f64, mut n: usize) -> f64 {
     product
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

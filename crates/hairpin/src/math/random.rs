@@ -106,7 +106,7 @@ fn first_u64(hasher: &blake3::Hasher) -> u64 {
     u64::from_le_bytes(first)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

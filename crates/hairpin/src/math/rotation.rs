@@ -125,7 +125,7 @@ pub fn between(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, share: f64) -> 
     a * from_rotation_vector(&(rotation_vector(&(a.inverse() * b)) * share))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{named_seed, stream};

@@ -66,7 +66,7 @@ fn round<T: Copy>(kept: &[T], pieces: usize, fails: &mut dyn FnMut(&[T]) -> Opti
     Some(Smaller::Nothing)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -118,7 +118,7 @@ impl<N, O: Objective> Growth<N> for ByLegs<'_, O> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

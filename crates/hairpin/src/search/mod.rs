@@ -36,7 +36,7 @@ pub mod in_loop;
 pub mod objective;
 pub mod open_end;
 pub mod score;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod small;
 pub mod stroll;
 pub mod task;

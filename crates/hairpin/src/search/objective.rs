@@ -194,7 +194,7 @@ impl Aggregate {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -228,7 +228,7 @@ impl<O> OpenScore<'_, O> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::graph::LegGraph;
     use super::super::score::Score;

@@ -240,7 +240,7 @@ impl Additive for Score {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -76,7 +76,7 @@ pub fn stroll<N>(
     Ok(walk)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::collections::BTreeMap;
 

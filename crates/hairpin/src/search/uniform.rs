@@ -274,7 +274,7 @@ fn score<N: Copy, O: Objective>(
     total
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::collections::HashMap;
 

@@ -107,7 +107,7 @@ impl Airborne {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Vector3;
 

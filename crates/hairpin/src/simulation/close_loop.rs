@@ -242,7 +242,7 @@ impl ClosedLoop {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::simulation::controllers::Pilot;

@@ -114,7 +114,7 @@ impl Mixer {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{named_seed, stream};

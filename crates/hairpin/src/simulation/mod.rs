@@ -33,7 +33,7 @@ mod recorder;
 mod run;
 mod step;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 pub(crate) mod tests;
 
 use thiserror::Error;

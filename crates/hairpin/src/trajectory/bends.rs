@@ -188,7 +188,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 

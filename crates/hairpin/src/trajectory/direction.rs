@@ -44,7 +44,7 @@ impl From<f64> for Direction {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -248,7 +248,7 @@ impl std::fmt::Debug for SegmentList {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

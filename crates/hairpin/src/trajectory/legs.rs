@@ -95,7 +95,7 @@ impl Drive {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::drive::Gear;

@@ -169,7 +169,7 @@ impl Timing {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::drive::Gear;

@@ -262,7 +262,7 @@ fn finite(column: &str, values: impl Iterator<Item = f64>) -> Result<(), TrackEr
     Ok(())
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -161,7 +161,7 @@ fn approaches(around: &[[f64; 8]; 3], away: Option<[f64; 3]>, h: f64) -> f64 {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

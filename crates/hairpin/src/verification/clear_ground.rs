@@ -105,7 +105,7 @@ fn replayed<T: Terrain>(vehicle: &GroundVehicle, terrain: &T, leg: &DriveLegClai
     Some(way)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::verification::DrivePiece;

@@ -229,7 +229,7 @@ impl DrivePiece {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::f64::consts::PI;
 

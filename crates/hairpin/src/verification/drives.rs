@@ -288,7 +288,7 @@ fn check_joint(proof: &mut Proof, claim: &DrivesClaim, number: usize, at: f64) {
     Collector::on_leg(&mut proof.findings, number, at).above("joint", off, SAME, "m");
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::Flat;

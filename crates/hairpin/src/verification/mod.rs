@@ -69,9 +69,9 @@ mod walk;
 mod way;
 mod wheels;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod midpoint;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use arm::{

@@ -147,7 +147,7 @@ fn seconds(claim: &PaceClaim, total: f64) -> f64 {
     driving + rest + turns.sum::<f64>() / claim.turn_rate
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

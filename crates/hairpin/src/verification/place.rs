@@ -86,7 +86,7 @@ fn from_segment(p: &[f64; 2], [a, b]: &[[f64; 2]; 2]) -> f64 {
     libm::hypot(to[0] - share * along[0], to[1] - share * along[1])
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

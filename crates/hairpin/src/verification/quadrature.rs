@@ -190,7 +190,7 @@ fn panel(around: &[f64; 7]) -> [f64; 2] {
     place
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

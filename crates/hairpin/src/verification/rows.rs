@@ -219,7 +219,7 @@ fn angle(a: [f64; 4], b: [f64; 4]) -> f64 {
     2.0 * distance(1.0).min(distance(-1.0))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::verification::body::RotorPlace;

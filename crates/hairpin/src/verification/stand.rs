@@ -284,7 +284,7 @@ pub(super) fn tilt(rest: &Rest) -> f64 {
     libm::acos((libm::cos(rest.roll()) * libm::cos(rest.pitch())).clamp(-1.0, 1.0))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::generate::{Recipe, generate};

@@ -179,7 +179,7 @@ impl Placed {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Vector3;
 

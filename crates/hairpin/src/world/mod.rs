@@ -27,7 +27,7 @@ pub mod sample;
 pub mod solid;
 pub mod terrain;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use nalgebra::{Point3, Vector3};

@@ -233,7 +233,7 @@ fn finite(field: &str, points: &[[f64; 3]]) -> Result<Vec<Point3<f64>>, WorldErr
     Ok(points)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -54,6 +54,8 @@ fn forged_breaches_are_caught() {
         ("hairpin::campaign::generate", "use std::{fmt, time::Instant};"),
         ("hairpin::campaign::generate", "let text = std::fs::read_to_string(path);"),
         ("hairpin::campaign::generate", "#[cfg(test)] mod tests { fn f() {} } use std::env;"),
+        ("hairpin::campaign::generate", "#[cfg(feature = \"unit-tests\")] mod tests { fn f() {} } use std::env;"),
+        ("hairpin::campaign::generate", "#[cfg(feature = \"other\")] mod more { use std::env; }"),
         ("hairpin::math::rotation", "let (s, c) = (0.5 * roll).sin_cos();"),
         ("hairpin::math::rotation", "let y = 2.0.powi(3);"),
         ("hairpin::feasibility::reach::sampling", "all.map(f64::exp)"),
@@ -91,6 +93,7 @@ fn what_is_allowed_passes() {
         ("hairpin::campaign::generate::tests", "use std::time::Instant;"),
         ("hairpin::math::rotation", "let s = libm::sin(x).sqrt(); let z = Self { sin, ..exp() }; // x.sin()"),
         ("hairpin::math::rotation", "#[cfg(test)] mod tests { fn f(x: f64) -> f64 { x.sin() } }"),
+        ("hairpin::math::rotation", "#[cfg(feature = \"unit-tests\")] mod tests { fn f(x: f64) -> f64 { x.sin() } }"),
         ("hairpin::campaign::report::solid", "let x = angle.cos();"),
         ("hairpin_formats::folder", "use crate::{csv, tum}; use hairpin::campaign::Case; use std::fs;"),
         (

@@ -5,10 +5,14 @@ use super::text::{Text, Token};
 /// A leaf of a `use`: its path, what it is called (`None` of `*`), and its line.
 pub(crate) type Leaf = (Vec<String>, Option<String>, usize);
 
-/// Whether the attribute at `i` is `#[cfg(test)]` or `#[test]`.
+/// The feature by which a library has its unit tests within it.
+const WITHIN: &str = "unit-tests";
+
+/// Whether the attribute at `i` is `#[cfg(test)]`, `#[cfg(feature = "unit-tests")]` or `#[test]`.
 pub(crate) fn only_tests(text: &Text, i: usize) -> bool {
-    let word = text.word(i + 2);
-    text.is(i + 1, '[') && (word == Some("test") || (word == Some("cfg") && text.word(i + 4) == Some("test")))
+    let (word, of) = (text.word(i + 2), text.word(i + 4));
+    let within = || of == Some("feature") && text.tokens.get(i + 6) == Some(&Token::Quoted(WITHIN.to_owned()));
+    text.is(i + 1, '[') && (word == Some("test") || (word == Some("cfg") && (of == Some("test") || within())))
 }
 
 /// The type that the `impl` implements whose generics or path begin at `i`.

@@ -185,7 +185,7 @@ impl ArmSetup {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::f64::consts::PI;
     use std::sync::Arc;

@@ -55,7 +55,7 @@ mod solve;
 mod solver;
 mod station;
 mod steered;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod verify;
 mod ways;

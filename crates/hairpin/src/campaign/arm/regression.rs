@@ -173,7 +173,7 @@ fn numbers(cases: &[CaseMoves]) -> String {
     names.join(", ")
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::baseline::{Baseline, ReleaseMoves, RunMoves};

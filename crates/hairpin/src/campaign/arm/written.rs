@@ -1,6 +1,6 @@
 //! An arm and a program as it was written, as the plain numbers that the verification room takes.
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use nalgebra::Isometry3;

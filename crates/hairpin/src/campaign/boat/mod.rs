@@ -32,7 +32,7 @@ mod say;
 mod setup;
 mod solve;
 mod steered;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod through;
 mod varied;

@@ -32,7 +32,7 @@ fn extent(low: [f64; 2], high: [f64; 2]) -> String {
     format!("x {}, y {} m", side(0), side(1))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::{KeepOut, KeepOutShape};

@@ -143,7 +143,7 @@ fn rocker_bogie(links: &mut Vec<FigureLink>, of: &RockerBogie, steering: Steerin
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::scenario::GroundDescription;

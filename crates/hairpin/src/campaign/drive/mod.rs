@@ -48,7 +48,7 @@ mod solve;
 mod steered;
 mod stepwise;
 mod surround;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod verify;
 mod walking;

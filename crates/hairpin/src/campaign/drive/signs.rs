@@ -274,7 +274,7 @@ fn colour(logs: &[Vec<f64>], lags: &[usize], into: &mut Vec<f64>) {
     into.extend(lags.iter().map(|lag| at(*lag) / square));
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::{Grid, HoleRule};

@@ -239,7 +239,7 @@ pub(super) fn searched(setup: &Setup, all: bool, stop: &Stop) -> Tally {
     })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

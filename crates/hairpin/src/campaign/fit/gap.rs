@@ -58,7 +58,7 @@ pub(super) fn scatter(track: &Track, axes: usize) -> f64 {
     (sum / (20.0 * count.max(1) as f64)).sqrt()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Isometry3;
 

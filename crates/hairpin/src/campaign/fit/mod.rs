@@ -38,5 +38,5 @@ pub use error::FitError;
 pub use estimate::{FitSettings, fit};
 pub use gap::{Deviation, Gap};
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;

@@ -87,7 +87,7 @@ fn crossing(points: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     0.0
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Isometry3;
 

@@ -113,7 +113,7 @@ fn what_is_written_was_found_and_unseen_logs_are_held_to_it() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_lie_within_their_intervals"]
+#[ignore = "minutes: cargo test --release -p hairpin --test unit -- --ignored --nocapture numbers_lie_within_their_intervals"]
 fn numbers_lie_within_their_intervals() {
     let setup = draws::scenario(
         &asked("ROBOT", "flightgoggles".to_owned()),
@@ -128,7 +128,7 @@ fn numbers_lie_within_their_intervals() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_of_drives_lie"]
+#[ignore = "minutes: cargo test --release -p hairpin --test unit -- --ignored --nocapture numbers_of_drives_lie"]
 fn numbers_of_drives_lie_within_their_intervals() {
     let setup = drives::scenario(
         &asked("ROBOT", "differential-drive".to_owned()),
@@ -143,7 +143,7 @@ fn numbers_of_drives_lie_within_their_intervals() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p hairpin --lib -- --ignored --nocapture numbers_of_arms_lie"]
+#[ignore = "minutes: cargo test --release -p hairpin --test unit -- --ignored --nocapture numbers_of_arms_lie"]
 fn numbers_of_arms_lie_within_their_intervals() {
     let setup = arms::scenario();
     numbers_lie(&setup, &|seed| {

@@ -71,7 +71,7 @@ pub(super) fn whitened(leg: Leg, outputs: &[usize], filters: &[Filter], into: &m
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{standard_normals, stream};

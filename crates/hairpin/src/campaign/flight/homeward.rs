@@ -63,7 +63,7 @@ fn swept(way: &[Point3<f64>], least: f64, spare: impl Fn(&Point3<f64>) -> f64) -
     way.windows(2).all(|pair| is_clear(&pair[0], &pair[1])) && way.last().is_none_or(|end| spare(end) > 0.0)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Vector3;
 

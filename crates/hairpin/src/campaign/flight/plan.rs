@@ -83,7 +83,7 @@ fn track_at(robot: &Quadrotor, case: &Case, moments: &[Moment]) -> Result<Track,
     Track::new(moments.iter().map(|moment| moment.t).collect(), poses, channels.collect())
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::collections::BTreeSet;
 

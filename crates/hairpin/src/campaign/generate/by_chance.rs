@@ -121,7 +121,7 @@ fn draw(graphs: &Graphs, graph: u64, stop: &Stop) -> Result<(u64, Plan), Option<
     graphs.draw(graph, stop).map(|plan| (graph, graphs.solver.finished(plan)))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::collections::HashSet;
     use std::sync::atomic::{AtomicUsize, Ordering};

@@ -20,7 +20,7 @@ fn until(total: u64, parts: u64, place: u64) -> u64 {
     (u128::from(total) * u128::from(place) / u128::from(parts)) as u64
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::{dealt, every_second};
 

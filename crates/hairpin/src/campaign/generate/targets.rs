@@ -84,7 +84,7 @@ impl<'a> Margins<'a> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use serde_json::{Value, json};
 

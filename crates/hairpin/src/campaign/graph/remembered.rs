@@ -50,7 +50,7 @@ impl<T> Remembered<T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

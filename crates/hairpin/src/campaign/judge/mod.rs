@@ -205,7 +205,7 @@ pub fn is_at_full_rate(setup: &Setup, case: &Case, run: &Run) -> Result<bool, Mi
     Ok(known.is_by(&Drawn::of(&around, run)?.terms))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Isometry3, Point3};
     use serde_json::json;

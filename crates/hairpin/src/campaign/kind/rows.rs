@@ -105,7 +105,7 @@ impl Columns {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 

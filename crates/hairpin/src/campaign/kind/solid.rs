@@ -97,7 +97,7 @@ pub(super) fn round(a: &Point3<f64>, b: &Point3<f64>, radius: f64) -> Triangles 
     (vertices, triangles)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -57,7 +57,7 @@ pub(in crate::campaign) fn verify_times(case: &Case, profile: &Profile, longest:
     Collector::about(&mut proof.findings, "limits").unless(all <= longest * (1.0 + SAME), "time", all, longest, "s");
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::CaseNumber;

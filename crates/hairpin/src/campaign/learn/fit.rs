@@ -124,7 +124,7 @@ fn hash(rows: &Rows) -> String {
     hasher.finalize().to_hex().to_string()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::ModelMistake;
     use super::*;

@@ -40,7 +40,7 @@ impl ScoreModel {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::case::SeenLeg;

@@ -47,7 +47,7 @@ pub fn length(setup: &Setup) -> Length {
     Length { unit, in_metre, limit: setup.scenario.deviation_limit().map(|metres| in_metre * metres) }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

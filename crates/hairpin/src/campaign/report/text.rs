@@ -84,7 +84,7 @@ pub fn cells_in(length: &Length, result: &CaseResult) -> [String; 11] {
     ]
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -129,7 +129,7 @@ fn joined(segments: &[String]) -> String {
     key
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use serde_json::json;

@@ -315,7 +315,7 @@ impl SearchSection {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

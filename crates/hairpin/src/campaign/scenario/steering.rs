@@ -132,7 +132,7 @@ impl<K: JsonSchema> JsonSchema for Steering<K> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use serde_json::json;
 

@@ -78,7 +78,7 @@ impl PartialOrd for Waiting {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

@@ -214,7 +214,7 @@ fn unit(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| if range > 0.0 { (value - low) / range } else { 0.0 }).collect()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

@@ -179,7 +179,7 @@ impl Followed<'_> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::robot::rover::{Effort, RoverDescription, Weight};

@@ -116,7 +116,7 @@ fn put(scenario: &mut Scenario, draws: &[(String, Value)]) -> Result<(), Mistake
     Ok(())
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::campaign::scenario::FlightScenario;

@@ -25,7 +25,7 @@ pub mod limits;
 pub mod proof;
 pub mod roadmap;
 pub mod space;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 pub mod waters;
 

@@ -9,7 +9,7 @@ mod finding;
 mod posture;
 mod walk;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use finding::{Checked, Finding, Fit};

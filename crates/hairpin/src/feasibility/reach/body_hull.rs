@@ -276,7 +276,7 @@ fn contains(outline: &[[f64; 2]], point: [f64; 2]) -> bool {
     !outline.is_empty() && (0..outline.len()).all(inside)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

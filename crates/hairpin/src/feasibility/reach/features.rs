@@ -121,7 +121,7 @@ fn angle(across: f64, along: f64) -> f64 {
     if along < 0.0 { PI - quadrant } else { quadrant }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

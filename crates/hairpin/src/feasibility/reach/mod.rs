@@ -38,7 +38,7 @@ pub mod sampling;
 pub mod sphere;
 pub(in crate::feasibility) mod states;
 pub mod step;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod until;
 pub mod wander;

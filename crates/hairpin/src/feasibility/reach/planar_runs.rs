@@ -90,7 +90,7 @@ impl PlanarVehicle {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

@@ -4,7 +4,7 @@
 //! judged lazily, once each. Sound for the model, complete for nothing: a leg that no rung of times allows may be
 //! flyable by another curve.
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use std::cell::OnceCell;

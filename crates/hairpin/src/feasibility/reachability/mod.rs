@@ -20,7 +20,7 @@ mod segment;
 mod surface;
 mod verdict;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use cartesian::{CartesianSettings, Level, cartesian, micrometres};

@@ -282,7 +282,7 @@ pub(super) fn mask(&[a, b, c, d, e, f, g, h]: &[u64; LANES]) -> u32 {
     (a | b << 1 | c << 2 | d << 3 | e << 4 | f << 5 | g << 6 | h << 7) as u32
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::RngExt;
 

@@ -128,7 +128,7 @@ impl LegJudge {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::RngExt;
 

@@ -24,7 +24,7 @@ pub mod shooting;
 pub mod timing;
 mod together;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 pub(crate) mod tests;
 
 pub use flatness::{BodyState, Demand, DependentRotors, FlatState, Flatness};

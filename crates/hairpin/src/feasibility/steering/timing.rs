@@ -64,7 +64,7 @@ impl LegTiming {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

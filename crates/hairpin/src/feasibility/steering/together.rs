@@ -193,7 +193,7 @@ at_every_level! {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::RngExt;
 

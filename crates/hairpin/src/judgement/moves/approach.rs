@@ -122,7 +122,7 @@ fn least_turn(to: &Isometry3<f64>, [a, b]: [&Isometry3<f64>; 2], [begin, end]: [
     4.0 * libm::asin((0.5 * (to - a - chord * share).norm()).min(1.0))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Translation3, UnitQuaternion, Vector3};
 

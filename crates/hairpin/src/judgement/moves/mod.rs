@@ -26,7 +26,7 @@ mod told;
 mod trend;
 mod unseen;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use thiserror::Error;

@@ -11,7 +11,7 @@
 //! interval that straddles a limit is INCONCLUSIVE, not a pass.
 
 mod judged;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use self::judged::{Beside, Claim, Judged, Worst};

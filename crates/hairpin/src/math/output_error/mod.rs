@@ -24,5 +24,5 @@ pub use objective::{Objective, Parameter, Residuals};
 pub use profile::{Side, profile};
 pub use spread::{Spread, acting, spread};
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;

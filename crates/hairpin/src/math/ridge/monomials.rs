@@ -162,7 +162,7 @@ fn each(scale: &[f64], left: u32, input: usize, powers: &mut Vec<u32>, all: &mut
     powers[input] = 0;
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{stream, unit};

@@ -160,7 +160,7 @@ fn offset(joint: &Joint) -> f64 {
     joint.origin.translation.vector.norm()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::UnitQuaternion;
 

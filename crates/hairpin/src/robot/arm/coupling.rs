@@ -65,7 +65,7 @@ fn has_rod(name: &str) -> bool {
     })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

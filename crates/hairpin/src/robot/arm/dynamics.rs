@@ -77,7 +77,7 @@ fn acceleration_at(turning: &Vector3<f64>, spin: &Vector3<f64>, arm: &Vector3<f6
     turning.cross(arm) + spin.cross(&spin.cross(arm))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::{named_seed, stream, unit};

@@ -35,7 +35,7 @@ mod seeds;
 mod singularity;
 mod tool;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use body::{APART, Capsule, Hull, Link, Mass, Outline, body_name};

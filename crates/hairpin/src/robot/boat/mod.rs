@@ -17,11 +17,11 @@
 mod description;
 mod hull;
 mod model;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use description::{BoatDescription, BoatError, BoatKind, Hydrodynamics, ThrustDescription};
 pub use hull::{Boat, Thrust};
 pub use model::{Damping, Inertia};
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 pub(crate) use tests::cybership;

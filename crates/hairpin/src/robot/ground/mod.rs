@@ -8,7 +8,7 @@ mod car;
 mod differential_drive;
 mod response;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use car::{Car, CarDescription, CarKind, CarLimits};

@@ -395,7 +395,7 @@ fn optional(field: &str, value: Option<f64>, high: f64) -> Result<f64, Quadrotor
     value.map_or(Ok(0.0), |value| within(field, value, 0.0, high))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

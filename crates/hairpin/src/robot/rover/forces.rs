@@ -61,7 +61,7 @@ impl Rover {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::weight::{GRAVITY, Weight};
     use super::super::{RoverDescription, RoverError};

@@ -50,7 +50,7 @@ mod suspension;
 mod weight;
 mod wheels;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use body::{Belly, BellyDescription, Body};

@@ -233,7 +233,7 @@ impl Rover {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -118,7 +118,7 @@ fn margin(contacts: &[Vector3<f64>], gravity: &Vector3<f64>) -> f64 {
     least
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::RoverDescription;
     use super::*;

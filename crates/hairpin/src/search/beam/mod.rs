@@ -27,7 +27,7 @@ mod outcome;
 mod reduction;
 mod run;
 mod settings;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use super::growth::{ByLegs, Growth};

@@ -17,7 +17,7 @@
 mod best_first;
 mod descent;
 mod settings;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod worth;
 

@@ -153,7 +153,7 @@ fn low_of_parent(at: usize) -> usize {
     (at / 2 - 1) / 2 * 2
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::RngExt;
 

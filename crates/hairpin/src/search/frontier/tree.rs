@@ -53,7 +53,7 @@ impl<M: Clone> Tree<M> {
     }
 
     /// Number of slots: alive or free.
-    #[cfg(test)]
+    #[cfg(feature = "unit-tests")]
     pub(in crate::search) fn slots(&self) -> usize {
         self.partials.len()
     }
@@ -145,7 +145,7 @@ impl<M: Clone> Tree<M> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -21,7 +21,7 @@ mod by_turn;
 mod count;
 mod rows;
 mod scoring;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod trim;
 mod value;

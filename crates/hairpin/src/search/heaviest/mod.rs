@@ -56,7 +56,7 @@ mod walks;
 mod whole;
 mod workspace;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use problem::{Arcs, ArcsMistake, Ends, MOST_POINTS};

@@ -170,7 +170,7 @@ impl<R: Relaxation> Proving<'_, R> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::forest::Forest;
     use super::super::workspace::Workspace;

@@ -93,7 +93,7 @@ pub(super) fn rounded(choices: &Choices, shares: &[f64]) -> Vec<usize> {
     order[1..].iter().map(|point| *point as usize).collect()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use rand::Rng;
 

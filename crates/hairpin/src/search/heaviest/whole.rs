@@ -94,7 +94,7 @@ fn heaviest_tree(arcs: &Arcs, ends: Ends, scale: i64, multipliers: &[i64]) -> Ve
     tree
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::workspace::Workspace;
     use super::*;

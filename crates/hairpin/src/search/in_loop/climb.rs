@@ -96,7 +96,7 @@ pub fn climb(
     best
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -20,7 +20,7 @@ mod rank;
 mod regrow;
 mod shift;
 mod step;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use climb::{Climbed, climb};

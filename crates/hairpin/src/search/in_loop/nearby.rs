@@ -63,7 +63,7 @@ fn near<N: Copy>(graph: &LegGraph<'_, N>, legs: &[u32], waypoint: u32, rng: &mut
     Some(places[rng.random_range(0..near)])
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::regrow::{Goal, Regrow};
     use super::super::tests::{LENGTH, SMALL};

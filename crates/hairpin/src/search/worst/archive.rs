@@ -176,7 +176,7 @@ impl<P> Archive<P> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

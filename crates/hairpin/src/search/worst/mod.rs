@@ -27,7 +27,7 @@ mod portfolio;
 mod rounds;
 mod scale;
 mod settings;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 use self::archive::{Aim, Archive, Member};

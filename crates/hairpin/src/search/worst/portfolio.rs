@@ -61,7 +61,7 @@ impl Portfolio {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::stream;

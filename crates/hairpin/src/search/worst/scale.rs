@@ -119,7 +119,7 @@ impl Scale {
         parts.into_iter().zip(self.longest).map(share).sum::<f64>() / self.counting()
     }
 
-    #[cfg(test)]
+    #[cfg(feature = "unit-tests")]
     pub(super) fn longest(&self) -> [f64; 2] {
         self.longest
     }
@@ -185,7 +185,7 @@ fn axes(count: usize) -> Vec<Vec<f64>> {
     (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect()
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

@@ -349,7 +349,7 @@ fn measured(pose: &Isometry3<f64>, noise: &Noise, random: &mut Stream) -> Isomet
     Isometry3::from_parts(Translation3::from(pose.translation.vector + shift), pose.rotation * turn)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 pub(super) mod tests_only {
     use super::{Cursor, Joints, Plan};
 

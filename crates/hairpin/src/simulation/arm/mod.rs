@@ -63,7 +63,7 @@ mod settings;
 mod sharp;
 mod steered;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use execute::{Run, Status};

@@ -140,7 +140,7 @@ impl<'a> Steersman<'a> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

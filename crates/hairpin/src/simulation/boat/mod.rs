@@ -9,7 +9,7 @@ mod controllers;
 mod plant;
 mod recorder;
 mod sortie;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod watch;
 

@@ -69,7 +69,7 @@ impl BoatPlant {
     }
 
     /// In steps of `step` s at most.
-    #[cfg(test)]
+    #[cfg(feature = "unit-tests")]
     pub(super) fn with_step(self, step: f64) -> Self {
         Self { step, ..self }
     }

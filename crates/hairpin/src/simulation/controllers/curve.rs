@@ -132,7 +132,7 @@ impl Pace {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::simulation::tests::flightgoggles;

@@ -135,7 +135,7 @@ fn body_rates(
     (Vector3::new(p, q, r), Vector3::new(p_dot, q_dot, r_dot))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::ProfileLeg;

@@ -77,7 +77,7 @@ impl Controller<Quadrotor> for MinimumSnap {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

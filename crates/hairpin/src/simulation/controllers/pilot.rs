@@ -127,7 +127,7 @@ fn positive(field: &'static str, value: f64, bound: &'static str) -> Result<f64,
     Err(SimulationError::new(field, value.to_string(), bound))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Point3, Vector3};
 

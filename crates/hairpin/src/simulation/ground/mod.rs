@@ -31,7 +31,7 @@ mod rehearsal;
 mod sortie;
 mod watch;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use close_loop::{drive, drive_with};

@@ -15,7 +15,7 @@ mod speed;
 mod target;
 mod zone;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use arc::Arc;

@@ -38,7 +38,7 @@ mod screws;
 mod solids;
 mod wrist;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use claim::{

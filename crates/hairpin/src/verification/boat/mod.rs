@@ -18,7 +18,7 @@ mod proof;
 mod replay;
 mod rows;
 mod series;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use claim::{BoatClaim, BoatHull, BoatLeg};

@@ -23,7 +23,7 @@ pub fn verify_boat_rows(legs: &[BoatLeg], rows: &[PlannedRow]) -> Vec<Finding> {
     })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -99,7 +99,7 @@ pub fn hulls_gap(a: &[Point3<f64>], b: &[Point3<f64>], enough: [f64; 2]) -> Gap 
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

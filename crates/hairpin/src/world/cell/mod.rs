@@ -13,7 +13,7 @@ mod near;
 mod region;
 mod words;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use hulls::hulls_gap;

@@ -244,7 +244,7 @@ fn gradient_noise(at: [f64; 2], gradient: impl Fn(i64, i64) -> [f64; 2]) -> f64 
     mix(south, north, fade(v))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::Terrain;

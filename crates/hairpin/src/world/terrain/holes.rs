@@ -152,7 +152,7 @@ fn covered(squares: Vec<Square>) -> Vec<Part> {
     parts
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::{Grid, HoleRule, KeepOut, KeepOuts, Terrain};

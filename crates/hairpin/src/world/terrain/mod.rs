@@ -16,7 +16,7 @@ mod rationed;
 pub mod rocks;
 mod smooth;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use flat::{Flat, Function};

@@ -53,7 +53,7 @@ impl<T: Terrain> Terrain for Rationed<'_, T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::Flat;

@@ -150,7 +150,7 @@ fn add(grid: &Grid, heights: &mut [f32], rock: &Rock) {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::world::terrain::{HoleRule, KeepOuts, Terrain};

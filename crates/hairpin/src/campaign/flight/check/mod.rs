@@ -6,7 +6,7 @@ mod environment;
 mod execute;
 mod generate;
 mod task;
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 mod world;
 

@@ -23,7 +23,7 @@ impl DirectionDeg {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

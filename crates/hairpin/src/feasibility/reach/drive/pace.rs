@@ -179,7 +179,7 @@ fn fastest(segment: &Segment, response: &Response) -> f64 {
     if most > 0.0 { response.steering_rate / most } else { f64::INFINITY }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::Timing;

@@ -127,7 +127,7 @@ impl GroundScore {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

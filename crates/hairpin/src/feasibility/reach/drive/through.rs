@@ -189,7 +189,7 @@ fn headings(places: &[[f64; 2]], index: usize) -> Vec<f64> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};

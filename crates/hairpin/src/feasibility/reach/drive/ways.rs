@@ -121,7 +121,7 @@ fn turn_arc(query: &Query, bounds: &Curvatures, gear: Gear) -> Option<SegmentLis
 /// Half of the largest turn of an arc, rad: nine tenths of a circle go round their chord by a long way.
 const LARGEST_HALF: f64 = 0.9 * std::f64::consts::PI;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::feasibility::steering::shooting::Goal;

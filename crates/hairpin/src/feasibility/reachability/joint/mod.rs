@@ -20,7 +20,7 @@ mod motion;
 mod stations;
 mod worth;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use arcs::{ArcGraph, arcs, arcs_until};

@@ -19,7 +19,7 @@ mod hazards;
 mod solve;
 mod ways;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use generate::generate;

@@ -145,7 +145,7 @@ fn directions() -> impl Iterator<Item = [f64; 4]> {
     single.chain(pairs)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

@@ -63,7 +63,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * a.max(b).max(1.0)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::drive::Gear;

@@ -13,7 +13,7 @@ mod solve;
 mod subsets;
 mod walks;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use problem::{MOST_TRIPLE_POINTS, Triples, TriplesMistake};

@@ -117,7 +117,7 @@ impl Controller<Quadrotor> for CrazyflieGoto {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::{Point3, UnitQuaternion};
 

@@ -78,7 +78,7 @@ fn tilted(pitch: f64, roll: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(cp * cr, cp * sr, sp * cr, -sp * sr))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -232,7 +232,7 @@ fn cut_vertical(v: &Vector3<f64>, most: f64) -> Vector3<f64> {
     Vector3::new(v.x * level, v.y * level, v.z * share)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use nalgebra::Point3;

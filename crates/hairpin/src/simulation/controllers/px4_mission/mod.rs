@@ -122,7 +122,7 @@ fn stretch(point: &JerkLimited, position: &Vector3<f64>) -> f64 {
     1.0 - (behind.norm() / parameters::MPC_XY_ERR_MAX).min(1.0)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use nalgebra::Point3;
 

@@ -128,7 +128,7 @@ fn cut_in_second(a: &Vector2<f64>, b: &Vector2<f64>, most: f64) -> Vector2<f64> 
     a + u * ((m * m + square(most) - a.norm_squared()).sqrt() - m)
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::simulation::tests::{flightgoggles, shipped};

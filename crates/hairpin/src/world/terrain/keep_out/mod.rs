@@ -111,7 +111,7 @@ impl KeepOuts {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

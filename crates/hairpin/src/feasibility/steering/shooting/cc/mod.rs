@@ -12,7 +12,7 @@ mod path;
 mod turn;
 mod words;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use path::{Gears, Path, every, steer};

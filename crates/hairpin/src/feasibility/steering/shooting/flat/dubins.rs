@@ -111,7 +111,7 @@ fn positive(angle: f64) -> f64 {
     if rest > TAU - 1e-9 { 0.0 } else { rest }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -103,7 +103,7 @@ pub(super) fn hull_of(p: &[f64; 6]) -> f64 {
     hull(&bernstein(p))
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

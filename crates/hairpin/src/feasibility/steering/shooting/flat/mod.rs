@@ -24,7 +24,7 @@ mod start_table;
 mod tabulate;
 mod task;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use controls::{crab, turn_drive_turn};

@@ -32,7 +32,7 @@ mod solve;
 mod steering_lag;
 mod wait;
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests;
 
 pub use answer::{Answer, Settings, Status};

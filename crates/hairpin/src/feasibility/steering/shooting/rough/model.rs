@@ -88,7 +88,7 @@ impl Model {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::refine::{changed, divided};
     use super::*;

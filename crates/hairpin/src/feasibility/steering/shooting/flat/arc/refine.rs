@@ -157,7 +157,7 @@ fn objective(ends: &Ends, free: &Free, cost: Cost) -> (f64, Objective) {
     (scale * square, Objective { gradient, matrix })
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
 

@@ -106,7 +106,7 @@ fn total(row: &[f64; PIECES]) -> f64 {
     sums[0]
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::math::random::hashed_unit;

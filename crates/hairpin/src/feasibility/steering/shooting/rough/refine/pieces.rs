@@ -127,7 +127,7 @@ pub(super) fn for_each_limit(segments: &[Segment], bounds: &Curvatures, mut limi
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::*;
     use crate::trajectory::drive::Gear;

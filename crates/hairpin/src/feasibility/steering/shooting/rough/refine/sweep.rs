@@ -96,7 +96,7 @@ impl Sweep {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::pieces::{changed, divided};
     use super::*;

@@ -80,7 +80,7 @@ impl<'a, 'c, T> Variation<'a, 'c, T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(feature = "unit-tests")]
 mod tests {
     use super::super::pieces::{Change, changed, divided};
     use super::*;
