@@ -186,7 +186,7 @@ const MADE_BEFORE: &[(&str, &[&str])] = &[
 
 /// What of `text`, up to its unit tests and without comments, is not for on board.
 fn not_on_board(file: &str, text: &str) -> Vec<String> {
-    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let code = text.split("#[cfg(feature = \"unit-tests\")]\nmod tests {").next().unwrap_or_default();
     let allowed = MADE_BEFORE.iter().find(|(name, _)| file.ends_with(name)).map_or(&[][..], |(_, allowed)| allowed);
     let mut found = Vec::new();
     for (number, line) in code.lines().enumerate() {
