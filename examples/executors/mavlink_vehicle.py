@@ -74,6 +74,7 @@ class Vehicle(Link):
             if result != mavlink.MAV_RESULT_ACCEPTED and self.time - begun > patience_s:
                 self.refuse(f"mode {mode}", result)
             self.wait(1.0)
+        self.texts.clear()  # what it had against the mode is no reason for what comes after
 
     def set_parameter(self, names, value):
         """`names` are pairs of a name and what the value is multiplied with: the first that it knows is set."""

@@ -4,8 +4,8 @@ refuses what they refuse; what flies is a point that leans into its acceleration
     python fake_autopilot.py px4 14540            sends to UDP port 14540, as PX4 does
     python fake_autopilot.py ardupilot 5760       listens at TCP port 5760, as ArduPilot's SITL does
 
-`--trouble` makes it what a test needs: arming-denied, upload-refused, stall; and a second into the flight failsafe, crash,
-silent, no-heartbeat, gone.
+`--trouble` makes it what a test needs: arming-denied (and PX4's first request for OFFBOARD), upload-refused, stall; and a
+second into the flight failsafe, crash, silent, no-heartbeat, gone.
 Its local frame begins at ORIGIN; home lies 2 m higher, so that whoever mixes the two up flies 2 m off.
 """
 import argparse
@@ -76,6 +76,7 @@ class Fake:
         self.t, self.p, self.v, self.a, self.heading = 60.0, [0.0] * 3, [0.0] * 3, [0.0] * 3, 0.0
         self.mode, self.armed, self.status, self.home = kind.BEGIN, False, m.MAV_STATE_STANDBY, [0.0, 0.0]
         self.setpoints, self.setpoint, self.ground_station, self.rising = [], None, -9.0, None
+        self.asked = False  # for OFFBOARD, before
         self.items, self.incoming, self.expected, self.current, self.entered = [], None, 0, 0, None
         self.parameters = {name: list(value) for name, value in kind.PARAMETERS.items()}
         self.intervals, self.due, self.texts = {0: 1.0}, {}, 0
@@ -271,7 +272,8 @@ class Fake:
             # A stream of 2 Hz and more for a second.
             recent = [s for s in self.setpoints if s > self.t - 1.2]
             gaps = [b - a for a, b in zip(recent, recent[1:] + [self.t])]
-            if not recent or self.t - recent[0] < 1.0 or max(gaps) > 0.5:
+            first, self.asked = not self.asked, True
+            if not recent or self.t - recent[0] < 1.0 or max(gaps) > 0.5 or (first and self.trouble == "arming-denied"):
                 self.text(m.MAV_SEVERITY_CRITICAL, "Switching to Offboard is currently not available")
                 return REJECTED
         if self.kind is ArduPilot and self.t < 60.0 + READY_S and mode == "GUIDED":
