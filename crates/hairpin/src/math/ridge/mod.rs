@@ -16,6 +16,7 @@
 //! own, so that cross-validation costs one pass over the rows whatever the number of folds. With m monomials and n
 //! rows: n m² to sum, m³/3 for each of folds × 8 penalties × degrees.
 
+mod factor;
 mod monomials;
 mod sums;
 #[cfg(feature = "unit-tests")]

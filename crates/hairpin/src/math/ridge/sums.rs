@@ -11,6 +11,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::factor::factor;
 use crate::math::simd::{Simd, kernel};
 
 /// Rows whose products are added at a time: a column is read and written once for all of them.
@@ -85,7 +86,7 @@ impl Sums {
         sums
     }
 
-    /// One triangle; the other follows when it is solved.
+    /// The lower triangle.
     fn add_products(&mut self, block: &[Vec<f64>]) {
         let size = self.monomials.len();
         for (j, column) in self.products.as_mut_slice().chunks_exact_mut(size.max(1)).enumerate() {
@@ -132,14 +133,12 @@ impl Sums {
         for j in 0..size {
             right[j] = (self.with_value[j] / n - mean[j] * value) * inverse[j];
             for i in j..size {
-                let covariance = (self.products[(i, j)] / n - mean[i] * mean[j]) * inverse[i] * inverse[j];
-                matrix[(i, j)] = covariance;
-                matrix[(j, i)] = covariance;
+                matrix[(i, j)] = (self.products[(i, j)] / n - mean[i] * mean[j]) * inverse[i] * inverse[j];
             }
             matrix[(j, j)] += penalty;
         }
         // Positive definite but for rounding: the penalty is ten thousand times larger than that.
-        let scaled = matrix.cholesky().map_or_else(|| DVector::zeros(size), |factor| factor.solve(&right));
+        let scaled = factor(Simd::Widest, matrix).map_or_else(|| DVector::zeros(size), |factor| factor.solve(&right));
         let weights: Vec<f64> = (0..size).map(|j| scaled[j] * inverse[j]).collect();
         let intercept = value - weights.iter().zip(mean.iter()).map(|(weight, mean)| weight * mean).sum::<f64>();
         (weights, intercept)
