@@ -6,7 +6,7 @@ use hairpin_formats::logs;
 use mcap::Compression;
 
 use super::write_bag::{Cdr, bag};
-use super::write_ulog::{POSITION, Position, Ulog};
+use super::write_ulog::{POSITION, Position, Ulog, singles};
 use super::{Answer, Sample};
 
 /// What is read of a log but for what is only said of it.
@@ -51,11 +51,27 @@ fn of_ulog(what: &str) -> Answer {
     for sample in [at(0), at(1), last] {
         log.data(0, &[&sample.bytes()]);
     }
+    if what == "twice" {
+        log.subscribe(0, 6, "vehicle_local_position");
+        [at(0), at(1), at(2)].iter().for_each(|sample| log.data(6, &[&sample.bytes()]));
+    }
     match what {
         "dropout" => log.message(b'O', &120_u16.to_le_bytes()),
         "cut" => log.0.extend([40, 0, b'D', 0]),
         "newer" => log.0[16 + 3 + 8] = 4,
         _ => {}
+    }
+    read(&log.0, "a.ulg")
+}
+
+/// A ULog of two poses in one frame, and those of `more` frames.
+fn of_odometry(more: &str) -> Answer {
+    let mut log = Ulog::new();
+    log.message(b'F', b"vehicle_visual_odometry:uint64_t timestamp;float[3] position;uint8_t pose_frame;");
+    log.subscribe(0, 0, "vehicle_visual_odometry");
+    let frames = [1, 1].into_iter().chain(more.bytes().map(|digit| digit - b'0'));
+    for (step, frame) in (0_u64..).zip(frames) {
+        log.data(0, &[&(100_000 * step).to_le_bytes(), &singles([step as f32, 0.0, 0.0]), &[frame]]);
     }
     read(&log.0, "a.ulg")
 }
@@ -102,6 +118,8 @@ pub(crate) fn samples() -> Vec<Sample> {
         row("ulog.cut", of_ulog, "", "cut"),
         row("ulog.newer", of_ulog, "", "newer"),
         row("ulog.no-motion", of_ulog, "", "no motion"),
+        row("ulog.twice", of_ulog, "", "twice"),
+        row("ulog.frames", of_odometry, "", "2"),
         row("bag.joints", of_bag, "", "joints"),
         row("bag.frames", of_bag, "", "another frame"),
         row("bag.other-types", of_bag, "", "other types"),
