@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::answer::Answer;
 use crate::args::{Merge, Plan, RunShard};
-use crate::exit::DONE;
+use crate::exit::{DONE, EXECUTOR_FAILED};
 use crate::{console, settings};
 
 /// Divides a campaign.
@@ -51,19 +51,34 @@ pub(crate) fn run_plan(asked: &Plan, watch: &dyn Watch) -> Result<u8, Problem> {
 pub(crate) fn run(asked: &RunShard, watch: &dyn Watch) -> Result<u8, Problem> {
     settings::take_threads(&asked.threads);
     let (shard, folder) = shard_of(asked)?;
-    let Ran { parts, made, cases, of, told } = run_shard(&folder, shard, &settings::consent(&asked.commands), watch)?;
+    let Ran { parts, made, cases, failed, never_asked, of, told } =
+        run_shard(&folder, shard, &settings::consent(&asked.commands), watch)?;
+    // What a program failed at is data, as violations are. What none was asked for is not: a scheduler may try again.
+    let code = if never_asked > 0 { EXECUTOR_FAILED } else { DONE };
     if asked.json {
         let object = json!({
-            "shard": shard.to_string(), "exit_code": DONE, "told": told, "paths": { "folder": folder },
-            "parts": { "of": of, "own": parts, "made": made, "there": parts - made }, "counts": { "cases": cases },
+            "shard": shard.to_string(), "exit_code": code, "told": told, "paths": { "folder": folder },
+            "parts": { "of": of, "own": parts, "made": made, "there": parts - made },
+            "counts": { "cases": cases, "failed_runs": failed, "runs_never_asked_for": never_asked },
         });
         console::say(&object.to_string());
-    } else {
-        console::say(&told.unwrap_or_else(|| {
-            format!("SHARD {shard}: {parts} of {of} parts with {cases} cases, {made} made and {} there", parts - made)
-        }));
+        return Ok(code);
     }
-    Ok(DONE)
+    console::say(&told.unwrap_or_else(|| {
+        format!("SHARD {shard}: {parts} of {of} parts with {cases} cases, {made} made and {} there", parts - made)
+    }));
+    if failed > never_asked {
+        console::say(&format!(
+            "{} of its runs failed: hairpin judge says why, once all is merged",
+            failed - never_asked
+        ));
+    }
+    if never_asked > 0 {
+        console::say(&format!(
+            "{never_asked} of its runs were not flown, as no program could be started: the same command again flies them"
+        ));
+    }
+    Ok(code)
 }
 
 fn shard_of(asked: &RunShard) -> Result<(Shard, PathBuf), Problem> {

@@ -39,9 +39,10 @@ fn in_words(asked: &Learn, Learned { model, score_key, arm }: &Learned) {
     let error = |rmse: f64| error_text(rmse, &model.unit, *arm);
     let rank = held_out.rank_correlation.map_or("none".into(), |rank| format!("{rank:.2}"));
     console::say(&format!(
-        "{out}: {} of {} legs of {} trajectories, degree {}, penalty {:e}",
+        "{out}: {} of {} {} of {} trajectories, degree {}, penalty {:e}",
         asked.stress.word(),
         model.legs,
+        if *arm { "moves" } else { "legs" },
         model.trajectories,
         model.polynomial.degree,
         model.polynomial.penalty,

@@ -26,6 +26,12 @@ pub(super) struct Part {
     pub(super) first: u64,
     /// How many cases it has.
     pub(super) cases: u64,
+    /// Its runs that the executor failed to fly.
+    #[serde(default)]
+    pub(super) failed: u64,
+    /// Of these, runs that no program was asked to fly.
+    #[serde(default)]
+    pub(super) never_asked: u64,
     /// The hash of all that it holds.
     content: String,
 }
@@ -64,8 +70,12 @@ pub(super) fn known_in(folder: &CampaignFolder) -> Result<Known, Problem> {
     Ok(Known { cases: folder.read_cases()?, tally: folder.read_tally()? })
 }
 
-/// Whether a part is as it would be made now: nothing is known now that was not when it was made.
+/// Whether a part is as it would be made now: all its runs were asked for, and nothing is known now that was not when it
+/// was made.
 pub(super) fn is_current(work: &Work, plan: &Plan, told: &Part) -> bool {
+    if told.never_asked > 0 {
+        return false;
+    }
     match plan.unit {
         Unit::Case => true,
         Unit::Graph => told.first == first_of(work, plan, told.part),
@@ -110,11 +120,12 @@ pub(super) fn make(
         }
     };
     // Recordings are taken in where all is put together.
-    if own.setup.recordings().is_none() && !cases.is_empty() {
-        fly_missing(&own, &cases, watch)?;
-    }
-    let content = own.folder.content_hash()?;
-    let told = Part { hairpin_part: 1, plan: plan.hash.clone(), part, first, cases: found as u64, content };
+    let flies = own.setup.recordings().is_none() && !cases.is_empty();
+    let flown = if flies { Some(fly_missing(&own, &cases, watch)?) } else { None };
+    let [failed, never_asked] = flown.map_or([0; 2], |flown| [flown.failed as u64, flown.never_asked as u64]);
+    let (plan_hash, content) = (plan.hash.clone(), own.folder.content_hash()?);
+    let told =
+        Part { hairpin_part: 1, plan: plan_hash, part, first, cases: found as u64, failed, never_asked, content };
     atomic::write_json(&own.folder.file(PART), &told)?;
     drop(own);
     put(temporary, &place, &|| Part::whole(work, plan, part).is_some_and(|(there, _)| is_current(work, plan, &there)))

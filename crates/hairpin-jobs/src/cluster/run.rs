@@ -23,6 +23,11 @@ pub struct Ran {
     pub made: u64,
     /// Cases in all of them.
     pub cases: u64,
+    /// Runs in all of them that the executor failed to fly.
+    pub failed: u64,
+    /// Of these, runs that no program was asked to fly, as none could be started: the same shard, run again, flies
+    /// them.
+    pub never_asked: u64,
     /// Of how many parts the plan is.
     pub of: u64,
     /// What is beside that to be known, in a sentence.
@@ -41,6 +46,7 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
     consent.ask(folder, &Wish::of_campaign(&work.setup))?;
     let own: Vec<u64> = shard.own(plan.parts).collect();
     let (made, cases) = (AtomicU64::new(0), AtomicU64::new(0));
+    let (failed, never_asked) = (AtomicU64::new(0), AtomicU64::new(0));
     if plan.unit == Unit::Rounds && !is_there(&work, &plan, 0) {
         search_together(&work, &plan, shard, watch)?;
         made.fetch_add(u64::from(own.first() == Some(&0)), Ordering::Relaxed);
@@ -60,8 +66,11 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
         }
         // Those that one search has found are flown in the parts beside it.
         let counts = !plan.is_one_search() || *part > 0 || plan.parts == 1;
-        let told = Part::told(&work, &plan, *part).filter(|_| counts);
-        cases.fetch_add(told.map_or(0, |told| told.cases), Ordering::Relaxed);
+        if let Some(told) = Part::told(&work, &plan, *part) {
+            cases.fetch_add(if counts { told.cases } else { 0 }, Ordering::Relaxed);
+            failed.fetch_add(told.failed, Ordering::Relaxed);
+            never_asked.fetch_add(told.never_asked, Ordering::Relaxed);
+        }
         steps.step();
         Ok(())
     };
@@ -83,7 +92,8 @@ pub fn run_shard(folder: &Path, shard: Shard, consent: &Consent, watch: &dyn Wat
     };
     let none_found = plan.unit == Unit::Search && cases == 0 && Part::told(&work, &plan, 0).is_none();
     let told = own.is_empty().then(idle).or_else(|| none_found.then(early));
-    Ok(Ran { parts: own.len() as u64, made, cases, of: plan.parts, told })
+    let (failed, never_asked) = (failed.into_inner(), never_asked.into_inner());
+    Ok(Ran { parts: own.len() as u64, made, cases, failed, never_asked, of: plan.parts, told })
 }
 
 fn is_there(work: &Work, plan: &Plan, part: u64) -> bool {
@@ -100,7 +110,13 @@ fn has_programs(work: &Work) -> bool {
 fn search_together(work: &Work, plan: &Plan, shard: Shard, watch: &dyn Watch) -> Result<(), Problem> {
     let (folder, place) = (work.folder.rounds(&plan.hash), (shard.number - 1, shard.of));
     let rounds = Rounds::join(&folder, place, has_programs(work), Pace::default())?;
-    make(work, plan, (0, None), Some(&rounds), watch)
+    let made = make(work, plan, (0, None), Some(&rounds), watch);
+    if matches!(made, Err(Problem::Executor(_))) && !rounds.any_flown() {
+        // What nobody's program flew says nothing of the trajectories: with a program that is mended all is flown anew.
+        drop(rounds);
+        work.folder.forget_rounds()?;
+    }
+    made
 }
 
 /// Hears nothing of the steps of single parts.

@@ -157,3 +157,59 @@ fn one_search_is_one_part() {
     fs::write(folder.join("scenario.toml"), changed).unwrap();
     assert!(merged(&folder).unwrap_err().to_string().contains("not what it was"));
 }
+
+/// A run that no program could be started for is nothing that was found out: the shard says so, and flies it when it is
+/// run again.
+#[cfg(unix)]
+#[test]
+fn what_no_program_was_asked_for_is_flown_by_the_same_shard_again() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("sim.py");
+    program(&file, "name=\"sim\", version=1");
+    let text = format!("#!/usr/bin/env python3\n{}", fs::read_to_string(&file).unwrap());
+    fs::remove_file(&file).unwrap();
+    let command = set("execute.command", &format!("\"'{}'\"", file.display()));
+    let search = "{ method = \"uniform\", waypoints = 60, cases = 2 }";
+    let more = [command, set("generate.search", search), set("execute.repeat", "1"), set("execute.baseline", "0")];
+    let (folder, _) = planned(&settings("demo-quadrotor", &place.path().join("many"), &more), None);
+    let allowing = Consent { allow_commands: true, ..Consent::default() };
+    let run = || {
+        let ran = run_shard(&folder, "1/1".parse().unwrap(), &allowing, &Unwatched).unwrap();
+        (ran.made, ran.cases, ran.failed, ran.never_asked)
+    };
+    assert_eq!((run(), run()), ((2, 2, 2, 2), (2, 2, 2, 2)), "not there");
+    fs::write(&file, text).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
+    assert_eq!((run(), run()), ((2, 2, 0, 0), (0, 2, 0, 0)), "there");
+    // What a program failed at is kept, as it is by one machine.
+    for part in ["part-00000", "part-00001"] {
+        fs::remove_dir_all(folder.join("parts").join(part)).unwrap();
+    }
+    fs::write(&file, fs::read_to_string(&file).unwrap().replace("fly(message)", "sys.exit(3)")).unwrap();
+    assert_eq!((run(), run()), ((2, 2, 2, 0), (0, 2, 2, 0)), "and fails");
+}
+
+/// Where nobody's program flew anything, nothing is kept that a program which is mended would be told by.
+#[test]
+fn a_search_in_vain_begins_anew_with_a_program_that_flies() {
+    let place = tempfile::tempdir().unwrap();
+    let scenario = small_hull(place.path());
+    let file = place.path().join("sim.py");
+    let command = program(&file, "name=\"sim\", version=1");
+    let healthy = fs::read_to_string(&file).unwrap();
+    let more = [learning("worst").to_vec(), vec![command]].concat();
+    let (folder, _) = planned(&settings(&scenario, &place.path().join("many"), &more), None);
+    let allowing = Consent { allow_commands: true, ..Consent::default() };
+    let run = || run_shard(&folder, "1/1".parse().unwrap(), &allowing, &Unwatched);
+    for breaks in [healthy.replace("fly(message)", "sys.exit(3)"), "import sys\nsys.exit(3)\n".into()] {
+        fs::write(&file, breaks).unwrap();
+        for _ in 0..2 {
+            assert!(matches!(run(), Err(Problem::Executor(_))));
+        }
+    }
+    fs::write(&file, healthy).unwrap();
+    let ran = run().unwrap();
+    assert_eq!((ran.cases, ran.failed), (2, 0));
+}

@@ -4,6 +4,7 @@ use hairpin::campaign::arm::ArmSetup;
 use hairpin::campaign::scenario::Record;
 use hairpin::campaign::{self, Case, OnGround, Run, Status};
 use hairpin::trajectory::ATTITUDE_UNKNOWN;
+use hairpin_formats::executor::was_never_asked;
 use rayon::prelude::*;
 
 use super::fly::{Landing, fly};
@@ -23,6 +24,8 @@ pub struct Flown {
     pub runs: usize,
     /// Of these, runs that the executor failed to fly.
     pub failed: usize,
+    /// Of these, runs that no program was asked to fly: to go on is to fly them.
+    pub never_asked: usize,
     /// Of these, runs of which the executor sent no attitudes.
     pub attitude_unknown: usize,
     /// Of these, runs of which the executor did not say how they ended.
@@ -161,11 +164,12 @@ pub(crate) fn count_flown(work: &Work, cases: &[Case]) -> Result<Flown, Problem>
 }
 
 fn count(work: &Work, cases: &[Case], repeat: usize) -> Result<Flown, Problem> {
-    let mut flown = Flown { runs: 0, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 };
+    let mut flown = Flown { runs: 0, failed: 0, never_asked: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 };
     for case in cases {
         for facts in work.folder.facts_of(case.number)?.iter().filter(|facts| facts.run < repeat) {
             flown.runs += 1;
             flown.failed += usize::from(facts.message.is_some());
+            flown.never_asked += usize::from(facts.message.as_deref().is_some_and(was_never_asked));
             flown.attitude_unknown += usize::from(facts.attitude_unknown);
             flown.end_unsaid += usize::from(facts.end_unsaid);
             flown.heights_by_map += usize::from(facts.heights_by_map);

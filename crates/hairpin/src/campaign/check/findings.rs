@@ -200,7 +200,7 @@ impl Findings {
         match attachments.model(score) {
             Some(model) => {
                 if let Err(mistake) = model.read.check(&subject()) {
-                    let bound = format!("a model of this scenario's legs: {mistake}");
+                    let bound = format!("a model of what this scenario executes: {mistake}");
                     self.require(false, key, format!("\"{}\"", model.given), &bound);
                 }
             }

@@ -213,9 +213,26 @@ mod tests {
         let mut broken = model.clone();
         broken.polynomial.weights.pop();
         assert!(matches!(broken.check(&subject()), Err(ModelMistake::Polynomial { field: "weights", .. })));
-        let mut broken = model;
+        let mut broken = model.clone();
         broken.polynomial.intercept = f64::NAN;
         assert!(matches!(broken.check(&subject()), Err(ModelMistake::Polynomial { .. })));
+        // What is told of it is told to whoever reads it.
+        type Break = fn(&mut ScoreModel);
+        let breaks: [(Break, &str); 7] = [
+            (|model| model.validation.r2 = 7.0, "validation.r2: 7; must be at most 1"),
+            (|model| model.validation.rmse = -1.0, "validation.rmse: -1; must be at least 0"),
+            (|model| model.held_out.r2 = -1e99, "held_out.r2: "),
+            (|model| model.held_out.rank_correlation = Some(1.5), "held_out.rank_correlation: "),
+            (|model| model.held_out.trajectories = 20, "held_out.trajectories: 20; must be less than `trajectories`"),
+            (|model| model.legs = 3, "model.legs: 3; must be at least `trajectories`"),
+            (|model| model.training_hash = "xx".into(), "model.training_hash: `xx`; must be 64 hexadecimal digits"),
+        ];
+        for (spoil, told) in breaks {
+            let mut broken = model.clone();
+            spoil(&mut broken);
+            let found = broken.check(&subject()).unwrap_err().to_string();
+            assert!(found.starts_with(told), "{found}");
+        }
     }
 
     #[test]

@@ -87,10 +87,10 @@ pub enum ModelMistake {
         /// Those of legs.
         wanted: String,
     },
-    /// A polynomial is broken.
+    /// A polynomial is broken, or what is told of it.
     #[error("{part}.{field}: {found}; must be {bound}")]
     Polynomial {
-        /// Which one.
+        /// Which one, or what else.
         part: &'static str,
         /// The key.
         field: &'static str,
@@ -135,8 +135,47 @@ impl ScoreModel {
             };
             return Err(ModelMistake::Features { found: told(&self.features), wanted: told(&wanted) });
         }
+        self.check_quality()?;
         self.check_polynomial("polynomial", &self.polynomial)?;
-        self.before.as_ref().map_or(Ok(()), |before| self.check_polynomial("before", before))
+        match &self.before {
+            Some(_) if subject.speeds == ARM_MOVES => Err(ModelMistake::Polynomial {
+                part: "before",
+                field: "given",
+                found: "a polynomial".into(),
+                bound: "left out: a move leaves nothing to the next".into(),
+            }),
+            Some(before) => self.check_polynomial("before", before),
+            None => Ok(()),
+        }
+    }
+
+    /// What is said of its quality and origin can be true of a model.
+    fn check_quality(&self) -> Result<(), ModelMistake> {
+        let Self { validation, held_out, trajectories, legs, training_hash, .. } = self;
+        let is_rank = |rank: f64| (-1.0..=1.0).contains(&rank);
+        let error = |rmse: f64| ((0.0..=LARGEST).contains(&rmse), rmse.to_string());
+        let share = |r2: f64| ((-LARGEST..=1.0).contains(&r2), r2.to_string());
+        let is_hash = training_hash.len() == 64 && training_hash.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let of_rank = held_out.rank_correlation;
+        let facts = [
+            ("validation", "r2", share(validation.r2), "at most 1"),
+            ("validation", "rmse", error(validation.rmse), "at least 0"),
+            ("held_out", "r2", share(held_out.r2), "at most 1"),
+            ("held_out", "rmse", error(held_out.rmse), "at least 0"),
+            ("held_out", "rank_correlation", (of_rank.is_none_or(is_rank), format!("{of_rank:?}")), "-1 to 1"),
+            (
+                "held_out",
+                "trajectories",
+                (held_out.trajectories < *trajectories, held_out.trajectories.to_string()),
+                "less than `trajectories`",
+            ),
+            ("model", "legs", (legs >= trajectories, legs.to_string()), "at least `trajectories`"),
+            ("model", "training_hash", (is_hash, format!("`{training_hash}`")), "64 hexadecimal digits"),
+        ];
+        facts.into_iter().try_for_each(|(part, field, (holds, found), bound)| {
+            let wrong = || ModelMistake::Polynomial { part, field, found, bound: bound.into() };
+            if holds { Ok(()) } else { Err(wrong()) }
+        })
     }
 
     /// Lengths of all lists, the monomials of the degree, ranges that rise, and numbers within ±10⁵⁰.
