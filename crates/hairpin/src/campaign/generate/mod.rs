@@ -26,7 +26,6 @@ mod targets;
 mod worst;
 
 use std::collections::HashSet;
-use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -127,19 +126,11 @@ struct Limits {
     wanted: u64,
 }
 
-/// Units that were searched, in order; `None` of those that were not begun, or not brought to their end.
-struct Searched {
-    outcomes: Vec<Option<Outcome>>,
-    /// What it took, s.
-    seconds: f64,
-}
-
 /// Searches unit after unit, from where `collector` stands.
 ///
 /// At a time two units for each thread or, where that takes no time worth mentioning, more: threads wait for each other
 /// at the end of each such batch. Never many more than are needed for the cases that still lack, and no more of
-/// searches that execute. While a batch is taken over, on the caller's thread, other threads search what is needed
-/// beyond it. What is found does not depend on it.
+/// searches that execute. What is found does not depend on it.
 fn search_units(
     graphs: &Graphs,
     mut collector: Collector,
@@ -147,64 +138,55 @@ fn search_units(
     stop: &Stop,
     sink: &mut dyn FnMut(&[Case], &Tally),
 ) -> Tally {
-    let scenario = &graphs.setup.scenario;
-    let per_graph = scenario.search().per_graph.max(1);
-    let (threads, executes) = (rayon::current_num_threads(), scenario.executes());
-    let least = 2 * threads as u64;
+    let (setup, varied) = (graphs.setup, varies(&graphs.setup.scenario));
+    let per_graph = setup.scenario.search().per_graph.max(1);
+    let least = 2 * rayon::current_num_threads() as u64;
     let mut batch = least;
-    let mut ahead: Option<Searched> = None;
+    let cut_short = setup.scenario.executes() || setup.user_score().is_some();
     (stop.progress)(collector.cases, wanted as usize);
-    while collector.tally.units < units && (collector.cases as u64) < wanted {
+    'units: while collector.tally.units < units && (collector.cases as u64) < wanted {
         let first = collector.tally.units;
-        let lacking = wanted - collector.cases as u64;
         // What is executed is dear: no more graphs than may be needed.
-        let count = |lacking: u64| {
-            let needed = lacking.div_ceil(per_graph);
-            if executes { least.min(needed) } else { batch.min(least.max(needed)) }
-        };
-        let Searched { outcomes, seconds } =
-            ahead.take().unwrap_or_else(|| searched(graphs, first..units.min(first + count(lacking)), stop));
-        let found: u64 = outcomes.iter().flatten().map(|outcome| outcome.plans.len() as u64).sum();
-        let begin = first + outcomes.len() as u64;
-        let end = match lacking.saturating_sub(found) {
-            0 => begin,
-            _ if executes || threads == 1 || outcomes.iter().any(Option::is_none) => begin,
-            lacking => units.min(begin + count(lacking)),
-        };
-        let goes_on = rayon::in_place_scope(|scope| {
-            if begin < end {
-                scope.spawn(|_| ahead = Some(searched(graphs, begin..end, stop)));
+        let needed = (wanted - collector.cases as u64).div_ceil(per_graph);
+        let begun = (stop.clock)();
+        let last =
+            units.min(first + if setup.scenario.executes() { least.min(needed) } else { batch.min(least.max(needed)) });
+        let outcomes: Vec<Option<Outcome>> = (first..last)
+            .into_par_iter()
+            .map(|unit| {
+                let begins = !(stop.cancelled)();
+                let outcome = begins.then(|| {
+                    if varied { drawn_case(graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) }
+                });
+                // Where legs, executions or the user's scores were denied, a graph was searched in part, and is
+                // searched again by whoever goes on.
+                outcome.filter(|outcome| !(outcome.stopped || cut_short && (stop.cancelled)()))
+            })
+            .collect();
+        for outcome in outcomes {
+            // A unit that was not done ends the row: what lies behind the gap is done again.
+            let Some(outcome) = outcome else {
+                collector.tally.stopped = true;
+                break 'units;
+            };
+            let number = varied.then_some(collector.tally.units as usize);
+            let new = collector.take(outcome, number, wanted);
+            sink(&new, &collector.tally);
+            if collector.cases as u64 >= wanted {
+                break;
             }
-            collector.take_all(outcomes, wanted, sink)
-        });
-        if !goes_on {
-            break;
+            if collector.is_in_vain() {
+                break 'units;
+            }
         }
-        batch = batch_after(batch, seconds, least);
+        batch = batch_after(batch, (stop.clock)() - begun, least);
         // One search gives its best so far where it is stopped.
-        collector.tally.stopped |= scenario.head().one_search && (stop.cancelled)();
+        collector.tally.stopped |= setup.scenario.head().one_search && (stop.cancelled)();
         (stop.progress)(collector.cases, wanted as usize);
     }
     collector.finish(wanted);
     sink(&[], &collector.tally);
     collector.tally
-}
-
-/// Searches these units, on all threads.
-fn searched(graphs: &Graphs, units: Range<u64>, stop: &Stop) -> Searched {
-    let (setup, varied) = (graphs.setup, varies(&graphs.setup.scenario));
-    let cut_short = setup.scenario.executes() || setup.user_score().is_some();
-    let begun = (stop.clock)();
-    let search = |unit| {
-        let begins = !(stop.cancelled)();
-        let outcome = begins
-            .then(|| if varied { drawn_case(graphs, unit, stop) } else { graphs.solve(unit, Wanted::Cases, stop) });
-        // Where legs, executions or the user's scores were denied, a graph was searched in part, and is searched
-        // again by whoever goes on.
-        outcome.filter(|outcome| !(outcome.stopped || cut_short && (stop.cancelled)()))
-    };
-    let outcomes = units.into_par_iter().map(search).collect();
-    Searched { outcomes, seconds: (stop.clock)() - begun }
 }
 
 /// How many units come after a batch of `batch` that took so many seconds: so many that it takes some tenths of one,
@@ -327,28 +309,6 @@ impl<'a> Collector<'a> {
             self.cases += 1;
         }
         new
-    }
-
-    /// Takes units over and hands their cases to `sink`, as far as cases are wanted; whether the search goes on.
-    fn take_all(&mut self, outcomes: Vec<Option<Outcome>>, wanted: u64, sink: &mut dyn FnMut(&[Case], &Tally)) -> bool {
-        let varied = varies(&self.setup.scenario);
-        for outcome in outcomes {
-            // A unit that was not done ends the row: what lies behind the gap is done again.
-            let Some(outcome) = outcome else {
-                self.tally.stopped = true;
-                return false;
-            };
-            let number = varied.then_some(self.tally.units as usize);
-            let new = self.take(outcome, number, wanted);
-            sink(&new, &self.tally);
-            if self.cases as u64 >= wanted {
-                break;
-            }
-            if self.is_in_vain() {
-                return false;
-            }
-        }
-        true
     }
 
     fn finish(&mut self, wanted: u64) {
