@@ -48,11 +48,12 @@ impl Part {
         (told.plan == plan.hash && told.part == part).then_some(told)
     }
 
-    /// The same where it also holds what it says.
+    /// The same where it also holds what it says, and was made of the campaign's scenario.
     pub(super) fn whole(work: &Work, plan: &Plan, part: u64) -> Option<(Self, CampaignFolder)> {
         let told = Self::told(work, plan, part)?;
         let folder = CampaignFolder::open(&work.folder.part_folder(part)).ok()?;
-        (folder.content_hash().ok()? == told.content).then_some((told, folder))
+        let is_of_it = folder.read_scenario().ok()? == work.folder.read_scenario().ok()?;
+        (is_of_it && folder.content_hash().ok()? == told.content).then_some((told, folder))
     }
 }
 

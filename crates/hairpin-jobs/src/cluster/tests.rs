@@ -158,6 +158,28 @@ fn one_search_is_one_part() {
     assert!(merged(&folder).unwrap_err().to_string().contains("not what it was"));
 }
 
+/// A part of another scenario is none of the campaign, whatever it says of itself.
+#[test]
+fn a_part_of_another_scenario_is_missing() {
+    let place = tempfile::tempdir().unwrap();
+    let [ours, theirs] = ["1", "2"].map(|seed| {
+        let more = [set("generate.search.cases", "2"), set("execute.repeat", "1"), set("seed", seed)];
+        let (folder, plan) = planned(&settings("demo-quadrotor", &place.path().join(seed), &more), None);
+        run(&folder, &["1/1"]);
+        (folder.join("parts/part-00000"), plan.hash)
+    });
+    fs::remove_dir_all(&ours.0).unwrap();
+    fs::rename(&theirs.0, &ours.0).unwrap();
+    let part = ours.0.join("part.json");
+    let told = fs::read_to_string(&part).unwrap().replace(&theirs.1, &ours.1);
+    assert!(told.contains(&ours.1));
+    fs::write(part, told).unwrap();
+    let refused = merged(&place.path().join("1")).unwrap_err().to_string();
+    assert!(refused.contains("1 of 2 parts") && refused.contains("part-00000"), "{refused}");
+    assert_eq!(run(&place.path().join("1"), &["1/1"])[0].made, 1);
+    merged(&place.path().join("1")).unwrap();
+}
+
 /// A run that no program could be started for is nothing that was found out: the shard says so, and flies it when it is
 /// run again.
 #[cfg(unix)]
