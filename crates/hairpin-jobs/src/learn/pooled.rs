@@ -47,7 +47,7 @@ impl Sample for MoveSample {
 
 /// The samples of all of `works`, their trajectories numbered on and together; every folder has some.
 pub(super) fn pooled<S: Sample>(works: &[Work], stress: Stress) -> Result<Vec<S>, Problem> {
-    let (mut pool, mut before) = (Pool::default(), 0);
+    let (mut pool, mut before) = (Pool::new(), 0);
     for (place, work) in works.iter().enumerate() {
         if !work.folder.has_cases() {
             return Err(ungenerated(work));
@@ -71,7 +71,6 @@ pub(super) fn pooled<S: Sample>(works: &[Work], stress: Stress) -> Result<Vec<S>
 }
 
 /// Trajectories in the order in which they are met.
-#[derive(Default)]
 struct Pool<S> {
     trajectories: Vec<Trajectory<S>>,
     known: HashMap<Vec<u64>, usize>,
@@ -86,6 +85,10 @@ struct Trajectory<S> {
 }
 
 impl<S: Sample> Pool<S> {
+    fn new() -> Self {
+        Self { trajectories: Vec::new(), known: HashMap::new() }
+    }
+
     /// Takes the samples of a case in the folder at `place`; `number` is its trajectory's if that is a new one.
     ///
     /// # Errors
@@ -183,7 +186,7 @@ mod tests {
     /// Trajectories of one number are together, so that no test of a model has one on both of its sides.
     #[test]
     fn what_is_executed_anew_is_one_trajectory_and_the_same_numbers_are_refused() {
-        let mut pool = Pool::default();
+        let mut pool = Pool::new();
         let mut take = |place: usize, case: &Case, number: usize, stresses: &[f64]| {
             pool.take((place, case), number, stresses.iter().copied().map(sample).collect())
         };
