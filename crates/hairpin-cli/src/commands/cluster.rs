@@ -59,7 +59,7 @@ pub(crate) fn run(asked: &RunShard, watch: &dyn Watch) -> Result<u8, Problem> {
         let object = json!({
             "shard": shard.to_string(), "exit_code": code, "told": told, "paths": { "folder": folder },
             "parts": { "of": of, "own": parts, "made": made, "there": parts - made },
-            "counts": { "cases": cases, "failed_runs": failed, "runs_never_asked_for": never_asked },
+            "counts": { "cases": cases, "executor_failed": failed, "never_asked": never_asked },
         });
         console::say(&object.to_string());
         return Ok(code);

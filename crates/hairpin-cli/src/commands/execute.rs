@@ -30,7 +30,7 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     };
     let executed = execute(&settings, watch)?;
     let (cases, flown) = (executed.cases, executed.flown);
-    let Flown { runs, failed, attitude_unknown, end_unsaid, heights_by_map } = flown;
+    let Flown { runs, failed, never_asked, attitude_unknown, end_unsaid, heights_by_map } = flown;
     let (sentence, code) = if failed == 0 {
         (format!("EXECUTED {runs} runs of {cases} cases"), DONE)
     } else {
@@ -40,7 +40,7 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     };
     if asked.json {
         let counts = json!({
-            "cases": cases, "runs": runs, "executor_failed": failed, "attitude_unknown": attitude_unknown,
+            "cases": cases, "runs": runs, "executor_failed": failed, "never_asked": never_asked, "attitude_unknown": attitude_unknown,
             "end_unsaid": end_unsaid, "heights_by_map": heights_by_map,
         });
         let replayed: Vec<_> = executed.replayed.iter().map(replayed_object).collect();
