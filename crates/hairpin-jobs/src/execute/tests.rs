@@ -14,7 +14,10 @@ fn runs_are_flown_once_and_resumed() {
     let (_place, folder) = generated();
     let settings = ExecuteSettings { folder, ..ExecuteSettings::default() };
     let executed = execute(&settings, &Unwatched).map(|executed| (executed.cases, executed.flown)).unwrap();
-    assert_eq!(executed, (2, Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }));
+    assert_eq!(
+        executed,
+        (2, Flown { runs: 2, failed: 0, never_asked: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 })
+    );
     let other = ExecuteSettings { sets: vec![("execute.repeat".into(), "3".into())], resume: true, ..settings };
     let refused = execute(&other, &Unwatched).map(|_| ()).unwrap_err().to_string();
     assert!(refused.starts_with("--resume: `execute.repeat`"), "{refused}");
@@ -181,7 +184,7 @@ fn a_campaign_is_gone_on_with_by_the_program_that_began_it() {
     named("name=\"sim 1\", version=1");
     assert_eq!(
         execute(&resumed, &Unwatched).unwrap().flown,
-        Flown { runs: 2, failed: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }
+        Flown { runs: 2, failed: 0, never_asked: 0, attitude_unknown: 0, end_unsaid: 0, heights_by_map: 0 }
     );
     named("name=\"sim 2\"");
     execute(&settings, &Unwatched).unwrap();
