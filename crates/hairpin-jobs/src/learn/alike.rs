@@ -77,8 +77,8 @@ fn otherwise(theirs: &Scenario, ours: &Scenario) -> Option<(String, String, Stri
     key.chain(reference).next()
 }
 
-/// Whether what a leg comes to hangs on this key, whatever the leg: whoever executes and draws for runs. Where trajectories are, and
-/// what they pass, differs as it may.
+/// Whether what a leg comes to hangs on this key, whatever the leg: who executes, and what is drawn for runs. Where
+/// trajectories are, and what they pass, differs as it may.
 fn acts_on_legs(key: &str) -> bool {
     let (table, rest) = key.split_once('.').unwrap_or((key, ""));
     let name = rest.split('.').next().unwrap_or_default();
