@@ -71,8 +71,8 @@ pub(super) fn known_in(folder: &CampaignFolder) -> Result<Known, Problem> {
     Ok(Known { cases: folder.read_cases()?, tally: folder.read_tally()? })
 }
 
-/// Whether a part is as it would be made now: all its runs were asked for, and nothing is known now that was not when it
-/// was made.
+/// Whether a part is as it would be made now: all its runs were asked for, and nothing is known now that was not when
+/// it was made.
 pub(super) fn is_current(work: &Work, plan: &Plan, told: &Part) -> bool {
     if told.never_asked > 0 {
         return false;
