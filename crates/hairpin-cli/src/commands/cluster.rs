@@ -55,9 +55,14 @@ pub(crate) fn run(asked: &RunShard, watch: &dyn Watch) -> Result<u8, Problem> {
         run_shard(&folder, shard, &settings::consent(&asked.commands), watch)?;
     // What a program failed at is data, as violations are. What none was asked for is not: a scheduler may try again.
     let code = if never_asked > 0 { EXECUTOR_FAILED } else { DONE };
+    let again = (never_asked > 0).then(|| {
+        format!(
+            "{never_asked} of its runs were not flown, as no program could be started: the same command again flies them"
+        )
+    });
     if asked.json {
         let object = json!({
-            "shard": shard.to_string(), "exit_code": code, "told": told, "paths": { "folder": folder },
+            "shard": shard.to_string(), "exit_code": code, "told": told.or(again), "paths": { "folder": folder },
             "parts": { "of": of, "own": parts, "made": made, "there": parts - made },
             "counts": { "cases": cases, "executor_failed": failed, "never_asked": never_asked },
         });
@@ -73,10 +78,8 @@ pub(crate) fn run(asked: &RunShard, watch: &dyn Watch) -> Result<u8, Problem> {
             failed - never_asked
         ));
     }
-    if never_asked > 0 {
-        console::say(&format!(
-            "{never_asked} of its runs were not flown, as no program could be started: the same command again flies them"
-        ));
+    if let Some(again) = again {
+        console::say(&again);
     }
     Ok(code)
 }

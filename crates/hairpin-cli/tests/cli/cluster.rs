@@ -198,6 +198,30 @@ fn a_shard_that_is_killed_in_a_round_holds_up_no_other() {
     assert_same(&place.join("one"), &place.join("many"));
 }
 
+/// A scheduler that tries what ends with 4 again flies what no program could be started for.
+#[test]
+fn a_shard_without_its_program_is_exit_code_4() {
+    let place = tempfile::tempdir().unwrap();
+    let place = place.path();
+    let search = "generate.search={ method = 'uniform', waypoints = 60, cases = 2 }";
+    let few = ["--set", search, "--set", "execute.repeat=1", "--set", "execute.baseline=0"];
+    let plan = [&["plan", "demo-quadrotor", "--out", "wide", "--executor", "./not-there"][..], &few].concat();
+    assert_eq!(run(place, &plan).0, 0);
+    let again = "2 of its runs were not flown, as no program could be started: the same command again flies them";
+    for _ in 0..2 {
+        let (code, out, _) = run(place, &["run-shard", "1/1", "wide", "--json"]);
+        let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert_eq!((code, object["exit_code"].as_i64(), object["told"].as_str()), (4, Some(4), Some(again)), "{out}");
+        assert_eq!(object["counts"], serde_json::json!({ "cases": 2, "executor_failed": 2, "never_asked": 2 }));
+        let (code, out, _) = run(place, &["run-shard", "1/1", "wide"]);
+        assert_eq!(code, 4);
+        assert_eq!(
+            out.lines().collect::<Vec<_>>(),
+            ["SHARD 1/1: 2 of 2 parts with 2 cases, 2 made and 0 there", again]
+        );
+    }
+}
+
 #[test]
 fn what_is_no_plan_or_no_shard_is_refused() {
     let place = tempfile::tempdir().unwrap();

@@ -159,5 +159,5 @@ def _said(code: int, out: str, error: str) -> dict[str, Any]:
         said = {}
     if code == 0 and said:
         return said
-    told = str(said.get("error") or error.strip() or f"hairpin ended with exit code {code}")
+    told = str(said.get("error") or said.get("told") or error.strip() or f"hairpin ended with exit code {code}")
     raise _ERRORS.get(code, RuntimeError)(told)
