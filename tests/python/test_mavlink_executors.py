@@ -142,7 +142,8 @@ REFUSED = [
 
 @pytest.mark.parametrize("kind, mode, trouble, sentence", REFUSED)
 def test_what_is_refused_is_an_error_in_the_autopilots_own_words(kind, mode, trouble, sentence):
-    words, _ = command(kind, mode, "--arm-patience-s", "3", "--link-timeout-s", "2", trouble=trouble)
+    # A second of the clock on the wall, in which a busy machine comes to stream without a gap.
+    words, _ = command(kind, mode, "--arm-patience-s", str(FACTOR), "--link-timeout-s", "2", trouble=trouble)
     with Talk(words) as talk:
         answer, _ = talk.fly(**mission())
         assert answer["type"] == "error" and sentence in answer["message"], answer
