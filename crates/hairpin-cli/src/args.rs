@@ -102,7 +102,7 @@ pub(crate) enum Command {
     Select(Select),
     /// Propose limits for [spec]: those that 5 % of random feasible cases break
     Calibrate(Calibrate),
-    /// Estimate a flying robot's numbers from logs of its flights, and tell what they do not show
+    /// Estimate a robot's numbers from logs of its flights, drives or programs, and tell what they do not show
     Fit(Fit),
     /// Check whether a robot can do a mission made elsewhere: check MISSION --robot R
     Check(Check),

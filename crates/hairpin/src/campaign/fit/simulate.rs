@@ -13,6 +13,8 @@ use crate::trajectory::Track;
 
 /// Who waits for a robot that is slower than the log's, s beyond the log's end.
 const PATIENCE: f64 = 5.0;
+/// What ends so much before that time, s, ended by it: recordings have their last sample before.
+const LATE: f64 = 0.1;
 
 /// A setup without chance, logs, and the rule that they are compared by.
 pub(super) struct Loops<'a> {
@@ -175,10 +177,19 @@ impl<'a> Loops<'a> {
             Ok(track) => {
                 let passed = self.compared[at].simulated(&track, &self.flown[at].case.waypoints, &self.rule);
                 match passed {
-                    None => Some(told(at, "it misses a waypoint".into())),
+                    None => Some(told(at, self.late(at, &track).unwrap_or_else(|| "it misses a waypoint".into()))),
                     Some(_) => self.kept_off(at, &track),
                 }
             }
+        })
+    }
+
+    /// That the simulation of mission number `at` ended before it came to its end, as the log's robot is faster.
+    fn late(&self, at: usize, simulated: &Track) -> Option<String> {
+        let (limit, last) = (self.order(at).time_limit, simulated.times().last()?);
+        let (log, end) = (&self.flown[at].log, self.compared[at].end);
+        (last + LATE >= limit).then(|| {
+            format!("{log} is at its end after {end:.1} s, and it is on its way {PATIENCE} s later: it is slower than what was logged")
         })
     }
 }

@@ -112,6 +112,17 @@ fn what_is_written_was_found_and_unseen_logs_are_held_to_it() {
     assert_eq!(missed(&frozen), (true, true));
 }
 
+/// Its simulation is cut off some seconds after the log's end: that it is slow is the reason, no waypoint.
+#[test]
+fn a_robot_that_is_slower_than_its_logs_is_told_to_be() {
+    let setup = drives::scenario("differential-drive", "pure-pursuit");
+    let truth = Truth::draw(&setup, 1, &|number, _| if number.field == "speed_scale" { 1.4 } else { number.value });
+    let logs = drives::flown(&setup, &truth, 1, (2, 0.0));
+    let refused = fit(&setup, &logs, &FitSettings::default(), &|| false).unwrap_err().to_string();
+    let told = "5 s later: it is slower than what was logged), so nothing can be compared";
+    assert!(refused.contains("(log 0 is at its end after ") && refused.ends_with(told), "{refused}");
+}
+
 #[test]
 #[ignore = "minutes: cargo test --release -p hairpin --test unit -- --ignored --nocapture numbers_lie_within_their_intervals"]
 fn numbers_lie_within_their_intervals() {
