@@ -40,8 +40,8 @@ pub(crate) fn run(asked: &Execute, watch: &dyn Watch) -> Result<u8, Problem> {
     };
     if asked.json {
         let counts = json!({
-            "cases": cases, "runs": runs, "executor_failed": failed, "never_asked": never_asked, "attitude_unknown": attitude_unknown,
-            "end_unsaid": end_unsaid, "heights_by_map": heights_by_map,
+            "cases": cases, "runs": runs, "executor_failed": failed, "never_asked": never_asked,
+            "attitude_unknown": attitude_unknown, "end_unsaid": end_unsaid, "heights_by_map": heights_by_map,
         });
         let replayed: Vec<_> = executed.replayed.iter().map(replayed_object).collect();
         let paths = json!({ "folder": executed.folder, "executions": executed.folder.join("executions") });
